@@ -6,8 +6,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "mesh/scalar_range.h"
-#include "scene/scene_mesh.h"
+#include "render/scene_data.h"
 #include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 #include "volume/min_max_bricks.h"
@@ -46,7 +45,8 @@ Scene parse_scene(const std::string& json, const std::filesystem::path& name, co
     const GivenData given{GivenData::Kind::mesh, [&] {
                               Scene scene;
                               if (document.contains("scalar")) scene.scalar = document["scalar"];
-                              return measure_range(scene_mesh(scene, data).scalar.values).range;
+                              scene.method = Method::project;
+                              return SceneData(scene, data).field(scene)->range();
                           }};
     return read_scene(document, name, nullptr, &given);
 }

@@ -5,44 +5,35 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
-#include "choice/choose.h"
 #include "library/point_probe_parts.h"
 #include "library/session_parts.h"
 #include "scene/half_space.h"
 #include "scene/lighting_check.h"
 
 namespace lamina {
+
 Session::Session(Scene scene, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
-    parts_->run(
-        [&] {
-            parts_->scene = parts_->chosen();
-            if (parts_->scene.draws_mesh())
-                parts_->mesh_data();
-            else
-                parts_->volume_data();
-        },
-        options.stop);
+    parts_->run([&] { parts_->pipeline->load(); }, options.stop);
 }
 
 Session::Session(Scene scene, Volume volume, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
     parts_->run(
         [&] {
-            parts_->volume = std::make_shared<const VolumeData>(std::move(volume));
-            parts_->scene = parts_->chosen();
+            parts_->pipeline->data() = SceneData(std::move(volume));
+            parts_->pipeline->scene();
         },
         options.stop);
 }
 
 Session::Session(Scene scene, MeshData mesh, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
-    parts_->mesh_given = true;
     parts_->run(
         [&] {
-            parts_->mesh =
-                std::make_shared<const SceneMesh>(scene_mesh(parts_->scene, std::move(mesh)));
-            parts_->scene = parts_->chosen();
+            Pipeline& pipeline = *parts_->pipeline;
+            pipeline.data() = SceneData(pipeline.asked(), std::move(mesh));
+            pipeline.scene();
         },
         options.stop);
 }
@@ -52,61 +43,46 @@ Session::Session(Session&& other) noexcept = default;
 Session& Session::operator=(Session&& other) noexcept = default;
 
 void Session::set_camera(const Camera& camera) {
-    check_view(camera, parts_->scene.width, parts_->scene.height);
-    parts_->scene.camera = parts_->asked.camera = camera;
-    parts_->asked.automatic_camera = false;
-    if (parts_->drawn) parts_->drawn->set_camera(camera);
+    const Scene& now = chosen_scene();
+    check_view(camera, now.width, now.height);
+    parts_->pipeline->set_camera(camera);
 }
 
 void Session::set_size(int width, int height) {
-    check_view(parts_->scene.camera, width, height);
-    parts_->scene.width = parts_->asked.width = width;
-    parts_->scene.height = parts_->asked.height = height;
-    if (parts_->drawn) parts_->drawn->set_size(width, height);
+    check_view(chosen_scene().camera, width, height);
+    parts_->pipeline->set_size(width, height);
 }
 
 void Session::set_transfer_function(const TransferFunction& transfer_function) {
-    Scene scene = parts_->scene;
-    scene.transfer_function = parts_->asked.transfer_function = transfer_function;
-    parts_->asked.automatic_transfer_function = false;
-    parts_->run([&] {
-        parts_->take_scene(std::move(scene));
-        if (parts_->drawn) parts_->drawn->set_transfer_function(transfer_function);
-    });
+    parts_->run([&] { parts_->pipeline->set_transfer_function(transfer_function); });
 }
 
 void Session::set_clip(const Clip& clip) {
     half_spaces(clip);  // checks it
-    parts_->scene.clip = parts_->asked.clip = clip;
-    if (parts_->drawn) parts_->run([&] { parts_->drawn->set_clip(clip); });
+    parts_->run([&] { parts_->pipeline->set_clip(clip); });
 }
 
 void Session::set_scene(Scene scene) {
     check_view(scene.camera, scene.width, scene.height);
     check_lighting(scene);
-    parts_->run([&] {
-        parts_->asked = std::move(scene);
-        parts_->take_scene(parts_->chosen());
-        if (parts_->drawn) parts_->drawn->set_scene(parts_->scene);
-    });
+    parts_->run([&] { parts_->pipeline->set_scene(std::move(scene)); });
 }
 
 void Session::choose_again() {
-    set_scene(parts_->asked);
+    set_scene(scene());
 }
 
 const Scene& Session::scene() const {
-    return parts_->asked;
+    return parts_->pipeline->asked();
 }
 
 const Scene& Session::chosen_scene() const {
-    return parts_->scene;
+    return parts_->pipeline->scene();
 }
 
 const Scene& Session::resolved_scene() {
-    if (parts_->scene.method == Method::trace) return parts_->scene;
     const Scene* resolved = nullptr;
-    parts_->run_drawing([&] { resolved = &parts_->renderer().resolved_scene(); });
+    parts_->run([&] { resolved = &parts_->pipeline->resolved_scene(); });
     return *resolved;
 }
 
@@ -121,8 +97,10 @@ void Session::save_resolved_scene(const std::filesystem::path& file) {
 
 PlanSummary Session::plan() {
     PlanSummary summary;
-    parts_->run_drawing([&] {
-        const Plan& plan = parts_->renderer().plan();
+    parts_->run([&] {
+        if (chosen_scene().method == Method::trace)
+            fail("render.method: \"trace\" has no plan, expected \"slice\" or \"project\"");
+        const Plan& plan = parts_->pipeline->plan();
         summary.method = plan.method;
         if (plan.method == Method::slice) {
             summary.target = plan.slice.target;
@@ -139,8 +117,7 @@ PlanSummary Session::plan() {
 
 std::string Session::explanation() {
     std::string text;
-    parts_->run_drawing(
-        [&] { text = chosen_text(parts_->scene) + parts_->renderer().explanation(); });
+    parts_->run([&] { text = parts_->pipeline->explanation(); });
     return text;
 }
 
@@ -151,31 +128,41 @@ const Image& Session::draw(std::stop_token stop, const ProgressCallback& progres
 
 void Session::draw(Image& picture, std::stop_token stop, const ProgressCallback& progress) {
     Stopwatch watch;
-    if (parts_->scene.method == Method::trace) {
-        picture = to_float(trace(std::move(stop), progress));
-        parts_->statistics = parts_->trace_statistics;
-    } else {
-        parts_->run_drawing([&] { parts_->draw(picture); }, std::move(stop), progress);
-    }
+    parts_->run(
+        [&] {
+            parts_->pipeline->draw(picture);
+            parts_->statistics = parts_->pipeline->statistics();
+            if (chosen_scene().method == Method::trace)
+                parts_->trace_statistics = parts_->statistics;
+        },
+        std::move(stop), progress);
     parts_->statistics.draw_ms = 1e3 * watch.seconds();
 }
 
 const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback& progress,
                                    const TileCallback& tile_done) {
     Stopwatch watch;
-    parts_->run([&] { parts_->trace(tile_done); }, std::move(stop), progress);
+    const PreciseImage* truth = nullptr;
+    parts_->run(
+        [&] {
+            truth = &parts_->pipeline->trace(tile_done).image;
+            parts_->trace_statistics = parts_->pipeline->trace_statistics();
+            parts_->pipeline->warn_of(to_float(*truth));
+        },
+        std::move(stop), progress);
     parts_->trace_statistics.draw_ms = 1e3 * watch.seconds();
-    return parts_->truth;
+    return *truth;
 }
 
 Grid::Bounds Session::bounds() {
     Grid::Bounds bounds;
     parts_->run([&] {
-        if (parts_->scene.draws_mesh()) {
-            const auto& [min, max] = parts_->mesh_data().mesh.bounds();
+        const Scene& scene = parts_->pipeline->scene();
+        if (scene.draws_mesh()) {
+            const auto& [min, max] = parts_->pipeline->data().mesh(scene)->mesh.bounds();
             bounds = {min, max};
         } else {
-            bounds = parts_->volume_data().volume.grid().bounds();
+            bounds = parts_->pipeline->data().volume(scene)->volume.grid().bounds();
         }
     });
     return bounds;
@@ -184,14 +171,12 @@ Grid::Bounds Session::bounds() {
 PointProbe Session::probe() {
     auto probe = std::make_shared<PointProbe::Parts>();
     parts_->run([&] {
-        probe->scene = parts_->scene;
-        if (parts_->scene.draws_mesh()) {
-            parts_->mesh_data();
-            probe->mesh = parts_->mesh;
-        } else {
-            parts_->volume_data();
-            probe->volume = parts_->volume;
-        }
+        probe->scene = parts_->pipeline->scene();
+        SceneData& data = parts_->pipeline->data();
+        if (probe->scene.draws_mesh())
+            probe->mesh = data.mesh(probe->scene);
+        else
+            probe->volume = data.volume(probe->scene);
     });
     return PointProbe(std::move(probe));
 }

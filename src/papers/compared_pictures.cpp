@@ -201,7 +201,7 @@ std::vector<VariantErrors> variant_errors(const std::string& label, KrausSubject
     std::vector<VariantErrors> errors;
     for (const Variant& variant : variants) {
         const Image picture =
-            SceneRenderer(variant.scene, subject.mesh.data(), capabilities).draw_picture();
+            plain_picture(variant.scene, subject.mesh.data(), capabilities);
         errors.push_back(
             errors_of(variant.name, difference(picture, subject.mesh.exact(variant.scene))));
         progress.advance();
@@ -226,7 +226,7 @@ ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
     Json rows = Json::array();
     for (const Variant& variant : variants) {
         pictures.push_back(
-            SceneRenderer(variant.scene, subject.mesh.data(), capabilities).draw_picture());
+            plain_picture(variant.scene, subject.mesh.data(), capabilities));
         differences.push_back(difference(pictures.back(), exact));
         made.errors.push_back(errors_of(variant.name, differences.back()));
         rows.push_back(error_row(subject, made.errors.back()));

@@ -8,7 +8,7 @@
 
 #include "image/metrics.h"
 #include "papers/kraus_subject.h"
-#include "render/scene_renderer.h"
+#include "render/pipeline.h"
 
 namespace lamina::papers {
 

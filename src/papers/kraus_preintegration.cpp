@@ -48,8 +48,8 @@ std::vector<Variant> ways(const Scene& scene) {
 // Returns the milliseconds to build the table that the scene asks for, or null where it has none of
 // its own.
 Json build_ms(const study::TracedMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
-    SceneRenderer frames(scene, mesh.data(), capabilities);
-    const Plan& plan = frames.plan();
+    Pipeline pipeline(scene, mesh.data(), {.capabilities = capabilities});
+    const Plan& plan = pipeline.plan();
     if (plan.project.source != SegmentSource::table) return nullptr;
     return build_segment_table(in_units(scene.transfer_function, plan.project.unit),
                                plan.project.table)

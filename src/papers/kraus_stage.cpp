@@ -35,22 +35,26 @@ bool KrausStage::has(const std::string& data_set) const {
 }
 
 KrausSubject KrausStage::make(const std::string& name) const {
-    const auto subject = [&](SceneMesh mesh, bool measured_data) {
+    const auto subject = [&](study::TracedMesh mesh, bool measured_data) {
         return make_kraus_subject(std::move(mesh), kraus_view(name), measured_data, sizes_.width,
                                   sizes_.height);
     };
     if (name == "graded" || name == "plate") {
-        return subject(make_graded_mesh(sizes_.graded_cells, sizes_.graded_layers, graded_ratio,
-                                        name == "graded" ? bump : 0),
+        return subject(study::TracedMesh(make_graded_mesh(sizes_.graded_cells, sizes_.graded_layers,
+                                                          graded_ratio,
+                                                          name == "graded" ? bump : 0)),
                        false);
     }
     if (name == "box") {
-        return subject(make_box_mesh({sizes_.box_cells, sizes_.box_cells, sizes_.box_cells}),
+        return subject(study::TracedMesh(make_box_mesh(
+                           {sizes_.box_cells, sizes_.box_cells, sizes_.box_cells})),
                        false);
     }
     Scene scene;
     scene.mesh_file = file_of(data_, name);
-    return subject(load_mesh(scene), true);
+    SceneData data;
+    data.mesh(scene);
+    return subject(study::TracedMesh(std::move(data)), true);
 }
 
 KrausSubject& KrausStage::subject(const std::string& name) {

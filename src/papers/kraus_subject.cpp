@@ -107,9 +107,9 @@ KrausView kraus_view(const std::string& name) {
     return view;
 }
 
-KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool measured_data,
+KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, bool measured_data,
                                 int width, int height) {
-    KrausSubject subject{view.name, measured_data, study::TracedMesh(std::move(mesh)), {}, {}, {},
+    KrausSubject subject{view.name, measured_data, std::move(mesh), {}, {}, {},
                          {}};
     Scene scene;
     scene.method = Method::project;

@@ -31,7 +31,7 @@ struct KrausView {
 // (papers/grid_mesh.h).
 KrausView kraus_view(const std::string& name);
 
-KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool measured_data,
+KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, bool measured_data,
                                 int width, int height);
 
 TableSettings paper_table();

@@ -60,9 +60,9 @@ Scene timed_scene(Scene scene, const KrausSizes& sizes) {
     return scene;
 }
 
-void add_stages(Json& row, const ProjectRenderer& renderer) {
-    for (const auto& [stage, ms] : renderer.stages_ms()) row[stage + "_ms"] = ms;
-    row["tets_drawn"] = renderer.tets_drawn();
+void add_stages(Json& row, const MeshFrame& frame) {
+    for (const auto& [stage, ms] : frame.stages_ms()) row[stage + "_ms"] = ms;
+    row["tets_drawn"] = frame.tets_drawn();
 }
 
 double ratio(const Json& rows, std::size_t of, std::size_t to) {
@@ -139,7 +139,7 @@ Json printed_table2() {
 std::vector<TimedMesh> meshes_of_table2(KrausStage& stage, std::deque<study::TracedMesh>& boxes) {
     std::vector<TimedMesh> meshes;
     const Scene box_scene =
-        timed_scene(make_kraus_subject(make_box_mesh({8, 8, 8}), kraus_view("box"), false,
+        timed_scene(make_kraus_subject(study::TracedMesh(make_box_mesh({8, 8, 8})), kraus_view("box"), false,
                                        coarse_width, coarse_height)
                         .dense,
                     stage.sizes());
@@ -168,7 +168,7 @@ Json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage) {
     Json rows =
         study::time_rows(to_time, study::time_interleaved("table1", to_time, stage.sizes().rounds));
     for (std::size_t i = 0; i < ladder.size(); ++i) {
-        add_stages(rows[i], frames[i].renderer());
+        add_stages(rows[i], frames[i]);
         const double seconds = ladder[i].paper_seconds;
         rows[i]["paper_s"] = seconds > 0 ? Json(seconds) : Json();
         rows[i]["paper_ratio"] = seconds > 0 ? Json(seconds / ladder[0].paper_seconds) : Json();
@@ -217,7 +217,7 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
                  {"cpu_ms", times[i].cpu_ms},
                  {"slowest_over_fastest", times[i].max / times[i].min},
                  {"tets_per_second", 1e3 * tets / times[i].ms}};
-        add_stages(row, frames[i].renderer());
+        add_stages(row, frames[i]);
         row["order_share"] = row["order_ms"].get<double>() /
                              (row["order_ms"].get<double>() + row["draw_ms"].get<double>());
         rows.push_back(row);

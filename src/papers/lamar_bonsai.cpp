@@ -124,7 +124,7 @@ class Bonsai {
 
   private:
     Image draw(const Scene& scene) const {
-        return SceneRenderer(scene, volume_, capabilities_).draw_picture();
+        return plain_picture(scene, SceneData(volume_), capabilities_);
     }
 
     std::shared_ptr<const VolumeData> volume_;

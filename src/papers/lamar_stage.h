@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "papers/paper_hardware.h"
-#include "render/scene_renderer.h"
+#include "render/pipeline.h"
 
 namespace lamina::papers {
 

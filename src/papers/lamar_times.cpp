@@ -9,7 +9,7 @@
 #include "papers/lamar.h"
 #include "papers/lamar_stage.h"
 #include "papers/palette_slices.h"
-#include "render/scene_renderer.h"
+#include "render/pipeline.h"
 #include "study/interleaved_times.h"
 #include "study/text_file.h"
 #include "volume/generate.h"
@@ -88,13 +88,14 @@ Scene scene_of(const TimedWay& technique) {
 study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
                            const Scene& scene, const Capabilities& capabilities,
                            const OmissionSwitch& omissions) {
-    const auto frames = std::make_shared<SceneRenderer>(scene, volume, capabilities, omissions);
+    const PipelineOptions how{.capabilities = capabilities, .omissions = omissions};
+    const auto frames = std::make_shared<Pipeline>(scene, SceneData(volume), how);
     Scene far = scene;
     far.camera.height *= nearly_nothing;
-    const auto far_frames = std::make_shared<SceneRenderer>(far, volume, capabilities, omissions);
+    const auto far_frames = std::make_shared<Pipeline>(far, SceneData(volume), how);
     frames->set_up();
     far_frames->set_up();
-    return {name, [far_frames] { far_frames->draw(); }, [frames] { frames->draw(); }};
+    return {name, [far_frames] { far_frames->draw_frame(); }, [frames] { frames->draw_frame(); }};
 }
 
 Json time_techniques(const std::shared_ptr<const VolumeData>& volume,

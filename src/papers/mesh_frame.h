@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "projection/project_renderer.h"
-#include "render/scene_renderer.h"
+#include "render/pipeline.h"
 #include "study/interleaved_times.h"
 #include "study/traced_mesh.h"
 
@@ -19,18 +20,21 @@ class MeshFrame {
     MeshFrame(std::string name, const study::TracedMesh& mesh, const Scene& scene,
               const Capabilities& capabilities)
         : name_(std::move(name)),
-          frames_(std::make_unique<SceneRenderer>(scene, mesh.data(), capabilities)) {
-        frames_->set_up();
+          pipeline_(std::make_unique<Pipeline>(scene, mesh.data(),
+                                               PipelineOptions{.capabilities = capabilities})) {
+        pipeline_->set_up();
     }
 
     const std::string& name() const { return name_; }
-    const ProjectRenderer& renderer() const {
-        return dynamic_cast<const ProjectRenderer&>(frames_->renderer());
+    // Durations of the last frame's stages.
+    std::map<std::string, double> stages_ms() const {
+        return pipeline_->renderer().renderer().stages_ms();
     }
-    Image picture() const { return frames_->picture(); }
+    std::int64_t tets_drawn() const { return pipeline_->statistics().tets_drawn; }
+    Image picture() const { return pipeline_->renderer().picture(); }
     // Draws a whole frame: order, geometry and fragments.
     void draw() {
-        frames_->draw();
+        pipeline_->draw_frame();
         drawn_ = true;
     }
     void warm_up() {
@@ -39,7 +43,7 @@ class MeshFrame {
 
   private:
     std::string name_;
-    std::unique_ptr<SceneRenderer> frames_;
+    std::unique_ptr<Pipeline> pipeline_;
     bool drawn_ = false;
 };
 

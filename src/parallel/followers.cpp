@@ -20,7 +20,6 @@
 #include "parallel/scene_message.h"
 #include "parallel/shared_renderer.h"
 #include "render/context_choice.h"
-#include "scene/scene_volume.h"
 
 namespace lamina {
 namespace {
@@ -45,10 +44,9 @@ std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command,
         restrict_instructions_as_asked();
         if (command.memory_limit > 0) set_memory_limit(command.memory_limit);
         const Scene scene = message.scene();
-        auto volume = std::make_shared<const VolumeData>(open_volume(scene));
-        renderer = std::make_unique<SharedRenderer>(ranks, command.wire, scene, std::move(volume),
-                                                    message.omissions());
-        renderer->set_up(command.many_frames);
+        renderer = std::make_unique<SharedRenderer>(ranks, command.wire, scene, SceneData(),
+                                                    message.omissions(), command.many_frames);
+        renderer->set_up();
     });
     renderer->check_plan();
     return renderer;

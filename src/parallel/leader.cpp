@@ -23,10 +23,10 @@ Leader::~Leader() {
     tell(ranks_, {});
 }
 
-int Leader::open(const Scene& scene, std::shared_ptr<const VolumeData> volume,
-                 const OmissionSwitch& omissions, bool many_frames) {
-    auto renderer =
-        std::make_unique<SharedRenderer>(ranks_, wire_, scene, std::move(volume), omissions);
+int Leader::open(const Scene& scene, SceneData data, const OmissionSwitch& omissions,
+                 bool many_frames) {
+    auto renderer = std::make_unique<SharedRenderer>(ranks_, wire_, scene, std::move(data),
+                                                     omissions, many_frames);
     Command command{.kind = Command::Kind::open,
                     .scene = next_,
                     .wire = wire_,
@@ -35,7 +35,7 @@ int Leader::open(const Scene& scene, std::shared_ptr<const VolumeData> volume,
     SceneMessage message(scene, omissions);
     tell(ranks_, command);
     message.broadcast(ranks_);
-    agree(ranks_, [&] { renderer->set_up(many_frames); });
+    agree(ranks_, [&] { renderer->set_up(); });
     renderer->check_plan();
     renderers_.emplace(next_, std::move(renderer));
     return next_++;
@@ -47,6 +47,7 @@ void Leader::draw(int scene, const std::optional<Camera>& camera) {
                   .turned = camera.has_value(),
                   .camera = camera.value_or(Camera())});
     renderer(scene).draw(camera);
+    last_reports_ = renderer(scene).reports();
 }
 
 void Leader::close(int scene) {

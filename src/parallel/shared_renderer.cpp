@@ -3,12 +3,13 @@
 
 #include <unistd.h>
 
+#include <utility>
+
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "base/stage.h"
 #include "parallel/agreement.h"
 #include "parallel/plan_digest.h"
-#include "tiles/tile_capabilities.h"
 
 namespace lamina {
 namespace {
@@ -33,27 +34,24 @@ Scene checked(Scene scene) {
 
 }  // namespace
 
-SharedRenderer::SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene,
-                               std::shared_ptr<const VolumeData> volume,
-                               const OmissionSwitch& omissions)
+SharedRenderer::SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene, SceneData data,
+                               const OmissionSwitch& omissions, bool many_frames)
     : ranks_(ranks),
-      own_(checked(scene), std::move(volume), tile_capabilities(), omissions,
-           {ranks.number(), ranks.count()}),
+      own_(checked(scene), std::move(data),
+           {.context = ContextChoice::cpu,
+            .omissions = omissions,
+            .many_frames = many_frames,
+            .share = {ranks.number(), ranks.count()}}),
       composer_(ranks, wire) {}
 
-void SharedRenderer::set_up(bool many_frames) {
-    if (many_frames) own_.expect_many_frames();
-    own_.set_up();
-}
-
 void SharedRenderer::check_plan() {
-    const std::string own = digest_of(own_.plan().slice, own_.shares());
+    const std::string own = digest_of(own_.plan().slice, own_.renderer().shares());
     std::string of_first = own;
     ranks_.broadcast(of_first);
     agree(ranks_, [&] {
         if (own == of_first) return;
         fail("{}: ranks plan different pictures: expected the same data on all machines",
-             own_.scene().file.string());
+             own_.asked().file.string());
     });
 }
 
@@ -63,16 +61,16 @@ void SharedRenderer::draw(const std::optional<Camera>& camera) {
     agree(ranks_, [&] {
         Stage drawing("share");
         if (camera) own_.set_camera(*camera);
-        own_.draw();
+        own_.draw_frame();
         own_.read(picture_);
-        order = own_.front_to_back();
+        order = own_.renderer().front_to_back();
         report.draw_ms = drawing.end();
     });
     Stage compositing("composite");
     do_or_abort(ranks_, [&] { composer_.compose(order, picture_); });
     report.composite_ms = compositing.end();
     report.threads = own_.capabilities().threads;
-    report.segments = own_.renderer().fragments();
+    report.segments = own_.renderer().renderer().fragments();
     report.bytes_sent = composer_.bytes_sent();
     report.messages_sent = composer_.messages_sent();
     report.peak_memory = static_cast<std::int64_t>(peak_resident_memory());

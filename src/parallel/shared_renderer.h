@@ -8,7 +8,7 @@
 #include "lamina/image.h"
 #include "parallel/picture_composer.h"
 #include "parallel/rank_report.h"
-#include "render/scene_renderer.h"
+#include "render/pipeline.h"
 
 namespace lamina {
 
@@ -16,17 +16,17 @@ namespace lamina {
 // the same scene, and call draw() together.
 class SharedRenderer {
   public:
-    // `scene`: of method slice. `ranks` must outlive it.
-    // Throws Error where the scene asks for what ranks cannot share, and says what.
-    SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene,
-                   std::shared_ptr<const VolumeData> volume, const OmissionSwitch& omissions);
+    // `scene`: of method slice. `ranks` must outlive it. `many_frames`: as in PipelineOptions.
+    // Throws Error if the scene asks for what ranks cannot share, and says what.
+    SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene, SceneData data,
+                   const OmissionSwitch& omissions, bool many_frames);
 
     // This rank's part of the work.
-    SceneRenderer& own() { return own_; }
+    Pipeline& own() { return own_; }
 
     // Measures the data, plans and makes the renderer. Each rank does so by itself, at the same
-    // time. `many_frames`: SceneRenderer::expect_many_frames().
-    void set_up(bool many_frames);
+    // time.
+    void set_up() { own_.set_up(); }
     // Throws Error on all ranks where their plans differ.
     void check_plan();
 
@@ -38,7 +38,7 @@ class SharedRenderer {
 
   private:
     const Ranks& ranks_;
-    SceneRenderer own_;
+    Pipeline own_;
     PictureComposer composer_;
     Image picture_;
     std::vector<RankReport> reports_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lamina/frame_statistics.h"
 #include "plan/frame_renderer.h"
 #include "plan/plan.h"
 #include "render/warnings.h"
@@ -42,6 +43,10 @@ class Drawing {
     // is a resolved one; `renderer` is null before there is one.
     virtual Warnings warnings(const Scene& scene, const Plan& plan,
                               const FrameRenderer* renderer) = 0;
+
+    // Adds what the renderer found in its last frame.
+    virtual void add_to(const FrameRenderer& /*renderer*/,
+                        FrameStatistics& /*statistics*/) const {}
 
     // Of renderers that draw one picture together, once a view is measured: the parts of the volume
     // that they draw; and their numbers, nearer ones first.

@@ -25,6 +25,11 @@ ProjectOrder order_of(OrderMethod method) {
     unreachable_enum();
 }
 
+// All renderers of a ProjectDrawing are of this kind.
+const ProjectRenderer* as_project(const FrameRenderer* renderer) {
+    return dynamic_cast<const ProjectRenderer*>(renderer);
+}
+
 }  // namespace
 
 void ProjectDrawing::clip_mesh(const Scene& scene) {
@@ -97,16 +102,23 @@ Warnings ProjectDrawing::warnings(const Scene& scene, const Plan& /*plan*/,
         for (std::string& warning : more) all.push_back(std::move(warning));
     };
     add(plan_warnings(scene, facts_.overlapping_tets));
-    if (const auto* const drawn = dynamic_cast<const ProjectRenderer*>(renderer))
-        add(frame_warnings(drawn->order_report()));
+    if (renderer != nullptr) add(frame_warnings(as_project(renderer)->order_report()));
     return all;
+}
+
+void ProjectDrawing::add_to(const FrameRenderer& renderer, FrameStatistics& statistics) const {
+    const ProjectRenderer& drawn = *as_project(&renderer);
+    statistics.tets_drawn = drawn.tets_drawn();
+    const OrderReport& order = drawn.order_report();
+    statistics.counts["cycles"] = order.cycles;
+    statistics.counts["cyclic_tets"] = order.cyclic_tets;
+    statistics.counts["pairs_in_wrong_order"] = order.broken;
 }
 
 std::unique_ptr<FrameRenderer> ProjectDrawing::make_renderer(const Scene& scene, const Plan& plan,
                                                              const Capabilities& capabilities,
                                                              FrameRenderer* before) const {
-    const auto* const other = dynamic_cast<const ProjectRenderer*>(before);
-    const bool same_mesh = other != nullptr && other->kept_mesh() == mesh_.get();
+    const bool same_mesh = before != nullptr && as_project(before)->kept_mesh() == mesh_.get();
     auto renderer =
         make_project_renderer(*mesh_, scene.transfer_function, plan.project, capabilities,
                               scene.width, scene.height, same_mesh ? before : nullptr);

@@ -24,6 +24,7 @@ class ProjectDrawing : public Drawing {
     Scene resolved(Scene scene, const Plan& plan) const override;
     std::string explanation(const Plan& plan, const Capabilities& capabilities) const override;
     Warnings warnings(const Scene& scene, const Plan& plan, const FrameRenderer* renderer) override;
+    void add_to(const FrameRenderer& renderer, FrameStatistics& statistics) const override;
     std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
                                                  const Capabilities& capabilities,
                                                  FrameRenderer* before) const override;

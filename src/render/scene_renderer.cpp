@@ -178,4 +178,15 @@ void SceneRenderer::read(Image& picture) const {
     renderer_->read(picture);
 }
 
+void SceneRenderer::add_to(FrameStatistics& statistics) {
+    for (const auto& [stage, ms] : stages_ms_) statistics.stages_ms[stage] = ms;
+    if (planned_ && plan_->method == Method::slice) statistics.slabs = plan_->slice.slabs;
+    if (!renderer_) return;
+    for (const auto& [stage, ms] : renderer_->stages_ms()) statistics.stages_ms[stage] = ms;
+    statistics.fragments = renderer_->fragments();
+    statistics.bytes = renderer_->byte_count();
+    statistics.counts["clamped_colors"] = clamped_colors(*resolved_);
+    drawing_->add_to(*renderer_, statistics);
+}
+
 }  // namespace lamina

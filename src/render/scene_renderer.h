@@ -14,6 +14,7 @@
 #include "plan/capabilities.h"
 #include "plan/plan.h"
 #include "render/drawing.h"
+#include "render/frames.h"
 #include "render/picture_share.h"
 #include "scene/scene_mesh.h"
 #include "volume/volume_data.h"
@@ -37,7 +38,7 @@ namespace lamina {
 // What is automatic is chosen for the first picture and kept: resolved_scene() has it written out.
 // (A table grows where a view has longer segments than it knows.) A picture is, bit for bit on the
 // native engine, that of a new renderer with that scene.
-class SceneRenderer {
+class SceneRenderer : public Frames {
   public:
     // `capabilities`: of the native engine, or of an OpenGL context that is current whenever the
     // renderer is called and when it ends (DrawContext::make_current()), and outlives it. Renderers
@@ -52,12 +53,11 @@ class SceneRenderer {
     SceneRenderer(const SceneRenderer&) = delete;
     SceneRenderer& operator=(const SceneRenderer&) = delete;
 
-    void set_camera(const Camera& camera);
-    void set_size(int width, int height);  // pixels, 1 or more
-    void set_transfer_function(const TransferFunction& transfer_function);
-    void set_clip(const Clip& clip);
-    // Replaces the scene by another one with the same data and method.
-    void set_scene(Scene scene);
+    void set_camera(const Camera& camera) override;
+    void set_size(int width, int height) override;
+    void set_transfer_function(const TransferFunction& transfer_function) override;
+    void set_clip(const Clip& clip) override;
+    void set_scene(Scene scene) override;
     void choose_again();
     // Choices take longer from now on where they make every frame quicker. Without, the time to the
     // first picture counts.
@@ -65,28 +65,23 @@ class SceneRenderer {
 
     // The scene as it was asked for, with "auto"; and the scene with what was chosen instead, which
     // save_scene() can write.
-    const Scene& scene() const { return asked_; }
-    const Scene& resolved_scene();
-    // Throws Error where the data cannot be drawn as the scene asks, or the context cannot do it.
-    const Plan& plan();
-    std::string explanation();
-    // Sentences for people about the data, the plan and, once a frame was drawn, about it.
-    Warnings warnings();
+    const Scene& scene() const override { return asked_; }
+    const Scene& resolved_scene() override;
+    // Throws Error if the data cannot be drawn as the scene asks, or the context cannot do it.
+    const Plan& plan() override;
+    std::string explanation() override;
+    Warnings warnings() override;
     // Of renderers that share a picture: the parts of the volume that they draw, in its index
     // space; and their numbers, nearer ones first.
     std::vector<IndexBox> shares();
     std::vector<int> front_to_back();
     const Capabilities& capabilities() const { return capabilities_; }
 
-    // Makes what a frame needs. draw() calls it if necessary.
-    void set_up();
-    // Draws a frame, which is complete on return. Throws Interrupted once a stop is requested; the
-    // next frame is then drawn from the start.
-    void draw(std::stop_token stop = {});
-    // The last frame: associated, linear, before the background. read() takes no memory where
-    // `picture` has the frame's size.
+    void set_up() override;
+    void draw(std::stop_token stop = {}) override;
+    void read(Image& picture) const override;
+    void add_to(FrameStatistics& statistics) override;
     Image picture() const;
-    void read(Image& picture) const;
     Image draw_picture() {
         draw();
         return picture();

@@ -26,10 +26,11 @@ constexpr const char* from_tets =
     "its tet's longest edge (1e-9 for traces), and roundings of every blend.";
 constexpr const char* from_both = "The pictures may differ by what both bounds allow together.";
 
-SceneMesh scene_mesh(MeshData data) {
+std::shared_ptr<const SceneMesh> drawn_mesh(MeshData data) {
     MeshScalar scalar = std::move(data.point_scalars.at(0));
     data.point_scalars.clear();
-    return {TetMesh(std::move(data), "self-test"), std::move(scalar), false, {}};
+    return std::make_shared<const SceneMesh>(
+        SceneMesh{TetMesh(std::move(data), "self-test"), std::move(scalar), false, {}});
 }
 
 CaseOutcome outcome_of(const Fit& fit) {
@@ -45,9 +46,9 @@ struct Drawn {
 Drawn draw(const PictureMaker& maker, const SelftestScene& subject, const DrawingWay& way) {
     const Scene scene = way.scene_of(subject.scene);
     if (!way.draws_mesh())
-        return {maker.draw(scene, subject.box.volume()), layered_picture(subject, way, nullptr)};
-    const SceneMesh mesh = scene_mesh(subject.mesh(subject.box));
-    return {maker.draw(scene, mesh), layered_picture(subject, way, &mesh)};
+        return {maker.draw(scene, SceneData(subject.box.volume())), layered_picture(subject, way, nullptr)};
+    const auto mesh = drawn_mesh(subject.mesh(subject.box));
+    return {maker.draw(scene, SceneData(mesh)), layered_picture(subject, way, &*mesh)};
 }
 
 }  // namespace
@@ -69,13 +70,14 @@ std::vector<SelftestCase> cases_of(const std::string& group, const SelftestScene
 SelftestCase case_of(const std::string& group, const MeshScene& subject, const DrawingWay& way) {
     return {group, subject.name, way.name, subject.about + ". " + from_tets,
             [subject, way](const PictureMaker& maker) {
-                const SceneMesh mesh = scene_mesh(subject.mesh());
-                OrderReport order;
+                const auto mesh = drawn_mesh(subject.mesh());
+                FrameStatistics statistics;
                 const Scene scene = way.scene_of(subject.scene);
-                const PreciseImage picture = maker.draw(scene, mesh, &order);
+                const PreciseImage picture = maker.draw(scene, SceneData(mesh), &statistics);
                 CaseOutcome outcome =
-                    outcome_of(fit_of(picture, one_color_picture(subject.scene, way, mesh)));
-                if (subject.cyclic && way.method == Method::project && order.cycles == 0) {
+                    outcome_of(fit_of(picture, one_color_picture(subject.scene, way, *mesh)));
+                if (subject.cyclic && way.method == Method::project &&
+                    statistics.counts.at("cycles") == 0) {
                     outcome.verdict = Verdict::failed;
                     outcome.note = "no cycle is reported";
                 }

@@ -98,7 +98,7 @@ std::vector<CellScene> all_cells() {
 CaseOutcome outcome_of_cell(const CellScene& cell, const DrawingWay& way,
                             const PictureMaker& maker) {
     const PreciseImage picture =
-        maker.draw(way.scene_of(cell_scene_of(cell)), cell_volume(cell.saddle));
+        maker.draw(way.scene_of(cell_scene_of(cell)), SceneData(cell_volume(cell.saddle)));
     CaseOutcome outcome;
     outcome.bound =
         255 * (cell_scalar_error * cell.depth_per_scalar * (1 - cell.opacity) + cell_opacity_error);

@@ -86,7 +86,8 @@ class Crosschecker {
     int automatic_samples() {
         Scene sliced = scene_;
         sliced.method = Method::slice;
-        return SceneRenderer(sliced, data_.volume(sliced).data, capabilities_).plan().slice.slabs;
+        Pipeline pipeline(sliced, data_.data_of(sliced), {.capabilities = capabilities_});
+        return pipeline.plan().slice.slabs;
     }
     MeshSettings own_mesh() const { return scene_.mesh_request.value_or(MeshSettings{}); }
     // The tolerance of the mesh that the scene states, or nothing.
@@ -160,7 +161,7 @@ class Crosschecker {
         const Scene scene = mesh_scene(tolerance);
         const Stopwatch watch;
         const DataStore::StoredMesh& stored = data_.mesh(scene);
-        const SceneMesh& mesh = *stored.data.data();
+        const SceneMesh& mesh = stored.data.mesh();
         Crosscheck::Projection& made = made_.projections.emplace_back();
         made.mesh_ms = stored.ms;
         made.tolerance = tolerance;

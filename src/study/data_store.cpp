@@ -9,7 +9,7 @@
 #include "base/content_hash.h"
 #include "base/json_text.h"
 #include "base/stopwatch.h"
-#include "scene/scene_volume.h"
+#include "choice/choose.h"
 #include "scene_files/volume_selection_json.h"
 #include "study/picture_key.h"
 #include "volume/generate.h"
@@ -43,30 +43,32 @@ std::string mesh_name(const Scene& scene) {
 const DataStore::StoredVolume& DataStore::volume(const Scene& scene) {
     std::unique_ptr<StoredVolume>& stored = volumes_[volume_name(scene)];
     if (!stored) {
-        Volume volume = open_volume(scene);
-        std::string content = content_of(volume);
-        stored = std::make_unique<StoredVolume>(StoredVolume{
-            std::make_shared<const VolumeData>(std::move(volume)), std::move(content)});
+        std::shared_ptr<const VolumeData> data = SceneData().volume(scene);
+        std::string content = content_of(data->volume);
+        stored = std::make_unique<StoredVolume>(StoredVolume{std::move(data), std::move(content)});
     }
     return *stored;
 }
 
-const DataStore::StoredMesh& DataStore::mesh(const Scene& scene) {
+DataStore::StoredMesh& DataStore::mesh(const Scene& scene) {
     std::unique_ptr<StoredMesh>& stored = meshes_[mesh_name(scene)];
     if (!stored) {
         MadeMesh made = read_or_make(scene);
-        std::string content = content_of(made.mesh);
+        TracedMesh data(std::move(made.data));
+        std::string content = content_of(data.mesh());
         stored = std::make_unique<StoredMesh>(
-            StoredMesh{TracedMesh(std::move(made.mesh)), std::move(content), made.ms});
+            StoredMesh{std::move(data), std::move(content), made.ms});
     }
     return *stored;
 }
 
 MadeMesh DataStore::read_or_make(const Scene& scene) {
     const auto make = [&] {
+        const bool makes = scene.mesh_file.empty();
+        SceneData data = makes ? SceneData(volume(scene).data, nullptr) : SceneData();
         const Stopwatch watch;
-        SceneMesh mesh = load_mesh(scene);
-        return MadeMesh{std::move(mesh), watch.milliseconds()};
+        data.mesh(scene);
+        return MadeMesh{std::move(data), watch.milliseconds()};
     };
     if (!kept_ || !scene.mesh_file.empty()) return make();
     // Data of the volume's name may change between two processes.
@@ -77,6 +79,14 @@ MadeMesh DataStore::read_or_make(const Scene& scene) {
     MadeMesh made = make();
     kept_->keep(id.hex(), made);
     return made;
+}
+
+// If the scene leaves something open, the volume decides on it even if a mesh is made from it.
+SceneData DataStore::data_of(const Scene& scene) {
+    if (!scene.draws_mesh()) return SceneData(volume(scene).data);
+    const SceneData& data = mesh(scene).data.data();
+    if (!scene.mesh_file.empty() || !leaves_something_open(scene)) return data;
+    return SceneData(volume(scene).data, SceneData(data).mesh(scene));
 }
 
 void DataStore::clear() {

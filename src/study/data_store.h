@@ -31,7 +31,9 @@ class DataStore {
         double ms = 0;  // time to read or make it
     };
     const StoredVolume& volume(const Scene& scene);
-    const StoredMesh& mesh(const Scene& scene);
+    StoredMesh& mesh(const Scene& scene);
+    // The data that the scene draws.
+    SceneData data_of(const Scene& scene);
     void clear();
 
     // Keeps meshes that are made from volumes in this folder from now on, and finds them there.

@@ -11,10 +11,10 @@
 namespace lamina::study {
 namespace {
 
-nlohmann::ordered_json facts_of(const MadeMesh& made) {
-    const MeshReport& report = made.mesh.report.value();
-    return {{"mesh", content_of(made.mesh)},
-            {"ms", made.ms},
+nlohmann::ordered_json facts_of(const SceneMesh& mesh, double ms) {
+    const MeshReport& report = mesh.report.value();
+    return {{"mesh", content_of(mesh)},
+            {"ms", ms},
             {"points", report.points},
             {"tets", report.tets},
             {"kuhn_tets", report.kuhn_tets},
@@ -46,9 +46,10 @@ std::optional<MadeMesh> KeptMeshes::find(const std::string& id, const Scene& sce
         const nlohmann::json facts = load_json(file(id, ".json"));
         Scene whole = scene;
         whole.scalar.clear();  // the file has one
-        MadeMesh made{scene_mesh(whole, read_mesh(file(id, ".vtu"))), facts.at("ms").get<double>()};
-        if (content_of(made.mesh) != facts.at("mesh").get<std::string>()) return std::nullopt;
-        made.mesh.report = report_from(facts);
+        MadeMesh made{SceneData(whole, read_mesh(file(id, ".vtu")), report_from(facts)),
+                      facts.at("ms").get<double>()};
+        if (content_of(*made.data.mesh(whole)) != facts.at("mesh").get<std::string>())
+            return std::nullopt;
         return made;
     } catch (const Error&) {
     } catch (const nlohmann::json::exception&) {
@@ -57,16 +58,17 @@ std::optional<MadeMesh> KeptMeshes::find(const std::string& id, const Scene& sce
 }
 
 // The mesh is written before the facts: a mesh with a .json is complete.
-void KeptMeshes::keep(const std::string& id, const MadeMesh& made) const {
-    const TetMesh& tets = made.mesh.mesh;
+void KeptMeshes::keep(const std::string& id, MadeMesh& made) const {
+    const SceneMesh& drawn = *made.data.mesh({});
+    const TetMesh& tets = drawn.mesh;
     MeshData data;
     data.points.assign(tets.points().begin(), tets.points().end());
     data.tets.assign(tets.tets().begin(), tets.tets().end());
-    data.point_scalars = {made.mesh.scalar};
+    data.point_scalars = {drawn.scalar};
     AtomicFile mesh(file(id, ".vtu"));
     write_vtu(mesh, data);
     mesh.commit();
-    write_text(file(id, ".json"), json_text(facts_of(made)) + "\n");
+    write_text(file(id, ".json"), json_text(facts_of(drawn, made.ms)) + "\n");
 }
 
 }  // namespace lamina::study

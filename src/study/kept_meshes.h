@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "lamina/scene.h"
-#include "scene/scene_mesh.h"
+#include "render/scene_data.h"
 
 namespace lamina::study {
 
 // A mesh that was made from a volume, and the time that it took.
 struct MadeMesh {
-    SceneMesh mesh;
+    SceneData data;
     double ms = 0;
 };
 
@@ -26,7 +26,7 @@ class KeptMeshes {
     // Returns nothing if the folder has no such mesh, or if its files are damaged.
     std::optional<MadeMesh> find(const std::string& id, const Scene& scene) const;
     // Throws Error if the files cannot be written.
-    void keep(const std::string& id, const MadeMesh& made) const;
+    void keep(const std::string& id, MadeMesh& made) const;
 
   private:
     std::filesystem::path file(const std::string& id, const char* extension) const {

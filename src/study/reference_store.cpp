@@ -9,7 +9,7 @@
 #include "base/json_text.h"
 #include "base/stopwatch.h"
 #include "image/npy.h"
-#include "reference/scene_tracer.h"
+#include "render/traced_picture.h"
 #include "scene_files/json_reader.h"
 #include "study/picture_key.h"
 #include "study/text_file.h"
@@ -38,7 +38,8 @@ Reference traced(const Scene& scene, TraceOf of, DataStore& data) {
             {}, of, units * result.error_estimate, watch.milliseconds(), std::move(result.image)};
     };
     if (of == TraceOf::mesh) return made(data.mesh(scene).data.trace(scene));
-    return made(trace(scene, data.volume(scene).data->volume));
+    SceneData volume(data.volume(scene).data);
+    return made(trace_picture(as_trace(scene, TraceOf::volume), volume));
 }
 
 std::string content_of(const PreciseImage& image) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <string>
 
-#include "render/scene_renderer.h"
+#include "render/pipeline.h"
 #include "study/data_store.h"
 
 namespace lamina::study {
@@ -19,22 +21,25 @@ class StudyFrames {
     // Draws a frame with the scene's eye turned about its centre.
     void draw_turned(double degrees);
 
-    const Scene& scene() const { return frames_->scene(); }
-    const FrameRenderer& renderer() const { return frames_->renderer(); }
-    Image picture() const { return frames_->picture(); }
+    const Scene& scene() const { return pipeline_->scene(); }
+    // Durations of preparing and of the last frame.
+    std::map<std::string, double> stages_ms() const {
+        return pipeline_->renderer().renderer().stages_ms();
+    }
+    Image picture() const { return pipeline_->renderer().picture(); }
     double set_up_ms() const { return set_up_ms_; }
     // Time of the facts, the choice of what is automatic, the set-up and the first frame. Reading
     // the data is not in it.
     double first_ms() const { return first_ms_; }
-    bool on_tiles() const { return frames_->capabilities().tiles; }
+    bool on_tiles() const { return pipeline_->capabilities().tiles; }
     // Bytes of OpenGL memory after the first frame.
     std::int64_t bytes_gpu() const { return bytes_gpu_; }
-    std::int64_t bytes_host() const { return renderer().byte_count(); }
+    std::int64_t bytes_host() const { return pipeline_->renderer().renderer().byte_count(); }
     std::int64_t bytes() const { return bytes_gpu() + bytes_host(); }
 
   private:
     Camera camera_;  // the scene's own
-    std::unique_ptr<SceneRenderer> frames_;
+    std::unique_ptr<Pipeline> pipeline_;
     bool turned_ = false;
     double set_up_ms_ = 0, first_ms_ = 0;
     std::int64_t bytes_gpu_ = 0;

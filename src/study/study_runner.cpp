@@ -232,7 +232,7 @@ void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured
     drawn["renderer"] = renderer_and_threads(contexts_.use(context_of(list_.runs[run], file_)));
     drawn["bytes_gpu"] = frames.bytes_gpu();
     drawn["bytes_host"] = frames.bytes_host();
-    drawn["stages"] = frames.renderer().stages_ms();
+    drawn["stages"] = frames.stages_ms();
     drawn["stages"]["set_up"] = frames.set_up_ms();
     drawn["first_ms"] = frames.first_ms();
     measured.picture = image;

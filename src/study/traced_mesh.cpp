@@ -3,17 +3,17 @@
 
 #include <utility>
 
-#include "reference/scene_tracer.h"
 #include "study/picture_key.h"
 
 namespace lamina::study {
 
 TracedMesh::TracedMesh(SceneMesh mesh)
-    : mesh_(std::make_shared<const SceneMesh>(std::move(mesh))),
-      open_faces_(mesh_->mesh, mesh_->mesh.open_faces()) {}
+    : TracedMesh(SceneData(std::make_shared<const SceneMesh>(std::move(mesh)))) {}
 
-MeshTraceResult TracedMesh::trace(const Scene& scene) const {
-    return lamina::trace(scene, *mesh_, open_faces_);
+TracedMesh::TracedMesh(SceneData data) : data_(std::move(data)), mesh_(data_.mesh({})) {}
+
+TracedPicture TracedMesh::trace(const Scene& scene) {
+    return trace_picture(as_trace(scene, TraceOf::mesh), data_);
 }
 
 const PreciseImage& TracedMesh::exact(const Scene& scene) {

@@ -2,14 +2,9 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <string>
 
-#include "lamina/image.h"
-#include "lamina/scene.h"
-#include "mesh/face_tree.h"
-#include "reference/mesh_tracer.h"
-#include "scene/scene_mesh.h"
+#include "render/traced_picture.h"
 
 namespace lamina::study {
 
@@ -18,17 +13,19 @@ namespace lamina::study {
 class TracedMesh {
   public:
     explicit TracedMesh(SceneMesh mesh);
+    explicit TracedMesh(SceneData data);  // has a mesh
 
+    const SceneMesh& mesh() const { return *mesh_; }
     const TetMesh& tets() const { return mesh_->mesh; }
-    const std::shared_ptr<const SceneMesh>& data() const { return mesh_; }
+    const SceneData& data() const { return data_; }
 
-    MeshTraceResult trace(const Scene& scene) const;
+    TracedPicture trace(const Scene& scene);
     // The tracer's picture, made once for each transfer function, camera and size.
     const PreciseImage& exact(const Scene& scene);
 
   private:
-    std::shared_ptr<const SceneMesh> mesh_;
-    FaceTree open_faces_;
+    SceneData data_;
+    std::shared_ptr<const SceneMesh> mesh_;       // of data_
     std::map<std::string, PreciseImage> traced_;  // by picture_key()
 };
 

@@ -268,7 +268,7 @@ TEST(Session, RefusesWhatCannotBeDrawn) {
         },
         {"threads: found -1, expected 0 (all) or more"});
     expect_error([&] { Session(scene, native); },
-                 {"the session has no volume, and its scene names none"});
+                 {"no volume was given, and the scene names none"});
     Session session(scene, volume, native);
     const TemporaryFolder folder;
     expect_error([&] { session.save_resolved_scene(folder / "a.json"); },

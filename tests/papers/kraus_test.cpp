@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "papers/kraus.h"
-#include "render/scene_renderer.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 #include "papers/kraus_stage.h"
 #include "papers/kraus_variants.h"
 #include "papers/panels.h"
+#include "render/pipeline.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::papers {
@@ -170,8 +170,7 @@ TEST_F(Kraus, DrawsWhatTheTracerSees) {
     KrausStage stage(capabilities(), small_sizes(), {});
     KrausSubject& box = stage.subject("box");
     const Image image =
-        SceneRenderer(with_default_integration(box.dense), box.mesh.data(), capabilities())
-            .draw_picture();
+        plain_picture(with_default_integration(box.dense), box.mesh.data(), capabilities());
     // Default settings keep the default of render.max_error (docs/scene.md).
     EXPECT_LE(image_error(image, box.mesh.exact(box.dense)).all.linf, 1);
 }

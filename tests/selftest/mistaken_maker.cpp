@@ -16,13 +16,9 @@ TransferFunction with_more_extinction(const TransferFunction& transfer_function)
 
 }  // namespace
 
-PreciseImage MistakenMaker::draw(const Scene& scene, const Volume& volume) const {
-    return PictureMaker::draw(mistaken(scene), volume);
-}
-
-PreciseImage MistakenMaker::draw(const Scene& scene, const SceneMesh& mesh,
-                                 OrderReport* order) const {
-    return PictureMaker::draw(mistaken(scene), mesh, order);
+PreciseImage MistakenMaker::draw(const Scene& scene, const SceneData& data,
+                                 FrameStatistics* statistics) const {
+    return PictureMaker::draw(mistaken(scene), data, statistics);
 }
 
 Scene MistakenMaker::mistaken(Scene scene) const {

@@ -23,8 +23,8 @@ class MistakenMaker : public PictureMaker {
     MistakenMaker(const Capabilities& capabilities, Mistake mistake)
         : PictureMaker(capabilities), mistake_(mistake) {}
 
-    PreciseImage draw(const Scene& scene, const Volume& volume) const override;
-    PreciseImage draw(const Scene& scene, const SceneMesh& mesh, OrderReport* order) const override;
+    PreciseImage draw(const Scene& scene, const SceneData& data,
+                      FrameStatistics* statistics) const override;
 
   private:
     Scene mistaken(Scene scene) const;

@@ -14,11 +14,9 @@
 #include "icet_compositor.h"
 #include "parallel/picture_composer.h"
 #include "parallel/rank_resources.h"
-#include "render/scene_renderer.h"
-#include "scene/scene_volume.h"
+#include "render/pipeline.h"
 #include "scene_files/scene_document.h"
 #include "scene_files/scene_reader.h"
-#include "tiles/tile_capabilities.h"
 
 namespace {
 
@@ -73,10 +71,12 @@ void run_round(const Ranks& ranks, const Image& own, const PreciseImage& truth, 
 
 void bench(const Ranks& ranks, const char* file) {
     const Scene scene = read_scene(scene_document(file), file);
-    const auto volume = std::make_shared<const VolumeData>(open_volume(scene));
-    SceneRenderer renderer(scene, volume, tile_capabilities(), {}, {ranks.number(), ranks.count()});
-    const Image own = renderer.draw_picture();
-    const std::vector<int> order = renderer.front_to_back();
+    Pipeline pipeline(scene, {},
+                      {.context = ContextChoice::cpu, .share = {ranks.number(), ranks.count()}});
+    Image own;
+    pipeline.draw_frame();
+    pipeline.read(own);
+    const std::vector<int> order = pipeline.renderer().front_to_back();
     const PreciseImage truth = all_together(ranks, order, own);
 
     std::vector<std::unique_ptr<PictureComposer>> composers;

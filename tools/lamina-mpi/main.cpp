@@ -3,6 +3,7 @@
 // the others do what it says.
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/large_stack.h"
@@ -10,8 +11,8 @@
 #include "parallel/leader.h"
 #include "parallel/rank_resources.h"
 #include "program.h"
-#include "render_verb.h"
-#include "shared_slice_job.h"
+#include "render_extras.h"
+#include "shared_frames.h"
 
 namespace {
 
@@ -21,10 +22,17 @@ int lead(const Ranks& ranks, int argc, char** argv) {
     Leader leader(ranks);
     const auto add_verbs = [&](CLI::App& app, int&) {
         auto wire = std::make_shared<std::string>(name_of(Wire::float32));
-        CLI::App& verb = add_render_with(app, [&leader, wire](const RenderRequest& request) {
+        RenderExtras extras;
+        extras.check = check_shared;
+        extras.make_frames = [&leader, wire](const Scene& scene, SceneData& data,
+                                             const PipelineOptions& options) {
             leader.set_wire(wire_of(*wire));
-            return make_shared_slice_job(request, leader);
-        });
+            return std::make_unique<SharedFrames>(leader, scene, data, options);
+        };
+        extras.add_statistics = [&leader](nlohmann::ordered_json& json) {
+            json["ranks"] = to_json(leader.last_reports());
+        };
+        CLI::App& verb = add_render_with(app, extras);
         verb.description("Render a volume to a picture, with each rank drawing its part of it");
         verb.footer("The shortest: mpirun -n 4 lamina-mpi render head.nrrd -o head.png");
         verb.add_option("--wire", *wire,

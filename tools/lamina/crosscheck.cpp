@@ -23,7 +23,7 @@
 #include "raw_options.h"
 #include "render/context_choice.h"
 #include "render/draw_context.h"
-#include "scene_data.h"
+#include "render/pipeline.h"
 #include "scene_files.h"
 #include "scene_options.h"
 #include "study/crosscheck.h"
@@ -158,7 +158,7 @@ void run(const CrosscheckOptions& options) {
     expect_own_folder(folder, crosscheck_name, names, files_of(scene), options.force);
     const study::CrosscheckSettings settings = settings_of(options, folder / kept_name);
     say_of_one_mesh(options, scene);
-    choose_for_volume(scene);
+    scene = chosen_by_volume(scene);
     for (const std::string& chosen : scene.chosen) say(options, chosen);
     const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();

@@ -20,7 +20,7 @@
 #include "meshing/volume_mesh.h"
 #include "only_below_option.h"
 #include "raw_options.h"
-#include "scene_data.h"
+#include "render/pipeline.h"
 #include "scene_files.h"
 #include "scene_files/scene_document.h"
 #include "verbs.h"
@@ -110,7 +110,7 @@ MeshTask load(const MeshOptions& options, const MeshOutput& output) {
     if (!scene.has_volume()) {
         fail("{}: has no \"volume\", which a mesh could be made from", options.input);
     }
-    choose_for_volume(scene);
+    scene = chosen_by_volume(scene);
     if (!options.quiet) {
         for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
     }

@@ -23,9 +23,9 @@
 #include "mesh/mesh_shape.h"
 #include "mesh_files/mesh_file.h"
 #include "only_below_option.h"
+#include "render/pipeline.h"
 #include "reference/order_pixels.h"
 #include "scene/scene_mesh.h"
-#include "scene_data.h"
 #include "scene_files/scene_document.h"
 #include "verbs.h"
 #include "visibility/order_check.h"
@@ -82,9 +82,8 @@ Input load(const std::string& file) {
     Scene scene = load_scene(file);
     if (!scene.has_mesh()) fail("{}: has no \"mesh\", whose tets could be put in order", file);
     scene.method = Method::project;
-    RenderStats ignored;
-    const SceneData data = load_data(scene, {}, ignored);
-    return {data.mesh->mesh, scene.camera};
+    Pipeline pipeline(scene);
+    return {pipeline.data().mesh(pipeline.scene())->mesh, pipeline.scene().camera};
 }
 
 // Halton's sequence: the digits of `index`, from 1, to the base are mirrored at the point.

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "base/client.h"
 #include "base/error.h"
@@ -88,7 +89,9 @@ int run(const Program& program, int argc, char** argv) {
 
 // Does not throw.
 int run_and_report(const Program& program, int argc, char** argv, const SignalStop& signals) {
-    const ClientScope scope({.stop = signals.token()});
+    Client client;
+    client.stop = signals.token();
+    const ClientScope scope(std::move(client));
     try {
         return run(program, argc, argv);
     } catch (const UsageError& error) {

@@ -21,10 +21,10 @@
 #include "only_below_option.h"
 #include "profile_file.h"
 #include "render/context_choice.h"
-#include "render_job.h"
+#include "render/pipeline.h"
+#include "render_extras.h"
 #include "render_output.h"
-#include "render_verb.h"
-#include "scene_data.h"
+#include "render_stats.h"
 #include "scene_options.h"
 #include "verbs.h"
 #include "view_options.h"
@@ -62,15 +62,9 @@ void message(const RenderOptions& options, const std::string& text) {
     if (!options.quiet) print_message("lamina: {}\n", text);
 }
 
-std::unique_ptr<RenderJob> make_any_job(const RenderRequest& request) {
-    if (request.scene.method == Method::slice) return make_slice_job(request);
-    if (request.scene.method == Method::project) return make_project_job(request);
-    return request.scene.draws_mesh() ? make_mesh_trace_job(request)
-                                      : make_volume_trace_job(request);
-}
-
-void write_profile(ProfileFile& profile, const RenderOptions& options, const RenderStats& stats) {
-    const auto left_out = profile.write("lamina render " + options.scene.file, stats.context);
+void write_profile(ProfileFile& profile, const RenderOptions& options,
+                   const std::string& drawn_by) {
+    const auto left_out = profile.write("lamina render " + options.scene.file, drawn_by);
     if (left_out > 0)
         message(options, fmt::format("--profile: the first {} spans are kept, {} are left out",
                                      Profile::most_spans, left_out));
@@ -85,78 +79,106 @@ void print_explanation(const RenderOptions& options, const std::string& explanat
     for (std::string line; std::getline(lines, line);) write_message(line + "\n");
 }
 
-// Does one `lamina render`, from the files to the picture and the statistics.
-void run(const RenderOptions& options, const RenderJobMaker& make_job) {
-    std::optional<ProfileFile> profile;
-    if (!options.profile.empty()) profile.emplace(options.profile);
-    const Stopwatch watch;
-    Stage reading("scene");
+// The scene as the command line has it, with its JSON and the steps that --time names.
+struct ReadScene {
+    Scene scene;
     nlohmann::json document;
     std::optional<DataSeries> series;
+};
+
+ReadScene read(const RenderOptions& options) {
+    const Stage reading("scene");
+    ReadScene read;
     SceneOptions named = options.scene;
     std::function<void(nlohmann::json&)> edit;
     if (options.output.time) {
-        series.emplace(named.file, time_range(*options.output.time));
-        named.file = series->first_file();
-        edit = [&](nlohmann::json& of_scene) { series->begin(of_scene); };
+        read.series.emplace(named.file, time_range(*options.output.time));
+        named.file = read.series->first_file();
+        edit = [&](nlohmann::json& of_scene) { read.series->begin(of_scene); };
     }
-    Scene scene = load_scene(named, settings_of(options.view), document, edit);
-    if (series) series->check(scene);
-    Wishes wishes = wishes_of(options.view, scene.color_space);
-    wishes.all_around = options.output.views > 1;
-    reading.end();
-    for (const std::string& warning : scene.warnings) warn(warning);
-    const OmissionSwitch omissions = omission_switch(options);
-    const ContextChoice context = context_choice(options.context);
+    read.scene = load_scene(named, settings_of(options.view), read.document, edit);
+    if (read.series) read.series->check(read.scene);
+    for (const std::string& warning : read.scene.warnings) warn(warning);
+    return read;
+}
+
+PipelineOptions how_to_draw(const RenderOptions& options, const Scene& scene,
+                            const RenderExtras& extras) {
+    PipelineOptions how;
+    how.context = context_choice(options.context);
+    how.omissions = omission_switch(options);
+    how.wishes = wishes_of(options.view, scene.color_space);
+    how.wishes.all_around = options.output.views > 1;
+    how.many_frames = options.output.frames > 0 || options.output.views > 0;
+    how.count_fragments = !options.stats.empty();
+    how.make_frames = extras.make_frames;
+    return how;
+}
+
+void say_written(const RenderOptions& options, const Scene& scene, const RunStatistics& run,
+                 const std::string& written) {
+    const std::int64_t clamped = run.picture.counts.at("clamped_pixels");
+    if (clamped > 0)
+        message(options, fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
+    std::string took;
+    if (!run.frames_ms.empty()) {
+        const double ms = run.frames_ms.back();
+        took = fmt::format(", {:.{}f} ms a frame", ms, ms >= 100 ? 0 : ms >= 10 ? 1 : 2);
+    }
+    message(options, fmt::format("wrote {} ({} x {}, {}{})", written, scene.width, scene.height,
+                                 run.picture.drawn_by, took));
+}
+
+// Does one `lamina render`, from the files to the picture and the statistics.
+void run(const RenderOptions& options, const RenderExtras& extras) {
+    std::optional<ProfileFile> profile;
+    if (!options.profile.empty()) profile.emplace(options.profile);
+    const Stopwatch watch;
+    const ReadScene read = lamina::read(options);
+    const PipelineOptions how = how_to_draw(options, read.scene, extras);
     restrict_instructions_as_asked();
-    const auto output = open_output(options.output, {scene, omissions, watch},
-                                    series ? &*series : nullptr, {options.stats, options.profile});
+    const auto say = [&](const std::string& text) { message(options, text); };
+    const auto output = open_output(options.output, {read.scene, how, watch, say},
+                                    read.series ? &*read.series : nullptr,
+                                    {options.stats, options.profile});
     std::unique_ptr<OutputFile> stats_file;
     if (!options.stats.empty()) stats_file = open_named(options.stats);
 
-    const auto say = [&](const std::string& text) { message(options, text); };
-    RenderStats stats;
-    const SceneData data = load_data(scene, wishes, stats);
-    const bool changed = !scene.chosen.empty() || wishes.transfer_function() || wishes.camera();
-    const std::string scene_text =
-        json_text(changed ? nlohmann::json(document_of(scene, document)) : document, 2);
+    Pipeline pipeline(read.scene, {}, how);
+    pipeline.load();
+    const Scene& scene = pipeline.scene();
+    const bool changed =
+        !scene.chosen.empty() || how.wishes.transfer_function() || how.wishes.camera();
+    const std::string scene_text = json_text(
+        changed ? nlohmann::json(document_of(scene, read.document)) : read.document, 2);
     for (const std::string& chosen : scene.chosen) say(chosen);
-    const bool many_frames = options.output.frames > 0 || options.output.views > 0;
-    const auto job_of = [&](const Scene& drawn, const SceneData& its) {
-        return make_job({drawn, its, omissions, context, !options.stats.empty(), many_frames});
-    };
-    const auto job = job_of(scene, data);
-    if (output) output->prepare(job_of, data, say);
-    const Plan plan = job->plan(stats);
-    const std::string explanation = chosen_text(scene) + job->explanation(plan);
+    if (extras.check) extras.check(scene, how.context);
+    const Plan plan = pipeline.plan();
+    pipeline.warn_of_plan();
+    const std::string explanation = pipeline.explanation();
     if (options.explain) print_explanation(options, explanation);
     if (!output) return;
+    RunStatistics statistics;
     const std::string written = output->draw(
-        *job, plan, stats,
+        pipeline, statistics,
         {{"scene", scene_text}, {"plan", explanation}, {"software", "lamina " LAMINA_VERSION}});
-    const std::int64_t clamped = stats.counts["clamped_pixels"];
-    if (clamped > 0) say(fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
     if (stats_file) {
-        stats_file->write(json_text(to_json(stats, plan), 2) + "\n");
+        nlohmann::ordered_json json = to_json(statistics, plan);
+        if (extras.add_statistics) extras.add_statistics(json);
+        stats_file->write(json_text(json, 2) + "\n");
         stats_file->commit();
     }
-    if (profile) write_profile(*profile, options, stats);
-    std::string took;
-    if (!stats.frames_ms.empty()) {
-        const double ms = stats.frames_ms.back();
-        took = fmt::format(", {:.{}f} ms a frame", ms, ms >= 100 ? 0 : ms >= 10 ? 1 : 2);
-    }
-    say(fmt::format("wrote {} ({} x {}, {}{})", written, scene.width, scene.height, stats.context,
-                    took));
+    if (profile) write_profile(*profile, options, statistics.picture.drawn_by);
+    say_written(options, scene, statistics, written);
 }
 
 }  // namespace
 
 void add_render(CLI::App& app, int&) {
-    add_render_with(app, make_any_job);
+    add_render_with(app, {});
 }
 
-CLI::App& add_render_with(CLI::App& app, const RenderJobMaker& make_job) {
+CLI::App& add_render_with(CLI::App& app, const RenderExtras& extras) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* const verb =
         app.add_subcommand("render", "Render a scene, a volume or a mesh to a picture");
@@ -198,7 +220,7 @@ CLI::App& add_render_with(CLI::App& app, const RenderJobMaker& make_job) {
     add_memory_option(*verb);
     add_only_below_option(*verb);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
-    verb->callback([options, make_job] {
+    verb->callback([options, extras] {
         if (options->output.output.empty() && !options->explain) {
             throw UsageError("render: expected -o FILE (only --explain works without a picture)");
         }
@@ -206,7 +228,7 @@ CLI::App& add_render_with(CLI::App& app, const RenderJobMaker& make_job) {
         if (options->output.output.empty() && !options->profile.empty())
             throw UsageError("--profile: expected -o FILE, too");
         Progress::set_quiet(options->quiet);
-        run(*options, make_job);
+        run(*options, extras);
     });
     return *verb;
 }

@@ -26,32 +26,37 @@ class SinglePicture : public RenderOutput {
           scene_(scene),
           picture_(options.output, picture_format(options.output, options.format)) {}
 
-    std::string draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+    std::string draw(Pipeline& pipeline, RunStatistics& run,
                      PictureAttributes attributes) override {
-        job.draw(plan, stats);
-        stats.first_picture_ms = scene_.watch.milliseconds();
-        if (frames_ > 0) time_frames(job, stats);
+        Image image;
+        pipeline.draw(image);
+        run.add(pipeline.statistics());
+        run.first_picture_ms = scene_.watch.milliseconds();
+        if (frames_ > 0) time_frames(pipeline, run);
         Stage writing("write");
-        attributes["renderer"] = stats.renderer;
-        const std::size_t clamped = job.write(picture_, attributes);
-        stats.stages_ms["write"] = writing.end();
-        stats.first_picture_ms += stats.stages_ms["write"];  // the picture of the first frame
-        stats.counts["clamped_pixels"] = static_cast<std::int64_t>(clamped);
+        attributes["renderer"] = run.picture.renderer;
+        run.picture.counts["clamped_pixels"] =
+            write_picture(picture_, pipeline, image, attributes);
+        run.picture.stages_ms["write"] = writing.end();
+        // The picture is that of the first frame.
+        run.first_picture_ms += run.picture.stages_ms["write"];
         return name_;
     }
 
   private:
     // The camera turns further from frame to frame.
-    void time_frames(RenderJob& job, RenderStats& stats) const {
-        stats.frames_ms.clear();  // the scene's own frame was the warm-up
+    void time_frames(Pipeline& pipeline, RunStatistics& run) const {
+        run.frames_ms.clear();  // the scene's own frame was the warm-up
+        const Camera own = pipeline.scene().camera;
         Progress progress("timing frames", frames_);
         for (int i = 1; i <= frames_; ++i) {
             check_interrupt();
-            const Camera camera = turned(scene_.scene.camera, degrees_ * i);
+            const Camera camera = turned(own, degrees_ * i);
             Stage frame("frame");
             frame.count("frame", i);
-            job.draw_frame(camera);
-            stats.frames_ms.push_back(frame.end());
+            pipeline.set_camera(camera);
+            pipeline.draw_frame();
+            run.frames_ms.push_back(frame.end());
             progress.advance();
         }
     }
@@ -119,6 +124,16 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
     verb.add_flag("--force", options.force,
                   "With --turntable and --time: draw pictures that are there, too, and replace "
                   "files that it did not write, but never one that it reads");
+}
+
+std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& picture,
+                           const PictureAttributes& attributes) {
+    const Scene& scene = pipeline.scene();
+    const auto write = [&](const auto& image) {
+        return static_cast<std::int64_t>(
+            file.write(image, scene.background, attributes, scene.color_space));
+    };
+    return scene.method == Method::trace ? write(pipeline.traced()->image) : write(picture);
 }
 
 std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const OutputScene& scene,

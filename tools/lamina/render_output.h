@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -11,7 +12,9 @@
 
 #include "base/stopwatch.h"
 #include "data_series.h"
-#include "render_job.h"
+#include "picture_file.h"
+#include "render/pipeline.h"
+#include "render_stats.h"
 
 namespace lamina {
 
@@ -31,29 +34,28 @@ struct OutputOptions {
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
 
-// What is drawn; all outlives the output.
+// What is drawn, and how; all outlives the output.
 struct OutputScene {
-    const Scene& scene;
-    const OmissionSwitch& omissions;
-    const Stopwatch& watch;  // from the start of the run
+    const Scene& scene;  // as it was read
+    const PipelineOptions& how;
+    const Stopwatch& watch;                        // from the start of the run
+    std::function<void(const std::string&)> say;  // to the user
 };
 
 // The pictures that one run writes.
 class RenderOutput {
   public:
-    using JobMaker = std::function<std::unique_ptr<RenderJob>(const Scene&, const SceneData&)>;
-    using Messages = std::function<void(const std::string&)>;
-
     virtual ~RenderOutput() = default;
     // Draws and writes them, and returns their names in words. `attributes`: of the scene's own
-    // picture, but for the renderer. The job has planned.
-    virtual std::string draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+    // picture, but for the renderer. The pipeline has planned.
+    virtual std::string draw(Pipeline& pipeline, RunStatistics& run,
                              PictureAttributes attributes) = 0;
-    // Takes what the pictures of other data need, before draw(). `first`: the scene's own data.
-    // `say`: to the user.
-    virtual void prepare(const JobMaker& /*make_job*/, const SceneData& /*first*/,
-                         const Messages& /*say*/) {}
 };
+
+// Writes the picture that the pipeline has drawn last: `picture`, or the tracer's, in double
+// precision. Returns the number of pixels that were clamped.
+std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& picture,
+                           const PictureAttributes& attributes);
 
 // Opens the output, null where there is none: paths that cannot be written fail at once. `others`:
 // files that are written, too. Throws UsageError where one of them or of the output is a file that

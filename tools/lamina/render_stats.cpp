@@ -107,13 +107,22 @@ Json to_json(const Work& work) {
 }
 
 // Returns the counts of the work that Plan::work predicts.
-Json actual_work(const RenderStats& stats, const Plan& plan) {
+Json actual_work(const FrameStatistics& picture, const Plan& plan) {
     Json json = Json::object();
-    if (plan.method == Method::slice && stats.on_tiles) json["segments"] = stats.fragments;
-    if (plan.method == Method::project) json["tets_drawn"] = stats.tets_drawn;
+    if (plan.method == Method::slice && picture.native) json["segments"] = picture.fragments;
+    if (plan.method == Method::project) json["tets_drawn"] = picture.tets_drawn;
     if (plan.method != Method::trace)
-        json["bytes"] = stats.on_tiles ? stats.bytes_host : stats.bytes_gpu;
+        json["bytes"] = picture.native ? picture.bytes : picture.bytes_gpu;
     return json;
+}
+
+// Measuring the data, facts and trials are one stage here.
+std::map<std::string, double> stages_of(const FrameStatistics& picture) {
+    std::map<std::string, double> stages = picture.stages_ms;
+    for (const char* const part : {"facts", "trials"}) {
+        if (const auto found = stages.extract(part)) stages["measure"] += found.mapped();
+    }
+    return stages;
 }
 
 Json to_json(const ErrorFigure& error) {
@@ -154,18 +163,29 @@ void keep_largest(const std::map<std::string, std::int64_t>& counts,
     }
 }
 
-nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
+void RunStatistics::add(const FrameStatistics& next) {
+    if (frames_ms.empty()) {
+        picture = next;
+    } else {
+        keep_largest(next.counts, picture.counts);
+        picture.trace_error = std::max(picture.trace_error, next.trace_error);
+    }
+    frames_ms.push_back(next.draw_ms);
+}
+
+nlohmann::ordered_json to_json(const RunStatistics& run, const Plan& plan) {
+    const FrameStatistics& picture = run.picture;
     Json json;
-    json["first_picture_ms"] = stats.first_picture_ms;
-    json["frame_ms"] = times_to_json(stats.frames_ms);
-    json["stages"] = stats.stages_ms;
-    json["samples"] = stats.samples;
-    json["fragments"] = stats.fragments;
-    json["tets_drawn"] = stats.tets_drawn;
-    json["bytes_gpu"] = stats.bytes_gpu;
-    json["bytes_host"] = stats.bytes_host;
+    json["first_picture_ms"] = run.first_picture_ms;
+    json["frame_ms"] = times_to_json(run.frames_ms);
+    json["stages"] = stages_of(picture);
+    json["samples"] = picture.slabs;
+    json["fragments"] = picture.fragments;
+    json["tets_drawn"] = picture.tets_drawn;
+    json["bytes_gpu"] = picture.bytes_gpu;
+    json["bytes_host"] = picture.bytes;
     json["peak_rss_mb"] = static_cast<double>(peak_resident_memory()) / (1 << 20);
-    json["context"] = stats.context;
+    json["context"] = picture.drawn_by;
     json["plan"] = plan_to_json(plan);
     if (plan.method != Method::trace) json["error"] = to_json(plan.error());
     json["omitted"] = Json::array();
@@ -174,11 +194,10 @@ nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
                                    {"reason", omission.reason},
                                    {"saves", to_json(omission.saves)}});
     }
-    json["work"] = {{"predicted", to_json(plan.work)}, {"actual", actual_work(stats, plan)}};
-    json["counts"] = stats.counts;
-    if (stats.ranks) json["ranks"] = *stats.ranks;
-    if (stats.mesh_error) json["mesh_error"] = *stats.mesh_error;
-    if (stats.error_estimate) json["error_estimate"] = *stats.error_estimate;
+    json["work"] = {{"predicted", to_json(plan.work)}, {"actual", actual_work(picture, plan)}};
+    json["counts"] = picture.counts;
+    if (picture.mesh_error) json["mesh_error"] = *picture.mesh_error;
+    if (plan.method == Method::trace) json["error_estimate"] = picture.trace_error / 255;
     return json;
 }
 

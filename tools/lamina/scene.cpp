@@ -12,7 +12,7 @@
 #include "different_files.h"
 #include "named_output.h"
 #include "only_below_option.h"
-#include "scene_data.h"
+#include "render/pipeline.h"
 #include "scene_files.h"
 #include "scene_options.h"
 #include "verbs.h"
@@ -58,15 +58,17 @@ void expect_utf8(const std::filesystem::path& file) {
 
 void run(const SceneVerbOptions& options) {
     nlohmann::json document;
-    Scene scene = load_scene(options.scene, settings_of(options.view), document);
-    const Wishes wishes = wishes_of(options.view, scene.color_space);
+    const Scene asked = load_scene(options.scene, settings_of(options.view), document);
     for (const std::filesystem::path& file :
-         {scene.volume_file, scene.mesh_file, scene.colormap_file})
+         {asked.volume_file, asked.mesh_file, asked.colormap_file})
         expect_utf8(file);
-    expect_different_files(files_of(scene), {options.output});
+    expect_different_files(files_of(asked), {options.output});
     const auto output = open_named(options.output);
-    RenderStats ignored;
-    load_data(scene, wishes, ignored);
+    PipelineOptions how;
+    how.wishes = wishes_of(options.view, asked.color_space);
+    Pipeline pipeline(asked, {}, how);
+    pipeline.load();
+    const Scene& scene = pipeline.scene();
     output->write(scene_text(options, scene, document));
     output->commit();
     if (options.quiet) return;

@@ -11,6 +11,7 @@
 #include "named_output.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/scene_document.h"
+#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
@@ -55,6 +56,13 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
         }
         throw;
     }
+}
+
+nlohmann::ordered_json document_of(const Scene& scene, const nlohmann::json& document) {
+    nlohmann::ordered_json result = scene_json(scene);
+    result["render"] = document.value("render", nlohmann::json::object());
+    result["render"]["method"] = name_of(scene.method);
+    return result;
 }
 
 }  // namespace lamina

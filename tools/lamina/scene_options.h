@@ -27,4 +27,8 @@ struct SceneOptions {
 Scene load_scene(const SceneOptions& options, const std::vector<std::string>& more,
                  nlohmann::json& document, const std::function<void(nlohmann::json&)>& edit = {});
 
+// The scene as a document that load_scene() reads: all of it that is not about drawing, and what
+// `document` says about that.
+nlohmann::ordered_json document_of(const Scene& scene, const nlohmann::json& document);
+
 }  // namespace lamina

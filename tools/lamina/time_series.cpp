@@ -56,12 +56,6 @@ TimeSeries::TimeSeries(const OutputOptions& options, const OutputScene& scene,
         const AtomicFile unused(path_of(names_.record_name(series_word)));
 }
 
-void TimeSeries::prepare(const JobMaker& make_job, const SceneData& first, const Messages& say) {
-    make_job_ = make_job;
-    first_ = &first;
-    say_ = say;
-}
-
 std::vector<std::string> TimeSeries::names() const {
     std::vector<std::string> names;
     for (const std::int64_t step : series_.steps()) names.push_back(name_at(step));
@@ -79,8 +73,8 @@ std::string TimeSeries::key_of(const PictureAttributes& attributes) const {
         if (file != scene_.scene.file && std::ranges::count(of_first, file) == 0)
             hash.add(hash_of_file(file));
     }
-    hash.add(scene_.omissions.none ? 1.0 : 0.0);
-    for (const std::string& name : scene_.omissions.kept) hash.add(name);
+    hash.add(scene_.how.omissions.none ? 1.0 : 0.0);
+    for (const std::string& name : scene_.how.omissions.kept) hash.add(name);
     hash.add(std::string_view(git_commit));
     return hash.hex();
 }
@@ -105,34 +99,43 @@ std::vector<std::int64_t> TimeSeries::missing(const SeriesRecord& record) const 
 }
 
 TimeSeries::Loaded TimeSeries::load(const Scene& resolved, std::int64_t step) const {
-    Loaded loaded{series_.at(resolved, step), {}, input_of(step)};
-    RenderStats unused;
-    loaded.data = load_data(loaded.scene, {}, unused);
-    return loaded;
+    PipelineOptions how = scene_.how;
+    how.wishes = {};  // they are in the scene already
+    auto pipeline = std::make_unique<Pipeline>(series_.at(resolved, step), SceneData(), how);
+    std::string input = input_of(step);
+    pipeline->load();
+    return {std::move(pipeline), std::move(input)};
 }
 
-void TimeSeries::say_of_grid(const SceneData& data, std::int64_t step) const {
-    if (!data.volume || !first_->volume) return;
-    if (same_grid(data.volume->volume.grid(), first_->volume->volume.grid())) return;
-    say_(fmt::format(
+void TimeSeries::say_of_grid(Pipeline& of_step, Pipeline& first, std::int64_t step) const {
+    if (first.scene().draws_mesh()) return;
+    const auto grid_of = [](Pipeline& one) -> const Grid& {
+        return one.data().volume(one.scene())->volume.grid();
+    };
+    if (same_grid(grid_of(of_step), grid_of(first))) return;
+    scene_.say(fmt::format(
         "step {}: its grid is not that of step {}, whose camera and settings it is drawn with",
         step, series_.steps().front()));
 }
 
-void TimeSeries::draw_step(RenderJob& job, const Plan& plan, const Scene& scene, std::int64_t step,
-                           RenderStats& stats, PictureAttributes& attributes) const {
+void TimeSeries::draw_step(Pipeline& pipeline, const Scene& scene, std::int64_t step,
+                           RunStatistics& run, PictureAttributes& attributes) const {
     PictureFile picture(path_of(name_at(step)), format_);
-    job.draw_view(scene.camera, plan, stats);
+    Image image;
+    pipeline.draw(image);
+    const std::int64_t clamped = run.picture.counts["clamped_pixels"];
+    run.add(pipeline.statistics());
     attributes["scene"] = json_text(scene_json(scene), 2);
-    attributes["renderer"] = stats.renderer;
-    stats.counts["clamped_pixels"] += static_cast<std::int64_t>(job.write(picture, attributes));
+    attributes["renderer"] = run.picture.renderer;
+    run.picture.counts["clamped_pixels"] =
+        clamped + write_picture(picture, pipeline, image, attributes);
 }
 
 void TimeSeries::draw_missing(const std::vector<std::int64_t>& steps, SeriesRecord& record,
-                              RenderJob& job, const Plan& plan, RenderStats& stats,
+                              Pipeline& pipeline, RunStatistics& run,
                               PictureAttributes& attributes) const {
     Progress progress("drawing steps", static_cast<std::int64_t>(steps.size()));
-    const Scene resolved = job.resolved_scene();
+    const Scene resolved = pipeline.resolved_scene();
     const std::int64_t first = series_.steps().front();
     std::future<Loaded> next;
     const auto read_ahead = [&](std::size_t i) {
@@ -151,20 +154,13 @@ void TimeSeries::draw_missing(const std::vector<std::int64_t>& steps, SeriesReco
         if (step == first) {
             read_ahead(i + 1);
             input = input_of(step);
-            draw_step(job, plan, resolved, step, stats, attributes);
-            stats.first_picture_ms = scene_.watch.milliseconds();
+            draw_step(pipeline, resolved, step, run, attributes);
+            run.first_picture_ms = scene_.watch.milliseconds();
         } else {
             const Loaded loaded = next.get();
             read_ahead(i + 1);
-            say_of_grid(loaded.data, step);
-            const auto job_of_step = make_job_(loaded.scene, loaded.data);
-            RenderStats of_step;
-            const Plan plan_of_step = job_of_step->plan(of_step);
-            draw_step(*job_of_step, plan_of_step, loaded.scene, step, of_step, attributes);
-            stats.frames_ms.insert(stats.frames_ms.end(), of_step.frames_ms.begin(),
-                                   of_step.frames_ms.end());
-            keep_largest(of_step.counts, stats.counts);
-            if (stats.renderer.empty()) stats.renderer = of_step.renderer;
+            say_of_grid(*loaded.pipeline, pipeline, step);
+            draw_step(*loaded.pipeline, loaded.pipeline->scene(), step, run, attributes);
             input = loaded.input;
         }
         record.add(name_at(step), input);
@@ -172,22 +168,23 @@ void TimeSeries::draw_missing(const std::vector<std::int64_t>& steps, SeriesReco
     }
 }
 
-std::string TimeSeries::draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+std::string TimeSeries::draw(Pipeline& pipeline, RunStatistics& run,
                              PictureAttributes attributes) {
     OwnFiles(folder(), series_verb).add(names());
-    attributes["renderer"] = stats.renderer;
-    attributes["scene"] = json_text(scene_json(job.resolved_scene()), 2);
+    attributes["renderer"] = pipeline.statistics().renderer;
+    attributes["scene"] = json_text(scene_json(pipeline.resolved_scene()), 2);
     SeriesRecord record(path_of(names_.record_name(series_word)), key_of(attributes));
     const std::vector<std::int64_t> steps = missing(record);
+    if (steps.empty()) run.picture = pipeline.statistics();
     const auto all = static_cast<std::int64_t>(series_.steps().size());
     const std::int64_t kept = all - static_cast<std::int64_t>(steps.size());
     if (all > 1 && !steps.empty()) {
-        say_(fmt::format(
+        scene_.say(fmt::format(
             "transfer function, camera and what is automatic are those of step {}, for all steps",
             series_.steps().front()));
     }
     try {
-        draw_missing(steps, record, job, plan, stats, attributes);
+        draw_missing(steps, record, pipeline, run, attributes);
     } catch (const Interrupted&) {
         const ClientScope scope(finishing_client());
         record.write();
@@ -196,7 +193,7 @@ std::string TimeSeries::draw(RenderJob& job, const Plan& plan, RenderStats& stat
                         all - static_cast<std::int64_t>(missing(record).size()), all));
     }
     record.write();
-    stats.counts["kept_views"] = kept;
+    run.picture.counts["kept_views"] = kept;
     const std::string last = all > 1 ? " .. " + name_at(series_.steps().back()) : "";
     return fmt::format("{} of {} steps as {}{}{}", steps.size(), all,
                        path_of(name_at(series_.steps().front())).string(), last,

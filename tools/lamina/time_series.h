@@ -27,16 +27,13 @@ class TimeSeries : public RenderOutput {
                const std::vector<std::filesystem::path>& read,
                const std::vector<std::filesystem::path>& others);
 
-    void prepare(const JobMaker& make_job, const SceneData& first, const Messages& say) override;
-
-    std::string draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+    std::string draw(Pipeline& pipeline, RunStatistics& run,
                      PictureAttributes attributes) override;
 
   private:
-    // A step's data, read ahead.
+    // A step with its data, read ahead.
     struct Loaded {
-        Scene scene;
-        SceneData data;
+        std::unique_ptr<Pipeline> pipeline;
         std::string input;
     };
 
@@ -48,20 +45,17 @@ class TimeSeries : public RenderOutput {
     std::string input_of(std::int64_t step) const;
     std::vector<std::int64_t> missing(const SeriesRecord& record) const;
     Loaded load(const Scene& resolved, std::int64_t step) const;
-    void draw_missing(const std::vector<std::int64_t>& steps, SeriesRecord& record, RenderJob& job,
-                      const Plan& plan, RenderStats& stats, PictureAttributes& attributes) const;
-    void draw_step(RenderJob& job, const Plan& plan, const Scene& scene, std::int64_t step,
-                   RenderStats& stats, PictureAttributes& attributes) const;
-    void say_of_grid(const SceneData& data, std::int64_t step) const;
+    void draw_missing(const std::vector<std::int64_t>& steps, SeriesRecord& record,
+                      Pipeline& pipeline, RunStatistics& run, PictureAttributes& attributes) const;
+    void draw_step(Pipeline& pipeline, const Scene& scene, std::int64_t step, RunStatistics& run,
+                   PictureAttributes& attributes) const;
+    void say_of_grid(Pipeline& of_step, Pipeline& first, std::int64_t step) const;
 
     FrameNames names_;
     PictureFormat format_;
     bool force_;
     OutputScene scene_;
     const DataSeries& series_;
-    JobMaker make_job_;
-    const SceneData* first_ = nullptr;
-    Messages say_;
 };
 
 }  // namespace lamina

@@ -31,8 +31,8 @@ std::string key_of(const OutputScene& of, const PictureAttributes& attributes, i
         // The scene's own text is among the attributes, with what --set changed in it.
         if (file != of.scene.file) hash.add(hash_of_file(file));
     }
-    hash.add(of.omissions.none ? 1.0 : 0.0);
-    for (const std::string& name : of.omissions.kept) hash.add(name);
+    hash.add(of.how.omissions.none ? 1.0 : 0.0);
+    for (const std::string& name : of.how.omissions.kept) hash.add(name);
     hash.add(std::string_view(git_commit));
     hash.add(static_cast<double>(views));
     return hash.hex();
@@ -75,11 +75,6 @@ std::vector<std::string> Turntable::names() const {
     return names;
 }
 
-Camera Turntable::camera_of(int view) const {
-    const Camera& own = scene_.scene.camera;
-    return view == 0 ? own : turned(own, 360.0 * view / views_);
-}
-
 std::vector<int> Turntable::missing(const SeriesRecord& record) const {
     std::vector<int> views;
     for (int view = 0; view < views_; ++view) {
@@ -88,37 +83,44 @@ std::vector<int> Turntable::missing(const SeriesRecord& record) const {
     return views;
 }
 
-void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record, RenderJob& job,
-                             const Plan& plan, RenderStats& stats,
+void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record,
+                             Pipeline& pipeline, RunStatistics& run,
                              PictureAttributes& attributes) const {
     Progress progress("drawing views", static_cast<std::int64_t>(views.size()));
     const std::string scene_text = attributes.at("scene");
+    const Camera own = pipeline.scene().camera;
     std::int64_t clamped = 0;
+    Image image;
     for (const int view : views) {
         check_interrupt();
         const std::string name = names_.name(view);
-        const Camera camera = camera_of(view);
+        const Camera camera = view == 0 ? own : turned(own, 360.0 * view / views_);
         PictureFile picture(path_of(name), format_);
-        job.draw_view(camera, plan, stats);
+        pipeline.set_camera(camera);
+        if (view == views.front())
+            pipeline.draw(image);
+        else
+            pipeline.draw_quietly(image);
+        run.add(pipeline.statistics());
         attributes["scene"] = scene_text_of(scene_text, camera);
-        attributes["renderer"] = stats.renderer;
-        clamped += static_cast<std::int64_t>(job.write(picture, attributes));
-        if (view == views.front()) stats.first_picture_ms = scene_.watch.milliseconds();
+        attributes["renderer"] = run.picture.renderer;
+        clamped += write_picture(picture, pipeline, image, attributes);
+        if (view == views.front()) run.first_picture_ms = scene_.watch.milliseconds();
         record.add(name);
         progress.advance();
     }
-    stats.counts["clamped_pixels"] = clamped;
+    run.picture.counts["clamped_pixels"] = clamped;
 }
 
-std::string Turntable::draw(RenderJob& job, const Plan& plan, RenderStats& stats,
-                            PictureAttributes attributes) {
+std::string Turntable::draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) {
     OwnFiles(folder(), turntable_verb).add(names());
-    attributes["renderer"] = stats.renderer;
+    attributes["renderer"] = pipeline.statistics().renderer;
     SeriesRecord record(path_of(names_.record_name(turntable_word)),
                         key_of(scene_, attributes, views_));
     const std::vector<int> views = missing(record);
+    if (views.empty()) run.picture = pipeline.statistics();
     try {
-        draw_missing(views, record, job, plan, stats, attributes);
+        draw_missing(views, record, pipeline, run, attributes);
     } catch (const Interrupted&) {
         const ClientScope scope(finishing_client());
         record.write();
@@ -130,7 +132,7 @@ std::string Turntable::draw(RenderJob& job, const Plan& plan, RenderStats& stats
     }
     record.write();
     const int drawn = static_cast<int>(views.size()), kept = views_ - drawn;
-    stats.counts["kept_views"] = kept;
+    run.picture.counts["kept_views"] = kept;
     const std::string written =
         fmt::format("{} of {} views as {}", drawn, views_, path_of(names_.name(0)).string());
     const std::string last = views_ > 1 ? " .. " + names_.name(views_ - 1) : "";

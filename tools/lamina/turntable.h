@@ -25,17 +25,16 @@ class Turntable : public RenderOutput {
               const std::vector<std::filesystem::path>& read,
               const std::vector<std::filesystem::path>& others);
 
-    std::string draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+    std::string draw(Pipeline& pipeline, RunStatistics& run,
                      PictureAttributes attributes) override;
 
   private:
     std::vector<std::string> names() const;  // in the folder, the record last
     std::filesystem::path folder() const { return names_.folder().empty() ? "." : names_.folder(); }
     std::filesystem::path path_of(const std::string& name) const { return names_.folder() / name; }
-    Camera camera_of(int view) const;
     std::vector<int> missing(const SeriesRecord& record) const;
-    void draw_missing(const std::vector<int>& views, SeriesRecord& record, RenderJob& job,
-                      const Plan& plan, RenderStats& stats, PictureAttributes& attributes) const;
+    void draw_missing(const std::vector<int>& views, SeriesRecord& record, Pipeline& pipeline,
+                      RunStatistics& run, PictureAttributes& attributes) const;
 
     FrameNames names_;
     PictureFormat format_;

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/pipeline.h"
+
+#include <cassert>
+#include <utility>
+
+#include "base/stage.h"
+#include "choice/mesh_field.h"
+#include "choice/volume_field.h"
+#include "gl/memory.h"
+#include "gl/query.h"
+#include "render/context_choice.h"
+#include "render/warnings.h"
+
+namespace lamina {
+
+Pipeline::Pipeline(Scene scene, SceneData data, PipelineOptions options)
+    : asked_(std::move(scene)),
+      scene_(asked_),
+      data_(std::move(data)),
+      options_(std::move(options)) {}
+
+template <typename Work>
+decltype(auto) Pipeline::in_context(const Work& work) {
+    const auto current = context_ ? context_->make_current() : nullptr;
+    return work();
+}
+
+// The context must be current when a renderer of OpenGL is destroyed.
+Pipeline::~Pipeline() {
+    drop_frames();
+}
+
+void Pipeline::drop_frames() {
+    if (!frames_) return;
+    in_context([&] { frames_.reset(); });
+    own_ = nullptr;
+}
+
+// --- data and choices
+
+Scene Pipeline::chosen() {
+    const Wishes& wishes = options_.wishes;
+    if (!leaves_something_open(asked_) && !wishes.transfer_function() && !wishes.camera())
+        return asked_;
+    const bool by_volume = !asked_.draws_mesh() || data_.makes_mesh(asked_);
+    std::unique_ptr<Field> field;
+    if (by_volume)
+        field = std::make_unique<VolumeField>(*data_.volume(asked_));
+    else
+        field = std::make_unique<MeshField>(*data_.mesh(asked_));
+    Stage choosing("choose");
+    Scene result = choose(asked_, *field, wishes);
+    stages_ms_["choose"] = choosing.end();
+    return result;
+}
+
+const Scene& Pipeline::scene() {
+    if (!chosen_) scene_ = chosen();
+    chosen_ = true;
+    return scene_;
+}
+
+void Pipeline::load() {
+    if (scene().draws_mesh())
+        data_.mesh(scene_);
+    else
+        data_.volume(scene_);
+}
+
+// --- changes
+
+// A mesh that is made from a volume depends on the transfer function.
+bool Pipeline::changes_mesh(const Scene& next) const {
+    const bool made = data_.makes_mesh(scene_), makes = data_.makes_mesh(next);
+    return made != makes || (makes && (next.mesh_request != scene_.mesh_request ||
+                                       next.transfer_function != scene_.transfer_function));
+}
+
+void Pipeline::take_scene(Scene next) {
+    const bool other_method = next.method != scene_.method, other_mesh = changes_mesh(next);
+    scene_ = std::move(next);
+    trace_plan_.reset();
+    if (other_mesh) data_.forget_mesh();
+    if (other_method || (other_mesh && scene_.method == Method::project)) drop_frames();
+}
+
+void Pipeline::set_scene(Scene scene) {
+    asked_ = std::move(scene);
+    // The mesh may be one that an earlier scene made from the volume: choices need that of a file.
+    const bool reads_mesh = data_.makes_mesh(scene_) && !data_.makes_mesh(asked_);
+    if (reads_mesh) {
+        if (scene_.method == Method::project) drop_frames();
+        data_.forget_mesh();
+        scene_.mesh_file = asked_.mesh_file;
+        scene_.mesh_time = asked_.mesh_time;
+    }
+    take_scene(chosen());
+    chosen_ = true;
+    if (frames_) in_context([&] { frames_->set_scene(scene_); });
+}
+
+void Pipeline::set_camera(const Camera& camera) {
+    scene_.camera = asked_.camera = camera;
+    asked_.automatic_camera = false;
+    trace_plan_.reset();
+    if (frames_) frames_->set_camera(camera);
+}
+
+void Pipeline::set_size(int width, int height) {
+    scene_.width = asked_.width = width;
+    scene_.height = asked_.height = height;
+    trace_plan_.reset();
+    if (frames_) frames_->set_size(width, height);
+}
+
+void Pipeline::set_transfer_function(const TransferFunction& transfer_function) {
+    asked_.transfer_function = transfer_function;
+    asked_.automatic_transfer_function = false;
+    Scene next = scene_;
+    next.transfer_function = transfer_function;
+    take_scene(std::move(next));
+    if (frames_) in_context([&] { frames_->set_transfer_function(transfer_function); });
+}
+
+void Pipeline::set_clip(const Clip& clip) {
+    scene_.clip = asked_.clip = clip;
+    trace_plan_.reset();
+    if (frames_) in_context([&] { frames_->set_clip(clip); });
+}
+
+// --- frames
+
+// The data decide if they do not fit the memory.
+const Capabilities& Pipeline::capabilities() {
+    if (options_.capabilities) return *options_.capabilities;
+    if (context_) return context_->capabilities();
+    const bool in_files =
+        scene().method == Method::slice && !data_.volume(scene_)->volume.in_memory();
+    Stage opening("context");
+    context_.emplace(in_files ? context_for_files(options_.context) : options_.context);
+    stages_ms_["context"] = opening.end();
+    return context_->capabilities();
+}
+
+Frames& Pipeline::frames() {
+    if (frames_) return *frames_;
+    load();
+    assert(scene_.method != Method::trace);
+    if (options_.make_frames) {
+        frames_ = options_.make_frames(scene_, data_, options_);
+        return *frames_;
+    }
+    std::unique_ptr<SceneRenderer> made;
+    if (scene_.method == Method::project) {
+        made = std::make_unique<SceneRenderer>(scene_, data_.mesh(scene_), capabilities(),
+                                               options_.omissions);
+    } else {
+        made = std::make_unique<SceneRenderer>(scene_, data_.volume(scene_), capabilities(),
+                                               options_.omissions, options_.share);
+    }
+    if (options_.many_frames) made->expect_many_frames();
+    own_ = made.get();
+    frames_ = std::move(made);
+    return *frames_;
+}
+
+SceneRenderer& Pipeline::renderer() {
+    frames();
+    return *own_;
+}
+
+const Scene& Pipeline::resolved_scene() {
+    if (scene().method == Method::trace) return scene_;
+    Frames& drawing = frames();
+    return in_context([&]() -> const Scene& { return drawing.resolved_scene(); });
+}
+
+const Plan& Pipeline::plan() {
+    if (scene().method == Method::trace) return plan_of_trace().plan;
+    Frames& drawing = frames();
+    return in_context([&]() -> const Plan& { return drawing.plan(); });
+}
+
+std::string Pipeline::explanation() {
+    if (scene().method == Method::trace) return chosen_text(scene_) + plan_of_trace().explanation;
+    Frames& drawing = frames();
+    return in_context([&] { return chosen_text(scene_) + drawing.explanation(); });
+}
+
+void Pipeline::warn_of_plan() {
+    if (scene().method == Method::trace) return warn_of_data();
+    Frames& drawing = frames();
+    in_context([&] { warn_of_all(drawing.warnings()); });
+}
+
+void Pipeline::set_up() {
+    if (scene().method == Method::trace) return;
+    Frames& drawing = frames();
+    in_context([&] { drawing.set_up(); });
+}
+
+void Pipeline::draw_frame() {
+    if (scene().method == Method::trace) {
+        trace_picture(scene_, data_);
+        return;
+    }
+    Frames& drawing = frames();
+    in_context([&] { drawing.draw(); });
+}
+
+// OpenGL counts fragments by a query, which costs time.
+void Pipeline::draw_counted() {
+    counted_fragments_.reset();
+    if (!options_.count_fragments || capabilities().tiles) return frames_->draw();
+    gl::Query query(gl::Query::Kind::samples_passed);
+    query.begin();
+    frames_->draw();
+    query.end();
+    counted_fragments_ = static_cast<std::int64_t>(query.result());
+}
+
+void Pipeline::read(Image& picture) {
+    if (scene_.method == Method::trace) {
+        picture = to_float(traced_.value().image);
+        return;
+    }
+    in_context([&] { frames_->read(picture); });
+}
+
+void Pipeline::draw_quietly(Image& picture) {
+    if (scene().method == Method::trace) {
+        trace();
+        return read(picture);
+    }
+    Frames& drawing = frames();
+    in_context([&] {
+        drawing.set_up();
+        Stage frame("frame");
+        frame.count("frame", frames_drawn_++);
+        draw_counted();
+        frame_ms_ = frame.end();
+        Stage reading("read");
+        drawing.read(picture);
+        stages_ms_["read"] = reading.end();
+        warn_of_all(drawing.warnings());
+    });
+}
+
+void Pipeline::draw(Image& picture) {
+    draw_quietly(picture);
+    warn_of(picture);
+}
+
+void Pipeline::warn_of(const Image& picture) {
+    warn_of_picture(scene_, *field(), picture);
+}
+
+// --- traced pictures
+
+const Pipeline::TracePlan& Pipeline::plan_of_trace() {
+    if (trace_plan_) return *trace_plan_;
+    load();
+    Stage measuring("measure");
+    TracePlan made;
+    if (scene_.draws_mesh()) {
+        const MeshFacts facts = measure(scene_, *data_.mesh(scene_));
+        made.plan = make_plan(scene_, facts, {}, options_.omissions);
+        made.explanation = explain(made.plan, facts, {});
+    } else {
+        const VolumeData& volume = *data_.volume(scene_);
+        const Facts facts = measure(scene_, volume.volume, volume.bricks);
+        made.plan = make_plan(scene_, facts, {}, options_.omissions);
+        made.explanation = explain(made.plan, facts, {});
+    }
+    stages_ms_["facts"] = measuring.end();
+    return trace_plan_.emplace(std::move(made));
+}
+
+void Pipeline::warn_of_data() {
+    warn_of_all(scene_.draws_mesh() ? data_warnings(scene_, *data_.mesh(scene_))
+                                    : data_warnings(*data_.volume(scene_)));
+}
+
+const TracedPicture& Pipeline::trace(const TileDone& tile_done) {
+    load();
+    Stage frame("frame");
+    frame.count("frame", frames_drawn_++);
+    TracedPicture made = trace_picture(scene_, data_, tile_done);
+    trace_ms_ = frame.end();
+    traced_ = std::move(made);
+    warn_of_data();
+    warn_of_all(trace_warnings(traced_->overlapping_rays));
+    return *traced_;
+}
+
+// --- statistics
+
+FrameStatistics Pipeline::statistics() {
+    if (scene().method == Method::trace) return trace_statistics();
+    FrameStatistics found;
+    found.stages_ms = stages_ms_;
+    found.draw_ms = frame_ms_;
+    data_.add_to(scene_, found);
+    if (!frames_) return found;
+    if (!options_.make_frames) {
+        found.renderer = capabilities().renderer;
+        found.drawn_by = renderer_and_threads(capabilities());
+        found.native = capabilities().tiles;
+    }
+    in_context([&] {
+        frames_->add_to(found);
+        found.bytes_gpu = gl::bytes_allocated();
+    });
+    if (counted_fragments_) found.fragments = *counted_fragments_;
+    return found;
+}
+
+FrameStatistics Pipeline::trace_statistics() {
+    FrameStatistics found;
+    found.renderer = found.drawn_by = "reference tracer";
+    found.stages_ms = stages_ms_;
+    data_.add_to(scene_, found);
+    if (!traced_) return found;
+    found.draw_ms = found.stages_ms["trace"] = trace_ms_;
+    found.trace_error = 255 * traced_->error_estimate;
+    if (scene_.draws_mesh()) {
+        found.counts["segments"] = traced_->segments;
+        found.counts["overlapping_rays"] = traced_->overlapping_rays;
+    }
+    return found;
+}
+
+Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities) {
+    Pipeline pipeline(scene, std::move(data), {.capabilities = capabilities});
+    Image picture;
+    pipeline.draw_frame();
+    pipeline.read(picture);
+    return picture;
+}
+
+Scene chosen_by_volume(const Scene& scene) {
+    Scene of_volume = scene;
+    of_volume.method = Method::slice;
+    Scene result = Pipeline(std::move(of_volume)).scene();
+    result.method = scene.method;
+    return result;
+}
+
+}  // namespace lamina

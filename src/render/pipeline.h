@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way from a scene to its picture: data, choices, plan, renderer or tracer, statistics and
+// warnings. All who draw are clients of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "choice/choose.h"
+#include "lamina/context_choice.h"
+#include "lamina/frame_statistics.h"
+#include "lamina/image.h"
+#include "reference/trace_tiles.h"
+#include "render/draw_context.h"
+#include "render/frames.h"
+#include "render/picture_share.h"
+#include "render/scene_data.h"
+#include "render/scene_renderer.h"
+#include "render/traced_picture.h"
+
+namespace lamina {
+
+struct PipelineOptions;
+
+// Makes frames of a scene's data.
+using FramesMaker = std::function<std::unique_ptr<Frames>(const Scene& scene, SceneData& data,
+                                                          const PipelineOptions& options)>;
+
+struct PipelineOptions {
+    ContextChoice context = ContextChoice::automatic;
+    // If set, what has these draws in place of `context`: it is current whenever the pipeline is
+    // called and when it ends, and outlives it.
+    std::optional<Capabilities> capabilities = {};
+    OmissionSwitch omissions = {};
+    Wishes wishes = {};
+    // Choices may take longer if they make every frame quicker. Otherwise the time to the first
+    // picture counts.
+    bool many_frames = false;
+    bool count_fragments = false;  // with OpenGL, which takes a query
+    // Of several pipelines that draw one picture together, with the native engine.
+    PictureShare share = {};
+    FramesMaker make_frames = {};  // in place of this process's own renderers
+};
+
+// Draws a scene from its first picture to its last. Each step is done when it is first needed, and
+// again when a change makes it necessary (render/scene_renderer.h). Warnings go to the client that
+// the thread works for (base/warning.h). Calls may throw Error.
+class Pipeline {
+  public:
+    explicit Pipeline(Scene scene, SceneData data = {}, PipelineOptions options = {});
+    ~Pipeline();
+    Pipeline(const Pipeline&) = delete;
+    Pipeline& operator=(const Pipeline&) = delete;
+
+    // Loads the data that the scene draws. Others call it if necessary.
+    void load();
+
+    const Scene& asked() const { return asked_; }
+    // With nothing automatic in transfer function and camera, and changed as wished.
+    const Scene& scene();
+    const Scene& resolved_scene();  // with nothing automatic at all
+    SceneData& data() { return data_; }
+    std::unique_ptr<Field> field() { return data_.field(scene()); }
+
+    // Another scene of the same data: files that it names are not read, but for a mesh in place of
+    // one that was made from the volume.
+    void set_scene(Scene scene);
+    void set_camera(const Camera& camera);
+    void set_size(int width, int height);  // pixels, 1 or more
+    void set_transfer_function(const TransferFunction& transfer_function);
+    void set_clip(const Clip& clip);
+
+    const Plan& plan();
+    std::string explanation();  // the plan for people, below what was chosen
+    void warn_of_plan();        // says what is noteworthy about it and the data
+
+    void set_up();
+    // Draws a frame with the scene's method, to be timed.
+    void draw_frame();
+    // Draws a picture, and says what is noteworthy about data, plan and picture; quietly: but for
+    // the picture.
+    void draw(Image& picture);
+    void draw_quietly(Image& picture);
+    void read(Image& picture);  // the last frame or traced picture
+    void warn_of(const Image& picture);
+    // Traces the scene's data, whatever its method.
+    const TracedPicture& trace(const TileDone& tile_done = {});
+    const std::optional<TracedPicture>& traced() const { return traced_; }  // the last one
+
+    // Of the last picture; its draw_ms is that of the frame alone.
+    FrameStatistics statistics();
+    FrameStatistics trace_statistics();  // of the last traced one
+
+    const Capabilities& capabilities();
+    // This process's own renderer, if make_frames is not set.
+    SceneRenderer& renderer();
+
+  private:
+    struct TracePlan {
+        Plan plan;
+        std::string explanation;
+    };
+
+    Scene chosen();
+    bool changes_mesh(const Scene& next) const;
+    void take_scene(Scene next);
+    Frames& frames();
+    void drop_frames();
+    template <typename Work>
+    decltype(auto) in_context(const Work& work);
+    void draw_counted();
+    const TracePlan& plan_of_trace();
+    void warn_of_data();
+
+    Scene asked_, scene_;
+    bool chosen_ = false;  // scene_ is the choice for asked_
+    SceneData data_;
+    PipelineOptions options_;
+    std::optional<DrawContext> context_;
+    std::unique_ptr<Frames> frames_;
+    SceneRenderer* own_ = nullptr;  // frames_, if they are this process's own
+    std::optional<TracePlan> trace_plan_;
+    std::optional<TracedPicture> traced_;
+    std::map<std::string, double> stages_ms_;
+    std::optional<std::int64_t> counted_fragments_;
+    int frames_drawn_ = 0;
+    double frame_ms_ = 0, trace_ms_ = 0;
+};
+
+// One picture of the scene, without a word about it. `capabilities`: as in PipelineOptions.
+Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities);
+
+// The scene with transfer function and camera chosen from its volume, whatever it draws.
+Scene chosen_by_volume(const Scene& scene);
+
+}  // namespace lamina

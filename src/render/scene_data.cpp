@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/scene_data.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "base/stage.h"
+#include "choice/mesh_field.h"
+#include "choice/volume_field.h"
+#include "mesh/scalar_range.h"
+#include "scene/scene_volume.h"
+
+namespace lamina {
+namespace {
+
+std::map<std::string, std::int64_t> counts_of(const SceneMesh& mesh) {
+    const MeshFindings& findings = mesh.mesh.findings();
+    const CellCounts& cells = findings.cells;
+    std::map<std::string, std::int64_t> counts;
+    counts["tets"] = static_cast<std::int64_t>(mesh.mesh.tets().size());
+    counts["degenerate_tets"] = findings.degenerate;
+    counts["inverted_tets"] = findings.inverted;
+    counts["duplicate_tets"] = findings.duplicates;
+    counts["nonmanifold_faces"] = findings.nonmanifold_faces;
+    counts["folded_faces"] = findings.folded_faces;
+    counts["non_finite_values"] = measure_range(mesh.scalar.values).non_finite;
+    counts["split_cells"] = cells.split;
+    counts["skipped_cells"] = cells.skipped;
+    counts["straightened_cells"] = cells.straightened;
+    counts["ghost_cells"] = cells.ghosts;
+    counts["merged_points"] = cells.merged_points;
+    if (mesh.averaged) counts["averaged_arrays"] = 1;
+    return counts;
+}
+
+}  // namespace
+
+SceneData::SceneData(Volume volume)
+    : volume_(std::make_shared<const VolumeData>(std::move(volume))) {}
+
+SceneData::SceneData(const Scene& scene, MeshData mesh, const std::optional<MeshReport>& report) {
+    auto drawn = std::make_shared<SceneMesh>(scene_mesh(scene, std::move(mesh)));
+    drawn->report = report;
+    mesh_ = std::move(drawn);
+    mesh_given_ = true;
+}
+
+const std::shared_ptr<const VolumeData>& SceneData::volume(const Scene& scene) {
+    if (volume_) return volume_;
+    if (!scene.has_volume()) fail("no volume was given, and the scene names none");
+    Stage loading("load");
+    Volume volume = open_volume(scene);
+    stages_ms_["load"] += loading.end();
+    Stage measuring("measure");
+    const Stage bricks("bricks");
+    volume_ = std::make_shared<const VolumeData>(std::move(volume));
+    stages_ms_["measure"] += measuring.end();
+    return volume_;
+}
+
+const std::shared_ptr<const SceneMesh>& SceneData::mesh(const Scene& scene) {
+    if (mesh_) return mesh_;
+    const auto from = makes_mesh(scene) ? volume(scene) : nullptr;
+    Stage loading("load");
+    mesh_ = std::make_shared<const SceneMesh>(from ? scene_mesh(scene, from->volume)
+                                                   : load_mesh(scene));
+    stages_ms_["load"] += loading.end();
+    return mesh_;
+}
+
+const FaceTree& SceneData::open_faces(const Scene& scene) {
+    if (open_faces_) return *open_faces_;
+    const TetMesh& tets = mesh(scene)->mesh;
+    Stage building("boundary_tree");
+    open_faces_ = std::make_shared<const FaceTree>(tets, tets.open_faces());
+    stages_ms_["boundary_tree"] = building.end();
+    return *open_faces_;
+}
+
+std::unique_ptr<Field> SceneData::field(const Scene& scene) {
+    if (scene.draws_mesh()) return std::make_unique<MeshField>(*mesh(scene));
+    return std::make_unique<VolumeField>(*volume(scene));
+}
+
+void SceneData::forget_mesh() {
+    if (mesh_given_) return;
+    mesh_.reset();
+    open_faces_.reset();
+    mesh_counts_.reset();
+}
+
+void SceneData::add_to(const Scene& scene, FrameStatistics& statistics) {
+    for (const auto& [stage, ms] : stages_ms_) statistics.stages_ms[stage] = ms;
+    if (!scene.draws_mesh()) {
+        if (volume_) statistics.counts["non_finite_samples"] = volume_->bricks.non_finite;
+        return;
+    }
+    if (!mesh_) return;
+    if (!mesh_counts_) mesh_counts_ = counts_of(*mesh_);
+    for (const auto& [name, count] : *mesh_counts_) statistics.counts[name] = count;
+    if (mesh_->report) statistics.mesh_error = mesh_->report->relative_error();
+}
+
+}  // namespace lamina

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "choice/field.h"
+#include "lamina/frame_statistics.h"
+#include "lamina/mesh_data.h"
+#include "lamina/scene.h"
+#include "mesh/face_tree.h"
+#include "scene/scene_mesh.h"
+#include "volume/volume_data.h"
+
+namespace lamina {
+
+// The volume and the mesh that a scene draws. Each is read, generated or made from the volume when
+// it is first asked for, and kept for all scenes after that, whatever they say of files. Copies
+// share what is there. Throws Error if data cannot be had.
+class SceneData {
+  public:
+    SceneData() = default;
+    // Data that are given are drawn in place of what scenes name.
+    explicit SceneData(Volume volume);
+    explicit SceneData(std::shared_ptr<const VolumeData> volume) : volume_(std::move(volume)) {}
+    explicit SceneData(std::shared_ptr<const SceneMesh> mesh)
+        : mesh_(std::move(mesh)), mesh_given_(true) {}
+    // `report`: of a mesh that was made from a volume before.
+    SceneData(const Scene& scene, MeshData mesh, const std::optional<MeshReport>& report = {});
+    // A mesh that was made from the volume as the scene says; the volume may be null.
+    SceneData(std::shared_ptr<const VolumeData> volume, std::shared_ptr<const SceneMesh> made)
+        : volume_(std::move(volume)), mesh_(std::move(made)) {}
+
+    const std::shared_ptr<const VolumeData>& volume(const Scene& scene);
+    const std::shared_ptr<const SceneMesh>& mesh(const Scene& scene);
+    // The tree of the mesh's open faces, for the reference tracer.
+    const FaceTree& open_faces(const Scene& scene);
+    // What the scene draws, as choices and warnings see it; it lives as long as the data.
+    std::unique_ptr<Field> field(const Scene& scene);
+
+    // Whether the mesh that the scene draws is made from its volume, and so follows its transfer
+    // function.
+    bool makes_mesh(const Scene& scene) const { return !mesh_given_ && scene.mesh_file.empty(); }
+    void forget_mesh();
+
+    // Adds what loading took and what was found in the data that the scene draws.
+    void add_to(const Scene& scene, FrameStatistics& statistics);
+
+  private:
+    std::shared_ptr<const VolumeData> volume_;
+    std::shared_ptr<const SceneMesh> mesh_;
+    bool mesh_given_ = false;
+    std::shared_ptr<const FaceTree> open_faces_;
+    std::map<std::string, double> stages_ms_;
+    std::optional<std::map<std::string, std::int64_t>> mesh_counts_;
+};
+
+}  // namespace lamina

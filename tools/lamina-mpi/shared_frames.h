@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+
+#include "parallel/leader.h"
+#include "render/pipeline.h"
+
+namespace lamina {
+
+// Throws if ranks cannot draw the scene together, or not with what --context names.
+void check_shared(const Scene& scene, ContextChoice context);
+
+// Frames that all ranks draw together; rank 0 has the picture. The leader must outlive them.
+class SharedFrames : public Frames {
+  public:
+    SharedFrames(Leader& leader, const Scene& scene, SceneData& data,
+                 const PipelineOptions& options);
+    ~SharedFrames() override;
+
+    const Scene& scene() const override { return scene_; }
+    void set_scene(Scene scene) override;  // opens it anew on all ranks
+    void set_camera(const Camera& camera) override { camera_ = camera; }
+
+    const Scene& resolved_scene() override { return own().resolved_scene(); }
+    const Plan& plan() override { return own().plan(); }
+    std::string explanation() override { return own().renderer().explanation(); }
+    Warnings warnings() override { return own().renderer().warnings(); }
+    void set_up() override {}  // opening does it
+    void draw(std::stop_token stop = {}) override;
+    void read(Image& picture) const override;
+    void add_to(FrameStatistics& statistics) override;
+
+  private:
+    Pipeline& own() const { return leader_.renderer(number_).own(); }
+
+    Leader& leader_;
+    Scene scene_;
+    SceneData data_;
+    OmissionSwitch omissions_;
+    bool many_frames_;
+    int number_;
+    std::optional<Camera> camera_;  // none: the scene's
+};
+
+// What each rank took for the last frame of a scene that is open.
+nlohmann::ordered_json to_json(const std::vector<RankReport>& reports);
+
+}  // namespace lamina

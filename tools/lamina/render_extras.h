@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+
+#include "render/pipeline.h"
+
+namespace lamina {
+
+// What a program adds to the verb `render`; all of it may be empty.
+struct RenderExtras {
+    // Throws if the program cannot draw the scene with that --context.
+    std::function<void(const Scene& scene, ContextChoice context)> check;
+    FramesMaker make_frames;
+    // Adds to what --stats writes, after the last frame.
+    std::function<void(nlohmann::ordered_json&)> add_statistics;
+};
+
+CLI::App& add_render_with(CLI::App& app, const RenderExtras& extras);
+
+}  // namespace lamina
