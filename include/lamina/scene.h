@@ -48,7 +48,6 @@ struct Scene {
     // known (docs/first-picture.md).
     bool automatic_transfer_function = false, automatic_camera = false;
     std::optional<Lighting> lighting;  // none: colours are shown as they are
-    std::vector<std::string> chosen;   // what was, for people; empty where nothing was automatic
     int width = 800;
     int height = 600;
     // Colours and background are given, and pictures composited, in its numbers.

@@ -21,14 +21,14 @@ struct ProgressListener {
 };
 
 // Whom a thread works for. The client of a program is its user: signals request the stop
-// (base/signal_stop.h); without a taker of its own the process's taker hears warnings, and without
-// a listener the terminal shows progress.
+// (base/signal_stop.h), and the terminal shows warnings and, without a listener, progress. Nobody
+// hears warnings of a client without a taker.
 struct Client {
     std::stop_token stop;
     const WarningTaker* warnings = nullptr;
     ProgressListener* progress = nullptr;
     // The folder that data must be in, by its canonical name (base/file_bytes.h): anywhere if null.
-    std::shared_ptr<const std::filesystem::path> only_below;
+    std::shared_ptr<const std::filesystem::path> only_below = nullptr;
 };
 
 // While it is there, its thread, and the tasks of base/parallel.h that it starts, work for

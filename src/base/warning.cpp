@@ -2,28 +2,17 @@
 #include "base/warning.h"
 
 #include <mutex>
-#include <utility>
 
 #include "base/client.h"
 
 namespace lamina {
-namespace {
-
-std::mutex taking;
-WarningTaker current;
-
-}  // namespace
 
 void warn(const std::string& text) {
-    const std::lock_guard lock(taking);
-    const WarningTaker* const client = ClientScope::current().warnings;
-    const WarningTaker& taker = client != nullptr ? *client : current;
-    if (taker) taker(text);
-}
-
-void take_warnings(WarningTaker taker) {
-    const std::lock_guard lock(taking);
-    current = std::move(taker);
+    static std::mutex one_at_a_time;
+    const WarningTaker* const taker = ClientScope::current().warnings;
+    if (taker == nullptr || !*taker) return;
+    const std::lock_guard lock(one_at_a_time);
+    (*taker)(text);
 }
 
 }  // namespace lamina

@@ -8,13 +8,8 @@ namespace lamina {
 
 // Something in a user's data that is no error and that no result shows: the text names the file,
 // what was found and what was expected. It goes to the client that this thread works for
-// (base/client.h), else to who takes the process's warnings; nobody does at first. Safe from any
-// thread.
-void warn(const std::string& text);
-
-// Sets the function that receives warnings, in place of the one before; an empty function means
-// none.
+// (base/client.h). Safe from any thread; a taker is called in one thread at a time.
 using WarningTaker = std::function<void(const std::string&)>;
-void take_warnings(WarningTaker taker);
+void warn(const std::string& text);
 
 }  // namespace lamina

@@ -103,7 +103,8 @@ ValueRange range_without_padding(const Field& field) {
     return {padding.rest.lowest(), padding.rest.highest()};
 }
 
-void choose_smallest_gradient(Scene& scene, const Field& field) {
+void choose_smallest_gradient(Choices& choices, const Field& field) {
+    Scene& scene = choices.scene;
     if (!leaves_gradient_open(scene)) return;
     const ValueRange range = range_without_padding(field);
     const double height = range.empty() ? 0 : range.hi - range.lo;
@@ -111,8 +112,8 @@ void choose_smallest_gradient(Scene& scene, const Field& field) {
     const double chosen = height > 0 ? smallest_gradient_share * height / field.spacing() : 1;
     scene.lighting->smallest_gradient =
         std::clamp(chosen, Lighting::least_gradient, Lighting::largest_gradient);
-    scene.chosen.push_back(fmt::format("lighting: smallest gradient {:.4g} per unit of length",
-                                       *scene.lighting->smallest_gradient));
+    choices.reasons.push_back(fmt::format("lighting: smallest gradient {:.4g} per unit of length",
+                                          *scene.lighting->smallest_gradient));
 }
 
 void change_transfer_function(Scene& scene, const Wishes& wishes) {
@@ -128,10 +129,12 @@ bool leaves_something_open(const Scene& scene) {
            leaves_gradient_open(scene);
 }
 
-Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
-    choose_smallest_gradient(scene, field);
+Choices choose(Scene asked, const Field& field, const Wishes& wishes) {
+    Choices choices{std::move(asked), {}};
+    Scene& scene = choices.scene;
+    choose_smallest_gradient(choices, field);
     if (!leaves_something_open(scene) && !wishes.transfer_function() && !wishes.camera())
-        return scene;
+        return choices;
     if (field.range().empty()) {
         fail("{}: all values are NaN or infinite, expected numbers to choose what shows by",
              name_of_data(scene));
@@ -160,7 +163,7 @@ Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
         scene.transfer_function = per_diagonal(scene.transfer_function, field);
         const double density = density_of(scene, field);
         scene.transfer_function = scene.transfer_function.attenuated(density);
-        scene.chosen.push_back(
+        choices.reasons.push_back(
             fmt::format("transfer function: {}; extinction up to {:.4g} per unit of length", reason,
                         wishes.density * largest_extinction(scene.transfer_function)));
     }
@@ -170,15 +173,15 @@ Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
     scene.camera = zoomed(scene.camera, wishes.zoom);
     if (scene.automatic_camera) {
-        scene.chosen.push_back(camera_text(scene.camera));
+        choices.reasons.push_back(camera_text(scene.camera));
     }
     scene.automatic_transfer_function = scene.automatic_camera = false;
-    return scene;
+    return choices;
 }
 
-std::string chosen_text(const Scene& scene) {
+std::string chosen_text(const std::vector<std::string>& reasons) {
     std::string text;
-    for (const std::string& line : scene.chosen) text += "  " + line + "\n";
+    for (const std::string& line : reasons) text += "  " + line + "\n";
     return text.empty() ? text : "chosen\n" + text;
 }
 

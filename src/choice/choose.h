@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "choice/automatic_camera.h"
 #include "choice/automatic_transfer.h"
@@ -27,13 +28,18 @@ struct Wishes {
 // smallest gradient that is lit.
 bool leaves_something_open(const Scene& scene);
 
-// The scene with its transfer function and camera chosen, where they are automatic, and changed as
-// wished. Nothing is automatic in the result, and `chosen` says what was. The same data and wishes
-// give the same scene. Throws Error where there is something to choose and the field has no finite
-// value.
-Scene choose(Scene scene, const Field& field, const Wishes& wishes = {});
+// A scene with nothing automatic in what the data decide on, and sentences that say what was chosen.
+struct Choices {
+    Scene scene;
+    std::vector<std::string> reasons;
+};
+
+// Chooses transfer function, camera and the smallest gradient that is lit, where the scene leaves
+// them open, and changes them as wished. The same data and wishes give the same scene. Throws Error
+// if there is something to choose and the field has no finite value.
+Choices choose(Scene asked, const Field& field, const Wishes& wishes = {});
 
 // The first lines of an explanation of the plan: they say what was chosen.
-std::string chosen_text(const Scene& scene);
+std::string chosen_text(const std::vector<std::string>& reasons);
 
 }  // namespace lamina

@@ -12,7 +12,7 @@ MadeMesh make_mesh(const Volume& volume, const MeshSettings& settings,
                    const TransferFunction* transfer_function, std::stop_token stop,
                    const ProgressCallback& progress) {
     ProgressListener listener{progress};
-    const ClientScope scope({std::move(stop), nullptr, &listener, nullptr});
+    const ClientScope scope({std::move(stop), nullptr, &listener});
     MadeMesh made;
     made.mesh = make_volume_mesh(volume, settings, transfer_function, made.report);
     return made;

@@ -61,7 +61,7 @@ StudyOutcome run_study(const std::filesystem::path& study, const std::filesystem
     std::vector<std::string> warnings;
     const WarningTaker taker = [&](const std::string& text) { warnings.push_back(text); };
     ProgressListener listener{progress};
-    const ClientScope scope({std::move(stop), &taker, &listener, nullptr});
+    const ClientScope scope({std::move(stop), &taker, &listener});
     StudyOutcome outcome = run(study, study::StudyFolder(folder), resume);
     outcome.messages.insert(outcome.messages.end(), warnings.begin(), warnings.end());
     return outcome;

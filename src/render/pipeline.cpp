@@ -39,10 +39,10 @@ void Pipeline::drop_frames() {
 
 // --- data and choices
 
-Scene Pipeline::chosen() {
+Choices Pipeline::chosen() {
     const Wishes& wishes = options_.wishes;
     if (!leaves_something_open(asked_) && !wishes.transfer_function() && !wishes.camera())
-        return asked_;
+        return {asked_, {}};
     const bool by_volume = !asked_.draws_mesh() || data_.makes_mesh(asked_);
     std::unique_ptr<Field> field;
     if (by_volume)
@@ -50,15 +50,24 @@ Scene Pipeline::chosen() {
     else
         field = std::make_unique<MeshField>(*data_.mesh(asked_));
     Stage choosing("choose");
-    Scene result = choose(asked_, *field, wishes);
+    Choices result = choose(asked_, *field, wishes);
     stages_ms_["choose"] = choosing.end();
     return result;
 }
 
 const Scene& Pipeline::scene() {
-    if (!chosen_) scene_ = chosen();
+    if (!chosen_) {
+        Choices choices = chosen();
+        scene_ = std::move(choices.scene);
+        reasons_ = std::move(choices.reasons);
+    }
     chosen_ = true;
     return scene_;
+}
+
+const std::vector<std::string>& Pipeline::reasons() {
+    scene();
+    return reasons_;
 }
 
 void Pipeline::load() {
@@ -77,9 +86,11 @@ bool Pipeline::changes_mesh(const Scene& next) const {
                                        next.transfer_function != scene_.transfer_function));
 }
 
-void Pipeline::take_scene(Scene next) {
-    const bool other_method = next.method != scene_.method, other_mesh = changes_mesh(next);
-    scene_ = std::move(next);
+void Pipeline::take(Choices next) {
+    const bool other_method = next.scene.method != scene_.method;
+    const bool other_mesh = changes_mesh(next.scene);
+    scene_ = std::move(next.scene);
+    reasons_ = std::move(next.reasons);
     trace_plan_.reset();
     if (other_mesh) data_.forget_mesh();
     if (other_method || (other_mesh && scene_.method == Method::project)) drop_frames();
@@ -95,7 +106,7 @@ void Pipeline::set_scene(Scene scene) {
         scene_.mesh_file = asked_.mesh_file;
         scene_.mesh_time = asked_.mesh_time;
     }
-    take_scene(chosen());
+    take(chosen());
     chosen_ = true;
     if (frames_) in_context([&] { frames_->set_scene(scene_); });
 }
@@ -117,9 +128,9 @@ void Pipeline::set_size(int width, int height) {
 void Pipeline::set_transfer_function(const TransferFunction& transfer_function) {
     asked_.transfer_function = transfer_function;
     asked_.automatic_transfer_function = false;
-    Scene next = scene_;
-    next.transfer_function = transfer_function;
-    take_scene(std::move(next));
+    Choices next{scene_, reasons_};
+    next.scene.transfer_function = transfer_function;
+    take(std::move(next));
     if (frames_) in_context([&] { frames_->set_transfer_function(transfer_function); });
 }
 
@@ -183,9 +194,9 @@ const Plan& Pipeline::plan() {
 }
 
 std::string Pipeline::explanation() {
-    if (scene().method == Method::trace) return chosen_text(scene_) + plan_of_trace().explanation;
+    if (scene().method == Method::trace) return chosen_text(reasons_) + plan_of_trace().explanation;
     Frames& drawing = frames();
-    return in_context([&] { return chosen_text(scene_) + drawing.explanation(); });
+    return in_context([&] { return chosen_text(reasons_) + drawing.explanation(); });
 }
 
 void Pipeline::warn_of_plan() {
@@ -339,11 +350,12 @@ Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capa
     return picture;
 }
 
-Scene chosen_by_volume(const Scene& scene) {
+Choices chosen_by_volume(const Scene& scene) {
     Scene of_volume = scene;
     of_volume.method = Method::slice;
-    Scene result = Pipeline(std::move(of_volume)).scene();
-    result.method = scene.method;
+    Pipeline pipeline(std::move(of_volume));
+    Choices result{pipeline.scene(), pipeline.reasons()};
+    result.scene.method = scene.method;
     return result;
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "choice/choose.h"
 #include "lamina/context_choice.h"
@@ -62,6 +63,8 @@ class Pipeline {
     const Scene& asked() const { return asked_; }
     // With nothing automatic in transfer function and camera, and changed as wished.
     const Scene& scene();
+    // Sentences that say what was chosen; none if nothing was automatic.
+    const std::vector<std::string>& reasons();
     const Scene& resolved_scene();  // with nothing automatic at all
     SceneData& data() { return data_; }
     std::unique_ptr<Field> field() { return data_.field(scene()); }
@@ -105,9 +108,9 @@ class Pipeline {
         std::string explanation;
     };
 
-    Scene chosen();
+    Choices chosen();
     bool changes_mesh(const Scene& next) const;
-    void take_scene(Scene next);
+    void take(Choices next);
     Frames& frames();
     void drop_frames();
     template <typename Work>
@@ -117,7 +120,8 @@ class Pipeline {
     void warn_of_data();
 
     Scene asked_, scene_;
-    bool chosen_ = false;  // scene_ is the choice for asked_
+    std::vector<std::string> reasons_;  // of scene_
+    bool chosen_ = false;               // scene_ is the choice for asked_
     SceneData data_;
     PipelineOptions options_;
     std::optional<DrawContext> context_;
@@ -135,6 +139,6 @@ class Pipeline {
 Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities);
 
 // The scene with transfer function and camera chosen from its volume, whatever it draws.
-Scene chosen_by_volume(const Scene& scene);
+Choices chosen_by_volume(const Scene& scene);
 
 }  // namespace lamina

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/warning.h"
+#include "support/heard_warnings.h"
 
 namespace lamina {
 namespace {
@@ -20,12 +21,12 @@ TEST(StandardStreams, MessagesAreOneLineWithoutControlCharacters) {
 
 TEST(Warning, GoesToWhoTakesIt) {
     warn("nobody hears");
-    std::vector<std::string> heard;
-    take_warnings([&](const std::string& text) { heard.push_back(text); });
-    warn("one");
-    take_warnings({});
+    {
+        const test::HeardWarnings heard;
+        warn("one");
+        EXPECT_EQ(heard.texts, std::vector<std::string>{"one"});
+    }
     warn("nobody hears");
-    EXPECT_EQ(heard, std::vector<std::string>{"one"});
 }
 
 }  // namespace

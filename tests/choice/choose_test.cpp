@@ -9,13 +9,13 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "base/client.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
 #include "scene/camera.h"
 #include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 #include "support/expect_error.h"
+#include "support/heard_warnings.h"
 #include "support/split_box.h"
 #include "support/volume_of.h"
 
@@ -64,14 +64,18 @@ void expect_median_opacity(const Scene& scene, const Field& field) {
     EXPECT_NEAR(*middle, std::log(10), 2e-5 * std::log(10));
 }
 
+Scene chosen_of(const Scene& scene, const Field& field, const Wishes& wishes = {}) {
+    return choose(scene, field, wishes).scene;
+}
+
 TEST(Choose, TheMedianRayIsNineTenthsOpaque) {
     const Ball one;
-    const Scene scene = choose(open_scene(), one.field);
+    const auto [scene, reasons] = choose(open_scene(), one.field);
     expect_median_opacity(scene, one.field);
     EXPECT_FALSE(scene.automatic_transfer_function || scene.automatic_camera);
-    EXPECT_EQ(scene.chosen.size(), 2u);
+    EXPECT_EQ(reasons.size(), 2u);
     const SceneMesh mesh = ball_mesh();
-    expect_median_opacity(choose(open_scene(), MeshField(mesh)), MeshField(mesh));
+    expect_median_opacity(chosen_of(open_scene(), MeshField(mesh)), MeshField(mesh));
 }
 
 // A picture does not depend on the unit of length, which may be one in which depths that are
@@ -84,7 +88,7 @@ TEST(Choose, TheUnitOfLengthDoesNotMatter) {
             return ball({x, y, z}, 39);
         });
         const MinMaxBricks bricks = measure_bricks(volume);
-        const Scene scene = choose(open_scene(), VolumeField(volume, bricks));
+        const Scene scene = chosen_of(open_scene(), VolumeField(volume, bricks));
         return spacing * scene.transfer_function.max_extinction(0, 1);
     };
     // Depths are sums of some 100 numbers of float32.
@@ -97,17 +101,17 @@ TEST(Choose, OnlyWhatIsOpenIsChosen) {
     Scene scene = open_scene();
     scene.automatic_camera = false;
     scene.camera.eye = {100, 20, 30};
-    EXPECT_EQ(choose(scene, one.field).camera.eye, scene.camera.eye);
+    EXPECT_EQ(chosen_of(scene, one.field).camera.eye, scene.camera.eye);
     scene = open_scene();
     scene.automatic_transfer_function = false;
-    const Scene chosen = choose(scene, one.field);
+    const auto [chosen, reasons] = choose(scene, one.field);
     EXPECT_EQ(chosen.transfer_function, scene.transfer_function);
-    EXPECT_EQ(chosen.chosen.size(), 1u);  // the camera
+    EXPECT_EQ(reasons.size(), 1u);  // the camera
 }
 
 TEST(Choose, DoesNotDependOnThreads) {
     const Ball one;
-    const auto text = [&] { return scene_json(choose(open_scene(), one.field)).dump(); };
+    const auto text = [&] { return scene_json(chosen_of(open_scene(), one.field)).dump(); };
     const std::string with_all = text();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(text(), with_all);
@@ -117,7 +121,7 @@ TEST(Choose, IsReadBackAsItWas) {
     const Ball one;
     Scene scene = open_scene();
     scene.volume_file = "ball.nrrd";
-    scene = choose(scene, one.field);
+    scene = chosen_of(scene, one.field);
     const Scene read = read_scene(nlohmann::json(scene_json(scene)), "/scene.json");
     EXPECT_EQ(read.transfer_function, scene.transfer_function);
     EXPECT_EQ(read.camera.eye, scene.camera.eye);
@@ -127,13 +131,13 @@ TEST(Choose, IsReadBackAsItWas) {
 
 TEST(Choose, DoesAsWished) {
     const Ball one;
-    const Scene plain = choose(open_scene(), one.field);
-    const Scene dense = choose(open_scene(), one.field, {.density = 2});
+    const Scene plain = chosen_of(open_scene(), one.field);
+    const Scene dense = chosen_of(open_scene(), one.field, {.density = 2});
     EXPECT_EQ(dense.transfer_function, plain.transfer_function.attenuated(2));
     // A quarter turn and back: the same direction as no turn.
-    const Scene around = choose(open_scene(), one.field, {.turn = {360, 0}});
+    const Scene around = chosen_of(open_scene(), one.field, {.turn = {360, 0}});
     EXPECT_LT(glm::distance(around.camera.eye, plain.camera.eye), 1e-10);
-    EXPECT_LT(choose(open_scene(), one.field, {.zoom = 3}).camera.fov_y, plain.camera.fov_y / 2);
+    EXPECT_LT(chosen_of(open_scene(), one.field, {.zoom = 3}).camera.fov_y, plain.camera.fov_y / 2);
 }
 
 TEST(Choose, NothingFromNoNumber) {
@@ -142,7 +146,7 @@ TEST(Choose, NothingFromNoNumber) {
     const MinMaxBricks bricks = measure_bricks(volume);
     Scene scene = open_scene();
     scene.volume_file = "none.nrrd";
-    expect_error([&] { choose(scene, VolumeField(volume, bricks)); },
+    expect_error([&] { chosen_of(scene, VolumeField(volume, bricks)); },
                  {"none.nrrd: all values are NaN or infinite, expected numbers"});
 }
 
@@ -156,14 +160,12 @@ TEST(Choose, ASingleVertexFarFromAllOthersIsPadding) {
     const SceneMesh plain = scene_mesh(Scene(), MeshData(data));
     data.point_scalars.front().values[700] = -9999;
     const SceneMesh marked = scene_mesh(Scene(), std::move(data));
-    std::string said;
-    const WarningTaker hear = [&](const std::string& warning) { said += warning; };
-    const ClientScope scope({{}, &hear, nullptr, nullptr});
-    const Scene chosen = choose(open_scene(), MeshField(marked));
-    EXPECT_NE(said.find("-9999, "), std::string::npos) << said;
+    const test::HeardWarnings heard;
+    const Scene chosen = chosen_of(open_scene(), MeshField(marked));
+    EXPECT_NE(heard.all().find("-9999, "), std::string::npos) << heard.all();
     EXPECT_TRUE(chosen.transfer_function.transparent(-9999, -1));
     // Of the field 24 of 10,368 tets count otherwise: the values that show stay nearly the same.
-    const Scene without = choose(open_scene(), MeshField(plain));
+    const Scene without = chosen_of(open_scene(), MeshField(plain));
     const auto last = [](const Scene& scene) {
         return scene.transfer_function.knots().back().value;
     };
@@ -172,8 +174,8 @@ TEST(Choose, ASingleVertexFarFromAllOthersIsPadding) {
 
 TEST(Choose, ACameraThatIsTurnedAllAroundFitsAllViews) {
     const Ball one;
-    const Scene plain = choose(open_scene(), one.field);
-    const Scene around = choose(open_scene(), one.field, {.all_around = true});
+    const Scene plain = chosen_of(open_scene(), one.field);
+    const Scene around = chosen_of(open_scene(), one.field, {.all_around = true});
     // The ball's bricks reach farther from its axis than from the front.
     EXPECT_GT(glm::distance(around.camera.eye, around.camera.center),
               glm::distance(plain.camera.eye, plain.camera.center));
@@ -187,11 +189,10 @@ TEST(Choose, FarFromZeroNumbersAreToldApart) {
         return 1e6 + 4 * ball({x, y, z}, 39);
     });
     const MinMaxBricks bricks = measure_bricks(volume);
-    const Scene scene = choose(open_scene(), VolumeField(volume, bricks));
-    EXPECT_NE(scene.chosen[0].find("from 1000000 to 1000000"), std::string::npos)
-        << scene.chosen[0];
-    EXPECT_NE(scene.chosen[0].find("up to 1000003."), std::string::npos) << scene.chosen[0];
-    EXPECT_NE(scene.chosen[1].find("to (50000"), std::string::npos) << scene.chosen[1];
+    const auto reasons = choose(open_scene(), VolumeField(volume, bricks)).reasons;
+    EXPECT_NE(reasons[0].find("from 1000000 to 1000000"), std::string::npos) << reasons[0];
+    EXPECT_NE(reasons[0].find("up to 1000003."), std::string::npos) << reasons[0];
+    EXPECT_NE(reasons[1].find("to (50000"), std::string::npos) << reasons[1];
 }
 
 // .01 of the range over the smallest spacing of an axis that has more than one sample.
@@ -204,13 +205,13 @@ TEST(Choose, TheSmallestGradientIsAShareOfTheRange) {
     Scene scene;
     scene.lighting = Lighting{};
     scene.camera.eye = {1, 2, 3};
-    const Scene chosen = choose(scene, VolumeField(volume, bricks));
+    const auto [chosen, reasons] = choose(scene, VolumeField(volume, bricks));
     EXPECT_DOUBLE_EQ(chosen.lighting->smallest_gradient.value(), .01 * 43 / 2);
-    EXPECT_EQ(chosen.chosen.size(), 1u);
+    EXPECT_EQ(reasons.size(), 1u);
     EXPECT_EQ(chosen.camera.eye, scene.camera.eye);
     EXPECT_FALSE(leaves_something_open(chosen));
     EXPECT_TRUE(leaves_something_open(scene));
-    EXPECT_EQ(choose(chosen, VolumeField(volume, bricks)).lighting, chosen.lighting);
+    EXPECT_EQ(chosen_of(chosen, VolumeField(volume, bricks)).lighting, chosen.lighting);
 }
 
 // A round picture of values from 0 to 1000 in a square of -3024.
@@ -222,7 +223,7 @@ TEST(Choose, PaddingDoesNotCountForTheSmallestGradient) {
     const MinMaxBricks bricks = measure_bricks(volume);
     Scene scene;
     scene.lighting = Lighting{};
-    EXPECT_DOUBLE_EQ(choose(scene, VolumeField(volume, bricks)).lighting->smallest_gradient.value(),
+    EXPECT_DOUBLE_EQ(chosen_of(scene, VolumeField(volume, bricks)).lighting->smallest_gradient.value(),
                      .01 * 1000);
 }
 
@@ -234,7 +235,7 @@ TEST(Choose, TheSmallestGradientOfAMeshHasItsMeanEdge) {
     const SceneMesh mesh =
         scene_mesh(scene, test::kuhn_box({2, 3, 4}, [](const glm::dvec3& p) { return 5 * p.x; }));
     const double mean = (3 + 2 * std::sqrt(2.) + std::sqrt(3.)) / 6;
-    EXPECT_NEAR(choose(scene, MeshField(mesh)).lighting->smallest_gradient.value(), .01 * 10 / mean,
+    EXPECT_NEAR(chosen_of(scene, MeshField(mesh)).lighting->smallest_gradient.value(), .01 * 10 / mean,
                 1e-14);
 }
 
@@ -245,7 +246,7 @@ TEST(Choose, DataOfOneValueHaveSomeSmallestGradient) {
         const MinMaxBricks bricks = measure_bricks(volume);
         Scene scene;
         scene.lighting = Lighting{};
-        EXPECT_EQ(choose(scene, VolumeField(volume, bricks)).lighting->smallest_gradient, 1);
+        EXPECT_EQ(chosen_of(scene, VolumeField(volume, bricks)).lighting->smallest_gradient, 1);
     }
 }
 
@@ -254,7 +255,7 @@ TEST(Choose, DataOfOneValueHaveSomeSmallestGradient) {
 TEST(Choose, OddData) {
     const auto check = [](const Volume& volume, const std::string& name) {
         const MinMaxBricks bricks = measure_bricks(volume);
-        const Scene scene = choose(open_scene(), VolumeField(volume, bricks));
+        const Scene scene = chosen_of(open_scene(), VolumeField(volume, bricks));
         const View view(scene.camera, scene.width, scene.height);
         for (int axis = 0; axis < 3; ++axis) EXPECT_TRUE(std::isfinite(view.eye[axis])) << name;
         EXPECT_TRUE(std::isfinite(scene.transfer_function.max_extinction(-1e9, 1e9))) << name;

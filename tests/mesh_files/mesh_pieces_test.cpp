@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes in several pieces, files and time steps.
 #include "bad_mesh_files.h"
-#include "base/warning.h"
 #include "mesh/tet_mesh.h"
+#include "support/heard_warnings.h"
 
 namespace lamina {
 namespace {
@@ -13,12 +13,8 @@ using testing::VtuMaker;
 
 class MeshPieces : public testing::BadMeshFiles {
   protected:
-    MeshPieces() {
-        take_warnings([this](const std::string& text) { warnings_.push_back(text); });
-    }
-    ~MeshPieces() override { take_warnings({}); }
-
-    std::vector<std::string> warnings_;
+    test::HeardWarnings heard_;
+    std::vector<std::string>& warnings_ = heard_.texts;
 };
 
 // A cube at x, with the value 10 x at its points.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // More in a .vtu than it speaks of: the mesh is read, and a warning counts what is not used.
 #include "bad_mesh_files.h"
-#include "base/warning.h"
+#include "support/heard_warnings.h"
 
 namespace lamina {
 namespace {
@@ -14,11 +14,6 @@ using testing::with;
 
 class VtuSurplus : public testing::MeshFiles {
   protected:
-    VtuSurplus() {
-        take_warnings([this](const std::string& text) { warnings_.push_back(text); });
-    }
-    ~VtuSurplus() override { take_warnings({}); }
-
     // Of reading a file with the usual mesh.
     std::vector<std::string> warnings_of(const std::string& bytes) {
         warnings_.clear();
@@ -28,7 +23,8 @@ class VtuSurplus : public testing::MeshFiles {
     }
 
   private:
-    std::vector<std::string> warnings_;
+    test::HeardWarnings heard_;
+    std::vector<std::string>& warnings_ = heard_.texts;
 };
 
 TEST_F(VtuSurplus, NoneIsSilent) {

@@ -2,12 +2,12 @@
 // A clip that changes: every frame is the one of a new renderer, and volume and choices stay.
 #include <gtest/gtest.h>
 
-#include "base/client.h"
 #include "choice/volume_field.h"
 #include "render/scene_renderer.h"
 #include "render/warnings.h"
 #include "renderer_scenes.h"
 #include "support/clips.h"
+#include "support/heard_warnings.h"
 #include "tiles/tile_capabilities.h"
 
 namespace lamina {
@@ -72,12 +72,10 @@ TEST(ChangedClip, PicturesOfNothingSayWhy) {
     const auto warning_of = [&](const Clip& clip) {
         Scene scene = volume_scene();
         scene.clip = clip;
-        std::string warnings;
-        const WarningTaker taker = [&](const std::string& text) { warnings += text; };
-        const ClientScope scope({{}, &taker, nullptr, nullptr});
+        const test::HeardWarnings heard;
         warn_of_picture(scene, VolumeField(data->volume, data->bricks),
                         Image(scene.width, scene.height));
-        return warnings;
+        return heard.all();
     };
     EXPECT_NE(warning_of({{}, ClipBox{{1.5, 0, 0}, {2, 1, 1}}})
                   .find("shows nothing: the clip cuts all of the data away"),

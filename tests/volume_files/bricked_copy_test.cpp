@@ -5,10 +5,10 @@
 #include <zlib.h>
 
 #include "base/memory_limit.h"
-#include "base/warning.h"
 #include "expect_boxes.h"
 #include "lamina/memory.h"
 #include "support/expect_error.h"
+#include "support/heard_warnings.h"
 #include "support/temporary_folder.h"
 #include "volume_files/volume_file.h"
 
@@ -83,16 +83,15 @@ TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
     }
     std::ranges::sort(files);
     int refused = 0;
-    std::string said;  // if the copy is not used at all
-    take_warnings([&](const std::string& text) { said = text; });
+    test::HeardWarnings said;  // if the copy is not used at all
     const auto expect_truth_or_error = [&] {
-        said.clear();
+        said.texts.clear();
         try {
             test::expect_boxes(truth, open_volume(path, {}, in_files));
         } catch (const Error& error) {
             const bool of_a_chunk =
                 std::string(error.what()).find(": is damaged") != std::string::npos;
-            EXPECT_TRUE(of_a_chunk || said.find("the bricks are damaged") != std::string::npos)
+            EXPECT_TRUE(of_a_chunk || said.all().find("the bricks are damaged") != std::string::npos)
                 << error.what();
             refused += of_a_chunk;
         }
@@ -117,7 +116,6 @@ TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
         expect_truth_or_error();
         write_bytes_to(file, bytes);
     }
-    take_warnings({});
 }
 
 // One of several channels, and one of several times: what is not taken is passed over.
@@ -156,21 +154,19 @@ TEST_F(BrickedCopies, OfOtherSamplesAreNotUsed) {
     const std::string head = "type: uint8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n";
     const fs::path path = nrrd(head, some_bytes(31 * 17 * 23));
     const fs::path copy = write_bricked_copy(path, {}).folder;
-    std::string said;
-    take_warnings([&](const std::string& text) { said += text; });
+    test::HeardWarnings said;
     EXPECT_EQ(open_volume(path, {}, in_files).store().source().main_file(), copy);
-    EXPECT_EQ(said, "");
+    EXPECT_EQ(said.all(), "");
     fs::last_write_time(path, fs::last_write_time(path) + std::chrono::seconds(5));
     EXPECT_EQ(open_volume(path, {}, in_files).store().source().main_file(), path);
-    EXPECT_NE(said.find("other samples"), std::string::npos) << said;
-    said.clear();
+    EXPECT_NE(said.all().find("other samples"), std::string::npos) << said.all();
+    said.texts.clear();
     for (const char* const damaged : {"{\"lamina_bricks\": 3}", "{", "{}"}) {
         write_bytes_to(copy / ".zattrs", damaged);
         EXPECT_EQ(open_volume(path, {}, in_files).store().source().main_file(), path);
-        EXPECT_NE(said.find("damaged"), std::string::npos) << said;
-        said.clear();
+        EXPECT_NE(said.all().find("damaged"), std::string::npos) << said.all();
+        said.texts.clear();
     }
-    take_warnings({});
 }
 
 TEST_F(BrickedCopies, LeaveNothingOfAFailedOne) {

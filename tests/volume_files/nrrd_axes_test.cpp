@@ -2,9 +2,9 @@
 // NRRD: one channel or time of several; data in several files; every scalar type.
 #include <gtest/gtest.h>
 
-#include "base/warning.h"
 #include "nrrd_files.h"
 #include "support/expect_error.h"
+#include "support/heard_warnings.h"
 #include "volume_files/folder_files.h"
 
 namespace lamina {
@@ -18,12 +18,8 @@ using Samples = std::vector<std::uint8_t>;
 
 class NrrdAxes : public testing::NrrdFiles {
   protected:
-    NrrdAxes() {
-        take_warnings([this](const std::string& text) { warnings_.push_back(text); });
-    }
-    ~NrrdAxes() override { take_warnings({}); }
-
-    std::vector<std::string> warnings_;
+    test::HeardWarnings heard_;
+    std::vector<std::string>& warnings_ = heard_.texts;
 };
 
 std::string counting(int count) {

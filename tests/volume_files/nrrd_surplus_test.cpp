@@ -2,8 +2,8 @@
 // More data than the header speaks of: the volume is read, and one warning counts what is not used.
 #include <gtest/gtest.h>
 
-#include "base/warning.h"
 #include "nrrd_files.h"
+#include "support/heard_warnings.h"
 #include "volume_files/packed_reader.h"
 
 namespace lamina {
@@ -23,11 +23,6 @@ std::string header(const std::string& encoding, const std::string& more = "") {
 
 class NrrdSurplus : public testing::NrrdFiles {
   protected:
-    NrrdSurplus() {
-        take_warnings([this](const std::string& text) { warnings_.push_back(text); });
-    }
-    ~NrrdSurplus() override { take_warnings({}); }
-
     // Of reading a file with the usual samples.
     std::vector<std::string> warnings_of(const std::filesystem::path& path) {
         warnings_.clear();
@@ -44,7 +39,8 @@ class NrrdSurplus : public testing::NrrdFiles {
     }
 
   private:
-    std::vector<std::string> warnings_;
+    test::HeardWarnings heard_;
+    std::vector<std::string>& warnings_ = heard_.texts;
 };
 
 TEST_F(NrrdSurplus, NoneIsSilent) {

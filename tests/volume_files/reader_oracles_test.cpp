@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/warning.h"
+#include "support/heard_warnings.h"
 #include "support/temporary_folder.h"
 #include "volume_files/volume_file.h"
 
@@ -47,11 +47,6 @@ std::vector<double> values_of(const std::filesystem::path& path) {
 
 class ReaderOracles : public ::testing::TestWithParam<const char*> {
   protected:
-    ReaderOracles() {
-        take_warnings([this](const std::string& text) { warnings_.push_back(text); });
-    }
-    ~ReaderOracles() override { take_warnings({}); }
-
     void expect_grid(const Json& one, const Grid& grid) {
         EXPECT_EQ(Json(grid.size), one["size"]);
         if (one["lps"].is_boolean()) {
@@ -94,7 +89,8 @@ class ReaderOracles : public ::testing::TestWithParam<const char*> {
         }
     }
 
-    std::vector<std::string> warnings_;
+    test::HeardWarnings heard_;
+    std::vector<std::string>& warnings_ = heard_.texts;
 };
 
 TEST_P(ReaderOracles, AgreeWithWhatIsRead) {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "base/filled_memory.h"
-#include "base/warning.h"
+#include "support/heard_warnings.h"
 #include "support/samples_of.h"
 #include "volume_files/plain_grid.h"
 
@@ -20,11 +20,6 @@ using testing::samples_of;
 
 class DrawnSamples : public ::testing::Test {
   protected:
-    DrawnSamples() {
-        take_warnings([this](const std::string& text) { warnings_.push_back(text); });
-    }
-    ~DrawnSamples() override { take_warnings({}); }
-
     template <typename T>
     Volume drawn(ValueType type, const std::vector<T>& values, double scale = 1,
                  double offset = 0) {
@@ -46,7 +41,8 @@ class DrawnSamples : public ::testing::Test {
         return volume.type();
     }
 
-    std::vector<std::string> warnings_;
+    test::HeardWarnings heard_;
+    std::vector<std::string>& warnings_ = heard_.texts;
 };
 
 TEST_F(DrawnSamples, OfIntegersHaveTheFirstTypeThatHoldsThem) {

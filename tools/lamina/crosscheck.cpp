@@ -158,8 +158,9 @@ void run(const CrosscheckOptions& options) {
     expect_own_folder(folder, crosscheck_name, names, files_of(scene), options.force);
     const study::CrosscheckSettings settings = settings_of(options, folder / kept_name);
     say_of_one_mesh(options, scene);
-    scene = chosen_by_volume(scene);
-    for (const std::string& chosen : scene.chosen) say(options, chosen);
+    Choices choices = chosen_by_volume(scene);
+    scene = std::move(choices.scene);
+    for (const std::string& chosen : choices.reasons) say(options, chosen);
     const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();
     make_folder(folder);

@@ -110,9 +110,10 @@ MeshTask load(const MeshOptions& options, const MeshOutput& output) {
     if (!scene.has_volume()) {
         fail("{}: has no \"volume\", which a mesh could be made from", options.input);
     }
-    scene = chosen_by_volume(scene);
+    Choices choices = chosen_by_volume(scene);
+    scene = std::move(choices.scene);
     if (!options.quiet) {
-        for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
+        for (const std::string& chosen : choices.reasons) print_message("lamina: {}\n", chosen);
     }
     return {load_volume(scene), scene.mesh_request.value_or(MeshSettings{}),
             scene.transfer_function};

@@ -89,9 +89,8 @@ int run(const Program& program, int argc, char** argv) {
 
 // Does not throw.
 int run_and_report(const Program& program, int argc, char** argv, const SignalStop& signals) {
-    Client client;
-    client.stop = signals.token();
-    const ClientScope scope(std::move(client));
+    const WarningTaker print = print_warning;
+    const ClientScope scope({.stop = signals.token(), .warnings = &print});
     try {
         return run(program, argc, argv);
     } catch (const UsageError& error) {
@@ -110,7 +109,6 @@ int run_and_report(const Program& program, int argc, char** argv, const SignalSt
 
 int run_command_line(const Program& program, int argc, char** argv) {
     make_streams_safe();
-    take_warnings(print_warning);
     set_command_line(argc, argv);
     try {
         const SignalStop signals;

@@ -148,10 +148,10 @@ void run(const RenderOptions& options, const RenderExtras& extras) {
     pipeline.load();
     const Scene& scene = pipeline.scene();
     const bool changed =
-        !scene.chosen.empty() || how.wishes.transfer_function() || how.wishes.camera();
+        !pipeline.reasons().empty() || how.wishes.transfer_function() || how.wishes.camera();
     const std::string scene_text = json_text(
         changed ? nlohmann::json(document_of(scene, read.document)) : read.document, 2);
-    for (const std::string& chosen : scene.chosen) say(chosen);
+    for (const std::string& chosen : pipeline.reasons()) say(chosen);
     if (extras.check) extras.check(scene, how.context);
     const Plan plan = pipeline.plan();
     pipeline.warn_of_plan();

@@ -72,7 +72,7 @@ void run(const SceneVerbOptions& options) {
     output->write(scene_text(options, scene, document));
     output->commit();
     if (options.quiet) return;
-    for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
+    for (const std::string& chosen : pipeline.reasons()) print_message("lamina: {}\n", chosen);
     if (options.output != standard_stream) print_message("lamina: wrote {}\n", options.output);
 }
 

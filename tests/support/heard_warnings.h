@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/client.h"
+
+namespace lamina::test {
+
+// Hears the warnings of its thread, and of the tasks that it starts, while it lives.
+class HeardWarnings {
+  public:
+    HeardWarnings() : scope_(client()) {}
+
+    std::vector<std::string> texts;
+    std::string all() const {
+        std::string joined;
+        for (const std::string& text : texts) joined += text;
+        return joined;
+    }
+
+  private:
+    Client client() {
+        Client client = ClientScope::current();
+        client.warnings = &taker_;
+        return client;
+    }
+
+    WarningTaker taker_ = [this](const std::string& text) { texts.push_back(text); };
+    ClientScope scope_;
+};
+
+}  // namespace lamina::test
