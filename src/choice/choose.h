@@ -28,7 +28,8 @@ struct Wishes {
 // smallest gradient that is lit.
 bool leaves_something_open(const Scene& scene);
 
-// A scene with nothing automatic in what the data decide on, and sentences that say what was chosen.
+// A scene with nothing automatic in what the data decide on, and sentences that say what was
+// chosen.
 struct Choices {
     Scene scene;
     std::vector<std::string> reasons;

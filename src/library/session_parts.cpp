@@ -34,6 +34,7 @@ Session::Parts::Parts(Scene scene, const SessionOptions& options)
     pipeline = std::make_unique<Pipeline>(
         std::move(scene), SceneData(),
         PipelineOptions{.context = options.context, .many_frames = options.many_frames});
+    pipeline->data().keep_volume();
 }
 
 Session::Parts::~Parts() {

@@ -40,14 +40,14 @@ KrausSubject KrausStage::make(const std::string& name) const {
                                   sizes_.height);
     };
     if (name == "graded" || name == "plate") {
-        return subject(study::TracedMesh(make_graded_mesh(sizes_.graded_cells, sizes_.graded_layers,
-                                                          graded_ratio,
-                                                          name == "graded" ? bump : 0)),
-                       false);
+        return subject(
+            study::TracedMesh(make_graded_mesh(sizes_.graded_cells, sizes_.graded_layers,
+                                               graded_ratio, name == "graded" ? bump : 0)),
+            false);
     }
     if (name == "box") {
-        return subject(study::TracedMesh(make_box_mesh(
-                           {sizes_.box_cells, sizes_.box_cells, sizes_.box_cells})),
+        return subject(study::TracedMesh(
+                           make_box_mesh({sizes_.box_cells, sizes_.box_cells, sizes_.box_cells})),
                        false);
     }
     Scene scene;

@@ -109,8 +109,7 @@ KrausView kraus_view(const std::string& name) {
 
 KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, bool measured_data,
                                 int width, int height) {
-    KrausSubject subject{view.name, measured_data, std::move(mesh), {}, {}, {},
-                         {}};
+    KrausSubject subject{view.name, measured_data, std::move(mesh), {}, {}, {}, {}};
     Scene scene;
     scene.method = Method::project;
     scene.camera = view.camera;

@@ -139,8 +139,8 @@ Json printed_table2() {
 std::vector<TimedMesh> meshes_of_table2(KrausStage& stage, std::deque<study::TracedMesh>& boxes) {
     std::vector<TimedMesh> meshes;
     const Scene box_scene =
-        timed_scene(make_kraus_subject(study::TracedMesh(make_box_mesh({8, 8, 8})), kraus_view("box"), false,
-                                       coarse_width, coarse_height)
+        timed_scene(make_kraus_subject(study::TracedMesh(make_box_mesh({8, 8, 8})),
+                                       kraus_view("box"), false, coarse_width, coarse_height)
                         .dense,
                     stage.sizes());
     for (const std::int32_t cells : stage.sizes().timed_box_cells) {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <thread>
-#include <utility>
 
 #include "base/client.h"
 #include "base/error.h"

@@ -47,7 +47,7 @@ void Leader::draw(int scene, const std::optional<Camera>& camera) {
                   .turned = camera.has_value(),
                   .camera = camera.value_or(Camera())});
     renderer(scene).draw(camera);
-    last_reports_ = renderer(scene).reports();
+    if (first_reports_.empty()) first_reports_ = renderer(scene).reports();
 }
 
 void Leader::close(int scene) {

@@ -23,20 +23,21 @@ class Leader {
     void set_wire(Wire wire) { wire_ = wire; }  // of scenes that are opened from now on
 
     // Opens a scene on all ranks and returns its number. `data`: the scene's; the other ranks
-    // load them for themselves. Throws Error where ranks cannot share the scene or one of them fails.
+    // load them for themselves. Throws Error where ranks cannot share the scene or one of them
+    // fails.
     int open(const Scene& scene, SceneData data, const OmissionSwitch& omissions, bool many_frames);
     SharedRenderer& renderer(int scene) { return *renderers_.at(scene); }
     // Draws a frame on all ranks, with another camera or as before.
     void draw(int scene, const std::optional<Camera>& camera = {});
     void close(int scene);
-    // What the last frame took on each rank.
-    const std::vector<RankReport>& last_reports() const { return last_reports_; }
+    // Reports of all ranks on the first frame that was drawn; empty before.
+    const std::vector<RankReport>& first_reports() const { return first_reports_; }
 
   private:
     const Ranks& ranks_;
     Wire wire_ = Wire::float32;
     int next_ = 0;
-    std::vector<RankReport> last_reports_;
+    std::vector<RankReport> first_reports_;
     std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
 };
 

@@ -45,8 +45,7 @@ class Drawing {
                               const FrameRenderer* renderer) = 0;
 
     // Adds what the renderer found in its last frame.
-    virtual void add_to(const FrameRenderer& /*renderer*/,
-                        FrameStatistics& /*statistics*/) const {}
+    virtual void add_to(const FrameRenderer& /*renderer*/, FrameStatistics& /*statistics*/) const {}
 
     // Of renderers that draw one picture together, once a view is measured: the parts of the volume
     // that they draw; and their numbers, nearer ones first.

@@ -35,6 +35,9 @@ void Pipeline::drop_frames() {
     if (!frames_) return;
     in_context([&] { frames_.reset(); });
     own_ = nullptr;
+    frame_ms_ = 0;
+    counted_fragments_.reset();
+    stages_ms_.erase("read");
 }
 
 // --- data and choices
@@ -144,6 +147,7 @@ void Pipeline::set_clip(const Clip& clip) {
 
 // The data decide if they do not fit the memory.
 const Capabilities& Pipeline::capabilities() {
+    assert(!options_.make_frames);
     if (options_.capabilities) return *options_.capabilities;
     if (context_) return context_->capabilities();
     const bool in_files =
@@ -223,7 +227,8 @@ void Pipeline::draw_frame() {
 // OpenGL counts fragments by a query, which costs time.
 void Pipeline::draw_counted() {
     counted_fragments_.reset();
-    if (!options_.count_fragments || capabilities().tiles) return frames_->draw();
+    if (!options_.count_fragments || options_.make_frames || capabilities().tiles)
+        return frames_->draw();
     gl::Query query(gl::Query::Kind::samples_passed);
     query.begin();
     frames_->draw();
@@ -233,7 +238,8 @@ void Pipeline::draw_counted() {
 
 void Pipeline::read(Image& picture) {
     if (scene_.method == Method::trace) {
-        picture = to_float(traced_.value().image);
+        assert(traced_);
+        picture = to_float(traced_->image);
         return;
     }
     in_context([&] { frames_->read(picture); });
@@ -295,6 +301,7 @@ void Pipeline::warn_of_data() {
 
 const TracedPicture& Pipeline::trace(const TileDone& tile_done) {
     load();
+    if (scene_.draws_mesh()) data_.open_faces(scene_);  // once, in no frame's time
     Stage frame("frame");
     frame.count("frame", frames_drawn_++);
     TracedPicture made = trace_picture(scene_, data_, tile_done);

@@ -33,8 +33,8 @@ using FramesMaker = std::function<std::unique_ptr<Frames>(const Scene& scene, Sc
 
 struct PipelineOptions {
     ContextChoice context = ContextChoice::automatic;
-    // If set, what has these draws in place of `context`: it is current whenever the pipeline is
-    // called and when it ends, and outlives it.
+    // Replaces `context` by the caller's own, which has these capabilities: it is current whenever
+    // the pipeline is called and when it ends, and outlives it.
     std::optional<Capabilities> capabilities = {};
     OmissionSwitch omissions = {};
     Wishes wishes = {};
@@ -42,9 +42,10 @@ struct PipelineOptions {
     // picture counts.
     bool many_frames = false;
     bool count_fragments = false;  // with OpenGL, which takes a query
-    // Of several pipelines that draw one picture together, with the native engine.
+    // Says which part of a picture this pipeline draws, if several draw it together with the native
+    // engine.
     PictureShare share = {};
-    FramesMaker make_frames = {};  // in place of this process's own renderers
+    FramesMaker make_frames = {};  // replaces this process's own renderers
 };
 
 // Draws a scene from its first picture to its last. Each step is done when it is first needed, and
@@ -61,7 +62,7 @@ class Pipeline {
     void load();
 
     const Scene& asked() const { return asked_; }
-    // With nothing automatic in transfer function and camera, and changed as wished.
+    // Gives the scene with transfer function and camera chosen, and changed as wished.
     const Scene& scene();
     // Sentences that say what was chosen; none if nothing was automatic.
     const std::vector<std::string>& reasons();
@@ -69,8 +70,8 @@ class Pipeline {
     SceneData& data() { return data_; }
     std::unique_ptr<Field> field() { return data_.field(scene()); }
 
-    // Another scene of the same data: files that it names are not read, but for a mesh in place of
-    // one that was made from the volume.
+    // Takes another scene of the same data: files that it names are not read, but for a mesh in
+    // place of one that was made from the volume.
     void set_scene(Scene scene);
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
@@ -84,9 +85,9 @@ class Pipeline {
     void set_up();
     // Draws a frame with the scene's method, to be timed.
     void draw_frame();
-    // Draws a picture, and says what is noteworthy about data, plan and picture; quietly: but for
-    // the picture.
+    // Draws a picture, and says what is noteworthy about data, plan and picture.
     void draw(Image& picture);
+    // Does the same, but says nothing about the picture.
     void draw_quietly(Image& picture);
     void read(Image& picture);  // the last frame or traced picture
     void warn_of(const Image& picture);
@@ -94,13 +95,12 @@ class Pipeline {
     const TracedPicture& trace(const TileDone& tile_done = {});
     const std::optional<TracedPicture>& traced() const { return traced_; }  // the last one
 
-    // Of the last picture; its draw_ms is that of the frame alone.
+    // Tells what the last picture took; its draw_ms is that of the frame alone.
     FrameStatistics statistics();
-    FrameStatistics trace_statistics();  // of the last traced one
+    FrameStatistics trace_statistics();  // of the last traced picture
 
     const Capabilities& capabilities();
-    // This process's own renderer, if make_frames is not set.
-    SceneRenderer& renderer();
+    SceneRenderer& renderer();  // this process's own: make_frames must not be set
 
   private:
     struct TracePlan {
@@ -135,7 +135,8 @@ class Pipeline {
     double frame_ms_ = 0, trace_ms_ = 0;
 };
 
-// One picture of the scene, without a word about it. `capabilities`: as in PipelineOptions.
+// Draws one picture of a scene of method slice or project, without a word about it.
+// `capabilities`: as in PipelineOptions.
 Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities);
 
 // The scene with transfer function and camera chosen from its volume, whatever it draws.

@@ -36,7 +36,7 @@ std::map<std::string, std::int64_t> counts_of(const SceneMesh& mesh) {
 }  // namespace
 
 SceneData::SceneData(Volume volume)
-    : volume_(std::make_shared<const VolumeData>(std::move(volume))) {}
+    : SceneData(std::make_shared<const VolumeData>(std::move(volume))) {}
 
 SceneData::SceneData(const Scene& scene, MeshData mesh, const std::optional<MeshReport>& report) {
     auto drawn = std::make_shared<SceneMesh>(scene_mesh(scene, std::move(mesh)));
@@ -50,21 +50,24 @@ const std::shared_ptr<const VolumeData>& SceneData::volume(const Scene& scene) {
     if (!scene.has_volume()) fail("no volume was given, and the scene names none");
     Stage loading("load");
     Volume volume = open_volume(scene);
-    stages_ms_["load"] += loading.end();
+    volume_ms_["load"] = loading.end();
     Stage measuring("measure");
-    const Stage bricks("bricks");
+    Stage measuring_bricks("bricks");
     volume_ = std::make_shared<const VolumeData>(std::move(volume));
-    stages_ms_["measure"] += measuring.end();
+    measuring_bricks.end();
+    volume_ms_["measure"] = measuring.end();
     return volume_;
 }
 
 const std::shared_ptr<const SceneMesh>& SceneData::mesh(const Scene& scene) {
     if (mesh_) return mesh_;
-    const auto from = makes_mesh(scene) ? volume(scene) : nullptr;
+    const bool from_kept = makes_mesh(scene) && (volume_ || keeps_volume_);
+    if (from_kept) volume(scene);
     Stage loading("load");
-    mesh_ = std::make_shared<const SceneMesh>(from ? scene_mesh(scene, from->volume)
-                                                   : load_mesh(scene));
-    stages_ms_["load"] += loading.end();
+    mesh_ = std::make_shared<const SceneMesh>(from_kept ? scene_mesh(scene, volume_->volume)
+                                                        : load_mesh(scene));
+    mesh_ms_["load"] = loading.end();
+    if (!volume_given_ && !keeps_volume_) volume_.reset();
     return mesh_;
 }
 
@@ -73,7 +76,7 @@ const FaceTree& SceneData::open_faces(const Scene& scene) {
     const TetMesh& tets = mesh(scene)->mesh;
     Stage building("boundary_tree");
     open_faces_ = std::make_shared<const FaceTree>(tets, tets.open_faces());
-    stages_ms_["boundary_tree"] = building.end();
+    mesh_ms_["boundary_tree"] = building.end();
     return *open_faces_;
 }
 
@@ -87,10 +90,12 @@ void SceneData::forget_mesh() {
     mesh_.reset();
     open_faces_.reset();
     mesh_counts_.reset();
+    mesh_ms_.clear();
 }
 
 void SceneData::add_to(const Scene& scene, FrameStatistics& statistics) {
-    for (const auto& [stage, ms] : stages_ms_) statistics.stages_ms[stage] = ms;
+    for (const Stages& stages : {volume_ms_, mesh_ms_})
+        for (const auto& [stage, ms] : stages) statistics.stages_ms[stage] += ms;
     if (!scene.draws_mesh()) {
         if (volume_) statistics.counts["non_finite_samples"] = volume_->bricks.non_finite;
         return;

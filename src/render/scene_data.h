@@ -26,24 +26,29 @@ class SceneData {
     SceneData() = default;
     // Data that are given are drawn in place of what scenes name.
     explicit SceneData(Volume volume);
-    explicit SceneData(std::shared_ptr<const VolumeData> volume) : volume_(std::move(volume)) {}
+    explicit SceneData(std::shared_ptr<const VolumeData> volume)
+        : volume_(std::move(volume)), volume_given_(true) {}
     explicit SceneData(std::shared_ptr<const SceneMesh> mesh)
         : mesh_(std::move(mesh)), mesh_given_(true) {}
     // `report`: of a mesh that was made from a volume before.
     SceneData(const Scene& scene, MeshData mesh, const std::optional<MeshReport>& report = {});
     // A mesh that was made from the volume as the scene says; the volume may be null.
     SceneData(std::shared_ptr<const VolumeData> volume, std::shared_ptr<const SceneMesh> made)
-        : volume_(std::move(volume)), mesh_(std::move(made)) {}
+        : volume_(std::move(volume)), mesh_(std::move(made)), volume_given_(volume_ != nullptr) {}
 
     const std::shared_ptr<const VolumeData>& volume(const Scene& scene);
     const std::shared_ptr<const SceneMesh>& mesh(const Scene& scene);
     // The tree of the mesh's open faces, for the reference tracer.
     const FaceTree& open_faces(const Scene& scene);
-    // What the scene draws, as choices and warnings see it; it lives as long as the data.
+    // Gives the scene's data as choices and warnings see them; they must outlive the field.
     std::unique_ptr<Field> field(const Scene& scene);
 
-    // Whether the mesh that the scene draws is made from its volume, and so follows its transfer
-    // function.
+    // Keeps a volume that a mesh is made from, for further meshes. Otherwise it is read into memory
+    // for the mesh alone.
+    void keep_volume() { keeps_volume_ = true; }
+
+    // Tells whether the mesh that the scene draws is made from its volume, and so follows its
+    // transfer function.
     bool makes_mesh(const Scene& scene) const { return !mesh_given_ && scene.mesh_file.empty(); }
     void forget_mesh();
 
@@ -51,11 +56,13 @@ class SceneData {
     void add_to(const Scene& scene, FrameStatistics& statistics);
 
   private:
+    using Stages = std::map<std::string, double>;  // milliseconds
+
     std::shared_ptr<const VolumeData> volume_;
     std::shared_ptr<const SceneMesh> mesh_;
-    bool mesh_given_ = false;
+    bool volume_given_ = false, mesh_given_ = false, keeps_volume_ = false;
     std::shared_ptr<const FaceTree> open_faces_;
-    std::map<std::string, double> stages_ms_;
+    Stages volume_ms_, mesh_ms_;
     std::optional<std::map<std::string, std::int64_t>> mesh_counts_;
 };
 

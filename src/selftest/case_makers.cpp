@@ -46,7 +46,8 @@ struct Drawn {
 Drawn draw(const PictureMaker& maker, const SelftestScene& subject, const DrawingWay& way) {
     const Scene scene = way.scene_of(subject.scene);
     if (!way.draws_mesh())
-        return {maker.draw(scene, SceneData(subject.box.volume())), layered_picture(subject, way, nullptr)};
+        return {maker.draw(scene, SceneData(subject.box.volume())),
+                layered_picture(subject, way, nullptr)};
     const auto mesh = drawn_mesh(subject.mesh(subject.box));
     return {maker.draw(scene, SceneData(mesh)), layered_picture(subject, way, &*mesh)};
 }

@@ -7,8 +7,11 @@ namespace lamina::selftest {
 
 PreciseImage PictureMaker::draw(const Scene& scene, const SceneData& data,
                                 FrameStatistics* statistics) const {
+    if (scene.method == Method::trace) {
+        SceneData shared = data;
+        return trace_picture(scene, shared).image;
+    }
     Pipeline pipeline(scene, data, {.capabilities = capabilities_});
-    if (scene.method == Method::trace) return pipeline.trace().image;
     pipeline.draw_frame();
     if (statistics != nullptr) *statistics = pipeline.statistics();
     Image picture;

@@ -56,8 +56,8 @@ DataStore::StoredMesh& DataStore::mesh(const Scene& scene) {
         MadeMesh made = read_or_make(scene);
         TracedMesh data(std::move(made.data));
         std::string content = content_of(data.mesh());
-        stored = std::make_unique<StoredMesh>(
-            StoredMesh{std::move(data), std::move(content), made.ms});
+        stored =
+            std::make_unique<StoredMesh>(StoredMesh{std::move(data), std::move(content), made.ms});
     }
     return *stored;
 }

@@ -10,7 +10,9 @@ namespace lamina::study {
 TracedMesh::TracedMesh(SceneMesh mesh)
     : TracedMesh(SceneData(std::make_shared<const SceneMesh>(std::move(mesh)))) {}
 
-TracedMesh::TracedMesh(SceneData data) : data_(std::move(data)), mesh_(data_.mesh({})) {}
+TracedMesh::TracedMesh(SceneData data) : data_(std::move(data)), mesh_(data_.mesh({})) {
+    data_.open_faces({});
+}
 
 TracedPicture TracedMesh::trace(const Scene& scene) {
     return trace_picture(as_trace(scene, TraceOf::mesh), data_);

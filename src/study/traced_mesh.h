@@ -13,7 +13,7 @@ namespace lamina::study {
 class TracedMesh {
   public:
     explicit TracedMesh(SceneMesh mesh);
-    explicit TracedMesh(SceneData data);  // has a mesh
+    explicit TracedMesh(SceneData data);  // which has a mesh
 
     const SceneMesh& mesh() const { return *mesh_; }
     const TetMesh& tets() const { return mesh_->mesh; }
@@ -25,7 +25,7 @@ class TracedMesh {
 
   private:
     SceneData data_;
-    std::shared_ptr<const SceneMesh> mesh_;       // of data_
+    std::shared_ptr<const SceneMesh> mesh_;       // that of data_
     std::map<std::string, PreciseImage> traced_;  // by picture_key()
 };
 

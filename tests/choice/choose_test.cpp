@@ -223,8 +223,9 @@ TEST(Choose, PaddingDoesNotCountForTheSmallestGradient) {
     const MinMaxBricks bricks = measure_bricks(volume);
     Scene scene;
     scene.lighting = Lighting{};
-    EXPECT_DOUBLE_EQ(chosen_of(scene, VolumeField(volume, bricks)).lighting->smallest_gradient.value(),
-                     .01 * 1000);
+    EXPECT_DOUBLE_EQ(
+        chosen_of(scene, VolumeField(volume, bricks)).lighting->smallest_gradient.value(),
+        .01 * 1000);
 }
 
 // A cube of edge 1 cut into six tets: each has three edges of the cube, two diagonals of its faces
@@ -235,8 +236,8 @@ TEST(Choose, TheSmallestGradientOfAMeshHasItsMeanEdge) {
     const SceneMesh mesh =
         scene_mesh(scene, test::kuhn_box({2, 3, 4}, [](const glm::dvec3& p) { return 5 * p.x; }));
     const double mean = (3 + 2 * std::sqrt(2.) + std::sqrt(3.)) / 6;
-    EXPECT_NEAR(chosen_of(scene, MeshField(mesh)).lighting->smallest_gradient.value(), .01 * 10 / mean,
-                1e-14);
+    EXPECT_NEAR(chosen_of(scene, MeshField(mesh)).lighting->smallest_gradient.value(),
+                .01 * 10 / mean, 1e-14);
 }
 
 TEST(Choose, DataOfOneValueHaveSomeSmallestGradient) {

@@ -91,7 +91,8 @@ TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
         } catch (const Error& error) {
             const bool of_a_chunk =
                 std::string(error.what()).find(": is damaged") != std::string::npos;
-            EXPECT_TRUE(of_a_chunk || said.all().find("the bricks are damaged") != std::string::npos)
+            EXPECT_TRUE(of_a_chunk ||
+                        said.all().find("the bricks are damaged") != std::string::npos)
                 << error.what();
             refused += of_a_chunk;
         }

@@ -23,14 +23,16 @@ int lead(const Ranks& ranks, int argc, char** argv) {
     const auto add_verbs = [&](CLI::App& app, int&) {
         auto wire = std::make_shared<std::string>(name_of(Wire::float32));
         RenderExtras extras;
-        extras.check = check_shared;
-        extras.make_frames = [&leader, wire](const Scene& scene, SceneData& data,
-                                             const PipelineOptions& options) {
+        extras.check = [&leader, wire](const Scene& scene, ContextChoice context) {
             leader.set_wire(wire_of(*wire));
+            check_shared(scene, context);
+        };
+        extras.make_frames = [&leader](const Scene& scene, SceneData& data,
+                                       const PipelineOptions& options) {
             return std::make_unique<SharedFrames>(leader, scene, data, options);
         };
         extras.add_statistics = [&leader](nlohmann::ordered_json& json) {
-            json["ranks"] = to_json(leader.last_reports());
+            if (!leader.first_reports().empty()) json["ranks"] = to_json(leader.first_reports());
         };
         CLI::App& verb = add_render_with(app, extras);
         verb.description("Render a volume to a picture, with each rank drawing its part of it");

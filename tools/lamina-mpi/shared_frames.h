@@ -21,7 +21,10 @@ class SharedFrames : public Frames {
 
     const Scene& scene() const override { return scene_; }
     void set_scene(Scene scene) override;  // opens it anew on all ranks
-    void set_camera(const Camera& camera) override { camera_ = camera; }
+    void set_camera(const Camera& camera) override {
+        scene_.camera = camera;
+        camera_ = camera;
+    }
 
     const Scene& resolved_scene() override { return own().resolved_scene(); }
     const Plan& plan() override { return own().plan(); }
@@ -44,7 +47,7 @@ class SharedFrames : public Frames {
     std::optional<Camera> camera_;  // none: the scene's
 };
 
-// What each rank took for the last frame of a scene that is open.
+// Writes out what each rank took for a frame.
 nlohmann::ordered_json to_json(const std::vector<RankReport>& reports);
 
 }  // namespace lamina

@@ -105,8 +105,8 @@ ReadScene read(const RenderOptions& options) {
 PipelineOptions how_to_draw(const RenderOptions& options, const Scene& scene,
                             const RenderExtras& extras) {
     PipelineOptions how;
-    how.context = context_choice(options.context);
     how.omissions = omission_switch(options);
+    how.context = context_choice(options.context);
     how.wishes = wishes_of(options.view, scene.color_space);
     how.wishes.all_around = options.output.views > 1;
     how.many_frames = options.output.frames > 0 || options.output.views > 0;
@@ -117,9 +117,6 @@ PipelineOptions how_to_draw(const RenderOptions& options, const Scene& scene,
 
 void say_written(const RenderOptions& options, const Scene& scene, const RunStatistics& run,
                  const std::string& written) {
-    const std::int64_t clamped = run.picture.counts.at("clamped_pixels");
-    if (clamped > 0)
-        message(options, fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
     std::string took;
     if (!run.frames_ms.empty()) {
         const double ms = run.frames_ms.back();
@@ -138,9 +135,9 @@ void run(const RenderOptions& options, const RenderExtras& extras) {
     const PipelineOptions how = how_to_draw(options, read.scene, extras);
     restrict_instructions_as_asked();
     const auto say = [&](const std::string& text) { message(options, text); };
-    const auto output = open_output(options.output, {read.scene, how, watch, say},
-                                    read.series ? &*read.series : nullptr,
-                                    {options.stats, options.profile});
+    const auto output =
+        open_output(options.output, {read.scene, how, watch, say},
+                    read.series ? &*read.series : nullptr, {options.stats, options.profile});
     std::unique_ptr<OutputFile> stats_file;
     if (!options.stats.empty()) stats_file = open_named(options.stats);
 
@@ -149,8 +146,8 @@ void run(const RenderOptions& options, const RenderExtras& extras) {
     const Scene& scene = pipeline.scene();
     const bool changed =
         !pipeline.reasons().empty() || how.wishes.transfer_function() || how.wishes.camera();
-    const std::string scene_text = json_text(
-        changed ? nlohmann::json(document_of(scene, read.document)) : read.document, 2);
+    const std::string scene_text =
+        json_text(changed ? nlohmann::json(document_of(scene, read.document)) : read.document, 2);
     for (const std::string& chosen : pipeline.reasons()) say(chosen);
     if (extras.check) extras.check(scene, how.context);
     const Plan plan = pipeline.plan();
@@ -158,10 +155,12 @@ void run(const RenderOptions& options, const RenderExtras& extras) {
     const std::string explanation = pipeline.explanation();
     if (options.explain) print_explanation(options, explanation);
     if (!output) return;
-    RunStatistics statistics;
+    RunStatistics statistics{.picture = pipeline.statistics()};
     const std::string written = output->draw(
         pipeline, statistics,
         {{"scene", scene_text}, {"plan", explanation}, {"software", "lamina " LAMINA_VERSION}});
+    const std::int64_t clamped = statistics.picture.counts["clamped_pixels"];
+    if (clamped > 0) say(fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
     if (stats_file) {
         nlohmann::ordered_json json = to_json(statistics, plan);
         if (extras.add_statistics) extras.add_statistics(json);

@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// What a program adds to the verb `render`; all of it may be empty.
+// Additions of a program to the verb `render`; all of them may be empty.
 struct RenderExtras {
     // Throws if the program cannot draw the scene with that --context.
     std::function<void(const Scene& scene, ContextChoice context)> check;

@@ -35,8 +35,7 @@ class SinglePicture : public RenderOutput {
         if (frames_ > 0) time_frames(pipeline, run);
         Stage writing("write");
         attributes["renderer"] = run.picture.renderer;
-        run.picture.counts["clamped_pixels"] =
-            write_picture(picture_, pipeline, image, attributes);
+        run.picture.counts["clamped_pixels"] = write_picture(picture_, pipeline, image, attributes);
         run.picture.stages_ms["write"] = writing.end();
         // The picture is that of the first frame.
         run.first_picture_ms += run.picture.stages_ms["write"];

@@ -34,11 +34,11 @@ struct OutputOptions {
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
 
-// What is drawn, and how; all outlives the output.
+// A scene to be drawn, and how; all outlives the output.
 struct OutputScene {
     const Scene& scene;  // as it was read
     const PipelineOptions& how;
-    const Stopwatch& watch;                        // from the start of the run
+    const Stopwatch& watch;                       // from the start of the run
     std::function<void(const std::string&)> say;  // to the user
 };
 

@@ -165,7 +165,11 @@ void keep_largest(const std::map<std::string, std::int64_t>& counts,
 
 void RunStatistics::add(const FrameStatistics& next) {
     if (frames_ms.empty()) {
+        // What came before the first picture is that of the plan which the file has.
+        std::map<std::string, double> stages = std::move(picture.stages_ms);
+        stages.insert(next.stages_ms.begin(), next.stages_ms.end());
         picture = next;
+        picture.stages_ms = std::move(stages);
     } else {
         keep_largest(next.counts, picture.counts);
         picture.trace_error = std::max(picture.trace_error, next.trace_error);
@@ -197,7 +201,8 @@ nlohmann::ordered_json to_json(const RunStatistics& run, const Plan& plan) {
     json["work"] = {{"predicted", to_json(plan.work)}, {"actual", actual_work(picture, plan)}};
     json["counts"] = picture.counts;
     if (picture.mesh_error) json["mesh_error"] = *picture.mesh_error;
-    if (plan.method == Method::trace) json["error_estimate"] = picture.trace_error / 255;
+    if (plan.method == Method::trace && !run.frames_ms.empty())
+        json["error_estimate"] = picture.trace_error / 255;
     return json;
 }
 

@@ -15,8 +15,8 @@ namespace lamina {
 // The statistics of a run of `lamina render` (--stats): those of its first picture, with the
 // largest counts and errors of all pictures, and the times of all.
 struct RunStatistics {
-    FrameStatistics picture;
-    std::vector<double> frames_ms;
+    FrameStatistics picture = {};  // before the first one: of what led to it
+    std::vector<double> frames_ms = {};
     // From the start of reading the scene to the written picture, without the frames of --frames.
     double first_picture_ms = 0;
 

@@ -168,14 +168,13 @@ void TimeSeries::draw_missing(const std::vector<std::int64_t>& steps, SeriesReco
     }
 }
 
-std::string TimeSeries::draw(Pipeline& pipeline, RunStatistics& run,
-                             PictureAttributes attributes) {
+std::string TimeSeries::draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) {
     OwnFiles(folder(), series_verb).add(names());
     attributes["renderer"] = pipeline.statistics().renderer;
     attributes["scene"] = json_text(scene_json(pipeline.resolved_scene()), 2);
     SeriesRecord record(path_of(names_.record_name(series_word)), key_of(attributes));
     const std::vector<std::int64_t> steps = missing(record);
-    if (steps.empty()) run.picture = pipeline.statistics();
+    run.picture.counts["clamped_pixels"] = 0;
     const auto all = static_cast<std::int64_t>(series_.steps().size());
     const std::int64_t kept = all - static_cast<std::int64_t>(steps.size());
     if (all > 1 && !steps.empty()) {

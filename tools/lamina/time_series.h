@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,8 +26,7 @@ class TimeSeries : public RenderOutput {
                const std::vector<std::filesystem::path>& read,
                const std::vector<std::filesystem::path>& others);
 
-    std::string draw(Pipeline& pipeline, RunStatistics& run,
-                     PictureAttributes attributes) override;
+    std::string draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) override;
 
   private:
     // A step with its data, read ahead.

@@ -118,7 +118,6 @@ std::string Turntable::draw(Pipeline& pipeline, RunStatistics& run, PictureAttri
     SeriesRecord record(path_of(names_.record_name(turntable_word)),
                         key_of(scene_, attributes, views_));
     const std::vector<int> views = missing(record);
-    if (views.empty()) run.picture = pipeline.statistics();
     try {
         draw_missing(views, record, pipeline, run, attributes);
     } catch (const Interrupted&) {

@@ -25,8 +25,7 @@ class Turntable : public RenderOutput {
               const std::vector<std::filesystem::path>& read,
               const std::vector<std::filesystem::path>& others);
 
-    std::string draw(Pipeline& pipeline, RunStatistics& run,
-                     PictureAttributes attributes) override;
+    std::string draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) override;
 
   private:
     std::vector<std::string> names() const;  // in the folder, the record last
