@@ -22,7 +22,6 @@ Session::Session(Scene scene, Volume volume, SessionOptions options)
     parts_->run(
         [&] {
             parts_->pipeline->data() = SceneData(std::move(volume));
-            parts_->pipeline->data().keep_volume();
             parts_->pipeline->scene();
         },
         options.stop);

@@ -76,8 +76,8 @@ std::string why_not_kept(const SlicePlan& plan, double wanted, double error) {
 
 // Half a code of 8 bits: no opacity below it shows.
 constexpr float least_opacity = .5F / 255;
-// What is stored as the last of the 256 codes of a PNG: 254.5 / 255, which sRGB has for so much
-// light.
+// Pixels at least this bright are stored as the last of the 256 codes of a PNG: 254.5 / 255 as a
+// display value, and the light that sRGB encodes by it.
 constexpr float full_display = 254.5F / 255, full_light = .9956F;
 
 std::string name_of_scene(const Scene& scene) {
@@ -162,7 +162,7 @@ std::string why_nothing_shows(const Scene& scene, const Field& field, float larg
                           "the clip keeps";
 }
 
-// Where the data lie beyond all values between which colours change.
+// Warns if the data lie beyond all values between which colours change: they all get one colour.
 void warn_of_colors(const Scene& scene, const ValueRange& range) {
     const auto knots = scene.transfer_function.knots();
     std::size_t first = 0, last = knots.size() - 1;

@@ -165,7 +165,8 @@ void keep_largest(const std::map<std::string, std::int64_t>& counts,
 
 void RunStatistics::add(const FrameStatistics& next) {
     if (frames_ms.empty()) {
-        // What came before the first picture is that of the plan which the file has.
+        // Stages before the first picture belong to the plan that --stats writes; a later view has
+        // planned again.
         std::map<std::string, double> stages = std::move(picture.stages_ms);
         stages.insert(next.stages_ms.begin(), next.stages_ms.end());
         picture = next;
