@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ enum class Target { float32, float16, fixed16, fixed8, emulated };
 enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };
 
+struct GivenTransfer;  // internal (scene/given_transfer.h)
+
 // A scene file as read (docs/scene.md): what to draw and how, nothing measured yet.
 struct Scene {
     std::filesystem::path file;
@@ -38,7 +41,6 @@ struct Scene {
     std::filesystem::path mesh_file;                 // or
     std::int64_t mesh_time = 0;                      // its step, from 0 (.pvd)
     std::optional<MeshSettings> mesh_request;        // made from the volume
-    std::filesystem::path colormap_file;             // of the transfer function; empty: none
     std::string scalar;  // of the mesh file; empty: its first point array
     NanPolicy nan = NanPolicy::error;
     TransferFunction transfer_function = TransferFunction::linear({TransferKnot{}});
@@ -47,6 +49,9 @@ struct Scene {
     // Where these are set, what stands above is replaced by what the data suggest, once they are
     // known (docs/first-picture.md).
     bool automatic_transfer_function = false, automatic_camera = false;
+    // What a scene file gives for the transfer function, null if nothing. If that is a colour map
+    // without a range, automatic_transfer_function is set: the map is stretched over the data.
+    std::shared_ptr<const GivenTransfer> given_transfer;
     std::optional<Lighting> lighting;  // none: colours are shown as they are
     int width = 800;
     int height = 600;
@@ -64,7 +69,6 @@ struct Scene {
     ProjectSettings project;
     TraceOf trace_of = TraceOf::volume;
     double trace_tolerance = 1e-5;  // largest error of a traced picture, as a share of full scale
-    std::vector<std::string> warnings;
 
     bool has_volume() const { return !volume_file.empty() || volume_request; }
     bool has_mesh() const { return !mesh_file.empty() || mesh_request; }

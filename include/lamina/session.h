@@ -78,6 +78,9 @@ class LAMINA_API Session {
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
     void set_transfer_function(const TransferFunction& transfer_function);
+    // The transfer function of another scene: a colour map without a range is stretched over the
+    // data.
+    void set_transfer_function_of(const Scene& like);
     void set_clip(const Clip& clip);
     // Another scene of the same data, of any method that can draw them. What it says of files is
     // not read again.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstring>
+#include <optional>
 
 #include "bindings.h"
+#include "lamina/camera_choice.h"
 #include "shared_array.h"
 #include "waiting.h"
 
@@ -68,12 +70,14 @@ py::dict report_of(const MeshReport& report) {
 // `scene`: where its transfer function shows nothing, the mesh may be coarse; or None.
 py::tuple make(const Volume& volume, double tolerance, std::int64_t max_tets, bool kuhn,
                const py::object& scene, const py::object& progress) {
-    const TransferFunction* const transfer_function =
-        scene.is_none() ? nullptr : &scene.cast<const Scene&>().transfer_function;
+    const Scene* const shown = scene.is_none() ? nullptr : &scene.cast<const Scene&>();
     MadeMesh made;
     run_waiting(
         [&](std::stop_token stop, const ProgressCallback& said) {
-            made = make_mesh(volume, {tolerance, max_tets, kuhn}, transfer_function, stop, said);
+            std::optional<TransferFunction> transfer_function;
+            if (shown != nullptr) transfer_function = chosen_transfer_function(*shown, volume);
+            made = make_mesh(volume, {tolerance, max_tets, kuhn},
+                             transfer_function ? &*transfer_function : nullptr, stop, said);
         },
         progress);
     return py::make_tuple(std::make_shared<MeshData>(std::move(made.mesh)), report_of(made.report));

@@ -66,7 +66,7 @@ constexpr auto size = [](Session& session, const Scene& to) {
     session.set_size(to.width, to.height);
 };
 constexpr auto transfer_function = [](Session& session, const Scene& to) {
-    session.set_transfer_function(to.transfer_function);
+    session.set_transfer_function_of(to);
 };
 constexpr auto clip = [](Session& session, const Scene& to) { session.set_clip(to.clip); };
 constexpr auto everything = [](Session& session, const Scene& to) { session.set_scene(to); };

@@ -36,8 +36,9 @@ struct Choices {
 };
 
 // Chooses transfer function, camera and the smallest gradient that is lit, where the scene leaves
-// them open, and changes them as wished. The same data and wishes give the same scene. Throws Error
-// if there is something to choose and the field has no finite value.
+// them open (an open colour map must be closed before), and changes them as wished. The same data
+// and wishes give the same scene. Throws Error if there is something to choose and the field has no
+// finite value.
 Choices choose(Scene asked, const Field& field, const Wishes& wishes = {});
 
 // The first lines of an explanation of the plan: they say what was chosen.

@@ -26,4 +26,10 @@ Camera fitted_camera(const Scene& scene, const MeshData& mesh, double azimuth, d
     return fitted(scene, SceneData(scene, mesh), Method::project, {azimuth, elevation});
 }
 
+TransferFunction chosen_transfer_function(const Scene& scene, const Volume& volume) {
+    Scene drawn = scene;
+    drawn.method = Method::slice;
+    return Pipeline(std::move(drawn), SceneData(volume)).scene().transfer_function;
+}
+
 }  // namespace lamina

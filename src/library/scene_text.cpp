@@ -6,10 +6,8 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "render/scene_data.h"
 #include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
-#include "volume/min_max_bricks.h"
 
 namespace lamina {
 namespace {
@@ -30,25 +28,16 @@ Scene parse_scene(const std::string& json, const std::filesystem::path& name,
     return read_scene(parsed(json, name), name);
 }
 
-Scene parse_scene(const std::string& json, const std::filesystem::path& name, const Volume& data,
-                  const std::filesystem::path& only_below) {
+Scene parse_scene(const std::string& json, const std::filesystem::path& name,
+                  const Volume& /*data*/, const std::filesystem::path& only_below) {
     const OnlyBelowScope scope(only_below);
-    const GivenData given{GivenData::Kind::volume, [&] { return measure_bricks(data).whole; }};
-    return read_scene(parsed(json, name), name, nullptr, &given);
+    return read_scene(parsed(json, name), name, GivenData::volume);
 }
 
-Scene parse_scene(const std::string& json, const std::filesystem::path& name, const MeshData& data,
-                  const std::filesystem::path& only_below) {
+Scene parse_scene(const std::string& json, const std::filesystem::path& name,
+                  const MeshData& /*data*/, const std::filesystem::path& only_below) {
     const OnlyBelowScope scope(only_below);
-    const nlohmann::json document = parsed(json, name);
-    // Only the scalar that the scene names counts.
-    const GivenData given{GivenData::Kind::mesh, [&] {
-                              Scene scene;
-                              if (document.contains("scalar")) scene.scalar = document["scalar"];
-                              scene.method = Method::project;
-                              return SceneData(scene, data).field(scene)->range();
-                          }};
-    return read_scene(document, name, nullptr, &given);
+    return read_scene(parsed(json, name), name, GivenData::mesh);
 }
 
 std::string scene_text(const Scene& scene) {

@@ -57,6 +57,10 @@ void Session::set_transfer_function(const TransferFunction& transfer_function) {
     parts_->run([&] { parts_->pipeline->set_transfer_function(transfer_function); });
 }
 
+void Session::set_transfer_function_of(const Scene& like) {
+    parts_->run([&] { parts_->pipeline->set_transfer_function_of(like); });
+}
+
 void Session::set_clip(const Clip& clip) {
     half_spaces(clip);  // checks it
     parts_->run([&] { parts_->pipeline->set_clip(clip); });

@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "base/stage.h"
+#include "base/warning.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
 #include "gl/memory.h"
 #include "gl/query.h"
 #include "render/context_choice.h"
 #include "render/warnings.h"
+#include "scene/given_transfer.h"
 
 namespace lamina {
 
@@ -44,16 +46,19 @@ void Pipeline::drop_frames() {
 
 Choices Pipeline::chosen() {
     const Wishes& wishes = options_.wishes;
-    if (!leaves_something_open(asked_) && !wishes.transfer_function() && !wishes.camera())
-        return {asked_, {}};
-    const bool by_volume = !asked_.draws_mesh() || data_.makes_mesh(asked_);
+    if (const auto ramp = opaque_ramp(asked_)) warn(*ramp);
+    Scene scene = asked_;
+    if (has_open_colormap(scene)) close_colormap(scene, data_.range(scene));
+    if (!leaves_something_open(scene) && !wishes.transfer_function() && !wishes.camera())
+        return {std::move(scene), {}};
+    const bool by_volume = !scene.draws_mesh() || data_.makes_mesh(scene);
     std::unique_ptr<Field> field;
     if (by_volume)
-        field = std::make_unique<VolumeField>(*data_.volume(asked_));
+        field = std::make_unique<VolumeField>(*data_.volume(scene));
     else
-        field = std::make_unique<MeshField>(*data_.mesh(asked_));
+        field = std::make_unique<MeshField>(*data_.mesh(scene));
     Stage choosing("choose");
-    Choices result = choose(asked_, *field, wishes);
+    Choices result = choose(std::move(scene), *field, wishes);
     stages_ms_["choose"] = choosing.end();
     return result;
 }
@@ -131,10 +136,25 @@ void Pipeline::set_size(int width, int height) {
 void Pipeline::set_transfer_function(const TransferFunction& transfer_function) {
     asked_.transfer_function = transfer_function;
     asked_.automatic_transfer_function = false;
+    asked_.given_transfer.reset();
     Choices next{scene_, reasons_};
     next.scene.transfer_function = transfer_function;
     take(std::move(next));
     if (frames_) in_context([&] { frames_->set_transfer_function(transfer_function); });
+}
+
+void Pipeline::set_transfer_function_of(const Scene& like) {
+    Scene next = asked_;
+    next.transfer_function = like.transfer_function;
+    next.automatic_transfer_function = like.automatic_transfer_function;
+    next.given_transfer = like.given_transfer;
+    if (like.automatic_transfer_function && !has_open_colormap(like))
+        return set_scene(std::move(next));
+    Scene closed = like;
+    if (has_open_colormap(closed)) close_colormap(closed, data_.range(scene()));
+    if (const auto ramp = opaque_ramp(closed)) warn(*ramp);
+    set_transfer_function(closed.transfer_function);
+    asked_ = std::move(next);
 }
 
 void Pipeline::set_clip(const Clip& clip) {

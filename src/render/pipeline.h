@@ -76,6 +76,9 @@ class Pipeline {
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
     void set_transfer_function(const TransferFunction& transfer_function);
+    // Takes the transfer function of another scene, which may be automatic or have an open colour
+    // map.
+    void set_transfer_function_of(const Scene& like);
     void set_clip(const Clip& clip);
 
     const Plan& plan();

@@ -85,6 +85,11 @@ std::unique_ptr<Field> SceneData::field(const Scene& scene) {
     return std::make_unique<VolumeField>(*volume(scene));
 }
 
+ValueRange SceneData::range(const Scene& scene) {
+    if (volume_given_ || (!mesh_given_ && scene.has_volume())) return volume(scene)->bricks.whole;
+    return measure_range(mesh(scene)->scalar.values).range;
+}
+
 void SceneData::forget_mesh() {
     if (mesh_given_) return;
     mesh_.reset();

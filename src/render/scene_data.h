@@ -43,6 +43,10 @@ class SceneData {
     // Gives the scene's data as choices and warnings see them; they must outlive the field.
     std::unique_ptr<Field> field(const Scene& scene);
 
+    // The range of the finite values that a colour map is stretched over: those of the volume if
+    // there is one, so that the pictures of volume and mesh have the same colours.
+    ValueRange range(const Scene& scene);
+
     // Keeps a volume that a mesh is made from, for further meshes. Otherwise it is read into memory
     // for the mesh alone.
     void keep_volume() { keeps_volume_ = true; }

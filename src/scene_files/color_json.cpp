@@ -7,9 +7,8 @@
 
 namespace lamina {
 
-glm::dvec3 read_color(JsonReader& reader, const std::string& key, const glm::dvec3& otherwise,
-                      ImageColorSpace space) {
-    if (!reader.has(key)) return otherwise;
+glm::dvec3 read_color(JsonReader& reader, const std::string& key) {
+    const ImageColorSpace space = reader.context.color_space;
     const nlohmann::json& given = reader.value(key);
     if (given.is_array()) return reader.vector(key);
     if (given.is_string()) {

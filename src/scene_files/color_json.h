@@ -8,9 +8,8 @@
 
 namespace lamina {
 
-// Reads a colour (docs/scene.md): three numbers of `space`, or display values, which are converted
-// to it: "#rrggbb", a CSS name, or {"srgb": [r, g, b]}. Throws KeyError.
-glm::dvec3 read_color(JsonReader& reader, const std::string& key, const glm::dvec3& otherwise,
-                      ImageColorSpace space);
+// Reads a colour (docs/scene.md): three numbers of the reader's colour space, or display values,
+// which are converted to it: "#rrggbb", a CSS name, or {"srgb": [r, g, b]}. Throws KeyError.
+glm::dvec3 read_color(JsonReader& reader, const std::string& key);
 
 }  // namespace lamina

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scene_files/transfer_function_json.h"
+#include "scene_files/transfer_keys.h"
 
 namespace lamina {
 namespace {
@@ -16,16 +16,18 @@ double read_scalar(JsonReader& reader, const std::string& key) {
 
 }  // namespace
 
-IntegrationCase read_integration_case(JsonReader reader, std::vector<std::string>* warnings) {
-    JsonReader given = reader.object("transfer_function");
-    const auto colormap_file = colormap_file_of(given);
-    TransferFunction transfer_function = read_transfer_function(given, {.warnings = warnings});
+IntegrationCase read_integration_case(JsonReader reader) {
+    GivenTransfer given = read_transfer_function(reader.object("transfer_function"));
+    if (given.open()) {
+        reader.fail_at("transfer_function.colormap_range",
+                       "is missing, expected [lo, hi]: there are no data here");
+    }
     const double front = read_scalar(reader, "sf");
     const double back = read_scalar(reader, "sb");
     const double length = reader.number("length");
     if (!(length >= 0)) reader.reject("length", "a number >= 0");
     reader.close();
-    return {std::move(transfer_function), front, back, length, colormap_file};
+    return {std::move(given), front, back, length};
 }
 
 }  // namespace lamina

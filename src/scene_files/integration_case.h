@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include "lamina/transfer_function.h"
+#include "scene/given_transfer.h"
 #include "scene_files/json_reader.h"
 
 namespace lamina {
 
 // A segment that `lamina integrate` integrates.
 struct IntegrationCase {
-    TransferFunction transfer_function;
-    double front = 0, back = 0;           // scalars, up to 1e300
-    double length = 0;                    // world units, >= 0
-    std::filesystem::path colormap_file;  // of the transfer function; empty: none
+    GivenTransfer given;
+    double front = 0, back = 0;  // scalars, up to 1e300
+    double length = 0;           // world units, >= 0
 };
 
-// Reads {"transfer_function", "sf", "sb", "length"} and closes the reader. `warnings`: as in
-// TransferFunctionSurroundings.
-IntegrationCase read_integration_case(JsonReader reader, std::vector<std::string>* warnings);
+// Reads {"transfer_function", "sf", "sb", "length"} and closes the reader. Throws KeyError.
+IntegrationCase read_integration_case(JsonReader reader);
 
 }  // namespace lamina

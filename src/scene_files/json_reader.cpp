@@ -34,8 +34,8 @@ std::string expand_data_folder(JsonReader& reader, const std::string& key, std::
 }  // namespace
 
 JsonReader::JsonReader(const nlohmann::json& object, const std::filesystem::path& file,
-                       std::string path, std::set<std::string>* known)
-    : object_(object), file_(file), path_(std::move(path)), known_(known) {
+                       std::string path, const JsonContext& given_context)
+    : context(given_context), object_(object), file_(file), path_(std::move(path)) {
     if (!object_.is_object()) {
         throw KeyError(path_,
                        fmt::format("{}: {}found {}, expected an object {{...}}", file_.string(),
@@ -46,6 +46,10 @@ JsonReader::JsonReader(const nlohmann::json& object, const std::filesystem::path
 
 std::string JsonReader::path_to(const std::string& key) const {
     return path_.empty() ? key : path_ + "." + key;
+}
+
+std::string JsonReader::place() const {
+    return fmt::format("{}: {}", file_.string(), shortened(path_, most_of_path));
 }
 
 void JsonReader::fail_at(const std::string& key, const std::string& message) const {
@@ -60,7 +64,6 @@ void JsonReader::reject(const std::string& key, const std::string& expected) {
 
 bool JsonReader::has(const std::string& key) {
     asked_.insert(key);
-    if (known_ != nullptr) known_->insert(path_to(key));
     return object_.contains(key);
 }
 
@@ -71,7 +74,7 @@ const nlohmann::json& JsonReader::value(const std::string& key) {
 
 JsonReader JsonReader::object(const std::string& key) {
     const nlohmann::json& found = has(key) ? object_[key] : empty_object;
-    return JsonReader(found, file_, path_to(key), known_);
+    return JsonReader(found, file_, path_to(key), context);
 }
 
 std::vector<JsonReader> JsonReader::objects(const std::string& key) {
@@ -80,7 +83,7 @@ std::vector<JsonReader> JsonReader::objects(const std::string& key) {
     readers.reserve(object_[key].size());
     for (const nlohmann::json& element : object_[key]) {
         readers.emplace_back(element, file_, fmt::format("{}.{}", path_to(key), readers.size()),
-                             known_);
+                             context);
     }
     return readers;
 }

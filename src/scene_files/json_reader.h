@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina {
 
@@ -30,16 +31,22 @@ class UnknownKeyError : public KeyError {
     using KeyError::KeyError;
 };
 
+// What values depend on beside their own text.
+struct JsonContext {
+    ImageColorSpace color_space = ImageColorSpace::linear;  // of colours
+    bool volume_given = false, mesh_given = false;  // data in memory, which no key needs to name
+};
+
 // Reads one JSON object key by key and remembers which keys it was asked for. close() then rejects
 // all other keys and suggests the nearest known key. Every error names the file and the path of the
 // key, and says what was found and expected.
 class JsonReader {
   public:
-    // `file`: for messages and relative paths. `known`: collects the path of every key that is
-    // asked for, or null; a test uses it to keep the schema in step with the reader. All arguments
-    // must outlive the reader.
+    // `file`: for messages and relative paths. Object and file must outlive the reader.
     JsonReader(const nlohmann::json& object, const std::filesystem::path& file,
-               std::string path = "", std::set<std::string>* known = nullptr);
+               std::string path = "", const JsonContext& given_context = {});
+
+    JsonContext context;  // readers of inner objects begin with the same one
 
     bool has(const std::string& key);
     JsonReader object(const std::string& key);  // an empty object when absent
@@ -76,6 +83,8 @@ class JsonReader {
     [[noreturn]] void fail_at(const std::string& key, const std::string& message) const;
 
     const std::filesystem::path& file() const { return file_; }
+    // File and path of the object, as messages begin: "scene.json: render.slice".
+    std::string place() const;
 
   private:
     std::string path_to(const std::string& key) const;
@@ -84,7 +93,6 @@ class JsonReader {
     const std::filesystem::path& file_;
     std::string path_;
     std::set<std::string> asked_;
-    std::set<std::string>* known_;
 };
 
 }  // namespace lamina

@@ -9,7 +9,7 @@
 #include "base/file_bytes.h"
 #include "base/json_text.h"
 #include "mesh_files/mesh_file.h"
-#include "scene_files/volume_selection_json.h"
+#include "scene_files/data_keys.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {

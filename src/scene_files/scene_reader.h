@@ -3,21 +3,21 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "lamina/scene.h"
-#include "scene_files/data_reader.h"
 
 namespace lamina {
 
+// Data in memory, which a scene draws instead of what it names.
+enum class GivenData { none, volume, mesh };
+
 // Reads the scene in `document`. `file` is for messages and relative paths. Throws KeyError
-// (scene_files/json_reader.h). `known`: collects the path of every key that the reader asks for, or
-// null. `given`: data in memory, which the scene need not name then; or null.
+// (scene_files/json_reader.h).
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
-                 std::set<std::string>* known = nullptr, const GivenData* given = nullptr);
+                 GivenData given = GivenData::none);
 
 // Sets `key` ("render.slice.samples", list elements by number) to `value`, which is JSON where it
 // parses as JSON and a string otherwise; null removes the key. Throws UsageError where the path

@@ -10,7 +10,8 @@
 #include "base/json_text.h"
 #include "base/stopwatch.h"
 #include "choice/choose.h"
-#include "scene_files/volume_selection_json.h"
+#include "scene/given_transfer.h"
+#include "scene_files/data_keys.h"
 #include "study/picture_key.h"
 #include "volume/generate.h"
 
@@ -37,7 +38,7 @@ std::string mesh_name(const Scene& scene) {
     }
     const MeshSettings& settings = *scene.mesh_request;
     return fmt::format("{} {} {} {} {}", volume_name(scene), settings.tolerance, settings.max_tets,
-                       settings.kuhn, transfer_function_key(scene.transfer_function));
+                       settings.kuhn, transfer_function_key(scene));
 }
 
 const DataStore::StoredVolume& DataStore::volume(const Scene& scene) {
@@ -87,6 +88,13 @@ SceneData DataStore::data_of(const Scene& scene) {
     const SceneData& data = mesh(scene).data.data();
     if (!scene.mesh_file.empty() || !leaves_something_open(scene)) return data;
     return SceneData(volume(scene).data, SceneData(data).mesh(scene));
+}
+
+Scene DataStore::closed(Scene scene) {
+    if (!has_open_colormap(scene)) return scene;
+    SceneData data = scene.has_volume() ? SceneData(volume(scene).data) : mesh(scene).data.data();
+    close_colormap(scene, data.range(scene));
+    return scene;
 }
 
 void DataStore::clear() {

@@ -34,6 +34,8 @@ class DataStore {
     StoredMesh& mesh(const Scene& scene);
     // The data that the scene draws.
     SceneData data_of(const Scene& scene);
+    // The scene with its colour map stretched over its data, if that is open.
+    Scene closed(Scene scene);
     void clear();
 
     // Keeps meshes that are made from volumes in this folder from now on, and finds them there.

@@ -2,9 +2,13 @@
 #include "study/picture_key.h"
 
 #include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
 
 #include "base/content_hash.h"
+#include "base/json_text.h"
+#include "scene/given_transfer.h"
 #include "scene/half_space.h"
+#include "scene_files/transfer_keys.h"
 #include "volume/volume_store.h"
 
 namespace lamina::study {
@@ -36,7 +40,7 @@ std::string picture_key(const Scene& scene) {
     add(hash, camera.eye);
     add(hash, camera.center);
     add(hash, camera.up);
-    hash.add(transfer_function_key(scene.transfer_function));
+    hash.add(transfer_function_key(scene));
     for (const HalfSpace& half : half_spaces(scene.clip)) {
         add(hash, half.point);
         add(hash, half.normal);
@@ -45,9 +49,15 @@ std::string picture_key(const Scene& scene) {
     return hash.hex();
 }
 
-std::string transfer_function_key(const TransferFunction& transfer_function) {
+std::string transfer_function_key(const Scene& scene) {
     ContentHash hash;
-    for (const TransferKnot& knot : transfer_function.knots()) {
+    if (has_open_colormap(scene)) {
+        const GivenTransfer& given = *scene.given_transfer;
+        hash.add(json_text(transfer_keys().json(given)));
+        hash.add(content_of(*given.map));
+        return hash.hex();
+    }
+    for (const TransferKnot& knot : scene.transfer_function.knots()) {
         hash.add(knot.value);
         add(hash, knot.optics.color);
         hash.add(knot.optics.extinction);

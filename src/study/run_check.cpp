@@ -8,6 +8,7 @@
 #include "base/enum_words.h"
 #include "base/error.h"
 #include "render/context_choice.h"
+#include "scene/given_transfer.h"
 #include "scene_files/scene_reader.h"
 #include "study/run_list.h"
 
@@ -42,9 +43,10 @@ Scene scene_of(const StudyRun& run, const StudyFile& file) {
                                    "\"project\": the tracer is what runs are measured against",
                                    name));
     }
-    const char* const automatic = scene.automatic_transfer_function ? "transfer_function"
-                                  : scene.automatic_camera          ? "camera"
-                                                                    : nullptr;
+    const bool chooses_transfer = scene.automatic_transfer_function && !has_open_colormap(scene);
+    const char* const automatic = chooses_transfer         ? "transfer_function"
+                                  : scene.automatic_camera ? "camera"
+                                                           : nullptr;
     if (automatic != nullptr) {
         throw KeyError(automatic,
                        fmt::format("{0}: {1}: is \"auto\" or missing, expected an object {{...}}: "

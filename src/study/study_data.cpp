@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "scene/given_transfer.h"
 #include "study/picture_key.h"
 
 namespace lamina::study {
@@ -17,8 +18,8 @@ using Kind = StudyData::Kind;
 std::string content_of(const StudyData& data, DataStore& store) {
     try {
         if (data.kind == Kind::volume) return store.volume(data.drawn).content;
-        if (data.kind == Kind::mesh) return store.mesh(data.drawn).content;
-        return study::content_of(read_paraview_colormap(data.drawn.colormap_file));
+        if (data.kind == Kind::mesh) return store.mesh(store.closed(data.drawn)).content;
+        return study::content_of(read_paraview_colormap(colormap_file_of(data.drawn)));
     } catch (const Interrupted&) {
         throw;
     } catch (const std::exception&) {
@@ -40,7 +41,8 @@ void add_data(std::size_t number, const Scene& drawn, TraceOf reference,
         !drawn.draws_mesh() || reference == TraceOf::volume || (needs_mesh && drawn.mesh_request);
     if (needs_volume && drawn.has_volume()) add(Kind::volume, volume_name(drawn));
     if (needs_mesh && !drawn.mesh_file.empty()) add(Kind::mesh, mesh_name(drawn));
-    if (!drawn.colormap_file.empty()) add(Kind::colormap, drawn.colormap_file.string());
+    const std::filesystem::path colormap = colormap_file_of(drawn);
+    if (!colormap.empty()) add(Kind::colormap, colormap.string());
 }
 
 std::vector<std::string> contents_of(const std::vector<StudyData>& data, DataStore& store) {

@@ -217,7 +217,8 @@ StudyFrames& StudyRunner::frames_of(std::size_t run) {
     const Capabilities& capabilities = contexts_.use(context_of(list_.runs[run], file_));
     const auto found = frames_.find(run);
     if (found != frames_.end()) return found->second;
-    return frames_.try_emplace(run, scene_of(list_.runs[run], file_), data_, capabilities)
+    return frames_
+        .try_emplace(run, data_.closed(scene_of(list_.runs[run], file_)), data_, capabilities)
         .first->second;
 }
 

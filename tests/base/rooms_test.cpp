@@ -254,12 +254,10 @@ struct PipelineStep {
 };
 
 std::vector<PipelineStep> pipeline_steps() {
-    // Until the range of a colour map is chosen as all else is.
-    const std::string data_range = "src/scene_files/data_range.cpp";
     const std::string tracers = "src/reference/";
     return {
-        {"open_volume(", R"(\b(open_volume\(scene\b))", {"src/scene/scene.cpp", data_range}},
-        {"load_mesh(", R"(\b(load_mesh\())", {"src/scene/scene_mesh", data_range}},
+        {"open_volume(", R"(\b(open_volume\(scene\b))", {"src/scene/scene.cpp"}},
+        {"load_mesh(", R"(\b(load_mesh\())", {"src/scene/scene_mesh"}},
         {"scene_mesh(", R"(\b(scene_mesh\())", {"src/scene/scene_mesh"}},
         {"choose(", R"(\b(choose\([^)]))", {"src/choice/choose."}},
         {"plan", R"(\b((?:make_plan|plan_alone)\())", {"src/plan/plan."}},

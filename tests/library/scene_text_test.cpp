@@ -53,7 +53,7 @@ TEST(SceneText, NeedsNoNamesForDataInMemory) {
     expect_error([&] { parse_scene(text, "scene"); }, {"volume"});
     const Scene scene = parse_scene(text, "scene", volume);
     EXPECT_EQ(scene.method, Method::slice);
-    EXPECT_EQ(scene.transfer_function.knots().back().value, 7);
+    EXPECT_EQ(chosen_transfer_function(scene, volume).knots().back().value, 7);
     EXPECT_EQ(parse_scene(R"({"version": 1, "mesh": {"kuhn": true},
                               "render": {"method": "project"}})",
                           "scene", volume)

@@ -7,11 +7,12 @@
 
 #include "lamina/color.h"
 #include "optics/color_space.h"
+#include "scene/given_transfer.h"
 #include "scene_files/integration_case.h"
+#include "scene_files/scene_json.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 #include "support/temporary_folder.h"
-#include "volume/min_max_bricks.h"
 
 namespace lamina {
 namespace {
@@ -74,13 +75,13 @@ nlohmann::json mapped(const nlohmann::json& map, const char* space) {
 
 TEST(ColorJson, AShippedMapIsStretchedOverTheDataUnlessToldOtherwise) {
     nlohmann::json map{{"colormap", "greys"}, {"points", {{{"value", 0}, {"extinction", 1}}}}};
-    const auto over_data = read_scene(mapped(map, "display"), "s").transfer_function;
-    const ValueRange data = measure_bricks(load_volume(read_scene(minimal_scene(), "s"))).whole;
-    ASSERT_LT(data.lo, data.hi);
-    EXPECT_EQ(over_data.at(data.lo).color, glm::dvec3(0));
-    EXPECT_EQ(over_data.at(data.hi).color, glm::dvec3(1));
-    const double middle = (data.lo + data.hi) / 2;
-    EXPECT_NEAR(over_data.at(middle).color.g, .5, 1e-15);  // a few roundings
+    Scene over_data = read_scene(mapped(map, "display"), "s");
+    ASSERT_TRUE(has_open_colormap(over_data));
+    close_colormap(over_data, {20, 60});
+    EXPECT_FALSE(has_open_colormap(over_data));
+    EXPECT_EQ(over_data.transfer_function.at(20).color, glm::dvec3(0));
+    EXPECT_EQ(over_data.transfer_function.at(60).color, glm::dvec3(1));
+    EXPECT_NEAR(over_data.transfer_function.at(40).color.g, .5, 1e-15);  // a few roundings
     map["colormap_range"] = {100, 200};
     const auto told = read_scene(mapped(map, "display"), "s").transfer_function;
     EXPECT_EQ(told.at(150).color, glm::dvec3(.5));
@@ -89,35 +90,44 @@ TEST(ColorJson, AShippedMapIsStretchedOverTheDataUnlessToldOtherwise) {
     EXPECT_NEAR(linear.at(150).color.g, linear_from_srgb(glm::dvec3(.5)).g, 5e-4);
 }
 
-TEST(ColorJson, AMapIsStretchedOverTheChannelThatIsDrawn) {
-    const TemporaryFolder folder;
-    std::ofstream(folder / "two.mha")
-        << "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\n"
-           "ElementNumberOfChannels = 2\nBinaryData = False\nElementDataFile = LOCAL\n"
-           "0 0 1 200 0 100 1 50\n";
+TEST(ColorJson, AnOpenMapIsWrittenAsItIsGiven) {
+    const nlohmann::json map{{"unit_length", 2.},
+                             {"interpolation", "extinction"},
+                             {"colormap", "viridis"},
+                             {"points",
+                              {{{"value", 0.}, {"extinction", 1.}, {"smooth", true}},
+                               {{"value", 2.}, {"opacity", .5}}}}};
+    const Scene scene = read_scene(mapped(map, "display"), "s");
+    const nlohmann::json written = scene_json(scene);
+    EXPECT_EQ(written["transfer_function"], map);
+    Scene again = read_scene(written, "s"), first = scene;
+    close_colormap(again, {0, 2});
+    close_colormap(first, {0, 2});
+    EXPECT_EQ(again.transfer_function, first.transfer_function);
+}
+
+TEST(ColorJson, DataBeyondAllMapsAreRefusedByFileAndKey) {
     const nlohmann::json map{{"colormap", "greys"},
                              {"points", {{{"value", 0}, {"extinction", 1}}}}};
-    for (const auto& [channel, highest] :
-         {std::pair(0, 1.), std::pair(1, 200.), std::pair(0, 1.)}) {
-        nlohmann::json document = mapped(map, "display");
-        document["volume"] = {{"path", "two.mha"}, {"channel", channel}};
-        const auto function = read_scene(document, folder / "scene.json").transfer_function;
-        EXPECT_EQ(function.at(highest).color, glm::dvec3(1)) << channel;
-        EXPECT_NEAR(function.at(highest / 2).color.g, .5, 1e-15) << channel;  // a few roundings
-    }
+    Scene scene = read_scene(mapped(map, "display"), "dir/s");
+    expect_error(
+        [&] {
+            close_colormap(scene, {0, 1e305});
+        },
+        {"dir/s: transfer_function.colormap_range: is missing", "go from 0 to 1e+305"});
 }
 
 TEST(ColorJson, APresetInUnitsAndAFileKeepTheirRange) {
     const Scene bone = read_scene(mapped({{"colormap", "ct-bone"}}, "display"), "s");
     EXPECT_TRUE(bone.transfer_function.transparent(-1e9, 150));
-    EXPECT_TRUE(bone.colormap_file.empty());
+    EXPECT_TRUE(colormap_file_of(bone).empty());
     const TemporaryFolder folder;
     std::ofstream(folder / "two.json")
         << R"({"RGBPoints": [5, 0, 0, 0, 7, 1, 1, 1], "Points": [5, 0, 0.5, 0, 7, 0.5, 0.5, 0]})";
     const Scene two =
         read_scene(mapped({{"colormap", "two.json"}}, "display"), folder / "scene.json");
     EXPECT_EQ(two.transfer_function.at(6).color, glm::dvec3(.5));
-    EXPECT_EQ(two.colormap_file, folder / "two.json");
+    EXPECT_EQ(colormap_file_of(two), folder / "two.json");
 }
 
 TEST(ColorJson, MistakesWithMapsAreSaid) {
@@ -128,7 +138,7 @@ TEST(ColorJson, MistakesWithMapsAreSaid) {
         {"colormap": "viridis", "points": [{"value": 0, "extinction": 1}]}, "sf": 0, "sb": 1,
         "length": 1})");
     const std::filesystem::path file = "cases.json";
-    expect_error([&] { read_integration_case(JsonReader(segment, file), nullptr); },
+    expect_error([&] { read_integration_case(JsonReader(segment, file)); },
                  {"cases.json", "transfer_function.colormap_range", "is missing", "no data"});
 }
 

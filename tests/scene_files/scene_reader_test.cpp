@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "optics/opacity_slope.h"
+#include "scene/given_transfer.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 #include "support/temporary_folder.h"
@@ -37,7 +38,7 @@ TransferFunction by_opacity(const nlohmann::json& points, const char* interpolat
     document["transfer_function"]["unit_length"] = 4;
     document["transfer_function"]["interpolation"] = interpolation;
     const Scene scene = read_scene(document, "s");
-    EXPECT_EQ(scene.warnings.empty(), std::string(interpolation) != "extinction");
+    EXPECT_EQ(!opaque_ramp(scene), std::string(interpolation) != "extinction");
     return scene.transfer_function;
 }
 
@@ -63,11 +64,15 @@ TEST(SceneReader, OpacityOneIsAWarningWhereExtinctionIsInterpolatedToIt) {
     const Scene linear = read_scene(document, "s");
     EXPECT_EQ(linear.transfer_function.knots()[1].optics.extinction, 17);
     EXPECT_EQ(linear.transfer_function.at(255).extinction, 1e7);
-    ASSERT_EQ(linear.warnings.size(), 1u);
-    EXPECT_NE(linear.warnings[0].find("optical depth of 17 per"), std::string::npos);
+    EXPECT_EQ(opaque_ramp(linear),
+              "s: transfer_function: extinction is linear from value 0 to 255 and runs to opacity "
+              "1, taken as an optical depth of 17 per unit_length");
+    Scene changed = linear;
+    changed.transfer_function = TransferFunction::linear({TransferKnot{}});
+    EXPECT_FALSE(opaque_ramp(changed));
     nlohmann::json nearest = document;
     nearest["transfer_function"]["interpolation"] = "nearest";
-    EXPECT_TRUE(read_scene(nearest, "s").warnings.empty());
+    EXPECT_FALSE(opaque_ramp(read_scene(nearest, "s")));
 }
 
 TEST(SceneReader, PathsAreRelativeToTheScene) {

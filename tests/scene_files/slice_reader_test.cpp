@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // "render.slice.dither", "render.slice.tree", "render.emulate" and "render.max_error".
-#include "scene_files/slice_reader.h"
-
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/standard_streams.h"
+#include "base/warning.h"
 #include "different_files.h"
 #include "named_output.h"
 #include "optics/segment_integral.h"
@@ -20,8 +21,9 @@
 namespace lamina {
 namespace {
 
-SegmentIntegral integral_of(const IntegrationCase& given) {
-    return integrate_segment(given.transfer_function, given.front, given.back, given.length);
+SegmentIntegral integral_of(const IntegrationCase& segment) {
+    return integrate_segment(transfer_function_of(segment.given), segment.front, segment.back,
+                             segment.length);
 }
 
 // 17 significant digits suffice to read every double back unchanged.
@@ -51,13 +53,14 @@ void integrate(const std::string& cases_file, const std::string& output) {
         if (!cases[i].is_object()) {
             fail("{}: {}: found {}, expected an object", cases_file, place, cases[i].type_name());
         }
-        const IntegrationCase given =
-            read_integration_case(JsonReader(cases[i], path, place), &warnings);
-        results.push_back(integral_of(given));
-        if (!given.colormap_file.empty()) read.push_back(given.colormap_file);
+        const IntegrationCase segment = read_integration_case(JsonReader(cases[i], path, place));
+        results.push_back(integral_of(segment));
+        const std::filesystem::path colormap = segment.given.colormap_file();
+        if (!colormap.empty()) read.push_back(colormap);
+        if (auto ramp = opaque_ramp(segment.given)) warnings.push_back(std::move(*ramp));
     }
     expect_different_files(read, {output});
-    for (const std::string& warning : warnings) print_message("lamina: warning: {}\n", warning);
+    for (const std::string& warning : warnings) warn(warning);
     file->write(text_of(results));
     file->commit();
 }

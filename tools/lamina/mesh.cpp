@@ -13,7 +13,6 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
-#include "base/warning.h"
 #include "different_files.h"
 #include "lamina/scene.h"
 #include "mesh_files/mesh_file.h"
@@ -106,7 +105,6 @@ MeshTask load(const MeshOptions& options, const MeshOutput& output) {
     }
     Scene scene = load_scene(options.input);
     expect_different_files(files_of(scene), output.paths());
-    for (const std::string& warning : scene.warnings) warn(warning);
     if (!scene.has_volume()) {
         fail("{}: has no \"volume\", which a mesh could be made from", options.input);
     }

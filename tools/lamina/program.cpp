@@ -39,9 +39,8 @@ int report(const std::string& message, int exit_code) {
     return exit_code;
 }
 
-// Each warning is printed once, although a file may be read for many pictures.
-void print_warning(const std::string& text) {
-    static std::set<std::string> printed;
+// Prints a warning once, although a file may be read for many pictures.
+void print_warning(const std::string& text, std::set<std::string>& printed) {
     if (Progress::is_quiet() || !printed.insert(text).second) return;
     print_message("lamina: warning: {}\n", of_bounded_length(text));
 }
@@ -88,7 +87,8 @@ int run(const Program& program, int argc, char** argv) {
 
 // Does not throw.
 int run_and_report(const Program& program, int argc, char** argv, const SignalStop& signals) {
-    const WarningTaker print = print_warning;
+    std::set<std::string> printed;
+    const WarningTaker print = [&](const std::string& text) { print_warning(text, printed); };
     const ClientScope scope({.stop = signals.token(), .warnings = &print});
     try {
         return run(program, argc, argv);

@@ -14,7 +14,6 @@
 #include "base/stage.h"
 #include "base/standard_streams.h"
 #include "base/stopwatch.h"
-#include "base/warning.h"
 #include "data_series.h"
 #include "memory_option.h"
 #include "named_output.h"
@@ -98,7 +97,6 @@ ReadScene read(const RenderOptions& options) {
     }
     read.scene = load_scene(named, settings_of(options.view), read.document, edit);
     if (read.series) read.series->check(read.scene);
-    for (const std::string& warning : read.scene.warnings) warn(warning);
     return read;
 }
 

@@ -13,6 +13,7 @@
 #include "named_output.h"
 #include "only_below_option.h"
 #include "render/pipeline.h"
+#include "scene/given_transfer.h"
 #include "scene_files.h"
 #include "scene_options.h"
 #include "verbs.h"
@@ -60,7 +61,7 @@ void run(const SceneVerbOptions& options) {
     nlohmann::json document;
     const Scene asked = load_scene(options.scene, settings_of(options.view), document);
     for (const std::filesystem::path& file :
-         {asked.volume_file, asked.mesh_file, asked.colormap_file})
+         {asked.volume_file, asked.mesh_file, colormap_file_of(asked)})
         expect_utf8(file);
     expect_different_files(files_of(asked), {options.output});
     const auto output = open_named(options.output);

@@ -2,6 +2,7 @@
 #include "scene_files.h"
 
 #include "mesh_files/mesh_file.h"
+#include "scene/given_transfer.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -17,7 +18,8 @@ void append(Paths& files, const Paths& more) {
 
 Paths files_of(const Scene& scene) {
     Paths files{scene.file};
-    if (!scene.colormap_file.empty()) files.push_back(scene.colormap_file);
+    const std::filesystem::path colormap = colormap_file_of(scene);
+    if (!colormap.empty()) files.push_back(colormap);
     if (!scene.volume_file.empty())
         append(files, files_of_volume(scene.volume_file, scene.volume_selection));
     if (!scene.mesh_file.empty()) append(files, files_of_mesh(scene.mesh_file));

@@ -102,6 +102,7 @@ void Document::set_setting(const std::string& path, const nlohmann::ordered_json
 void Document::choose_transfer_function() {
     record("automatic transfer function");
     scene_.automatic_transfer_function = true;
+    scene_.given_transfer.reset();
     ++revisions_.settings;
 }
 

@@ -72,6 +72,7 @@ void convert_colors(Scene& scene, ImageColorSpace from) {
 Json settings_of(const Scene& scene) {
     Scene copy = scene;
     copy.automatic_transfer_function = true;
+    copy.given_transfer.reset();
     return Json::parse(scene_text(copy));
 }
 
@@ -81,8 +82,7 @@ Scene with_setting(const Scene& scene, const std::string& path, const Json& valu
     Scene changed = parse_scene(settings.dump(), scene.file);
     changed.transfer_function = scene.transfer_function;
     changed.automatic_transfer_function = scene.automatic_transfer_function;
-    changed.colormap_file = scene.colormap_file;
-    changed.warnings = scene.warnings;
+    changed.given_transfer = scene.given_transfer;
     if (changed.automatic_camera) changed.camera = scene.camera;
     if (changed.color_space != scene.color_space) convert_colors(changed, scene.color_space);
     return changed;

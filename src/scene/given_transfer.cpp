@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/given_transfer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "optics/colormap.h"
+#include "optics/opacity.h"
+#include "optics/opacity_slope.h"
+#include "optics/shipped_colormaps.h"
+
+namespace lamina {
+namespace {
+
+// Data of one value have it in the middle of the map.
+ValueRange widened(const ValueRange& range) {
+    if (range.empty()) return {0, 1};
+    if (range.lo < range.hi) return range;
+    const double half = std::max(std::abs(range.lo), 1.0) / 2;
+    return {range.lo - half, range.hi + half};
+}
+
+ValueRange range_of_map(const GivenTransfer& given, const ValueRange& data) {
+    if (given.colormap_range) return *given.colormap_range;
+    const ValueRange range = widened(data);
+    if (range.lo >= -largest_map_value && range.hi <= largest_map_value) return range;
+    throw GivenTransferError(
+        "colormap_range", fmt::format("is missing, expected [lo, hi] between -1e300 and 1e300: the "
+                                      "data go from {} to {}",
+                                      range.lo, range.hi));
+}
+
+std::vector<TransferKnot> knots_of(const GivenTransfer& given,
+                                   const std::vector<GivenPoint>& points) {
+    return given.interpolation == PointInterpolation::linear
+               ? linear_in_opacity(points, given.unit_length)
+               : linear_in_extinction(points, given.unit_length);
+}
+
+// Takes the map's colours, with the given points for extinction or with the map's own opacities.
+TransferFunction colored_by_map(const GivenTransfer& given, const ValueRange& data) {
+    Colormap map = *given.map;
+    if (given.colormap_range || given.open()) {
+        const ValueRange range = range_of_map(given, data);
+        stretch(map, range.lo, range.hi);
+    }
+    const bool own = given.points.empty();
+    try {
+        std::vector<ExtinctionPoint> extinctions;
+        for (const TransferKnot& knot : knots_of(given, own ? given_points(map) : given.points))
+            extinctions.push_back({knot.value, knot.optics.extinction, knot.smooth});
+        return TransferFunction::linear(combine(map, extinctions));
+    } catch (const Error& error) {
+        throw GivenTransferError(own ? "colormap" : "points", error.what());
+    }
+}
+
+TransferFunction colored_by_points(const GivenTransfer& given) {
+    try {
+        const std::vector<TransferKnot> plain =
+            linear_in_extinction(given.points, given.unit_length);
+        if (given.interpolation == PointInterpolation::nearest)
+            return TransferFunction::nearest(plain);
+        TransferFunction::linear(plain);  // checks the points as they were given
+        return TransferFunction::linear(knots_of(given, given.points));
+    } catch (const Error& error) {
+        throw GivenTransferError("points", error.what());
+    }
+}
+
+}  // namespace
+
+// Its words are listed by enum_words() (base/enum_words.h), too.
+const char* name_of(PointInterpolation interpolation) {
+    switch (interpolation) {
+        case PointInterpolation::linear:
+            return "linear";
+        case PointInterpolation::extinction:
+            return "extinction";
+        case PointInterpolation::nearest:
+            return "nearest";
+    }
+    return nullptr;
+}
+
+std::filesystem::path GivenTransfer::colormap_file() const {
+    return is_colormap_name(colormap) ? std::filesystem::path() : std::filesystem::path(colormap);
+}
+
+TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRange& data) {
+    return given.map ? colored_by_map(given, data) : colored_by_points(given);
+}
+
+bool has_open_colormap(const Scene& scene) {
+    return scene.automatic_transfer_function && scene.given_transfer;
+}
+
+void close_colormap(Scene& scene, const ValueRange& data) {
+    const GivenTransfer& given = *scene.given_transfer;
+    try {
+        scene.transfer_function = transfer_function_of(given, data);
+    } catch (const GivenTransferError& error) {
+        fail("{}.{}: {}", given.place, error.key, error.what());
+    }
+    scene.automatic_transfer_function = false;
+}
+
+std::filesystem::path colormap_file_of(const Scene& scene) {
+    return scene.given_transfer ? scene.given_transfer->colormap_file() : std::filesystem::path();
+}
+
+// Nothing is said of a function that was put in place of the given one.
+std::optional<std::string> opaque_ramp(const Scene& scene) {
+    if (!scene.given_transfer || scene.given_transfer->map) return std::nullopt;
+    std::optional<std::string> found = opaque_ramp(*scene.given_transfer);
+    if (found && transfer_function_of(*scene.given_transfer) != scene.transfer_function) return {};
+    return found;
+}
+
+std::optional<std::string> opaque_ramp(const GivenTransfer& given) {
+    if (given.map || given.interpolation == PointInterpolation::nearest) return std::nullopt;
+    const bool linear = given.interpolation == PointInterpolation::linear;
+    const auto by_opacity = [](const GivenPoint& point) {
+        return point.given_as == GivenPoint::Density::opacity;
+    };
+    const auto opaque = [&](const GivenPoint& point) {
+        return by_opacity(point) && point.density == 1;
+    };
+    for (std::size_t i = 0; i + 1 < given.points.size(); ++i) {
+        const GivenPoint &a = given.points[i], &b = given.points[i + 1];
+        if (opaque(a) == opaque(b) || a.value == b.value) continue;
+        if (linear && by_opacity(a) && by_opacity(b)) continue;
+        return fmt::format(
+            "{}: extinction is linear from value {} to {} and runs to opacity 1, taken as an "
+            "optical depth of {:g} per unit_length",
+            given.place, a.value, b.value, linear ? steepest_optical_depth : opaque_optical_depth);
+    }
+    return std::nullopt;
+}
+
+}  // namespace lamina

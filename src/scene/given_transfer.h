@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "lamina/colormap.h"
+#include "lamina/scene.h"
+#include "lamina/transfer_function.h"
+#include "optics/given_points.h"
+#include "volume/min_max_bricks.h"
+
+namespace lamina {
+
+enum class PointInterpolation { linear, extinction, nearest };
+const char* name_of(PointInterpolation interpolation);
+
+// A transfer function as a scene file gives it (docs/scene.md): points, with colours of their own
+// or with those of a colour map.
+struct GivenTransfer {
+    double unit_length = 1;  // world units that opacities refer to, > 0
+    PointInterpolation interpolation = PointInterpolation::linear;
+    std::vector<GivenPoint> points;            // empty: the colour map's own opacities
+    std::string colormap;                      // name of a shipped map, or path; empty: none
+    std::optional<Colormap> map;               // with its own values; none without a colour map
+    std::optional<ValueRange> colormap_range;  // scalars that the map is stretched to
+    std::string place;  // file and key, for messages: "scene.json: transfer_function"
+
+    // Tells whether the map is stretched over the range of the data.
+    bool open() const { return map && !colormap_range && !map->own_range; }
+    // The file that the map is read from; empty if there is none.
+    std::filesystem::path colormap_file() const;
+};
+
+// Something is wrong with a given transfer function. `key`: which of its keys; the text has no
+// place.
+class GivenTransferError : public Error {
+  public:
+    GivenTransferError(std::string which, const std::string& text)
+        : Error(text), key(std::move(which)) {}
+    std::string key;
+};
+
+// Differences of scalars beyond this are not finite (lamina/transfer_function.h).
+inline constexpr double largest_map_value = 1e300;
+
+// Makes the function that is given. `data`: the range of the data, which an open map is stretched
+// over; data of one value have it in the middle of the map. Throws GivenTransferError if points and
+// map make no function.
+TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRange& data = {});
+
+// Whether the scene's colours are those of a map that is stretched over the data.
+bool has_open_colormap(const Scene& scene);
+// Stretches an open colour map over data of this range: then the scene's transfer function is
+// known. Throws Error, which names file and key.
+void close_colormap(Scene& scene, const ValueRange& data);
+
+// The file of the scene's colour map; empty if there is none.
+std::filesystem::path colormap_file_of(const Scene& scene);
+
+// Says which opacity of 1 was replaced by an optical depth, if extinction rises to it in
+// proportion: the number is arbitrary, so a user should know it. If opacity is linear on the way,
+// nothing is arbitrary.
+std::optional<std::string> opaque_ramp(const Scene& scene);
+std::optional<std::string> opaque_ramp(const GivenTransfer& given);
+
+}  // namespace lamina

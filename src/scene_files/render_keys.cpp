@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_files/render_keys.h"
+
+#include <algorithm>
+
+#include "compositing/dither.h"
+#include "compositing/tree_shape.h"
+#include "scene/coloring.h"
+#include "scene_files/data_keys.h"
+#include "scene_files/forms.h"
+
+namespace lamina {
+namespace {
+
+// --- tree
+
+// Reads a list [root, ..., leaf], or a text from the command line: 32x32, 4^5, 1024.
+std::vector<int> read_factors(JsonReader& reader, const std::string& key) {
+    const std::string expected = fmt::format(
+        "1 to {} bifurcation factors from 1 to {}, root first, as in [32, 32] or \"32x32\"",
+        max_tree_levels, max_tree_factor);
+    if (!reader.has(key)) reader.reject(key, expected);
+    const nlohmann::json& value = reader.value(key);
+    const auto is_factor = [](const nlohmann::json& factor) {
+        return factor.is_number_integer() && factor.get<double>() >= 1 &&
+               factor.get<double>() <= max_tree_factor;
+    };
+    if (value.is_string()) {
+        try {
+            return parse_factors(value.get<std::string>());
+        } catch (const Error&) {
+            reader.reject(key, expected);
+        }
+    }
+    if (is_factor(value)) return {value.get<int>()};
+    if (!value.is_array() || value.empty() || value.size() > max_tree_levels ||
+        !std::ranges::all_of(value, is_factor)) {
+        reader.reject(key, expected);
+    }
+    return value.get<std::vector<int>>();
+}
+
+Form<std::vector<int>> factors_form() {
+    const KeyJson list{{"type", "array"},
+                       {"items", reference_to("factor")},
+                       {"minItems", 1},
+                       {"maxItems", max_tree_levels}};
+    const KeyJson text{{"type", "string"},
+                       {"pattern", "^[0-9]+(\\^[0-9]+)?(x[0-9]+(\\^[0-9]+)?)*$"}};
+    return {read_factors,
+            [](const std::vector<int>& factors) { return KeyJson(factors); },
+            {{"oneOf", KeyJson::array({list, reference_to("factor"), text})}}};
+}
+
+const KeyTable<TreeSettings>& tree_keys() {
+    static const auto table = [] {
+        KeyTable<TreeSettings> keys;
+        keys.key("factors", &TreeSettings::factors, factors_form(),
+                 "Bifurcation factors from the root to the leaves.")
+            .required();
+        keys.key("nodes", &TreeSettings::nodes, words_form<NodeArithmetic>());
+        keys.key("code", &TreeSettings::code, words_form<NodeCode>());
+        Form<int> bits{[](JsonReader& reader, const std::string& key) {
+                           const nlohmann::json& value = reader.value(key);
+                           if (value != 8 && value != 16) reader.reject(key, "8 or 16");
+                           return value.get<int>();
+                       },
+                       [](const int& value) { return KeyJson(value); },
+                       {{"enum", {8, 16}}}};
+        keys.key("alpha_bits", &TreeSettings::alpha_bits, bits);
+        return keys;
+    }();
+    return table;
+}
+
+Form<TreeSettings> tree_form() {
+    const auto read = [](JsonReader& reader, const std::string& key) {
+        if (reader.value(key) == "auto") return TreeSettings{.automatic = true, .factors = {}};
+        if (!reader.value(key).is_object())
+            reader.reject(key, "an object {\"factors\": ...}, or \"auto\"");
+        return object_form(tree_keys).read(reader, key);
+    };
+    const auto write = [](const TreeSettings& tree) {
+        return tree.automatic ? KeyJson("auto") : tree_keys().json(tree);
+    };
+    return {read, write, reference_to("tree")};
+}
+
+// --- slice
+
+const KeyTable<DitherSettings>& dither_keys() {
+    static const auto table = [] {
+        KeyTable<DitherSettings> keys;
+        keys.key("seed", &DitherSettings::seed, seed_form());
+        keys.key("color", &DitherSettings::color, flag_form());
+        keys.key("increment", &DitherSettings::increment, whole_form<int>(1, 128),
+                 "Between the two codes.");
+        keys.key("period", &DitherSettings::period,
+                 automatic_form(
+                     whole_form<int>(1, max_dither_period), &nlohmann::json::is_number,
+                     fmt::format("a whole number from 1 to {}, or \"auto\"", max_dither_period)),
+                 "Slabs after which the pattern repeats; auto: N.");
+        return keys;
+    }();
+    return table;
+}
+
+const KeyTable<SliceTableSettings>& slice_table_keys() {
+    static const auto table = [] {
+        KeyTable<SliceTableSettings> keys;
+        keys.key("scalar", &SliceTableSettings::scalars, whole_form<int>(2, 4096));
+        keys.key("length", &SliceTableSettings::lengths, whole_form<int>(1, 64));
+        keys.key("max_length", &SliceTableSettings::max_length,
+                 number_form({.from = 0}, "a length of 0 or more"),
+                 "Longest segment, world units.");
+        return keys;
+    }();
+    return table;
+}
+
+// A table that the plan chooses is not written.
+template <typename Table>
+Form<std::optional<Table>> table_form(const KeyTable<Table>& (*table)()) {
+    auto form = automatic_form(object_form(table), &nlohmann::json::is_object,
+                               "an object {\"scalar\": ...}, or \"auto\"");
+    form.write = optional_form(object_form(table)).write;
+    return form;
+}
+
+const KeyTable<SliceSettings>& slice_keys() {
+    static const auto table = [] {
+        KeyTable<SliceSettings> keys;
+        keys.key("samples", &SliceSettings::samples,
+                 automatic_form(whole_form<int>(1, max_slabs), &nlohmann::json::is_number,
+                                fmt::format("a whole number from 1 to {}, or \"auto\"", max_slabs)),
+                 "Slabs N, or auto: the fewest that keep render.max_error.");
+        keys.key("classification", &SliceSettings::classification, words_form<Classification>());
+        keys.key("order", &SliceSettings::order, words_form<Order>());
+        keys.key("filter", &SliceSettings::filter, words_form<Filter>());
+        keys.key("dither", &SliceSettings::dither, optional_form(object_form(dither_keys)),
+                 "Along depth, of the codes of fixed-point slabs.");
+        keys.key("tree", &SliceSettings::tree, optional_form(tree_form()));
+        keys.key("table", &SliceSettings::table, table_form(slice_table_keys),
+                 "Pre-integration table; auto: the plan chooses it for the view.");
+        return keys;
+    }();
+    return table;
+}
+
+const KeyTable<Emulation>& emulation_keys() {
+    static const auto table = [] {
+        KeyTable<Emulation> keys;
+        keys.key("bits", &Emulation::bits, whole_form<int>(1, max_code_bits), "Of a code.");
+        keys.key("alpha", &Emulation::alpha, words_form<AlphaRounding>());
+        keys.key("over", &Emulation::over, words_form<OverRounding>());
+        keys.key("seed", &Emulation::seed, seed_form());
+        return keys;
+    }();
+    return table;
+}
+
+// --- project
+
+const KeyTable<TableSettings>& project_table_keys() {
+    static const auto table = [] {
+        KeyTable<TableSettings> keys;
+        keys.key("scalar", &TableSettings::scalar, whole_form<int>(2, 4096));
+        keys.key("length", &TableSettings::length, whole_form<int>(1, 64));
+        keys.key("mapping", &TableSettings::mapping, words_form<LengthMapping>());
+        keys.key("store", &TableSettings::store, words_form<TableStore>());
+        keys.key("format", &TableSettings::format, words_form<TableFormat>());
+        keys.key("construction", &TableSettings::construction, words_form<TableConstruction>());
+        return keys;
+    }();
+    return table;
+}
+
+// Values interpolated between the vertices of a fan cannot be drawn with one polygon around a tet.
+void check_geometry(JsonReader& reader, const ProjectSettings& project) {
+    if (project.geometry != ProjectGeometry::silhouette) return;
+    if (project.interpolation == Interpolation::linear)
+        reader.reject("geometry", "\"triangles\" for linear interpolation, or \"auto\"");
+    if (mixes_colors(project.coloring)) {
+        reader.reject("geometry", fmt::format("\"triangles\" for the coloring \"{}\", or \"auto\"",
+                                              name_of(project.coloring)));
+    }
+}
+
+const KeyTable<ProjectSettings>& project_keys() {
+    static const auto table = [] {
+        KeyTable<ProjectSettings> keys;
+        keys.key("coloring", &ProjectSettings::coloring, words_form<Coloring>());
+        keys.key("interpolation", &ProjectSettings::interpolation, words_form<Interpolation>());
+        keys.key("thickness", &ProjectSettings::thickness, words_form<Thickness>());
+        keys.key("order", &ProjectSettings::order, words_form<ProjectOrder>());
+        keys.key("geometry", &ProjectSettings::geometry, words_form<ProjectGeometry>());
+        keys.key("dither", &ProjectSettings::dither, words_form<ProjectDither>());
+        keys.key("table", &ProjectSettings::table, table_form(project_table_keys),
+                 "Pre-integration table; auto: the cheapest that keeps its error under max_error / "
+                 "2 and .5 / 255.");
+        keys.check(check_geometry);
+        keys.key("tree", &ProjectSettings::tree, optional_form(tree_form()), "Of nodes fixed.");
+        return keys;
+    }();
+    return table;
+}
+
+// --- trace, and what all methods have
+
+const KeyTable<Scene>& trace_keys() {
+    static const auto table = [] {
+        KeyTable<Scene> keys;
+        keys.key("of", &Scene::trace_of, words_form<TraceOf>(),
+                 "The volume where the scene has one.")
+            .without_default();
+        keys.check([](JsonReader& reader, Scene& scene) {
+            const bool volume = has_volume(reader, scene), mesh = has_mesh(reader, scene);
+            if (!reader.has("of")) {
+                scene.trace_of = volume ? TraceOf::volume : TraceOf::mesh;
+            } else if (scene.trace_of == TraceOf::volume && !volume) {
+                reader.reject("of", "\"mesh\": the scene has no volume");
+            } else if (scene.trace_of == TraceOf::mesh && !mesh) {
+                reader.reject("of", "\"volume\": the scene has no mesh");
+            }
+        });
+        // Below 1e-12 the tracer's own rounding would be larger than the tolerance.
+        keys.key("tolerance", &Scene::trace_tolerance,
+                 number_form({.from = 1e-12, .up_to = 1}, "a number from 1e-12 to 1"),
+                 "Error bound, of full scale.");
+        return keys;
+    }();
+    return table;
+}
+
+// Two members stand for the one key.
+Key<Scene> target_key() {
+    std::vector<std::pair<const char*, std::optional<Target>>> words;
+    for (const auto& [word, target] : enum_words<Target>()) words.emplace_back(word, target);
+    words.emplace_back("auto", std::nullopt);
+    const auto form = words_form<std::optional<Target>>(words);
+    Key<Scene> key{"target", form.schema, false, {}, {}};
+    key.schema["default"] = name_of(Scene{}.target);
+    key.read = [form](JsonReader& reader, Scene& scene) {
+        const std::optional<Target> target = form.read(reader, "target");
+        scene.automatic_target = !target;
+        scene.target = target.value_or(Target::float32);
+    };
+    key.write = [form](const Scene& scene, KeyJson& json) {
+        json["target"] =
+            form.write(scene.automatic_target ? std::nullopt : std::optional(scene.target));
+    };
+    return key;
+}
+
+void check_method(JsonReader& reader, Scene& scene) {
+    if (scene.method == Method::slice && !has_volume(reader, scene))
+        reader.reject("method", "\"project\" or \"trace\" for a scene without a volume");
+    if (scene.method == Method::project && !has_mesh(reader, scene))
+        reader.reject("method", "\"slice\" or \"trace\" for a scene without a mesh");
+    const bool emulates = scene.method == Method::project && scene.target == Target::emulated;
+    if (emulates && scene.project.dither == ProjectDither::alpha) {
+        reader.fail_at("project.dither",
+                       "found \"alpha\" with the target \"emulated\", expected \"none\" or "
+                       "\"after_blend\": render.emulate.alpha says how opacity is rounded there");
+    }
+}
+
+}  // namespace
+
+KeyJson tree_schema() {
+    return {{"oneOf", KeyJson::array({{{"const", "auto"}}, tree_keys().schema()})}};
+}
+
+KeyJson factor_schema() {
+    return whole_form<int>(1, max_tree_factor).schema;
+}
+
+const KeyTable<Scene>& render_keys() {
+    static const auto table = [] {
+        KeyTable<Scene> keys;
+        keys.key("method", &Scene::method, words_form<Method>(),
+                 "Left out: slice for scenes with a volume, project for others.")
+            .without_default();
+        keys.check([](JsonReader& reader, Scene& scene) {
+            if (!reader.has("method"))
+                scene.method = has_volume(reader, scene) ? Method::slice : Method::project;
+        });
+        keys.add(target_key());
+        keys.object("emulate", &Scene::emulate, emulation_keys,
+                    "Fixed-point compositing step by step, for target emulated.");
+        keys.key("max_error", &Scene::max_error,
+                 number_form({.above = 0, .up_to = 255},
+                             "a number above 0 and up to 255 (in 1/255 of full scale)"),
+                 "Bound for what is automatic, in 1/255 of full scale.");
+        keys.object("slice", &Scene::slice, slice_keys);
+        keys.object("project", &Scene::project, project_keys, "Projected tetrahedra.");
+        keys.object("trace", trace_keys);
+        keys.check(check_method);
+        return keys;
+    }();
+    return table;
+}
+
+}  // namespace lamina

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_files/view_keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "image/image_limits.h"
+#include "scene/camera.h"
+#include "scene/largest_scene_coordinate.h"
+#include "scene/lighting_check.h"
+#include "scene_files/forms.h"
+
+namespace lamina {
+namespace {
+
+bool is_place(const glm::dvec3& v) {
+    return std::abs(v.x) <= largest_scene_coordinate && std::abs(v.y) <= largest_scene_coordinate &&
+           std::abs(v.z) <= largest_scene_coordinate;
+}
+
+// --- camera
+
+void check_camera(JsonReader& reader, const Camera& camera) {
+    const std::pair<const char*, const glm::dvec3*> vectors[] = {
+        {"eye", &camera.eye}, {"center", &camera.center}, {"up", &camera.up}};
+    for (const auto& [key, vector] : vectors)
+        if (!is_place(*vector)) reader.reject(key, "coordinates up to 1e100");
+    if (camera.height > largest_scene_coordinate)
+        reader.reject("height", "at most 1e100 world units");
+}
+
+void add_camera(KeyTable<Scene>& scene) {
+    const Alternative<Scene> automatic{
+        [](const nlohmann::json& value) { return value == "auto"; },
+        [](JsonReader&, const std::string&, Scene& read) { read.automatic_camera = true; },
+        [](const Scene& written) { return written.automatic_camera; },
+        [](const Scene&) { return KeyJson("auto"); },
+        {{"const", "auto"}}};
+    const Alternative<Scene> given{
+        [](const nlohmann::json& value) { return value.is_object(); },
+        [](JsonReader& reader, const std::string& key, Scene& read) {
+            JsonReader camera = reader.object(key);
+            camera_keys().read(camera, read.camera);
+            read.automatic_camera = false;
+        },
+        [](const Scene&) { return true; },
+        [](const Scene& written) { return camera_keys().json(written.camera); },
+        camera_keys().schema()};
+    scene.check([](JsonReader&, Scene& read) { read.automatic_camera = true; });
+    scene
+        .variant("camera", {automatic, given}, "an object {...}, or \"auto\"",
+                 "auto: chosen from the data (docs/first-picture.md).")
+        .otherwise("auto");
+}
+
+// --- clip
+
+const KeyTable<ClipPlane>& plane_keys() {
+    static const auto table = [] {
+        KeyTable<ClipPlane> keys;
+        keys.key("point", &ClipPlane::point,
+                 checked(vector_form(), is_place, "coordinates from -1e100 to 1e100"),
+                 "Of the plane, world.")
+            .required();
+        keys.key("normal", &ClipPlane::normal,
+                 checked(
+                     vector_form(), [](const glm::dvec3& v) { return v != glm::dvec3(0); },
+                     "a direction [x, y, z] that is not zero"),
+                 "Towards what is kept; any length but 0.")
+            .required();
+        return keys;
+    }();
+    return table;
+}
+
+const KeyTable<ClipBox>& box_keys() {
+    static const auto table = [] {
+        KeyTable<ClipBox> keys;
+        const auto place = checked(vector_form(), is_place, "coordinates from -1e100 to 1e100");
+        keys.key("min", &ClipBox::min, place).required();
+        keys.key("max", &ClipBox::max, place).required();
+        keys.check([](JsonReader& reader, ClipBox& box) {
+            for (int axis = 0; axis < 3; ++axis) {
+                if (box.min[axis] <= box.max[axis]) continue;
+                reader.reject("max",
+                              fmt::format("at least clip.box.min, ({}, {}, {}), on each axis",
+                                          box.min.x, box.min.y, box.min.z));
+            }
+        });
+        return keys;
+    }();
+    return table;
+}
+
+const KeyTable<Clip>& clip_keys() {
+    static const auto table = [] {
+        KeyTable<Clip> keys;
+        keys.key(
+            "planes", &Clip::planes,
+            list_form(plane_keys, Clip::most_planes, "planes", {{"maxItems", Clip::most_planes}}));
+        keys.key("box", &Clip::box, optional_form(object_form(box_keys)),
+                 "World; min at most max on each axis.");
+        return keys;
+    }();
+    return table;
+}
+
+// --- lighting
+
+const KeyTable<Light>& light_keys() {
+    static const auto table = [] {
+        KeyTable<Light> keys;
+        keys.key("direction", &Light::direction,
+                 word_or_form("headlight", vector_form(), &nlohmann::json::is_array,
+                              "\"headlight\" or three finite numbers [x, y, z]"),
+                 "Towards the light, in world space; headlight: towards the eye, along every ray.");
+        keys.key("color", &Light::color, color_form(), "Components 0..1000.");
+        return keys;
+    }();
+    return table;
+}
+
+const KeyTable<Lighting>& lighting_keys() {
+    static const auto table = [] {
+        KeyTable<Lighting> keys;
+        const auto term = number_form({.from = 0, .up_to = Lighting::largest_term});
+        keys.key("ambient", &Lighting::ambient, term);
+        keys.key("diffuse", &Lighting::diffuse, term);
+        keys.key("specular", &Lighting::specular, term);
+        keys.key("power", &Lighting::power,
+                 number_form({.from = 1, .up_to = Lighting::largest_power}),
+                 "Of the specular highlight.");
+        keys.key("smallest_gradient", &Lighting::smallest_gradient,
+                 automatic_form(number_form({.from = Lighting::least_gradient,
+                                             .up_to = Lighting::largest_gradient}),
+                                &nlohmann::json::is_number, "\"auto\" or a number above 0"),
+                 "In scalar units per world unit: what is less steep fades into the unlit "
+                 "picture. auto: .01 of the range of values over the smallest distance of samples "
+                 "(meshes: over the mean edge).");
+        keys.key("lights", &Lighting::lights,
+                 list_form(light_keys, Lighting::most_lights, "",
+                           {{"minItems", 1}, {"maxItems", Lighting::most_lights}}));
+        return keys;
+    }();
+    return table;
+}
+
+void add_lighting(KeyTable<Scene>& scene) {
+    Form<Lighting> form = object_form(lighting_keys);
+    form.read = [](JsonReader& reader, const std::string& key) {
+        if (!reader.value(key).is_object())
+            reader.reject(key, "an object {...}, or nothing for colours as they are");
+        JsonReader object = reader.object(key);
+        Lighting lighting;
+        lighting_keys().read(object, lighting);
+        if (const auto mistake = mistake_in(lighting))
+            object.fail_at(mistake->key, mistake->message);
+        return lighting;
+    };
+    scene.key("lighting", &Scene::lighting, optional_form(form),
+              "Emission is lit by the gradient of the scalar, on both of its sides; absent: "
+              "colours are shown as they are.");
+}
+
+// --- image
+
+const KeyTable<Scene>& image_keys() {
+    static const auto table = [] {
+        KeyTable<Scene> keys;
+        keys.key("width", &Scene::width, whole_form<int>(1, max_image_side));
+        keys.key("height", &Scene::height, whole_form<int>(1, max_image_side));
+        keys.check([](JsonReader& reader, Scene& scene) {
+            const auto width = std::int64_t{scene.width}, height = std::int64_t{scene.height};
+            if (width * height > max_image_pixels) {
+                reader.fail_at(
+                    "width", fmt::format("found {} x {} pixels, expected at most {} in all", width,
+                                         height, max_image_pixels));
+            }
+        });
+        keys.key("color_space", &Scene::color_space, words_form<ImageColorSpace>(),
+                 "What triples and colour maps are given in, and pictures composited in: linear "
+                 "light, or display values as VTK and ParaView do.");
+        keys.key("background", &Scene::background, color_form());
+        return keys;
+    }();
+    return table;
+}
+
+}  // namespace
+
+const KeyTable<Camera>& camera_keys() {
+    static const auto table = [] {
+        KeyTable<Camera> keys;
+        keys.key("projection", &Camera::projection, words_form<Projection>());
+        keys.key("eye", &Camera::eye, vector_form()).required();
+        keys.key("center", &Camera::center, vector_form()).required();
+        keys.key("up", &Camera::up, vector_form());
+        keys.key("fov_y", &Camera::fov_y,
+                 number_form({.above = 0, .below = 180}, "degrees between 0 and 180"),
+                 "Degrees, perspective.");
+        keys.check([](JsonReader& reader, Camera& camera) {
+            if (camera.projection == Projection::orthographic) reader.number("height");
+        });
+        keys.key("height", &Camera::height, number_form({.above = 0}, "world units > 0"),
+                 "World units, orthographic (required there).")
+            .without_default();
+        keys.check(check_camera);
+        return keys;
+    }();
+    return table;
+}
+
+void add_view_keys(KeyTable<Scene>& scene) {
+    add_camera(scene);
+    Form<Clip> clip = object_form(clip_keys);
+    clip.write = [](const Clip& kept) {
+        return kept.keeps_all() ? KeyJson() : clip_keys().json(kept);
+    };
+    scene.key("clip", &Scene::clip, clip,
+              "What is drawn of the data: what lies on the kept side of all planes and in the "
+              "box. Nothing is cut away where it is left out.");
+    add_lighting(scene);
+    scene.object("image", image_keys);
+}
+
+}  // namespace lamina
