@@ -2,21 +2,26 @@
 """Single pictures."""
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._picture import Picture
 from ._scene import scene_of
 from ._session import Progress, Session
 from ._volume import Path
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import Keywords
+
 
 def render(data: Any, transfer_function: Any = None, *, context: str = "auto", threads: int = 0,
-           progress: Progress | None = None, only_below: Path | None = None, **keywords: Any) -> Picture:
+           progress: Progress | None = None, only_below: Path | None = None, **keywords: Unpack[Keywords]) -> Picture:
     """Draws one picture.
 
     ``data``: a ``Volume``, a ``Mesh``, an array, a scene (``Scene``, dictionary or file) or a data file. What is not said
     is chosen from the data. ``transfer_function``: a ``TransferFunction``, or what scene files have. Other keywords have
-    the names of scene files (``Scene``): ``camera``, ``size``, ``max_error``, ``method``, ``lighting``, ``clip``, ...
+    the names of scene files (``Keywords``): ``camera``, ``size``, ``max_error``, ``method``, ``lighting``, ``clip``, ...
     ``context``, ``threads``, ``only_below``: as for ``Session``, which is quicker where several pictures are drawn of the
     same data. ``progress(activity, share)``: hears how far it is.
 
@@ -35,7 +40,7 @@ def render(data: Any, transfer_function: Any = None, *, context: str = "auto", t
 
 
 def trace(data: Any, transfer_function: Any = None, *, threads: int = 0, progress: Progress | None = None,
-          only_below: Path | None = None, **keywords: Any) -> Picture:
+          only_below: Path | None = None, **keywords: Unpack[Keywords]) -> Picture:
     """The truth: the same picture by the reference tracer, in double precision (``Picture.array`` is float64).
 
     Arguments are those of ``render``; ``trace={"tolerance": 1e-7}`` asks for less error than 1e-5 of full scale. It takes

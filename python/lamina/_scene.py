@@ -15,16 +15,10 @@ from . import _lamina
 from ._conversion import shown
 from ._errors import Error
 from ._files import write_file
+from ._keywords import KEYWORDS
 from ._mesh import Mesh
 from ._plain import plain
 from ._volume import Path, Volume, folder_name
-
-# Keyword arguments by the keys of scene files that they set.
-KEYWORDS: dict[str, tuple[str, ...]] = {
-    **{name: (name,) for name in ("volume", "mesh", "scalar", "nan", "camera", "clip", "lighting")},
-    **{name: ("image", name) for name in ("width", "height", "background", "color_space")},
-    **{name: ("render", name) for name in ("method", "target", "max_error", "emulate", "slice", "project", "trace")},
-}
 
 
 class Scene(dict[str, Any]):
@@ -35,14 +29,9 @@ class Scene(dict[str, Any]):
 
     ``render``, ``trace`` and ``Session`` take, wherever they take data: a scene, a plain dictionary of that form, the
     path of a scene file or of a data file, a ``Volume``, a ``Mesh`` or an array. All of them take keywords with the
-    names of scene files:
-
-    - ``volume``, ``mesh``, ``scalar``, ``nan``, ``camera``, ``clip``, ``lighting``;
-    - of ``image``: ``width``, ``height``, ``background``, ``color_space``; and ``size=(width, height)``;
-    - of ``render``: ``method``, ``target``, ``max_error``, ``emulate``, ``slice``, ``project``, ``trace``;
-    - ``set={"render.slice.samples": 64}``: any key, named by its path.
-
-    A keyword replaces what the scene has under its key; None leaves it.
+    names of scene files (``Keywords`` lists them): the scene's own keys, those of ``image`` and those of ``render``,
+    ``size=(width, height)``, and ``set={"render.slice.samples": 64}`` for any key, named by its path. A keyword replaces
+    what the scene has under its key; None leaves it.
 
     >>> scene = lamina.Scene({"version": 1, "volume": {"generate": "gaussians", "size": [16, 16, 16]}})
     >>> lamina.render(scene, size=(40, 30)).array.shape

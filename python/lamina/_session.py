@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
-from typing import Any, Callable
+from typing import TYPE_CHECKING, Any, Callable, Mapping
 
 from . import _lamina
 from ._camera import Camera
@@ -14,6 +14,11 @@ from ._scene import Scene, scene_of
 from ._turntable import Turntable
 from ._volume import Path, Volume
 from ._watched import CHANGED, Watched
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import Changes, Keywords
 
 Progress = Callable[[str, float], object]
 
@@ -39,7 +44,7 @@ class Session:
     """
 
     def __init__(self, data: Any, transfer_function: Any = None, *, context: str = "auto", threads: int = 0,
-                 many_frames: bool = False, only_below: Path | None = None, **keywords: Any) -> None:
+                 many_frames: bool = False, only_below: Path | None = None, **keywords: Unpack[Keywords]) -> None:
         self._scene = scene_of(data, transfer_function, keywords, only_below)
         self._options = context, threads, many_frames, self._scene._only_below
         self._changing = threading.RLock()
@@ -88,13 +93,13 @@ class Session:
         self._read_if_changed()
         return self._picture(self._core.trace(progress))
 
-    def set(self, **keywords: Any) -> None:
+    def set(self, **keywords: Unpack[Changes]) -> None:
         """Changes keys of the scene, as ``Scene`` lists them, and ``transfer_function``. Settings of ``render`` choose what
         is automatic again; ``camera``, ``size``, ``transfer_function`` and ``clip`` do not."""
         with self._changing:
             self._set(keywords)
 
-    def _set(self, keywords: dict[str, Any]) -> None:
+    def _set(self, keywords: Mapping[str, Any]) -> None:
         changed = self._scene._changed(keywords)
         cheap = {"camera": self._core.set_camera, "size": self._core.set_size, "clip": self._core.set_clip,
                  "transfer_function": self._core.set_transfer_function}
@@ -103,7 +108,7 @@ class Session:
         if automatic or not set(given) <= set(cheap):
             self._core.set_scene(changed._parsed())
         else:
-            # A colour map may be stretched over the range of the data, which then is measured.
+            # A colour map is read from a file: not for every camera.
             parsed = changed._parsed(without="" if "transfer_function" in given else "transfer_function")
             for name in given:
                 cheap[name](parsed)

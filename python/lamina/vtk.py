@@ -20,7 +20,7 @@ nearest neighbours, other blend modes, more than one component, cells that are n
 """
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._errors import Error
 from ._held import Held
@@ -30,6 +30,11 @@ from ._vtk_camera import camera_keys, check_clipping_range
 from ._vtk_data import clip_keys, drawn_data, scale_of, volume_of
 from ._vtk_functions import transfer_function_keys
 from ._vtk_window import pixels_of
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import Keywords
 
 __all__ = ["Held", "hold", "scene"]
 
@@ -61,12 +66,12 @@ def scene(renderer: Any) -> Scene:
     return Scene(document, data)
 
 
-def hold(renderer: Any, *, method: str = "trace", precise: bool = True, **keywords: Any) -> Held:
+def hold(renderer: Any, *, precise: bool = True, **keywords: Unpack[Keywords]) -> Held:
     """Draws a renderer's volume in VTK and in lamina, and measures VTK's picture.
 
-    ``method``: ``"trace"``, the truth; ``"slice"`` or ``"project"`` are quicker. ``precise``: VTK draws into float32, so that
-    rounding to 8 bits is not counted against it; else its codes are taken as a window shows them. Other keywords change
-    lamina's scene as for ``render`` (``trace={"tolerance": 1e-6}``).
+    ``precise``: VTK draws into float32, so that rounding to 8 bits is not counted against it; else its codes are taken as
+    a window shows them. Other keywords change lamina's scene as for ``render`` (``trace={"tolerance": 1e-6}``).
+    ``method``: ``"trace"`` where nothing is said, the truth; ``"slice"`` or ``"project"`` are quicker.
 
     The renderer's own window draws; without a display it can be an off-screen one.
     """
@@ -74,8 +79,6 @@ def hold(renderer: Any, *, method: str = "trace", precise: bool = True, **keywor
     taken = scene(renderer)
     check_clipping_range(renderer, taken.data)
     pixels = pixels_of(renderer, precise)
-    if method == "trace":
-        picture = trace(taken, **keywords)
-    else:
-        picture = render(taken, method=method, **keywords)
+    draw = trace if (keywords.get("method") or "trace") == "trace" else render
+    picture = draw(taken, **keywords)
     return Held(pixels, picture, tuple(renderer.GetBackground()))

@@ -23,6 +23,8 @@ worst: float = picture.compare(array).linf
 reveal_type(lamina.Session(volume).turntable(3)[0])
 reveal_type(lamina.read("a.nrrd"))
 lamina.Camera(eye="here", center=(0, 0, 0))  # wrong
+lamina.render(volume, max_eror=1)  # wrong
+lamina.render(volume, slice={"sample": 3})  # wrong
 picture.size  # wrong
 """
 
@@ -40,7 +42,7 @@ def run(*command, **keywords):
 def test_the_package_and_a_client_pass_mypy(source, tmp_path):
     needed("mypy")
     settings = tmp_path / "mypy.ini"
-    settings.write_text("[mypy]\nstrict = True\nwarn_unused_ignores = False\ndisallow_any_generics = False\n"
+    settings.write_text("[mypy]\nstrict = True\nwarn_unused_ignores = False\nenable_incomplete_feature = Unpack\ndisallow_any_generics = False\n"
                         f"cache_dir = {tmp_path / 'cache'}\n[mypy-vtkmodules.*]\nignore_missing_imports = True\n"
                         "follow_imports = skip\n")
     (tmp_path / "client.py").write_text(CLIENT)
@@ -48,9 +50,10 @@ def test_the_package_and_a_client_pass_mypy(source, tmp_path):
     assert found.returncode == 0, found.stdout + found.stderr
     found = run(sys.executable, "-m", "mypy", "--config-file", settings, tmp_path / "client.py")
     lines = [line.split("client.py:")[1] for line in found.stdout.splitlines() if "client.py:" in line]
-    assert [line.split(":")[0] for line in lines] == ["10", "11", "12", "13"], found.stdout
+    assert [line.split(":")[0] for line in lines] == ["10", "11", "12", "13", "14", "15"], found.stdout
     assert "Picture" in lines[0] and "Union[" in lines[1] and "incompatible type" in lines[2]
-    assert '"Picture" has no attribute "size"' in lines[3]
+    assert "did you mean \"max_error\"" in lines[3] and "SliceKeys" in lines[4]
+    assert '"Picture" has no attribute "size"' in lines[5]
     assert (PACKAGE / "py.typed").exists()
 
 

@@ -1,0 +1,382 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Keyword arguments with the names of scene files, and their types. Made from docs/scene.schema.json by tools/key_files."""
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Literal, Mapping, Sequence, TypedDict, Union
+
+if TYPE_CHECKING:
+    from ._camera import Camera
+    from ._lighting import Lighting
+    from ._transfer_function import Color, TransferFunction
+
+# The keys of scene files that keyword arguments set.
+KEYWORDS: dict[str, tuple[str, ...]] = {
+    "volume": ("volume",),
+    "mesh": ("mesh",),
+    "scalar": ("scalar",),
+    "nan": ("nan",),
+    "camera": ("camera",),
+    "clip": ("clip",),
+    "lighting": ("lighting",),
+    "width": ("image", "width"),
+    "height": ("image", "height"),
+    "color_space": ("image", "color_space"),
+    "background": ("image", "background"),
+    "method": ("render", "method"),
+    "target": ("render", "target"),
+    "emulate": ("render", "emulate"),
+    "max_error": ("render", "max_error"),
+    "slice": ("render", "slice"),
+    "project": ("render", "project"),
+    "trace": ("render", "trace"),
+}
+
+
+class VolumeKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``type``: Default: "uint8".
+    - ``size``: Samples of a file without a header.
+    - ``array``: By its name; the first unless told.
+    - ``level``: Of a pyramid. Default: 0.
+    - ``channel``: Default: 0.
+    - ``time``: Default: 0.
+    - ``spacing``: In place of the file's.
+    - ``origin``: The first sample, in place of the file's.
+    - ``offset``: Bytes before the first sample. Default: 0.
+    - ``endian``: Default: "little".
+    """
+
+    generate: Literal["ramp", "constant", "marschner-lobb", "gaussians", "sheets", "mixing"]
+    type: Union[Literal["uint8", "uint16", "float"], Literal["int8", "uint8", "int16", "uint16", "int32", "uint32", "int64",
+                "uint64", "float", "double"]]
+    size: Sequence[int]
+    path: Union[str, os.PathLike[str]]
+    array: str
+    level: int
+    channel: int
+    time: int
+    spacing: Sequence[float]
+    origin: Sequence[float]
+    offset: int
+    endian: Literal["little", "big"]
+
+
+class MeshKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``time``: Step of a .pvd, counted from 0 in the order of time. Default: 0.
+    - ``tolerance``: Largest difference from the trilinear field, of the volume's range of values. Default: 0.02.
+    - ``max_tets``: Where the making of the mesh stops. Default: 5000000.
+    - ``kuhn``: Every sample, six tets a cell. Default: false.
+    """
+
+    path: Union[str, os.PathLike[str]]
+    time: int
+    tolerance: float
+    max_tets: int
+    kuhn: bool
+
+
+class CameraKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``projection``: Default: "perspective".
+    - ``up``: Default: [0.0, 1.0, 0.0].
+    - ``fov_y``: Degrees, perspective. Default: 40.0.
+    - ``height``: World units, orthographic (required there).
+    """
+
+    projection: Literal["perspective", "orthographic"]
+    eye: Sequence[float]
+    center: Sequence[float]
+    up: Sequence[float]
+    fov_y: float
+    height: float
+
+
+class ClipKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``box``: World; min at most max on each axis.
+    """
+
+    planes: Sequence[ClipPlaneKeys]
+    box: ClipBoxKeys
+
+
+class ClipPlaneKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``point``: Of the plane, world.
+    - ``normal``: Towards what is kept; any length but 0.
+    """
+
+    point: Sequence[float]
+    normal: Sequence[float]
+
+
+class ClipBoxKeys(TypedDict, total=False):
+    """Keys of a scene file."""
+
+    min: Sequence[float]
+    max: Sequence[float]
+
+
+class LightingKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``ambient``: Default: 0.1.
+    - ``diffuse``: Default: 0.7.
+    - ``specular``: Default: 0.2.
+    - ``power``: Of the specular highlight. Default: 10.0.
+    - ``smallest_gradient``: In scalar units per world unit: what is less steep fades into the unlit picture. auto:
+      .01 of the range of values over the smallest distance of samples (meshes: over the mean edge). Default: "auto".
+    - ``lights``: Default: [{"direction": "headlight", "color": [1.0, 1.0, 1.0]}].
+    """
+
+    ambient: float
+    diffuse: float
+    specular: float
+    power: float
+    smallest_gradient: Union[Literal["auto"], float]
+    lights: Sequence[LightingLightKeys]
+
+
+class LightingLightKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``direction``: Towards the light, in world space; headlight: towards the eye, along every ray. Default:
+      "headlight".
+    - ``color``: Components 0..1000. Default: [1.0, 1.0, 1.0].
+    """
+
+    direction: Union[Literal["headlight"], Sequence[float]]
+    color: Color
+
+
+class EmulateKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``bits``: Of a code. Default: 8.
+    - ``alpha``: Default: "truncate".
+    - ``over``: Default: "separate".
+    - ``seed``: Default: 1.
+    """
+
+    bits: int
+    alpha: Literal["truncate", "nearest", "stochastic"]
+    over: Literal["separate", "fused"]
+    seed: int
+
+
+class SliceKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``samples``: Slabs N, or auto: the fewest that keep render.max_error. Default: "auto".
+    - ``classification``: Default: "auto".
+    - ``order``: Default: "back_to_front".
+    - ``filter``: Default: "exact".
+    - ``dither``: Along depth, of the codes of fixed-point slabs.
+    - ``table``: Pre-integration table; auto: the plan chooses it for the view.
+    """
+
+    samples: Union[Literal["auto"], int]
+    classification: Literal["auto", "post", "preintegrated", "exact"]
+    order: Literal["back_to_front", "front_to_back"]
+    filter: Literal["exact", "hardware", "auto"]
+    dither: SliceDitherKeys
+    tree: Union[Literal["auto"], TreeKeys]
+    table: Union[Literal["auto"], SliceTableKeys]
+
+
+class SliceDitherKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``seed``: Default: 1.
+    - ``color``: Default: false.
+    - ``increment``: Between the two codes. Default: 1.
+    - ``period``: Slabs after which the pattern repeats; auto: N. Default: 16.
+    """
+
+    seed: int
+    color: bool
+    increment: int
+    period: Union[Literal["auto"], int]
+
+
+class TreeKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``factors``: Bifurcation factors from the root to the leaves.
+    - ``nodes``: Default: "shader".
+    - ``code``: Default: "minimax".
+    - ``alpha_bits``: Default: 8.
+    """
+
+    factors: Union[Sequence[int], int, str]
+    nodes: Literal["shader", "fixed"]
+    code: Literal["minimax", "phi", "alpha"]
+    alpha_bits: Literal[8, 16]
+
+
+class SliceTableKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``scalar``: Default: 256.
+    - ``length``: Default: 1.
+    - ``max_length``: Longest segment, world units. Default: 0.0.
+    """
+
+    scalar: int
+    length: int
+    max_length: float
+
+
+class ProjectKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``coloring``: Default: "preintegrated".
+    - ``interpolation``: Default: "perspective".
+    - ``thickness``: Default: "exact".
+    - ``order``: Default: "auto".
+    - ``geometry``: Default: "auto".
+    - ``dither``: Default: "none".
+    - ``table``: Pre-integration table; auto: the cheapest that keeps its error under max_error / 2 and .5 / 255.
+    - ``tree``: Of nodes fixed.
+    """
+
+    coloring: Literal["preintegrated", "attenuation", "vertex", "analytic"]
+    interpolation: Literal["perspective", "linear"]
+    thickness: Literal["exact", "dz"]
+    order: Literal["auto", "mpvo", "exact", "centroid", "none"]
+    geometry: Literal["auto", "silhouette", "triangles"]
+    dither: Literal["none", "alpha", "after_blend"]
+    table: Union[Literal["auto"], ProjectTableKeys]
+    tree: Union[Literal["auto"], TreeKeys]
+
+
+class ProjectTableKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``scalar``: Default: 256.
+    - ``length``: Default: 16.
+    - ``mapping``: Default: "octave".
+    - ``store``: Default: "mean_extinction".
+    - ``format``: Default: "fixed16".
+    - ``construction``: Default: "exact".
+    """
+
+    scalar: int
+    length: int
+    mapping: Literal["octave", "log2", "linear"]
+    store: Literal["mean_extinction", "opacity"]
+    format: Literal["fixed16", "fixed8", "float16", "float32"]
+    construction: Literal["exact", "incremental"]
+
+
+class TraceKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``of``: The volume where the scene has one.
+    - ``tolerance``: Error bound, of full scale. Default: 1e-05.
+    """
+
+    of: Literal["volume", "mesh"]
+    tolerance: float
+
+
+class TransferFunctionKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``unit_length``: World length that opacity refers to. Default: 1.0.
+    - ``interpolation``: linear: opacity between two points given by opacity, else extinction; extinction: extinction
+      everywhere; nearest: the nearest point. Default: "linear".
+    - ``colormap``: Path of a ParaView colour map (JSON preset), or the name of a shipped one: cividis, cool-warm,
+      ct-bone, ct-soft-tissue, greys, inferno, viridis. Points then give no colour.
+    - ``colormap_range``: Scalars that the map is stretched to; a shipped one else to the data's range, if it is not
+      in HU.
+    - ``points``: In order of value; two points at one value make a step.
+    """
+
+    unit_length: float
+    interpolation: Literal["linear", "extinction", "nearest"]
+    colormap: Union[str, os.PathLike[str]]
+    colormap_range: Sequence[float]
+    points: Sequence[TransferFunctionPointKeys]
+
+
+class TransferFunctionPointKeys(TypedDict, total=False):
+    """Keys of a scene file.
+
+    - ``color``: Not associated. Default: [1, 1, 1].
+    - ``extinction``: Per world unit.
+    - ``smooth``: With extinction: the straight pieces on both sides stand for a smooth curve, which may be followed
+      instead, within 1.3e-3 of their extinction. Default: false.
+    - ``opacity``: Over unit_length; in place of extinction.
+    """
+
+    value: float
+    color: Color
+    extinction: float
+    smooth: bool
+    opacity: float
+
+
+class Keywords(TypedDict, total=False):
+    """Keywords of ``render``, ``trace`` and ``Session``: keys of the scene. One that is None is as if it were left out.
+
+    - ``volume``: Path of a file or folder (relative to the scene; ${LAMINA_DATA} expands), with what of it is drawn,
+      or a generated volume.
+    - ``mesh``: Path of a mesh (.vtu, .pvtu, .pvd, legacy .vtk, TetGen .node with its .ele; relative to the scene;
+      ${LAMINA_DATA} expands), or one made from the volume.
+    - ``scalar``: Array of the mesh file, of points or (averaged to points) of cells; the first one of points where
+      nothing is said.
+    - ``nan``: What NaN and infinite values do: refuse the volume or mesh, or make the cells and tets around them
+      transparent. Default: "error".
+    - ``camera``: auto: chosen from the data (docs/first-picture.md). Default: "auto".
+    - ``clip``: What is drawn of the data: what lies on the kept side of all planes and in the box. Nothing is cut
+      away where it is left out.
+    - ``lighting``: Emission is lit by the gradient of the scalar, on both of its sides; absent: colours are shown as
+      they are.
+    - ``width``: Default: 800.
+    - ``height``: Default: 600.
+    - ``color_space``: What triples and colour maps are given in, and pictures composited in: linear light, or display
+      values as VTK and ParaView do. Default: "linear".
+    - ``background``: Default: [0.0, 0.0, 0.0].
+    - ``method``: Left out: slice for scenes with a volume, project for others.
+    - ``target``: Default: "float32".
+    - ``emulate``: Fixed-point compositing step by step, for target emulated.
+    - ``max_error``: Bound for what is automatic, in 1/255 of full scale. Default: 1.0.
+    - ``project``: Projected tetrahedra.
+    - ``size``: (width, height) in pixels, in place of width and height.
+    - ``set``: Any key, named by its path: {"render.slice.samples": 64}.
+    """
+
+    volume: Union[str, os.PathLike[str], VolumeKeys, None]
+    mesh: Union[str, os.PathLike[str], MeshKeys, None]
+    scalar: Union[str, None]
+    nan: Union[Literal["error", "transparent"], None]
+    camera: Union[Literal["auto"], CameraKeys, Camera, None]
+    clip: Union[ClipKeys, None]
+    lighting: Union[LightingKeys, Lighting, None]
+    width: Union[int, None]
+    height: Union[int, None]
+    color_space: Union[Literal["linear", "display"], None]
+    background: Union[Color, None]
+    method: Union[Literal["slice", "project", "trace"], None]
+    target: Union[Literal["float32", "float16", "fixed16", "fixed8", "emulated", "auto"], None]
+    emulate: Union[EmulateKeys, None]
+    max_error: Union[float, None]
+    slice: Union[SliceKeys, None]
+    project: Union[ProjectKeys, None]
+    trace: Union[TraceKeys, None]
+    size: Union[Sequence[int], None]
+    set: Union[Mapping[str, Any], None]
+
+
+class Changes(Keywords, total=False):
+    """Keywords of ``Session.set``: those of ``render``, and the transfer function."""
+
+    transfer_function: Union[Literal["auto"], TransferFunctionKeys, TransferFunction, None]
