@@ -7,6 +7,7 @@
 #include "base/standard_streams.h"
 #include "manual_page.h"
 #include "markdown_page.h"
+#include "scene_files/scene_keys.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -28,17 +29,22 @@ const CommandDescription& find(const CommandDescription& program, const std::str
 void add_man(CLI::App& app, int&) {
     struct Options {
         std::string name;
-        bool markdown = false;
+        bool markdown = false, schema = false;
     };
     const auto options = std::make_shared<Options>();
     CLI::App* const verb =
         app.add_subcommand("man", "Print the manual page of the program, or of a verb");
     verb->add_option("VERB", options->name, "The verb; without one the page of lamina itself");
     verb->add_flag("--markdown", options->markdown, "Print all verbs as one page of Markdown");
+    verb->add_flag("--scene-schema", options->schema,
+                   "Print the JSON schema of scene files, for editors");
     verb->footer("To read it: lamina man render | man -l -");
     verb->callback([&app, options] {
         if (options->markdown && !options->name.empty())
             throw UsageError("man --markdown: has all verbs, expected no VERB beside it");
+        if (options->schema && (options->markdown || !options->name.empty()))
+            throw UsageError("man --scene-schema: is no page, expected nothing beside it");
+        if (options->schema) return write_result(scene_schema_text());
         write_result(options->markdown ? markdown_page(describe(app))
                                        : manual_page(find(describe(app), options->name),
                                                      "lamina " LAMINA_VERSION));
