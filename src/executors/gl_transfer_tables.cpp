@@ -55,10 +55,7 @@ GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
                                    const ValueRange& range, const TablePlan* wanted, bool filtered,
                                    double step_advance) {
     if (wanted != nullptr) {
-        const auto known = preintegration_table(
-            transfer_function, {range.lo, range.hi, wanted->max_length, wanted->scalar_nodes,
-                                wanted->length_layers, wanted->colored, wanted->lit});
-        const PreintegrationTable& table = *known;
+        const PreintegrationTable& table = *wanted->built;
         anchors_ = table.anchors;
         preintegration_ = upload_table(table);
         if (table.lit()) front_parts_.emplace(upload_front_parts(table));

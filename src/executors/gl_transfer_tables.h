@@ -8,7 +8,6 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "lamina/transfer_function.h"
-#include "optics/preintegration_table.h"
 #include "plan/table_plan.h"
 
 namespace lamina {
@@ -21,8 +20,8 @@ class GlTransferTables {
     static constexpr int lit_unit = 10;        // and, where they are lit, this one
 
     // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: the plan of the
-    // pre-integration table, or null. `filtered`: the table is read through the texture unit's
-    // filter. `step_advance`: see make_intervals().
+    // pre-integration table, which is built, or null. `filtered`: the table is read through the
+    // texture unit's filter. `step_advance`: see make_intervals().
     GlTransferTables(const TransferFunction& transfer_function, const ValueRange& range,
                      const TablePlan* table, bool filtered, double step_advance);
 

@@ -59,9 +59,7 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
                            const TablePlan* wanted, double step_advance, bool curved) {
     std::vector<PreintegrationTable::Anchor> anchors;
     if (wanted != nullptr) {
-        table = preintegration_table(transfer_function,
-                                     {range.lo, range.hi, wanted->max_length, wanted->scalar_nodes,
-                                      wanted->length_layers, wanted->colored, wanted->lit});
+        table = wanted->built;
         anchors = table->anchors;
         if (table->colored) texels = texels_of(*table);
         if (wanted->max_length > 0) {

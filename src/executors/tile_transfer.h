@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "lamina/transfer_function.h"
-#include "optics/preintegration_table.h"
 #include "plan/table_plan.h"
 #include "volume/min_max_bricks.h"
 
@@ -22,8 +21,8 @@ struct TileTransfer {
     static constexpr int few = 16;  // up to so many intervals are searched by comparisons
 
     // `range`: the scalars that become [0, 1]; lo < hi. `table`: the plan of the pre-integration
-    // table, or null. `step_advance`: see make_intervals(). `curved`: intervals are curves where
-    // points are smooth (optics/curved_pieces.h); not with a table.
+    // table, which is built, or null. `step_advance`: see make_intervals(). `curved`: intervals are
+    // curves where points are smooth (optics/curved_pieces.h); not with a table.
     TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
                  const TablePlan* table, double step_advance, bool curved = false);
 

@@ -13,7 +13,6 @@
 #include "base/progress.h"
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
-#include "optics/table_memory.h"
 
 namespace lamina {
 
@@ -324,12 +323,6 @@ PreintegrationTable build_preintegration_table(const TransferFunction& transfer_
         progress.advance();
     });
     return table;
-}
-
-std::shared_ptr<const PreintegrationTable> preintegration_table(
-    const TransferFunction& transfer_function, const PreintegrationRequest& request) {
-    static TableMemory<PreintegrationRequest, PreintegrationTable> memory;
-    return memory.get(transfer_function, request, build_preintegration_table);
 }
 
 }  // namespace lamina

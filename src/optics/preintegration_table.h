@@ -7,7 +7,6 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "lamina/transfer_function.h"
@@ -83,8 +82,5 @@ struct PreintegrationTable {
 // GiB. Extinctions beyond the largest float are clamped to it.
 PreintegrationTable build_preintegration_table(const TransferFunction& transfer_function,
                                                const PreintegrationRequest& request);
-// The same, cached by content (optics/table_memory.h).
-std::shared_ptr<const PreintegrationTable> preintegration_table(
-    const TransferFunction& transfer_function, const PreintegrationRequest& request);
 
 }  // namespace lamina

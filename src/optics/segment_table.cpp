@@ -14,7 +14,6 @@
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
 #include "optics/segment_table_slices.h"
-#include "optics/table_memory.h"
 
 namespace lamina {
 
@@ -200,12 +199,6 @@ SegmentTable build_segment_table(const TransferFunction& transfer_function,
     round_to_format(table);
     table.build_ms = watch.milliseconds();
     return table;
-}
-
-std::shared_ptr<const SegmentTable> segment_table(const TransferFunction& transfer_function,
-                                                  const SegmentTableRequest& request) {
-    static TableMemory<SegmentTableRequest, SegmentTable> memory;
-    return memory.get(transfer_function, request, build_segment_table);
 }
 
 }  // namespace lamina

@@ -7,7 +7,6 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "lamina/table_settings.h"
@@ -63,10 +62,5 @@ struct SegmentTable {
 // opaque, and its products stay finite in float32.
 SegmentTable build_segment_table(const TransferFunction& transfer_function,
                                  const SegmentTableRequest& request);
-// The same, cached by content: the next request with the same transfer function and numbers takes
-// no time. The last 8 tables are kept, as far as they take no more than 1 GiB. Safe from any
-// thread.
-std::shared_ptr<const SegmentTable> segment_table(const TransferFunction& transfer_function,
-                                                  const SegmentTableRequest& request);
 
 }  // namespace lamina

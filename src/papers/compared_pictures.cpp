@@ -200,7 +200,8 @@ std::vector<VariantErrors> variant_errors(const std::string& label, KrausSubject
     Progress progress(label, static_cast<std::int64_t>(variants.size()));
     std::vector<VariantErrors> errors;
     for (const Variant& variant : variants) {
-        const Image picture = plain_picture(variant.scene, subject.mesh.data(), capabilities);
+        const Image picture =
+            plain_picture(variant.scene, subject.mesh.data(), capabilities, subject.tables);
         errors.push_back(
             errors_of(variant.name, difference(picture, subject.mesh.exact(variant.scene))));
         progress.advance();
@@ -224,7 +225,8 @@ ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
     ComparedPictures made;
     Json rows = Json::array();
     for (const Variant& variant : variants) {
-        pictures.push_back(plain_picture(variant.scene, subject.mesh.data(), capabilities));
+        pictures.push_back(
+            plain_picture(variant.scene, subject.mesh.data(), capabilities, subject.tables));
         differences.push_back(difference(pictures.back(), exact));
         made.errors.push_back(errors_of(variant.name, differences.back()));
         rows.push_back(error_row(subject, made.errors.back()));

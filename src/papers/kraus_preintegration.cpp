@@ -47,8 +47,9 @@ std::vector<Variant> ways(const Scene& scene) {
 
 // Returns the milliseconds to build the table that the scene asks for, or null where it has none of
 // its own.
-Json build_ms(const study::TracedMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
-    Pipeline pipeline(scene, mesh.data(), {.capabilities = capabilities});
+Json build_ms(const KrausSubject& subject, const Scene& scene, const Capabilities& capabilities) {
+    Pipeline pipeline(scene, subject.mesh.data(),
+                      {.capabilities = capabilities, .tables = subject.tables});
     const Plan& plan = pipeline.plan();
     if (plan.project.source != SegmentSource::table) return nullptr;
     return build_segment_table(in_units(scene.transfer_function, plan.project.unit),
@@ -61,7 +62,8 @@ Json measured_rows(KrausSubject& subject, const char* transfer_function, const S
     const std::vector<Variant> variants = ways(scene);
     std::vector<MeshFrame> frames;
     for (const Variant& variant : variants) {
-        frames.emplace_back(variant.name, subject.mesh, variant.scene, stage.capabilities());
+        frames.emplace_back(variant.name, subject.mesh, variant.scene, stage.capabilities(),
+                            subject.tables);
         frames.back().draw();
         errors.push_back(errors_of(variant.name,
                                    difference(frames.back().picture(), subject.mesh.exact(scene))));
@@ -75,7 +77,7 @@ Json measured_rows(KrausSubject& subject, const char* transfer_function, const S
         row["transfer_function"] = transfer_function;
         row["ms"] = times[i]["ms"];
         row["ratio"] = times[i]["ratio"];
-        row["build_ms"] = build_ms(subject.mesh, variants[i].scene, stage.capabilities());
+        row["build_ms"] = build_ms(subject, variants[i].scene, stage.capabilities());
         rows.push_back(row);
     }
     return rows;

@@ -61,7 +61,10 @@ KrausSubject& KrausStage::subject(const std::string& name) {
     const bool generated = name == "graded" || name == "plate";
     const std::string there = generated || has(name) ? name : "box";
     auto& subject = subjects_[there];
-    if (!subject) subject = std::make_unique<KrausSubject>(make(there));
+    if (!subject) {
+        subject = std::make_unique<KrausSubject>(make(there));
+        subject->tables = tables_;
+    }
     return *subject;
 }
 

@@ -25,7 +25,8 @@ struct KrausSizes {
     int rounds = 3;
 };
 
-// The context that is current, and meshes with their traced pictures, for all items of the paper.
+// The context that is current, meshes with their traced pictures, and pre-integration tables, for
+// all items of the paper.
 class KrausStage {
   public:
     // Meshes of data sets are read from `data`, unless it is empty or lacks them.
@@ -34,6 +35,7 @@ class KrausStage {
 
     const Capabilities& capabilities() const { return capabilities_; }
     const KrausSizes& sizes() const { return sizes_; }
+    const std::shared_ptr<TableCache>& tables() const { return tables_; }
 
     bool has(const std::string& data_set) const;
     // A subject of kraus_view(), made when it is first needed. Where a data set is missing, "box"
@@ -49,6 +51,7 @@ class KrausStage {
     Capabilities capabilities_;
     KrausSizes sizes_;
     std::filesystem::path data_;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
     std::map<std::string, std::unique_ptr<KrausSubject>> subjects_;
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
+#include "optics/table_cache.h"
 #include "study/traced_mesh.h"
 
 namespace lamina::papers {
@@ -17,6 +19,8 @@ struct KrausSubject {
     Scene faint;       // the same with opacity up to .1
     Scene dense;       // the same with opacity up to .95
     Scene isosurface;  // a sharp peak, nearly opaque; its camera may be another one
+    // Those of all who draw it; a stage's are those of all its subjects.
+    std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
 };
 
 // What subjects are made from. The extinctions of the transfer functions are relative: they are

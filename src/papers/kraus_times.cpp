@@ -162,7 +162,8 @@ Json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage) {
     const std::vector<Technique> ladder = techniques(timed_scene(subject.smooth, stage.sizes()));
     std::vector<MeshFrame> frames;
     for (const Technique& technique : ladder) {
-        frames.emplace_back(technique.name, subject.mesh, technique.scene, stage.capabilities());
+        frames.emplace_back(technique.name, subject.mesh, technique.scene, stage.capabilities(),
+                            stage.tables());
     }
     const auto to_time = timed(frames);
     Json rows =
@@ -204,7 +205,8 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
     const std::vector<TimedMesh> meshes = meshes_of_table2(stage, boxes);
     std::vector<MeshFrame> frames;
     for (const TimedMesh& mesh : meshes) {
-        frames.emplace_back(mesh.name, *mesh.mesh, mesh.scene, stage.capabilities());
+        frames.emplace_back(mesh.name, *mesh.mesh, mesh.scene, stage.capabilities(),
+                            stage.tables());
     }
     const auto to_time = timed(frames);
     const auto times = study::time_interleaved("table2", to_time, stage.sizes().rounds);

@@ -96,8 +96,8 @@ Scene dithered_by_paper(const Scene& scene) {
 // Draws the picture again and again, and compares each with the exact one.
 class Bonsai {
   public:
-    Bonsai(std::shared_ptr<const VolumeData> volume, const Capabilities& capabilities)
-        : volume_(std::move(volume)), capabilities_(capabilities) {}
+    Bonsai(std::shared_ptr<const VolumeData> volume, const LamarStage& stage)
+        : volume_(std::move(volume)), stage_(stage) {}
 
     void set_exact(const char* name, const Scene& scene) {
         exact_ = draw(scene);
@@ -124,11 +124,11 @@ class Bonsai {
 
   private:
     Image draw(const Scene& scene) const {
-        return plain_picture(scene, SceneData(volume_), capabilities_);
+        return plain_picture(scene, SceneData(volume_), stage_.capabilities(), stage_.tables());
     }
 
     std::shared_ptr<const VolumeData> volume_;
-    const Capabilities& capabilities_;
+    const LamarStage& stage_;
     Image exact_;
     Panels panels_;
     Json rows_ = Json::array();
@@ -146,7 +146,7 @@ class Bonsai {
 Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     const std::filesystem::path file = bonsai_file();
     if (!std::filesystem::exists(file)) return skipped();
-    Bonsai bonsai(std::make_shared<const VolumeData>(read_volume(file)), stage.capabilities());
+    Bonsai bonsai(std::make_shared<const VolumeData>(read_volume(file)), stage);
     const Scene scene = bonsai_scene();
     bonsai.set_exact("software", scene);
     bonsai.add("hardware", with_paper_hardware(scene));

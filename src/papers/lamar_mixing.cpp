@@ -139,7 +139,7 @@ void judge_figure6(Findings& findings, const DitheredMixing& mixing) {
 
 Image LamarStage::draw_mixing(const Scene& scene) {
     if (!mixing_) mixing_ = std::make_shared<const VolumeData>(mixing_volume());
-    return plain_picture(scene, SceneData(mixing_), capabilities_);
+    return plain_picture(scene, SceneData(mixing_), capabilities_, tables_);
 }
 
 const DitheredMixing& LamarStage::dithered_mixing() {

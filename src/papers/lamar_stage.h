@@ -18,7 +18,8 @@ struct DitheredMixing {
     std::vector<Image> dithered;
 };
 
-// What the items that draw share: the current context, and pictures that two of them show.
+// What the items that draw share: the current context, pre-integration tables, and pictures that
+// two of them show.
 class LamarStage {
   public:
     // Pictures of the mixing liquids have `pixels` x `pixels` pixels.
@@ -27,12 +28,14 @@ class LamarStage {
 
     const Capabilities& capabilities() const { return capabilities_; }
     int pixels() const { return pixels_; }
+    const std::shared_ptr<TableCache>& tables() const { return tables_; }
     Image draw_mixing(const Scene& scene);    // the volume is made when first needed
     const DitheredMixing& dithered_mixing();  // for Table 4 and Figure 6; made when first needed
 
   private:
     Capabilities capabilities_;
     int pixels_;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
     std::shared_ptr<const VolumeData> mixing_;
     std::optional<DitheredMixing> dithered_mixing_;
 };

@@ -86,9 +86,7 @@ Scene scene_of(const TimedWay& technique) {
 // The frame with next to nothing in the picture has a renderer of its own, because a change of the
 // camera would be part of the times.
 study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
-                           const Scene& scene, const Capabilities& capabilities,
-                           const OmissionSwitch& omissions) {
-    const PipelineOptions how{.capabilities = capabilities, .omissions = omissions};
+                           const Scene& scene, const PipelineOptions& how) {
     const auto frames = std::make_shared<Pipeline>(scene, SceneData(volume), how);
     Scene far = scene;
     far.camera.height *= nearly_nothing;
@@ -98,27 +96,29 @@ study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const 
     return {name, [far_frames] { far_frames->draw_frame(); }, [frames] { frames->draw_frame(); }};
 }
 
-Json time_techniques(const std::shared_ptr<const VolumeData>& volume,
-                     const Capabilities& capabilities) {
+Json time_techniques(const std::shared_ptr<const VolumeData>& volume, const LamarStage& stage) {
     std::vector<study::TimedFrame> frames;
     for (const TimedWay& technique : timed_ways()) {
         OmissionSwitch omissions;
         if (technique.blend) omissions.kept = {"blending"};
-        frames.push_back(
-            frame_of(technique.name, volume, scene_of(technique), capabilities, omissions));
+        frames.push_back(frame_of(technique.name, volume, scene_of(technique),
+                                  {.capabilities = stage.capabilities(),
+                                   .omissions = omissions,
+                                   .tables = stage.tables()}));
     }
     return study::time_rows(frames, study::time_interleaved("times: techniques", frames, rounds));
 }
 
 // A context that cannot read its own pixel needs a barrier after each slab.
-Json time_barriers(const std::shared_ptr<const VolumeData>& volume,
-                   const Capabilities& capabilities) {
+Json time_barriers(const std::shared_ptr<const VolumeData>& volume, const LamarStage& stage) {
+    const Capabilities& capabilities = stage.capabilities();
     Scene scene = timed_scene(false);
     scene.width = scene.height = barrier_pixels;
     std::vector<study::TimedFrame> frames;
     const auto add = [&](const char* name, Target target, const Capabilities& of) {
         scene.target = target;
-        frames.push_back(frame_of(name, volume, scene, of, {}));
+        frames.push_back(
+            frame_of(name, volume, scene, {.capabilities = of, .tables = stage.tables()}));
     };
     Capabilities without_fetch = capabilities;
     without_fetch.framebuffer_fetch = false;
@@ -158,8 +158,8 @@ Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
                 {"covered_share", volume_in_picture * volume_in_picture},
                 {"samples", slices},
                 {"rounds", rounds}};
-    values["techniques"] = time_techniques(volume, stage.capabilities());
-    values["barriers"] = time_barriers(volume, stage.capabilities());
+    values["techniques"] = time_techniques(volume, stage);
+    values["barriers"] = time_barriers(volume, stage);
     bool same_picture = false;
     values["palettes"] = time_palettes(same_picture);
     study::write_text(folder / "times.csv", study::csv_of_rows(values["techniques"]));

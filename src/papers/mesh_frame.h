@@ -18,10 +18,11 @@ namespace lamina::papers {
 class MeshFrame {
   public:
     MeshFrame(std::string name, const study::TracedMesh& mesh, const Scene& scene,
-              const Capabilities& capabilities)
+              const Capabilities& capabilities, std::shared_ptr<TableCache> tables)
         : name_(std::move(name)),
-          pipeline_(std::make_unique<Pipeline>(scene, mesh.data(),
-                                               PipelineOptions{.capabilities = capabilities})) {
+          pipeline_(std::make_unique<Pipeline>(
+              scene, mesh.data(),
+              PipelineOptions{.capabilities = capabilities, .tables = std::move(tables)})) {
         pipeline_->set_up();
     }
 

@@ -37,14 +37,16 @@ Command next_command(const Ranks& ranks) {
 }
 
 std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command,
-                                     const SceneMessage& message) {
+                                     const SceneMessage& message,
+                                     const std::shared_ptr<TableCache>& tables) {
     std::unique_ptr<SharedRenderer> renderer;
     agree(ranks, [&] {
         restrict_instructions_as_asked();
         if (command.memory_limit > 0) set_memory_limit(command.memory_limit);
         const Scene scene = message.scene();
-        renderer = std::make_unique<SharedRenderer>(ranks, command.wire, scene, SceneData(),
-                                                    message.omissions(), command.many_frames);
+        renderer =
+            std::make_unique<SharedRenderer>(ranks, command.wire, scene, SceneData(),
+                                             message.omissions(), command.many_frames, tables);
         renderer->set_up();
     });
     renderer->check_plan();
@@ -63,7 +65,7 @@ class Follower {
                 message.broadcast(ranks_);
                 only_below_ = message.only_below();
                 const OnlyBelowScope below(only_below_);
-                renderers_[command.scene] = open(ranks_, command, message);
+                renderers_[command.scene] = open(ranks_, command, message, tables_);
                 return true;
             }
             case Command::Kind::draw: {
@@ -83,6 +85,7 @@ class Follower {
 
   private:
     const Ranks& ranks_;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
     std::filesystem::path only_below_;  // of all scenes: the program has one command line
     std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
 };

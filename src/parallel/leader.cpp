@@ -26,7 +26,7 @@ Leader::~Leader() {
 int Leader::open(const Scene& scene, SceneData data, const OmissionSwitch& omissions,
                  bool many_frames) {
     auto renderer = std::make_unique<SharedRenderer>(ranks_, wire_, scene, std::move(data),
-                                                     omissions, many_frames);
+                                                     omissions, many_frames, tables_);
     Command command{.kind = Command::Kind::open,
                     .scene = next_,
                     .wire = wire_,

@@ -36,6 +36,7 @@ class Leader {
   private:
     const Ranks& ranks_;
     Wire wire_ = Wire::float32;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();  // for all scenes
     int next_ = 0;
     std::vector<RankReport> first_reports_;
     std::map<int, std::unique_ptr<SharedRenderer>> renderers_;

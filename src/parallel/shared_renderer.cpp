@@ -35,13 +35,15 @@ Scene checked(Scene scene) {
 }  // namespace
 
 SharedRenderer::SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene, SceneData data,
-                               const OmissionSwitch& omissions, bool many_frames)
+                               const OmissionSwitch& omissions, bool many_frames,
+                               std::shared_ptr<TableCache> tables)
     : ranks_(ranks),
       own_(checked(scene), std::move(data),
            {.context = ContextChoice::cpu,
             .omissions = omissions,
             .many_frames = many_frames,
-            .share = {ranks.number(), ranks.count()}}),
+            .share = {ranks.number(), ranks.count()},
+            .tables = std::move(tables)}),
       composer_(ranks, wire) {}
 
 void SharedRenderer::check_plan() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,10 +16,12 @@ namespace lamina {
 // the same scene, and call draw() together.
 class SharedRenderer {
   public:
-    // `scene`: of method slice. `ranks` must outlive it. `many_frames`: as in PipelineOptions.
+    // `scene`: of method slice. `ranks` must outlive it. `many_frames`, `tables`: as in
+    // PipelineOptions.
     // Throws Error if the scene asks for what ranks cannot share, and says what.
     SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene, SceneData data,
-                   const OmissionSwitch& omissions, bool many_frames);
+                   const OmissionSwitch& omissions, bool many_frames,
+                   std::shared_ptr<TableCache> tables);
 
     // This rank's part of the work.
     Pipeline& own() { return own_; }

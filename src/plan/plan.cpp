@@ -69,14 +69,15 @@ SlicePlan of_all_views(SlicePlan plan) {
 }
 
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-               const OmissionSwitch& omissions, const SampleTrials& trials) {
+               const OmissionSwitch& omissions, const SampleTrials& trials,
+               const std::shared_ptr<TableCache>& tables) {
     Plan plan;
     if (scene.method == Method::slice) {
-        plan = plan_alone(scene, facts, capabilities, omissions, trials);
+        plan = plan_alone(scene, facts, capabilities, omissions, trials, tables);
         const Scene chosen =
             with_classification(scene, {plan.slice.classification, plan.slice.slabs, {}});
         add_savings(plan, with_target(chosen, plan.slice.target), facts, capabilities, omissions,
-                    trials);
+                    trials, *tables);
         return plan;
     }
     plan.method = scene.method;
@@ -87,19 +88,20 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
 }
 
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-                const OmissionSwitch& omissions, const SampleTrials& trials) {
+                const OmissionSwitch& omissions, const SampleTrials& trials,
+                const std::shared_ptr<TableCache>& tables) {
     const ClassificationChoice way = choose_classification(scene, facts, capabilities, trials);
     const Scene chosen = with_classification(scene, way);
     const TargetChoice choice = choose_target(chosen, facts, trials);
-    Plan plan =
-        plan_slicing(with_target(chosen, choice.target), facts, capabilities, omissions, trials);
+    Plan plan = plan_slicing(with_target(chosen, choice.target), facts, capabilities, omissions,
+                             trials, *tables);
     plan.slice.classification_reason = way.reason;
     plan.slice.target_reason = choice.reason;
     return plan;
 }
 
 Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
-               const OmissionSwitch& omissions) {
+               const OmissionSwitch& omissions, const std::shared_ptr<TableCache>& tables) {
     Plan plan;
     plan.method = scene.method;
     if (scene.method == Method::project) {
@@ -107,7 +109,7 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
         check_limits(scene, capabilities);
         const TargetChoice choice = choose_project_target(scene);
         plan.project = plan_projection(with_target(scene, choice.target), facts, capabilities,
-                                       omissions, plan.omitted);
+                                       omissions, plan.omitted, *tables);
         plan.project.target_reason = choice.reason;
         add_savings(plan, scene, facts);
         return plan;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "facts/mesh_facts.h"
 #include "lamina/error_figure.h"
 #include "lamina/scene.h"
+#include "optics/table_cache.h"
 #include "plan/capabilities.h"
 #include "plan/classification_choice.h"
 #include "plan/compositing_plan.h"
@@ -131,8 +133,8 @@ SlicePlan without_remarks(SlicePlan plan);
 // from what is left.
 SlicePlan of_all_views(SlicePlan plan);
 
-// What will run. It is a pure function of scene, facts, trials and capabilities, and can be
-// printed.
+// What will run, with the pre-integration tables that renderers look up. It is a pure function of
+// scene, facts, trials and capabilities, and can be printed.
 struct Plan {
     Method method = Method::slice;
     SlicePlan slice;      // for Method::slice
@@ -145,16 +147,20 @@ struct Plan {
 };
 
 // Throws Error where the context cannot do what the scene asks for, and names the limit. `trials`:
-// measured errors, for automatic choices.
+// measured errors, for automatic choices. `tables`: finds the tables of earlier plans; without it,
+// all are built.
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-               const OmissionSwitch& omissions, const SampleTrials& trials = {});
+               const OmissionSwitch& omissions, const SampleTrials& trials = {},
+               const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
 // The same for Method::slice, without the work that omissions save; quicker, for the frames of a
 // moving scene.
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-                const OmissionSwitch& omissions, const SampleTrials& trials = {});
+                const OmissionSwitch& omissions, const SampleTrials& trials,
+                const std::shared_ptr<TableCache>& tables);
 // The plan of a method that draws a mesh (Scene::draws_mesh).
 Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
-               const OmissionSwitch& omissions);
+               const OmissionSwitch& omissions,
+               const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
 
 // A table for people: what runs, then what is left out and why (--explain).
 std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities);

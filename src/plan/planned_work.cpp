@@ -125,7 +125,7 @@ Work planned_work(const ProjectPlan& plan, const MeshFacts& facts, const Scene& 
 
 void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
                  const Capabilities& capabilities, const OmissionSwitch& omissions,
-                 const SampleTrials& trials) {
+                 const SampleTrials& trials, TableCache& tables) {
     plan.work = planned_work(plan.slice, facts, scene, capabilities.tiles);
     const std::vector<std::string> names = omission_names();
     for (Omission& omission : plan.omitted) {
@@ -133,7 +133,7 @@ void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
         OmissionSwitch kept = omissions;
         kept.kept.insert(omission.name);
         try {
-            const Plan other = plan_slicing(scene, facts, capabilities, kept, trials);
+            const Plan other = plan_slicing(scene, facts, capabilities, kept, trials, tables);
             omission.saves =
                 planned_work(other.slice, facts, scene, capabilities.tiles) - plan.work;
         } catch (const Error&) {

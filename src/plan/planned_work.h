@@ -13,7 +13,7 @@ Work planned_work(const ProjectPlan& plan, const MeshFacts& facts, const Scene& 
 // plan.
 void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
                  const Capabilities& capabilities, const OmissionSwitch& omissions,
-                 const SampleTrials& trials = {});
+                 const SampleTrials& trials, TableCache& tables);
 void add_savings(Plan& plan, const Scene& scene, const MeshFacts& facts);
 
 }  // namespace lamina

@@ -10,7 +10,6 @@
 #include "lamina/error_figure.h"
 #include "lamina/lighting.h"
 #include "lamina/project_settings.h"
-#include "optics/segment_table.h"
 #include "plan/compositing_plan.h"
 #include "plan/table_plan.h"
 #include "visibility/visibility_order.h"
@@ -58,8 +57,8 @@ struct ProjectPlan : CompositingPlan {
     // The range is the window of what shows. Scalars may lie outside it, where the transfer
     // function is constant.
     bool windowed = false;
-    SegmentTableRequest table;  // for SegmentSource::table
-    TablePlan aligned;          // for SegmentSource::cut_table
+    SegmentTablePlan table;  // for SegmentSource::table
+    TablePlan aligned;       // for SegmentSource::cut_table
     MeshFacts::TrialError trial_error;
     ErrorFigure error;                 // of the picture
     std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient

@@ -17,7 +17,6 @@
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
-#include "optics/preintegration_table.h"
 #include "plan/light_choice.h"
 #include "plan/scalar_window.h"
 #include "plan/tree_check.h"
@@ -66,13 +65,15 @@ constexpr std::int64_t fewest_plain_tets = 10000;
 class ProjectPlanner {
   public:
     ProjectPlanner(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
-                   const OmissionSwitch& omissions, std::vector<Omission>& omitted)
+                   const OmissionSwitch& omissions, std::vector<Omission>& omitted,
+                   TableCache& tables)
         : scene_(scene),
           settings_(scene.project),
           facts_(facts),
           capabilities_(capabilities),
           omissions_(omissions),
-          omitted_(omitted) {
+          omitted_(omitted),
+          tables_(tables) {
         plan_.unit = world_unit(facts.diagonal);
         transfer_function_ = in_units(scene.transfer_function, plan_.unit);
     }
@@ -267,8 +268,9 @@ class ProjectPlanner {
             return;
         } else if (settings_.table) {
             take_window();
-            plan_.table = request_of(*settings_.table);
-            plan_.trial_error = error_of(plan_.table);
+            plan_.table = {request_of(*settings_.table)};
+            plan_.table.built = tables_.get(*transfer_function_, plan_.table);
+            plan_.trial_error = error_of(lookup_in(*plan_.table.built));
         } else {
             choose_table();
         }
@@ -372,11 +374,12 @@ class ProjectPlanner {
         sum += (1 - sum.a) * glm::dvec4(segment.color, segment.alpha);
     }
 
-    MeshFacts::TrialError error_of(const SegmentTableRequest& wanted) const {
-        const auto table = segment_table(*transfer_function_, wanted);
-        return error_of([&](const MeshFacts::Run& run) {
-            return table->lookup(run.front, run.back, run.length);
-        });
+    // SegmentTable, PreintegrationTable.
+    template <typename Table>
+    static Lookup lookup_in(const Table& table) {
+        return [&table](const MeshFacts::Run& run) {
+            return table.lookup(run.front, run.back, run.length);
+        };
     }
 
     void choose_table() {
@@ -407,9 +410,12 @@ class ProjectPlanner {
         const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
         plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge * plan_.unit,
                          !plan_.single_color};
-        plan_.trial_error = error_of_aligned();
-        return plan_.trial_error.segments <=
-               std::min(most_segment_error, scene_.max_error / 2) / sampling_margin;
+        plan_.aligned.built = tables_.get(*transfer_function_, plan_.aligned.request(plan_.range));
+        plan_.trial_error = error_of(lookup_in(*plan_.aligned.built));
+        const double most = std::min(most_segment_error, scene_.max_error / 2) / sampling_margin;
+        if (plan_.trial_error.segments <= most) return true;
+        plan_.aligned.built.reset();
+        return false;
     }
 
     // As parts of tets are drawn (projection/tet_color-inl.h).
@@ -435,24 +441,13 @@ class ProjectPlanner {
         };
     }
 
-    MeshFacts::TrialError error_of_aligned() const {
-        const auto table = preintegration_table(*transfer_function_, request_of(plan_.aligned));
-        return error_of([&](const MeshFacts::Run& run) {
-            return table->lookup(run.front, run.back, run.length);
-        });
-    }
-
-    PreintegrationRequest request_of(const TablePlan& table) const {
-        return {plan_.range.lo,     plan_.range.hi,      table.max_length,
-                table.scalar_nodes, table.length_layers, table.colored};
-    }
-
     const Scene& scene_;
     const ProjectSettings& settings_;
     const MeshFacts& facts_;
     const Capabilities& capabilities_;
     const OmissionSwitch& omissions_;
     std::vector<Omission>& omitted_;
+    TableCache& tables_;
     std::optional<TransferFunction> transfer_function_;  // in the plan's units
     ValueRange drawn_;                                   // of the data's scalars
     ProjectPlan plan_;
@@ -489,8 +484,8 @@ const char* name_of(SegmentSource source) {
 
 ProjectPlan plan_projection(const Scene& scene, const MeshFacts& facts,
                             const Capabilities& capabilities, const OmissionSwitch& omissions,
-                            std::vector<Omission>& omitted) {
-    return ProjectPlanner(scene, facts, capabilities, omissions, omitted).make();
+                            std::vector<Omission>& omitted, TableCache& tables) {
+    return ProjectPlanner(scene, facts, capabilities, omissions, omitted, tables).make();
 }
 
 }  // namespace lamina

@@ -5,16 +5,16 @@
 
 #include "facts/mesh_facts.h"
 #include "lamina/scene.h"
+#include "optics/table_cache.h"
 #include "plan/capabilities.h"
 #include "plan/omission.h"
 #include "plan/project_plan.h"
 
 namespace lamina {
 
-// Makes the plan for Method::project. It builds pre-integration tables to measure their error. They
-// are kept (optics/segment_table.h), so that the renderer does not build them again.
+// Makes the plan for Method::project. Pre-integration tables are built to measure their error.
 ProjectPlan plan_projection(const Scene& scene, const MeshFacts& facts,
                             const Capabilities& capabilities, const OmissionSwitch& omissions,
-                            std::vector<Omission>& omitted);
+                            std::vector<Omission>& omitted, TableCache& tables);
 
 }  // namespace lamina

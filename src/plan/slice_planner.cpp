@@ -43,10 +43,11 @@ constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float c
 class SlicePlanner {
   public:
     SlicePlanner(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-                 const OmissionSwitch& omissions, const SampleTrials& trials)
+                 const OmissionSwitch& omissions, const SampleTrials& trials, TableCache& tables)
         : scene_(scene),
           facts_(facts),
           trials_(trials),
+          tables_(tables),
           capabilities_(capabilities),
           omissions_(omissions) {}
 
@@ -78,6 +79,8 @@ class SlicePlanner {
         slice.rounding_bound =
             slice.error_bound ? slice.error_bound : rounding_bound(tree_question(), slice.tree);
         choose_termination();
+        if (slice.uses_table() && !slice.table.built && !slice.nothing_visible)
+            build_table(scene_, facts_, slice.table, tables_);
         return std::move(plan_);
     }
 
@@ -274,7 +277,7 @@ class SlicePlanner {
         }
         if (!table.colored) return;
         if (scene_.slice.table) {
-            take_table(scene_, facts_, slice.slabs, longest, slice.unit, table);
+            take_table(scene_, facts_, slice.slabs, longest, slice.unit, table, tables_);
             return;
         }
         const bool limit_alone =
@@ -282,7 +285,7 @@ class SlicePlanner {
                       fmt::format("a segment's optical depth is at most {:.3g}: its colour does "
                                   "not depend on its length",
                                   depth));
-        refine_table(scene_, facts_, slice.slabs, limit_alone ? 0 : depth, table);
+        refine_table(scene_, facts_, slice.slabs, limit_alone ? 0 : depth, table, tables_);
     }
 
     void choose_bricks() {
@@ -383,6 +386,7 @@ class SlicePlanner {
     const Scene& scene_;
     const Facts& facts_;
     const SampleTrials& trials_;
+    TableCache& tables_;
     const Capabilities& capabilities_;
     const OmissionSwitch& omissions_;
     Plan plan_;
@@ -391,8 +395,8 @@ class SlicePlanner {
 }  // namespace
 
 Plan plan_slicing(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-                  const OmissionSwitch& omissions, const SampleTrials& trials) {
-    return SlicePlanner(scene, facts, capabilities, omissions, trials).make();
+                  const OmissionSwitch& omissions, const SampleTrials& trials, TableCache& tables) {
+    return SlicePlanner(scene, facts, capabilities, omissions, trials, tables).make();
 }
 
 }  // namespace lamina

@@ -8,7 +8,6 @@
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "optics/linear_pieces.h"
-#include "optics/preintegration_table.h"
 #include "optics/ray_lights.h"
 #include "optics/segment_integral.h"
 
@@ -165,17 +164,19 @@ int affordable_layers(const TablePlan& table, double knots, double wanted) {
 
 }  // namespace
 
+// It is the table that is drawn: of samples of one value, it is wider than their range.
+void build_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables) {
+    const double unit = world_unit(box_diagonal(facts.grid));
+    const ValueRange range = drawn_range(scene.transfer_function, facts.range);
+    table.built = tables.get(in_units(scene.transfer_function, unit), table.request(range));
+}
+
 double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& plan) {
     const double unit = world_unit(box_diagonal(facts.grid));
     const TransferFunction transfer_function = in_units(scene.transfer_function, unit);
-    // The table that is drawn: of samples of one value, it is wider than their range.
-    const ValueRange range = drawn_range(scene.transfer_function, facts.range);
-    const auto table = preintegration_table(transfer_function,
-                                            {range.lo, range.hi, plan.max_length, plan.scalar_nodes,
-                                             plan.length_layers, plan.colored, plan.lit});
     const MostLight light = most_light(scene);
     const auto looked_up = [&](const Segment& segment) {
-        return table->lookup_lit(segment.front, segment.back, segment.length);
+        return plan.built->lookup_lit(segment.front, segment.back, segment.length);
     };
     const auto integrated = [&](const Segment& segment) {
         const double front = segment.front, back = segment.back, length = segment.length;
@@ -226,14 +227,15 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     return 255 * std::max(all.error, errors.empty() ? 0 : std::ranges::max(errors));
 }
 
-void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth,
-                  TablePlan& table) {
+void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth, TablePlan& table,
+                  TableCache& tables) {
     const auto knots = static_cast<double>(facts.knots);
     const double steps = std::ceil(depth);  // of depth 1 or less
     TablePlan tried = table;
     double wanted = std::min(steps + 1, usual_length_layers);
     const auto try_it = [&] {
         tried.length_layers = affordable_layers(tried, knots, wanted);
+        build_table(scene, facts, tried, tables);
         tried.error = table_error(scene, facts, slabs, tried);
     };
     const auto keep_better = [&] {
@@ -256,7 +258,7 @@ void refine_table(const Scene& scene, const Facts& facts, int slabs, double dept
 }
 
 void take_table(const Scene& scene, const Facts& facts, int slabs, double longest, double unit,
-                TablePlan& table) {
+                TablePlan& table, TableCache& tables) {
     const SliceTableSettings& asked = *scene.slice.table;
     table.scalar_nodes = asked.scalars;
     table.length_layers = asked.lengths;
@@ -273,7 +275,9 @@ void take_table(const Scene& scene, const Facts& facts, int slabs, double longes
             none ? 1 : static_cast<int>(std::min(std::ceil(steps) + 1, most_length_layers));
     }
     table.max_length = most * unit;
-    if (!facts.scalar_rays.rays.empty()) table.error = table_error(scene, facts, slabs, table);
+    if (facts.scalar_rays.rays.empty()) return;
+    build_table(scene, facts, table, tables);
+    table.error = table_error(scene, facts, slabs, table);
 }
 
 }  // namespace lamina

@@ -53,7 +53,7 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
             constant_ = transfer_function.at(plan.range.lo);
             break;
         case SegmentSource::table:
-            table_ = segment_table(transfer_function, plan.table);
+            table_ = plan.table.built;
             upload(*table_);
             break;
         case SegmentSource::parts:

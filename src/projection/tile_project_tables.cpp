@@ -23,7 +23,7 @@ TileProjectTables::TileProjectTables(const TransferFunction& transfer_function,
             break;
         }
         case SegmentSource::table:
-            table_ = segment_table(transfer_function, plan.table);
+            table_ = plan.table.built;
             break;
         case SegmentSource::parts:
             if (!plan.single_color) front_weights_ = FrontWeightTable::get().texels().data();

@@ -189,10 +189,10 @@ Frames& Pipeline::frames() {
     std::unique_ptr<SceneRenderer> made;
     if (scene_.method == Method::project) {
         made = std::make_unique<SceneRenderer>(scene_, data_.mesh(scene_), capabilities(),
-                                               options_.omissions);
+                                               options_.omissions, options_.tables);
     } else {
         made = std::make_unique<SceneRenderer>(scene_, data_.volume(scene_), capabilities(),
-                                               options_.omissions, options_.share);
+                                               options_.omissions, options_.share, options_.tables);
     }
     if (options_.many_frames) made->expect_many_frames();
     own_ = made.get();
@@ -369,8 +369,10 @@ FrameStatistics Pipeline::trace_statistics() {
     return found;
 }
 
-Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities) {
-    Pipeline pipeline(scene, std::move(data), {.capabilities = capabilities});
+Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities,
+                    std::shared_ptr<TableCache> tables) {
+    Pipeline pipeline(scene, std::move(data),
+                      {.capabilities = capabilities, .tables = std::move(tables)});
     Image picture;
     pipeline.draw_frame();
     pipeline.read(picture);

@@ -46,6 +46,8 @@ struct PipelineOptions {
     // engine.
     PictureShare share = {};
     FramesMaker make_frames = {};  // replaces this process's own renderers
+    // Has the pre-integration tables of the plans. Pipelines that share it build a table once.
+    std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
 };
 
 // Draws a scene from its first picture to its last. Each step is done when it is first needed, and
@@ -139,8 +141,9 @@ class Pipeline {
 };
 
 // Draws one picture of a scene of method slice or project, without a word about it.
-// `capabilities`: as in PipelineOptions.
-Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities);
+// `capabilities` and `tables`: as in PipelineOptions.
+Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities,
+                    std::shared_ptr<TableCache> tables);
 
 // The scene with transfer function and camera chosen from its volume, whatever it draws.
 Choices chosen_by_volume(const Scene& scene);

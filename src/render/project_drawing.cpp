@@ -73,7 +73,7 @@ void ProjectDrawing::measure_view(const Scene& scene, const Plan* planned) {
 
 Plan ProjectDrawing::plan(const Scene& scene, const Capabilities& capabilities,
                           const OmissionSwitch& omissions, bool /*for_people*/) const {
-    return make_plan(scene, facts_, capabilities, omissions);
+    return make_plan(scene, facts_, capabilities, omissions, tables_);
 }
 
 // Where the order is automatic and there is a tree, the order stays automatic, because leaves of a

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "facts/mesh_facts.h"
 #include "render/drawing.h"
@@ -13,8 +14,8 @@ namespace lamina {
 
 class ProjectDrawing : public Drawing {
   public:
-    explicit ProjectDrawing(std::shared_ptr<const SceneMesh> mesh)
-        : whole_(std::move(mesh)), mesh_(whole_) {}
+    ProjectDrawing(std::shared_ptr<const SceneMesh> mesh, std::shared_ptr<TableCache> tables)
+        : whole_(std::move(mesh)), mesh_(whole_), tables_(std::move(tables)) {}
 
     const char* activity() const override { return "projecting"; }
     void measure_data(const Scene& scene) override;
@@ -35,6 +36,7 @@ class ProjectDrawing : public Drawing {
 
     std::shared_ptr<const SceneMesh> whole_;
     std::shared_ptr<const SceneMesh> mesh_;  // what the clip leaves; where that is nothing, whole_
+    std::shared_ptr<TableCache> tables_;
     Clip clip_;
     bool lit_ = false;
     bool clipped_away_ = false;

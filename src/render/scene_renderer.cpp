@@ -14,21 +14,22 @@ namespace lamina {
 
 SceneRenderer::SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volume,
                              const Capabilities& capabilities, OmissionSwitch omissions,
-                             const PictureShare& share)
+                             const PictureShare& share, std::shared_ptr<TableCache> tables)
     : asked_(std::move(scene)),
       capabilities_(capabilities),
       omissions_(std::move(omissions)),
-      drawing_(std::make_unique<SliceDrawing>(std::move(volume), share)) {
+      drawing_(std::make_unique<SliceDrawing>(std::move(volume), share, std::move(tables))) {
     assert(asked_.method == Method::slice);
     assert(share.count == 1 || capabilities_.tiles);
 }
 
 SceneRenderer::SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,
-                             const Capabilities& capabilities, OmissionSwitch omissions)
+                             const Capabilities& capabilities, OmissionSwitch omissions,
+                             std::shared_ptr<TableCache> tables)
     : asked_(std::move(scene)),
       capabilities_(capabilities),
       omissions_(std::move(omissions)),
-      drawing_(std::make_unique<ProjectDrawing>(std::move(mesh))) {
+      drawing_(std::make_unique<ProjectDrawing>(std::move(mesh), std::move(tables))) {
     assert(asked_.method == Method::project);
 }
 

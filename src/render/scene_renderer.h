@@ -44,12 +44,14 @@ class SceneRenderer : public Frames {
     // renderer is called and when it ends (DrawContext::make_current()), and outlives it. Renderers
     // of several contexts may draw at the same time, each in a thread of its own.
     // `share`: of several renderers of one picture, of the native engine; all must be told of the
-    // same changes.
+    // same changes. `tables`: several renderers may share them.
     SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volume,
                   const Capabilities& capabilities, OmissionSwitch omissions = {},
-                  const PictureShare& share = {});
+                  const PictureShare& share = {},
+                  std::shared_ptr<TableCache> tables = std::make_shared<TableCache>());
     SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,
-                  const Capabilities& capabilities, OmissionSwitch omissions = {});
+                  const Capabilities& capabilities, OmissionSwitch omissions = {},
+                  std::shared_ptr<TableCache> tables = std::make_shared<TableCache>());
     SceneRenderer(const SceneRenderer&) = delete;
     SceneRenderer& operator=(const SceneRenderer&) = delete;
 

@@ -38,14 +38,15 @@ void SliceDrawing::make_trials(const Scene& scene, const Capabilities& capabilit
                                bool many_frames) {
     // Trial pictures of a volume in its files read more than faster frames would save.
     many_frames = many_frames && data_->volume.in_memory();
-    trials_ = try_samples(scene, data_->volume, data_->bricks, facts_, capabilities, many_frames);
+    trials_ = try_samples(scene, data_->volume, data_->bricks, facts_, capabilities, many_frames,
+                          *tables_);
 }
 
 Plan SliceDrawing::plan(const Scene& scene, const Capabilities& capabilities,
                         const OmissionSwitch& omissions, bool for_people) const {
     const auto plan_with = [&](const OmissionSwitch& allowed) {
-        return for_people ? make_plan(scene, facts_, capabilities, allowed, trials_)
-                          : plan_alone(scene, facts_, capabilities, allowed, trials_);
+        return for_people ? make_plan(scene, facts_, capabilities, allowed, trials_, tables_)
+                          : plan_alone(scene, facts_, capabilities, allowed, trials_, tables_);
     };
     Plan plan = plan_with(omissions);
     if (!shares_) return plan;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "plan/sample_trials.h"
 #include "plan/volume_shares.h"
@@ -15,8 +16,9 @@ namespace lamina {
 
 class SliceDrawing : public Drawing {
   public:
-    SliceDrawing(std::shared_ptr<const VolumeData> data, const PictureShare& share)
-        : data_(std::move(data)), share_(share) {}
+    SliceDrawing(std::shared_ptr<const VolumeData> data, const PictureShare& share,
+                 std::shared_ptr<TableCache> tables)
+        : data_(std::move(data)), share_(share), tables_(std::move(tables)) {}
 
     const char* activity() const override { return "slicing"; }
     void measure_data(const Scene& scene) override;
@@ -38,6 +40,7 @@ class SliceDrawing : public Drawing {
   private:
     std::shared_ptr<const VolumeData> data_;
     PictureShare share_;
+    std::shared_ptr<TableCache> tables_;
     std::optional<VolumeShares> shares_;
     Facts facts_;
     SampleTrials trials_;

@@ -11,7 +11,7 @@ PreciseImage PictureMaker::draw(const Scene& scene, const SceneData& data,
         SceneData shared = data;
         return trace_picture(scene, shared).image;
     }
-    Pipeline pipeline(scene, data, {.capabilities = capabilities_});
+    Pipeline pipeline(scene, data, {.capabilities = capabilities_, .tables = tables_});
     pipeline.draw_frame();
     if (statistics != nullptr) *statistics = pipeline.statistics();
     Image picture;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "lamina/image.h"
 #include "lamina/scene.h"
+#include "optics/table_cache.h"
 #include "plan/capabilities.h"
 #include "render/scene_data.h"
 
@@ -21,6 +24,7 @@ class PictureMaker {
 
   private:
     const Capabilities& capabilities_;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
 };
 
 }  // namespace lamina::selftest

@@ -75,7 +75,7 @@ double rays_of(const Scene& scene) {
 class SlabTrials {
   public:
     SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
-               const Facts& facts, int most, double rays, bool last,
+               const Facts& facts, int most, double rays, bool last, TableCache& tables,
                std::shared_ptr<const TileVolume> ready = nullptr)
         : asked_(scene),
           last_(last),
@@ -83,6 +83,7 @@ class SlabTrials {
           volume_(volume),
           bricks_(bricks),
           facts_(seen_by(scene_, facts)),
+          tables_(tables),
           ready_(std::move(ready)),
           most_(most),
           all_traced_(rays_of(scene_) <= all_traced_rays),
@@ -204,7 +205,7 @@ class SlabTrials {
     Image draw(int slabs, Filter filter, const OmissionSwitch& omissions) {
         scene_.slice.samples = slabs;
         scene_.slice.filter = filter;
-        const Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions);
+        const Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions, {}, tables_);
         TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
                                    scene_.width, scene_.height, ready_);
         ready_ = renderer.volume();
@@ -220,6 +221,7 @@ class SlabTrials {
     const Volume& volume_;
     const MinMaxBricks& bricks_;
     Facts facts_;
+    TableCache& tables_;
     std::shared_ptr<const TileVolume> ready_;  // of the pictures before
     int most_;
     bool all_traced_;
@@ -239,10 +241,11 @@ bool some_keep_goal(const std::vector<SlabTrial>& trials) {
 // Up to `most` slabs. What is right by chance on some rays need not be so on others: fewer slabs
 // are tried for all rays alone.
 std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
-                                   const MinMaxBricks& bricks, const Facts& facts, int most) {
+                                   const MinMaxBricks& bricks, const Facts& facts, int most,
+                                   TableCache& tables) {
     const bool small = rays_of(scene) <= all_traced_rays;
     SlabTrials first(scene, volume, bricks, facts, most, small ? all_traced_rays : first_rays,
-                     small);
+                     small, tables);
     SampleTrials trials{first.run(slabs_per_voxel(facts, 1)), {}};
     if (!some_keep_goal(trials.exact)) {
         trials.exact.push_back(first.try_two_a_voxel());
@@ -250,7 +253,8 @@ std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
     }
     const SlabTrial found = chosen_slabs(facts, trials);
     if (!small) {
-        SlabTrials second(scene, volume, bricks, facts, most, most_rays, true, first.ready());
+        SlabTrials second(scene, volume, bricks, facts, most, most_rays, true, tables,
+                          first.ready());
         std::vector<SlabTrial> all = second.run(found.slabs);
         if (!some_keep_goal(all)) all.push_back(second.try_two_a_voxel());
         return all;
@@ -266,10 +270,11 @@ int most_slabs(const Facts& facts) {
 
 // Empty where exact segments are as quick.
 std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
-                                   const MinMaxBricks& bricks, const Facts& facts) {
+                                   const MinMaxBricks& bricks, const Facts& facts,
+                                   TableCache& tables) {
     const Scene scene = with_classification(asked, {Classification::post, 1, {}});
     const int most = std::min(slabs_per_voxel(facts, quicker_slabs_per_voxel), most_slabs(facts));
-    std::vector<SlabTrial> trials = try_numbers(scene, volume, bricks, facts, most);
+    std::vector<SlabTrial> trials = try_numbers(scene, volume, bricks, facts, most, tables);
     if (!some_keep_goal(trials)) trials.clear();
     return trials;
 }
@@ -283,20 +288,21 @@ bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capa
 }  // namespace
 
 SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxBricks& bricks,
-                         const Facts& facts, const Capabilities& capabilities, bool many_frames) {
+                         const Facts& facts, const Capabilities& capabilities, bool many_frames,
+                         TableCache& tables) {
     SampleTrials trials;
     if (asked.method != Method::slice || !shows_something(facts)) return trials;
     const Scene scene =
         with_classification(asked, choose_classification(asked, facts, capabilities));
     if (scene.slice.classification == Classification::exact) {
         if (many_frames && may_be_quicker(asked))
-            trials.exact = try_quicker(asked, volume, bricks, facts);
+            trials.exact = try_quicker(asked, volume, bricks, facts, tables);
         return trials;
     }
     if (!scene.slice.samples)
-        trials.exact = try_numbers(scene, volume, bricks, facts, most_slabs(facts));
+        trials.exact = try_numbers(scene, volume, bricks, facts, most_slabs(facts), tables);
     if (!may_filter(scene, facts, capabilities)) return trials;
-    SlabTrials filtered(scene, volume, bricks, facts, most_slabs(facts), filter_rays, true);
+    SlabTrials filtered(scene, volume, bricks, facts, most_slabs(facts), filter_rays, true, tables);
     if (scene.slice.samples) {
         trials.hardware = {filtered.try_filter(*scene.slice.samples)};
     } else if (const SlabTrial exact = chosen_slabs(facts, trials); exact.keeps_goal()) {

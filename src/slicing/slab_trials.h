@@ -3,6 +3,7 @@
 
 #include "facts/facts.h"
 #include "lamina/volume.h"
+#include "optics/table_cache.h"
 #include "plan/capabilities.h"
 #include "plan/sample_trials.h"
 
@@ -29,6 +30,7 @@ namespace lamina {
 // they are few enough to be quicker (quicker_slabs_per_voxel); where they do not keep the goal the
 // result is empty.
 SampleTrials try_samples(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
-                         const Facts& facts, const Capabilities& capabilities, bool many_frames);
+                         const Facts& facts, const Capabilities& capabilities, bool many_frames,
+                         TableCache& tables);
 
 }  // namespace lamina

@@ -86,7 +86,8 @@ class Crosschecker {
     int automatic_samples() {
         Scene sliced = scene_;
         sliced.method = Method::slice;
-        Pipeline pipeline(sliced, data_.data_of(sliced), {.capabilities = capabilities_});
+        Pipeline pipeline(sliced, data_.data_of(sliced),
+                          {.capabilities = capabilities_, .tables = tables_});
         return pipeline.plan().slice.slabs;
     }
     MeshSettings own_mesh() const { return scene_.mesh_request.value_or(MeshSettings{}); }
@@ -143,8 +144,8 @@ class Crosschecker {
 
     void slice(int samples) {
         check_interrupt();
-        StudyFrames& frames = *frames_.emplace_back(
-            std::make_unique<StudyFrames>(slicing_scene(scene_, samples), data_, capabilities_));
+        StudyFrames& frames = *frames_.emplace_back(std::make_unique<StudyFrames>(
+            slicing_scene(scene_, samples), data_, capabilities_, tables_));
         Crosscheck::Slicing& made = made_.slicings.emplace_back();
         made.samples = samples;
         made.picture = frames.picture();
@@ -170,8 +171,8 @@ class Crosschecker {
             made.mesh_error = mesh.report->relative_error();
             made.stopped = mesh.report->stopped_by_max_tets;
         }
-        StudyFrames& frames =
-            *frames_.emplace_back(std::make_unique<StudyFrames>(scene, data_, capabilities_));
+        StudyFrames& frames = *frames_.emplace_back(
+            std::make_unique<StudyFrames>(scene, data_, capabilities_, tables_));
         made.picture = frames.picture();
         made.traced = to_float(references_.get(scene, TraceOf::mesh, data_).image);
         made.mesh_part = image_error(made.traced, made_.pictures.traced_volume);
@@ -256,6 +257,7 @@ class Crosschecker {
     const CrosscheckSettings& settings_;
     const Capabilities& capabilities_;
     DataStore data_;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
     ReferenceStore references_;
     std::vector<std::unique_ptr<StudyFrames>> frames_;
     LadderCost cost_;

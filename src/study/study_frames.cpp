@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_frames.h"
 
+#include <utility>
+
 #include "base/stopwatch.h"
 #include "gl/memory.h"
 
 namespace lamina::study {
 
-StudyFrames::StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities)
+StudyFrames::StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities,
+                         std::shared_ptr<TableCache> tables)
     : camera_(scene.camera),
-      pipeline_(std::make_unique<Pipeline>(scene, data.data_of(scene),
-                                           PipelineOptions{.capabilities = capabilities})) {
+      pipeline_(std::make_unique<Pipeline>(
+          scene, data.data_of(scene),
+          PipelineOptions{.capabilities = capabilities, .tables = std::move(tables)})) {
     pipeline_->load();
     const std::int64_t before = gl::bytes_allocated();
     const Stopwatch watch;

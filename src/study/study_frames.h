@@ -12,10 +12,11 @@
 namespace lamina::study {
 
 // A scene of method slice or project, prepared to be drawn again and again. The data and the
-// context must outlive it.
+// context must outlive it. `tables`: those of the study.
 class StudyFrames {
   public:
-    StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities);
+    StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities,
+                std::shared_ptr<TableCache> tables);
 
     void draw();
     // Draws a frame with the scene's eye turned about its centre.

@@ -218,7 +218,8 @@ StudyFrames& StudyRunner::frames_of(std::size_t run) {
     const auto found = frames_.find(run);
     if (found != frames_.end()) return found->second;
     return frames_
-        .try_emplace(run, data_.closed(scene_of(list_.runs[run], file_)), data_, capabilities)
+        .try_emplace(run, data_.closed(scene_of(list_.runs[run], file_)), data_, capabilities,
+                     tables_)
         .first->second;
 }
 

@@ -96,6 +96,7 @@ class StudyRunner {
     std::int64_t session_ = 0;
     std::vector<Done> done_;
     DataStore data_;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
     ReferenceStore::Say say_;
     ReferenceStore references_;
     std::map<std::string, bool> kept_references_;  // whether each was intact, by id

@@ -176,6 +176,16 @@ TEST_F(ProfileOption, OfSlicingByTheNativeEngine) {
     EXPECT_EQ(named("draw")[0].counts["samples"], stats["fragments"]);
 }
 
+TEST_F(ProfileOption, TablesAreBuiltByThePlan) {
+    scene["render"]["slice"]["classification"] = "preintegrated";
+    scene["render"]["slice"]["samples"] = 30;
+    write_bytes_to(folder / "scene.json", scene.dump());
+    profile("slice", "cpu");
+    ASSERT_FALSE(named("table").empty());
+    for (const Event& table : named("table"))
+        EXPECT_TRUE(is_in(table, named("plan").at(0), rounding));
+}
+
 TEST_F(ProfileOption, OfSlicingByOpenGL) {
     profile("slice", "osmesa");
     expect_stages({"compile", "upload", "geometry", "draw"});

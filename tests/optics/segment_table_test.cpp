@@ -345,15 +345,5 @@ TEST(SegmentTable, RefusesWhatIsTooLarge) {
     EXPECT_THROW(build_segment_table(smooth(), request_of(4096, 5)), Error);
 }
 
-TEST(SegmentTable, IsRememberedByContent) {
-    const auto first = segment_table(smooth(), request_of(16, 3));
-    EXPECT_EQ(segment_table(smooth(), request_of(16, 3)), first);
-    EXPECT_NE(segment_table(stepped(), request_of(16, 3)), first);
-    EXPECT_NE(segment_table(smooth(), request_of(16, 4)), first);
-    for (int nodes = 2; nodes < 12; ++nodes) segment_table(smooth(), request_of(nodes, 2));
-    EXPECT_EQ(first.use_count(), 1);  // forgotten, and still ours
-    EXPECT_EQ(first->texels.size(), 16u * 16 * 3 * 4);
-}
-
 }  // namespace
 }  // namespace lamina

@@ -169,8 +169,8 @@ TEST_F(Kraus, TracesASceneOnce) {
 TEST_F(Kraus, DrawsWhatTheTracerSees) {
     KrausStage stage(capabilities(), small_sizes(), {});
     KrausSubject& box = stage.subject("box");
-    const Image image =
-        plain_picture(with_default_integration(box.dense), box.mesh.data(), capabilities());
+    const Image image = plain_picture(with_default_integration(box.dense), box.mesh.data(),
+                                      capabilities(), box.tables);
     // Default settings keep the default of render.max_error (docs/scene.md).
     EXPECT_LE(image_error(image, box.mesh.exact(box.dense)).all.linf, 1);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "optics/segment_integral.h"
 #include "plan/plan.h"
@@ -51,10 +52,12 @@ TEST(TableChoice, ManyPointsGetMoreNodesUntilTheErrorIsKept) {
     TablePlan coarse;
     coarse.max_length = (facts.far_depth - facts.near_depth) / 200 * facts.max_length_per_depth;
     coarse.length_layers = 3;
+    TableCache tables;
+    build_table(scene, facts, coarse, tables);
     const double error = table_error(scene, facts, 200, coarse);
     TablePlan chosen = coarse;
     const double depth = facts.max_extinction * coarse.max_length;
-    refine_table(scene, facts, 200, depth, chosen);
+    refine_table(scene, facts, 200, depth, chosen, tables);
     EXPECT_GT(chosen.scalar_nodes, coarse.scalar_nodes);
     EXPECT_LE(chosen.error, table_share * scene.max_error);
     // Two cells a piece became 17: the error of linear interpolation falls with the square.
@@ -67,7 +70,8 @@ TEST(TableChoice, FewPointsKeepTheCoarsestTable) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     TablePlan chosen;
     chosen.max_length = .01;
-    refine_table(scene, facts, 200, .06, chosen);
+    TableCache tables;
+    refine_table(scene, facts, 200, .06, chosen, tables);
     EXPECT_EQ(chosen.scalar_nodes, TablePlan().scalar_nodes);
     EXPECT_GT(chosen.error, 0);
     EXPECT_LE(chosen.error, table_share * scene.max_error);
@@ -90,12 +94,48 @@ TEST(TableChoice, OfOnePieceTheErrorOfLongSegmentsIsFoundOnRays) {
     }
     TablePlan table;
     table.max_length = (facts.far_depth - facts.near_depth) / 2 * facts.max_length_per_depth;
-    refine_table(scene, facts, 2, facts.max_extinction * table.max_length, table);
+    TableCache tables;
+    refine_table(scene, facts, 2, facts.max_extinction * table.max_length, table, tables);
     // Segments of the largest length lie on a layer, where no error of lengths is: rays alone have
     // shorter ones.
     Facts without_rays = facts;
     without_rays.scalar_rays.rays.clear();
     EXPECT_GT(table.error, 4 * table_error(scene, without_rays, 2, table));
+}
+
+TEST(TableChoice, PlansHaveTheirTablesAndShareThoseOfOneCache) {
+    const Volume volume = blobs();
+    Capabilities native;
+    native.tiles = true;
+    native.max_texture_size = native.max_3d_texture_size = 64;
+    for (const TransferFunction& transfer_function :
+         {zigzag(4), TransferFunction::linear({knot(0, {1, .2, 0}, 0), knot(.4, {1, .2, 0}, 9),
+                                               knot(1, {1, .2, 0}, 2)})}) {
+        const Scene scene = scene_of(transfer_function);
+        const Facts facts = measure(scene, volume, measure_bricks(volume));
+        const auto tables = std::make_shared<TableCache>();
+        const SlicePlan plan = make_plan(scene, facts, native, {}, {}, tables).slice;
+        ASSERT_TRUE(plan.uses_table());
+        ASSERT_NE(plan.table.built, nullptr);
+        EXPECT_EQ(plan.table.built->colored, plan.table.colored);
+        EXPECT_EQ(plan.table.built->lengths.size(),
+                  static_cast<std::size_t>(plan.table.length_layers));
+        EXPECT_EQ(make_plan(scene, facts, native, {}, {}, tables).slice.table.built,
+                  plan.table.built);
+        const SlicePlan other = make_plan(scene, facts, native, {}).slice;
+        EXPECT_NE(other.table.built, plan.table.built);
+        EXPECT_EQ(other, plan);  // the numbers are those that the table is built from
+    }
+}
+
+// A camera that moves changes the longest segment.
+TEST(TableChoice, OneLayerServesSegmentsOfAnyLength) {
+    TablePlan near, far;
+    near.max_length = 1;
+    far.max_length = 2;
+    EXPECT_EQ(near.request({0, 1}), far.request({0, 1}));
+    near.length_layers = far.length_layers = 2;
+    EXPECT_NE(near.request({0, 1}), far.request({0, 1}));
 }
 
 }  // namespace

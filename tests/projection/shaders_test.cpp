@@ -73,6 +73,7 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         TransferFunction::linear({knot(0, {1, 0, 0}, .2), knot(.5, {1, 1, 0}, .2),
                                   knot(.5, {0, 1, 0}, .4), knot(1, {0, 0, 1}, .9)});
     std::set<std::string> seen;
+    TableCache cache;
     const auto compile = [&](ProjectPlan plan, const SegmentSource source, bool single_color,
                              bool filtered, int lengths) {
         const bool values = source == SegmentSource::mean || source == SegmentSource::vertices;
@@ -87,6 +88,8 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         plan.table.length_layers = lengths;
         plan.table.colored = !single_color;
         plan.aligned = {32, single_color ? 1 : lengths, 1.0, !single_color};
+        plan.table.built = cache.get(transfer_function, plan.table);
+        plan.aligned.built = cache.get(transfer_function, plan.aligned.request(plan.range));
         const GlProjectTables tables(transfer_function, plan);
         for (const FragmentKind kind :
              {FragmentKind::thin, FragmentKind::plain, FragmentKind::careful}) {

@@ -2,6 +2,7 @@
 // Pictures of the native engine against OpenGL's, for every source of colours and opacities.
 #include <algorithm>
 
+#include "facts/world_unit.h"
 #include "projection_fixture.h"
 #include "support/split_box.h"
 
@@ -78,6 +79,7 @@ class TilePicture : public gl::GlTest {
 
     // As the scene asks, both projections, both thicknesses, faces in float and in double.
     void expect_same(Scene scene, SegmentSource source, const std::string& name) const {
+        TableCache tables;
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
             for (const Thickness thickness : {Thickness::exact, Thickness::dz}) {
                 for (const bool plain : {false, true}) {
@@ -87,6 +89,9 @@ class TilePicture : public gl::GlTest {
                     if (source == SegmentSource::cut_table) {
                         plan.source = source;
                         plan.aligned = {200, plan.single_color ? 1 : 8, 0.5, !plan.single_color};
+                        plan.aligned.built =
+                            tables.get(in_units(scene.transfer_function, plan.unit),
+                                       plan.aligned.request(plan.range));
                     }
                     plan.plain = plain;
                     ASSERT_EQ(plan.source, source) << name;

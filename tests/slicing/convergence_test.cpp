@@ -110,7 +110,8 @@ TEST_F(SlicingTest, TheHardwareFilterIsTakenWhereItsErrorIsSmall) {
     gpu.eight_bit_filter = true;
     const MinMaxBricks bricks = measure_bricks(volume);
     const Facts facts = measure(scene, volume, bricks);
-    const SampleTrials trials = try_samples(scene, volume, bricks, facts, gpu, false);
+    TableCache tables;
+    const SampleTrials trials = try_samples(scene, volume, bricks, facts, gpu, false, tables);
     const Image traced = trace(volume, scene, 1e-7);
     const auto draw = [&](Filter filter, VolumeSampling expected) {
         scene.slice.filter = filter;

@@ -194,8 +194,9 @@ TEST(LitSlabs, AutomaticSamplesKeepMaxErrorAgainstTheLitTracer) {
                 scene.max_error = max_error;
                 const MinMaxBricks bricks = measure_bricks(volume);
                 const Facts facts = measure(scene, volume, bricks);
+                TableCache tables;
                 const SampleTrials trials =
-                    try_samples(scene, volume, bricks, facts, tile_capabilities(), false);
+                    try_samples(scene, volume, bricks, facts, tile_capabilities(), false, tables);
                 ASSERT_FALSE(trials.exact.empty());
                 const Plan plan = make_plan(scene, facts, tile_capabilities(), {}, trials);
                 Scene chosen = scene;

@@ -24,7 +24,9 @@ Tried try_slabs(const Scene& scene, const Volume& volume,
                 const Capabilities& capabilities = tile_capabilities(), bool many_frames = false) {
     const MinMaxBricks bricks = measure_bricks(volume);
     Tried tried{measure(scene, volume, bricks), {}};
-    tried.trials = try_samples(scene, volume, bricks, tried.facts, capabilities, many_frames);
+    TableCache tables;
+    tried.trials =
+        try_samples(scene, volume, bricks, tried.facts, capabilities, many_frames, tables);
     return tried;
 }
 

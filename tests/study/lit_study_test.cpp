@@ -29,7 +29,7 @@ Scene lit_scene() {
 // The smallest gradient is the data's, for the picture and for what it is measured against.
 TEST(LitStudy, ChoosesTheSmallestGradientAndTracesWithLight) {
     DataStore data;
-    StudyFrames frames(lit_scene(), data, tile_capabilities());
+    StudyFrames frames(lit_scene(), data, tile_capabilities(), std::make_shared<TableCache>());
     ASSERT_TRUE(frames.scene().lighting->smallest_gradient);
     // .01 of the range of values, which is up to 1, over the distance of samples.
     EXPECT_GT(*frames.scene().lighting->smallest_gradient, .005 * 11);
