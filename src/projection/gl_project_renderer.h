@@ -50,8 +50,7 @@ class GlProjectRenderer : public ProjectRenderer {
     void read(Image& image) const override;
     std::map<std::string, double> stages_ms() const override;
     const OrderReport& order_report() const override { return order_->report(); }
-    std::shared_ptr<VisibilityOrder> order() const override { return order_; }
-    std::shared_ptr<GlTetStream> stream() const { return stream_; }
+    ProjectParts parts() const override { return {order_, stream_}; }
     std::int64_t tets_drawn() const override { return tets_drawn_; }
 
     // Times of the last frame:

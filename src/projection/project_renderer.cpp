@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/project_renderer.h"
 
-#include <utility>
-
 #include "projection/gl_project_renderer.h"
 #include "projection/tile_project_renderer.h"
 
@@ -19,17 +17,13 @@ std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const TransferFunction& transfer_function,
                                                        const ProjectPlan& plan,
                                                        const Capabilities& capabilities, int width,
-                                                       int height, const FrameRenderer* before) {
-    const auto* const other = dynamic_cast<const ProjectRenderer*>(before);
-    std::shared_ptr<VisibilityOrder> order = other ? other->order() : nullptr;
+                                                       int height, const ProjectParts& ready) {
     if (capabilities.tiles) {
         return std::make_unique<TileProjectRenderer>(mesh, transfer_function, plan, width, height,
-                                                     std::move(order));
+                                                     ready.order);
     }
-    const auto* const shaders = dynamic_cast<const GlProjectRenderer*>(before);
     return std::make_unique<GlProjectRenderer>(mesh, transfer_function, plan, capabilities, width,
-                                               height, std::move(order),
-                                               shaders ? shaders->stream() : nullptr);
+                                               height, ready.order, ready.stream);
 }
 
 }  // namespace lamina

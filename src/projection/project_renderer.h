@@ -12,13 +12,21 @@
 
 namespace lamina {
 
+class GlTetStream;
+
+// The next renderer of the same mesh takes these over if they serve.
+struct ProjectParts {
+    std::shared_ptr<VisibilityOrder> order;
+    std::shared_ptr<GlTetStream> stream;  // buffers of OpenGL
+};
+
 // Draws frames of a mesh. The following are about the last frame.
 class ProjectRenderer : public FrameRenderer {
   public:
     virtual const OrderReport& order_report() const = 0;
-    // For the renderer that takes its place.
-    virtual std::shared_ptr<VisibilityOrder> order() const = 0;
     virtual std::int64_t tets_drawn() const = 0;  // that cover the centre of a pixel
+
+    virtual ProjectParts parts() const = 0;
 
     // Makes the mesh live as long as the renderer.
     void keep(std::shared_ptr<const SceneMesh> mesh) { mesh_ = std::move(mesh); }
@@ -34,10 +42,11 @@ std::shared_ptr<VisibilityOrder> order_for(const SceneMesh& mesh, const ProjectP
 
 // Draws a mesh as the plan says with what the capabilities are of: the native engine, or the
 // current OpenGL context, which must outlive it, as must the mesh.
-// `before`: one of the same mesh and capabilities, whose order and buffers are taken over where
-// they serve, or null; it draws no more.
-std::unique_ptr<ProjectRenderer> make_project_renderer(
-    const SceneMesh& mesh, const TransferFunction& transfer_function, const ProjectPlan& plan,
-    const Capabilities& capabilities, int width, int height, const FrameRenderer* before = nullptr);
+// `ready`: parts of a renderer of the same mesh and capabilities, which draws no more, or none.
+std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
+                                                       const TransferFunction& transfer_function,
+                                                       const ProjectPlan& plan,
+                                                       const Capabilities& capabilities, int width,
+                                                       int height, const ProjectParts& ready = {});
 
 }  // namespace lamina

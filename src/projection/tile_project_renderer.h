@@ -49,7 +49,7 @@ class TileProjectRenderer : public ProjectRenderer {
     std::map<std::string, double> stages_ms() const override;
 
     const OrderReport& order_report() const override { return order_->report(); }
-    std::shared_ptr<VisibilityOrder> order() const override { return order_; }
+    ProjectParts parts() const override { return {order_, nullptr}; }
     std::int64_t tets_drawn() const override {
         return tets_drawn_;
     }  // of the last frame, like the following

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,8 +12,8 @@
 namespace lamina {
 
 // How a SceneRenderer measures, plans and makes renderers: slicing and projection implement this,
-// each in its own way. Between calls the scene changes only in what the renderer was told to
-// change.
+// each in its own way, and keeps the renderer that it made last. Between calls the scene changes
+// only in what the renderer was told to change.
 class Drawing {
   public:
     virtual ~Drawing() = default;
@@ -40,22 +39,21 @@ class Drawing {
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
 
     // Sentences for people about the data, the plan and, once a frame is drawn, about it. The scene
-    // is a resolved one; `renderer` is null before there is one.
-    virtual Warnings warnings(const Scene& scene, const Plan& plan,
-                              const FrameRenderer* renderer) = 0;
+    // is a resolved one.
+    virtual Warnings warnings(const Scene& scene, const Plan& plan) = 0;
 
-    // Adds what the renderer found in its last frame.
-    virtual void add_to(const FrameRenderer& /*renderer*/, FrameStatistics& /*statistics*/) const {}
+    // Adds what the renderer, which is there, found in its last frame.
+    virtual void add_to(FrameStatistics& /*statistics*/) const {}
 
     // Of renderers that draw one picture together, once a view is measured: the parts of the volume
     // that they draw; and their numbers, nearer ones first.
     virtual std::vector<IndexBox> shares() const { return {}; }
     virtual std::vector<int> front_to_back(const Scene& /*scene*/) const { return {0}; }
 
-    // `before`: the renderer that the new one replaces, or null. Data that both need is kept.
-    virtual std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
-                                                         const Capabilities& capabilities,
-                                                         FrameRenderer* before) const = 0;
+    // The new renderer replaces the one before, from which it takes over the data that both need.
+    virtual void make_renderer(const Scene& scene, const Plan& plan,
+                               const Capabilities& capabilities) = 0;
+    virtual FrameRenderer* renderer() const = 0;  // null before there is one
 };
 
 }  // namespace lamina

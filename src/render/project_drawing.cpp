@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "base/unreachable.h"
 #include "base/warning.h"
-#include "projection/project_renderer.h"
 #include "scene/clipped_mesh.h"
 
 namespace lamina {
@@ -23,11 +24,6 @@ ProjectOrder order_of(OrderMethod method) {
             return ProjectOrder::none;
     }
     unreachable_enum();
-}
-
-// All renderers of a ProjectDrawing are of this kind.
-const ProjectRenderer* as_project(const FrameRenderer* renderer) {
-    return dynamic_cast<const ProjectRenderer*>(renderer);
 }
 
 }  // namespace
@@ -94,36 +90,33 @@ std::string ProjectDrawing::explanation(const Plan& plan, const Capabilities& ca
     return explain(plan, facts_, capabilities);
 }
 
-Warnings ProjectDrawing::warnings(const Scene& scene, const Plan& /*plan*/,
-                                  const FrameRenderer* renderer) {
+Warnings ProjectDrawing::warnings(const Scene& scene, const Plan& /*plan*/) {
     if (!data_warnings_) data_warnings_ = data_warnings(scene, *whole_);
     Warnings all = *data_warnings_;
     const auto add = [&](Warnings more) {
         for (std::string& warning : more) all.push_back(std::move(warning));
     };
     add(plan_warnings(scene, facts_.overlapping_tets));
-    if (renderer != nullptr) add(frame_warnings(as_project(renderer)->order_report()));
+    if (renderer_) add(frame_warnings(renderer_->order_report()));
     return all;
 }
 
-void ProjectDrawing::add_to(const FrameRenderer& renderer, FrameStatistics& statistics) const {
-    const ProjectRenderer& drawn = *as_project(&renderer);
-    statistics.tets_drawn = drawn.tets_drawn();
-    const OrderReport& order = drawn.order_report();
+void ProjectDrawing::add_to(FrameStatistics& statistics) const {
+    statistics.tets_drawn = renderer_->tets_drawn();
+    const OrderReport& order = renderer_->order_report();
     statistics.counts["cycles"] = order.cycles;
     statistics.counts["cyclic_tets"] = order.cyclic_tets;
     statistics.counts["pairs_in_wrong_order"] = order.broken;
 }
 
-std::unique_ptr<FrameRenderer> ProjectDrawing::make_renderer(const Scene& scene, const Plan& plan,
-                                                             const Capabilities& capabilities,
-                                                             FrameRenderer* before) const {
-    const bool same_mesh = before != nullptr && as_project(before)->kept_mesh() == mesh_.get();
-    auto renderer =
-        make_project_renderer(*mesh_, scene.transfer_function, plan.project, capabilities,
-                              scene.width, scene.height, same_mesh ? before : nullptr);
-    renderer->keep(mesh_);
-    return renderer;
+void ProjectDrawing::make_renderer(const Scene& scene, const Plan& plan,
+                                   const Capabilities& capabilities) {
+    const bool same_mesh = renderer_ && renderer_->kept_mesh() == mesh_.get();
+    auto made = make_project_renderer(*mesh_, scene.transfer_function, plan.project, capabilities,
+                                      scene.width, scene.height,
+                                      same_mesh ? renderer_->parts() : ProjectParts());
+    made->keep(mesh_);
+    renderer_ = std::move(made);
 }
 
 }  // namespace lamina

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "facts/mesh_facts.h"
+#include "projection/project_renderer.h"
 #include "render/drawing.h"
 #include "scene/scene_mesh.h"
 
@@ -24,11 +25,11 @@ class ProjectDrawing : public Drawing {
               bool for_people) const override;
     Scene resolved(Scene scene, const Plan& plan) const override;
     std::string explanation(const Plan& plan, const Capabilities& capabilities) const override;
-    Warnings warnings(const Scene& scene, const Plan& plan, const FrameRenderer* renderer) override;
-    void add_to(const FrameRenderer& renderer, FrameStatistics& statistics) const override;
-    std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
-                                                 const Capabilities& capabilities,
-                                                 FrameRenderer* before) const override;
+    Warnings warnings(const Scene& scene, const Plan& plan) override;
+    void add_to(FrameStatistics& statistics) const override;
+    void make_renderer(const Scene& scene, const Plan& plan,
+                       const Capabilities& capabilities) override;
+    FrameRenderer* renderer() const override { return renderer_.get(); }
 
   private:
     void clip_mesh(const Scene& scene);
@@ -43,6 +44,7 @@ class ProjectDrawing : public Drawing {
     std::optional<std::int64_t> overlapping_tets_;  // of mesh_, once they are counted
     std::optional<Warnings> data_warnings_;         // of whole_, once they are asked for
     MeshFacts facts_;
+    std::unique_ptr<ProjectRenderer> renderer_;
 };
 
 }  // namespace lamina

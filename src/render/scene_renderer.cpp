@@ -132,7 +132,7 @@ std::string SceneRenderer::explanation() {
 
 Warnings SceneRenderer::warnings() {
     plan();
-    return drawing_->warnings(*resolved_, *plan_, renderer_.get());
+    return drawing_->warnings(*resolved_, *plan_);
 }
 
 std::vector<IndexBox> SceneRenderer::shares() {
@@ -147,9 +147,10 @@ std::vector<int> SceneRenderer::front_to_back() {
 
 void SceneRenderer::set_up() {
     plan();
-    if (renderer_ && renderer_fits_ && renderer_->take(*plan_)) return;
+    FrameRenderer* const ready = drawing_->renderer();
+    if (ready != nullptr && renderer_fits_ && ready->take(*plan_)) return;
     Stage setting_up("set_up");
-    renderer_ = drawing_->make_renderer(*resolved_, *plan_, capabilities_, renderer_.get());
+    drawing_->make_renderer(*resolved_, *plan_, capabilities_);
     ++counts_.renderers;
     renderer_fits_ = true;
     stages_ms_["set_up"] = setting_up.end();
@@ -157,7 +158,7 @@ void SceneRenderer::set_up() {
 
 const FrameRenderer& SceneRenderer::renderer() {
     set_up();
-    return *renderer_;
+    return *drawing_->renderer();
 }
 
 void SceneRenderer::draw(std::stop_token stop) {
@@ -165,29 +166,31 @@ void SceneRenderer::draw(std::stop_token stop) {
     if (stop.stop_possible()) client.stop = std::move(stop);
     const ClientScope scope(std::move(client));
     set_up();
-    Progress progress(drawing_->activity(), renderer_->step_count());
-    renderer_->draw(View(resolved_->camera, resolved_->width, resolved_->height), &progress);
+    FrameRenderer& renderer = *drawing_->renderer();
+    Progress progress(drawing_->activity(), renderer.step_count());
+    renderer.draw(View(resolved_->camera, resolved_->width, resolved_->height), &progress);
 }
 
 Image SceneRenderer::picture() const {
-    assert(renderer_);
-    return renderer_->read();
+    assert(drawing_->renderer() != nullptr);
+    return drawing_->renderer()->read();
 }
 
 void SceneRenderer::read(Image& picture) const {
-    assert(renderer_);
-    renderer_->read(picture);
+    assert(drawing_->renderer() != nullptr);
+    drawing_->renderer()->read(picture);
 }
 
 void SceneRenderer::add_to(FrameStatistics& statistics) {
     for (const auto& [stage, ms] : stages_ms_) statistics.stages_ms[stage] = ms;
     if (planned_ && plan_->method == Method::slice) statistics.slabs = plan_->slice.slabs;
-    if (!renderer_) return;
-    for (const auto& [stage, ms] : renderer_->stages_ms()) statistics.stages_ms[stage] = ms;
-    statistics.fragments = renderer_->fragments();
-    statistics.bytes = renderer_->byte_count();
+    const FrameRenderer* const renderer = drawing_->renderer();
+    if (renderer == nullptr) return;
+    for (const auto& [stage, ms] : renderer->stages_ms()) statistics.stages_ms[stage] = ms;
+    statistics.fragments = renderer->fragments();
+    statistics.bytes = renderer->byte_count();
     statistics.counts["clamped_colors"] = clamped_colors(*resolved_);
-    drawing_->add_to(*renderer_, statistics);
+    drawing_->add_to(statistics);
 }
 
 }  // namespace lamina

@@ -114,7 +114,6 @@ class SceneRenderer : public Frames {
     bool data_measured_ = false, view_measured_ = false, planned_ = false;
     bool many_frames_ = false;
     std::optional<Plan> plan_;
-    std::unique_ptr<FrameRenderer> renderer_;
     bool renderer_fits_ = false;  // it has the scene's transfer function and size
     std::map<std::string, double> stages_ms_;
     Counts counts_;

@@ -3,7 +3,6 @@
 
 #include "compositing/dither.h"
 #include "slicing/slab_trials.h"
-#include "slicing/slice_renderer.h"
 
 namespace lamina {
 namespace {
@@ -95,18 +94,17 @@ std::string SliceDrawing::explanation(const Plan& plan, const Capabilities& capa
     return explain(plan, facts_, capabilities);
 }
 
-Warnings SliceDrawing::warnings(const Scene& scene, const Plan& plan,
-                                const FrameRenderer* /*renderer*/) {
+Warnings SliceDrawing::warnings(const Scene& scene, const Plan& plan) {
     Warnings all = data_warnings(*data_);
     for (std::string& warning : plan_warnings(scene, plan.slice)) all.push_back(std::move(warning));
     return all;
 }
 
-std::unique_ptr<FrameRenderer> SliceDrawing::make_renderer(const Scene& scene, const Plan& plan,
-                                                           const Capabilities& capabilities,
-                                                           FrameRenderer* before) const {
-    return make_slice_renderer(data_->volume, scene.transfer_function, facts_, plan.slice,
-                               capabilities, scene.width, scene.height, before);
+void SliceDrawing::make_renderer(const Scene& scene, const Plan& plan,
+                                 const Capabilities& capabilities) {
+    const SliceParts ready = renderer_ ? renderer_->parts() : SliceParts();
+    renderer_ = make_slice_renderer(data_->volume, scene.transfer_function, facts_, plan.slice,
+                                    capabilities, scene.width, scene.height, ready);
 }
 
 }  // namespace lamina

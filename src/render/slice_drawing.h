@@ -10,6 +10,7 @@
 #include "plan/volume_shares.h"
 #include "render/drawing.h"
 #include "render/picture_share.h"
+#include "slicing/slice_renderer.h"
 #include "volume/volume_data.h"
 
 namespace lamina {
@@ -29,10 +30,10 @@ class SliceDrawing : public Drawing {
               bool for_people) const override;
     Scene resolved(Scene scene, const Plan& plan) const override;
     std::string explanation(const Plan& plan, const Capabilities& capabilities) const override;
-    Warnings warnings(const Scene& scene, const Plan& plan, const FrameRenderer* renderer) override;
-    std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
-                                                 const Capabilities& capabilities,
-                                                 FrameRenderer* before) const override;
+    Warnings warnings(const Scene& scene, const Plan& plan) override;
+    void make_renderer(const Scene& scene, const Plan& plan,
+                       const Capabilities& capabilities) override;
+    FrameRenderer* renderer() const override { return renderer_.get(); }
 
     std::vector<IndexBox> shares() const override;
     std::vector<int> front_to_back(const Scene& scene) const override;
@@ -44,6 +45,7 @@ class SliceDrawing : public Drawing {
     std::optional<VolumeShares> shares_;
     Facts facts_;
     SampleTrials trials_;
+    std::unique_ptr<SliceRenderer> renderer_;
 };
 
 }  // namespace lamina

@@ -10,15 +10,15 @@
 #include "gl/framebuffer.h"
 #include "gl/timeline.h"
 #include "lamina/image.h"
-#include "plan/frame_renderer.h"
 #include "slicing/gl_shader_tree.h"
 #include "slicing/gl_slab_pass.h"
 #include "slicing/gl_slab_source.h"
+#include "slicing/slice_renderer.h"
 
 namespace lamina {
 
 // Draws a volume as the plan says, in the current OpenGL context, which must outlive the renderer.
-class GlSliceRenderer : public FrameRenderer {
+class GlSliceRenderer : public SliceRenderer {
   public:
     // Uploads the volume, builds the tables and compiles the programs that the context has not got;
     // errors of OpenGL are Errors. `ready`: volume() of another renderer, taken over where it
@@ -36,6 +36,7 @@ class GlSliceRenderer : public FrameRenderer {
     void read(Image& image) const override;
     std::map<std::string, double> stages_ms() const override;
 
+    SliceParts parts() const override { return {nullptr, volume()}; }
     std::shared_ptr<const VolumeTextures> volume() const {
         return source_ ? source_->volume() : kept_;
     }

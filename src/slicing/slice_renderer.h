@@ -9,15 +9,27 @@
 
 namespace lamina {
 
+class TileVolume;
+class VolumeTextures;
+
+// The volume as renderers need it: the next renderer takes it over if it serves.
+struct SliceParts {
+    std::shared_ptr<const TileVolume> tiles;         // of the native engine
+    std::shared_ptr<const VolumeTextures> textures;  // of OpenGL
+};
+
+class SliceRenderer : public FrameRenderer {
+  public:
+    virtual SliceParts parts() const = 0;
+};
+
 // Makes a renderer that draws a volume as the plan says. The capabilities decide whether it is the
 // native engine or OpenGL in the current context. The context and the volume must outlive the
-// renderer. `before`: a renderer of the same volume and capabilities, or null. Its copy of the
-// volume is taken over where it serves.
-std::unique_ptr<FrameRenderer> make_slice_renderer(const Volume& volume,
+// renderer. `ready`: parts of a renderer of the same volume and capabilities, or none.
+std::unique_ptr<SliceRenderer> make_slice_renderer(const Volume& volume,
                                                    const TransferFunction& transfer_function,
                                                    const Facts& facts, const SlicePlan& plan,
                                                    const Capabilities& capabilities, int width,
-                                                   int height,
-                                                   const FrameRenderer* before = nullptr);
+                                                   int height, const SliceParts& ready = {});
 
 }  // namespace lamina

@@ -9,7 +9,7 @@
 #include "base/progress.h"
 #include "executors/tile_fixed_tree.h"
 #include "lamina/image.h"
-#include "plan/frame_renderer.h"
+#include "slicing/slice_renderer.h"
 #include "slicing/tile_march.h"
 #include "slicing/tile_slab_source.h"
 #include "tiles/tile_image.h"
@@ -18,7 +18,7 @@ namespace lamina {
 
 // Draws a volume as the plan says, with the native engine. GlSliceRenderer does the same with
 // OpenGL.
-class TileSliceRenderer : public FrameRenderer {
+class TileSliceRenderer : public SliceRenderer {
   public:
     // Prepares the volume and the tables. `ready`: volume() of another renderer, which is taken
     // over where it serves.
@@ -37,6 +37,7 @@ class TileSliceRenderer : public FrameRenderer {
     std::map<std::string, double> stages_ms() const override;
     std::int64_t fragments() const override { return samples_; }
 
+    SliceParts parts() const override { return {volume(), nullptr}; }
     std::shared_ptr<const TileVolume> volume() const { return source_ ? source_->volume() : kept_; }
 
     double upload_ms() const { return source_ ? source_->upload_ms() : 0; }

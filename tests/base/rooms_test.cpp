@@ -299,5 +299,15 @@ TEST(Pipeline, IsTheOnlyWayFromASceneToItsPicture) {
     EXPECT_EQ(seen.size(), pipeline_steps().size() - 1);  // all but trace_volume() and its kin
 }
 
+// A renderer takes over parts of the one before; who made both knows their type.
+TEST(Renderers, AreNotAskedForTheirType) {
+    for (const fs::path& file : files_under({"src", "tools", "python"})) {
+        if (!is_code(file)) continue;
+        const std::string text = read_bytes_of(file);
+        if (text.find("dynamic_cast") == std::string::npos) continue;
+        EXPECT_TRUE(all_matches(text, R"re(\b(dynamic_cast<[^>]*Renderer))re").empty()) << file;
+    }
+}
+
 }  // namespace
 }  // namespace lamina
