@@ -83,8 +83,8 @@ class CameraKeys(TypedDict, total=False):
     """Keys of a scene file.
 
     - ``projection``: Default: "perspective".
-    - ``up``: Default: [0.0, 1.0, 0.0].
-    - ``fov_y``: Degrees, perspective. Default: 40.0.
+    - ``up``: Default: [0, 1, 0].
+    - ``fov_y``: Degrees, perspective. Default: 40.
     - ``height``: World units, orthographic (required there).
     """
 
@@ -130,10 +130,10 @@ class LightingKeys(TypedDict, total=False):
     - ``ambient``: Default: 0.1.
     - ``diffuse``: Default: 0.7.
     - ``specular``: Default: 0.2.
-    - ``power``: Of the specular highlight. Default: 10.0.
+    - ``power``: Of the specular highlight. Default: 10.
     - ``smallest_gradient``: In scalar units per world unit: what is less steep fades into the unlit picture. auto:
       .01 of the range of values over the smallest distance of samples (meshes: over the mean edge). Default: "auto".
-    - ``lights``: Default: [{"direction": "headlight", "color": [1.0, 1.0, 1.0]}].
+    - ``lights``: Default: [{"direction": "headlight", "color": [1, 1, 1]}].
     """
 
     ambient: float
@@ -149,7 +149,7 @@ class LightingLightKeys(TypedDict, total=False):
 
     - ``direction``: Towards the light, in world space; headlight: towards the eye, along every ray. Default:
       "headlight".
-    - ``color``: Components 0..1000. Default: [1.0, 1.0, 1.0].
+    - ``color``: Components 0..1000. Default: [1, 1, 1].
     """
 
     direction: Union[Literal["headlight"], Sequence[float]]
@@ -226,7 +226,7 @@ class SliceTableKeys(TypedDict, total=False):
 
     - ``scalar``: Default: 256.
     - ``length``: Default: 1.
-    - ``max_length``: Longest segment, world units. Default: 0.0.
+    - ``max_length``: Longest segment, world units. Default: 0.
     """
 
     scalar: int
@@ -290,7 +290,7 @@ class TraceKeys(TypedDict, total=False):
 class TransferFunctionKeys(TypedDict, total=False):
     """Keys of a scene file.
 
-    - ``unit_length``: World length that opacity refers to. Default: 1.0.
+    - ``unit_length``: World length that opacity refers to. Default: 1.
     - ``interpolation``: linear: opacity between two points given by opacity, else extinction; extinction: extinction
       everywhere; nearest: the nearest point. Default: "linear".
     - ``colormap``: Path of a ParaView colour map (JSON preset), or the name of a shipped one: cividis, cool-warm,
@@ -344,11 +344,11 @@ class Keywords(TypedDict, total=False):
     - ``height``: Default: 600.
     - ``color_space``: What triples and colour maps are given in, and pictures composited in: linear light, or display
       values as VTK and ParaView do. Default: "linear".
-    - ``background``: Default: [0.0, 0.0, 0.0].
+    - ``background``: Default: [0, 0, 0].
     - ``method``: Left out: slice for scenes with a volume, project for others.
     - ``target``: Default: "float32".
     - ``emulate``: Fixed-point compositing step by step, for target emulated.
-    - ``max_error``: Bound for what is automatic, in 1/255 of full scale. Default: 1.0.
+    - ``max_error``: Bound for what is automatic, in 1/255 of full scale. Default: 1.
     - ``project``: Projected tetrahedra.
     - ``size``: (width, height) in pixels, in place of width and height.
     - ``set``: Any key, named by its path: {"render.slice.samples": 64}.
