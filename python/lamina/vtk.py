@@ -79,6 +79,6 @@ def hold(renderer: Any, *, precise: bool = True, **keywords: Unpack[Keywords]) -
     taken = scene(renderer)
     check_clipping_range(renderer, taken.data)
     pixels = pixels_of(renderer, precise)
-    draw = trace if (keywords.get("method") or "trace") == "trace" else render
-    picture = draw(taken, **keywords)
+    traced = (keywords.get("method") or "trace") == "trace"
+    picture = trace(taken, **keywords) if traced else render(taken, **keywords)
     return Held(pixels, picture, tuple(renderer.GetBackground()))
