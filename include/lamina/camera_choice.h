@@ -18,8 +18,8 @@ LAMINA_API Camera fitted_camera(const Scene& scene, const Volume& volume, double
 LAMINA_API Camera fitted_camera(const Scene& scene, const MeshData& mesh, double azimuth = 0,
                                 double elevation = 0);
 
-// The transfer function that a picture of the volume has: the scene's, chosen from the data where
-// it is automatic, a colour map without a range stretched over them. Throws Error.
+// The transfer function that a picture of the volume has: the scene's, chosen from the data if it
+// is automatic, with a colour map without a range stretched over them. Throws Error.
 LAMINA_API TransferFunction chosen_transfer_function(const Scene& scene, const Volume& volume);
 
 }  // namespace lamina

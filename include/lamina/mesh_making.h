@@ -18,7 +18,8 @@ struct MadeMesh {
 };
 
 // Tetrahedra that fill the volume's box (docs/meshes.md). `transfer_function`: where it shows
-// nothing they may be coarse; with null everything counts. Throws Error for samples that are not
+// nothing they may be coarse (chosen_transfer_function() has that of a scene); with null everything
+// counts. Throws Error for samples that are not
 // finite, for a Kuhn split with more than settings.max_tets tets, and where lamina-tetrahedralize
 // is neither beside the program or the library nor in PATH; Interrupted once a stop is requested.
 LAMINA_API MadeMesh make_mesh(const Volume& volume, const MeshSettings& settings = {},

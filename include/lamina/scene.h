@@ -49,8 +49,9 @@ struct Scene {
     // Where these are set, what stands above is replaced by what the data suggest, once they are
     // known (docs/first-picture.md).
     bool automatic_transfer_function = false, automatic_camera = false;
-    // What a scene file gives for the transfer function, null if nothing. If that is a colour map
-    // without a range, automatic_transfer_function is set: the map is stretched over the data.
+    // The transfer function as a scene file gives it; null if it gives none. A colour map without a
+    // range is stretched over the data as long as automatic_transfer_function is set: callers who
+    // set a function of their own end that.
     std::shared_ptr<const GivenTransfer> given_transfer;
     std::optional<Lighting> lighting;  // none: colours are shown as they are
     int width = 800;

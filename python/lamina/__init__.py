@@ -16,7 +16,7 @@ A notebook shows ``picture``; ``picture.array`` has its numbers, ``picture.save(
 
 Data: ``Volume``, ``Mesh``, ``read``, ``mesh``.
 Looks: ``TransferFunction``, ``Camera``, ``Lighting``, ``Light``; everything else by the names that scene files have
-(``Scene``, ``Keywords``).
+(``Scene``; types: ``Keywords``, ``Changes``, ``lamina.keywords``).
 Pictures: ``render``, ``trace``, ``Session`` (to change things and draw again), ``Picture``, ``Turntable``.
 Errors: ``compare``, ``Comparison``, ``study``, ``Study``.
 VTK: ``lamina.vtk`` takes over a ``vtkRenderer`` and holds its picture against the truth.
@@ -32,7 +32,7 @@ from ._comparison import Comparison, Norms, compare
 from ._drawing import render, trace
 from ._errors import Error, PictureWarning, PrecisionWarning
 from ._lamina import version as __version__
-from ._keywords import Changes, Keywords
+from .keywords import Changes, Keywords
 from ._lighting import Light, Lighting
 from ._mesh import Mesh, mesh
 from ._picture import Omission, Picture, Plan

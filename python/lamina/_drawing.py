@@ -12,7 +12,7 @@ from ._volume import Path
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._keywords import Keywords
+    from .keywords import Keywords
 
 
 def render(data: Any, transfer_function: Any = None, *, context: str = "auto", threads: int = 0,

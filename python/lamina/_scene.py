@@ -15,7 +15,7 @@ from . import _lamina
 from ._conversion import shown
 from ._errors import Error
 from ._files import write_file
-from ._keywords import KEYWORDS
+from .keywords import KEYWORDS
 from ._mesh import Mesh
 from ._plain import plain
 from ._volume import Path, Volume, folder_name

@@ -18,7 +18,7 @@ from ._watched import CHANGED, Watched
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._keywords import Changes, Keywords
+    from .keywords import Changes, Keywords
 
 Progress = Callable[[str, float], object]
 

@@ -34,7 +34,7 @@ from ._vtk_window import pixels_of
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._keywords import Keywords
+    from .keywords import Keywords
 
 __all__ = ["Held", "hold", "scene"]
 
@@ -71,7 +71,7 @@ def hold(renderer: Any, *, precise: bool = True, **keywords: Unpack[Keywords]) -
 
     ``precise``: VTK draws into float32, so that rounding to 8 bits is not counted against it; else its codes are taken as
     a window shows them. Other keywords change lamina's scene as for ``render`` (``trace={"tolerance": 1e-6}``).
-    ``method``: ``"trace"`` where nothing is said, the truth; ``"slice"`` or ``"project"`` are quicker.
+    ``method``: ``"trace"`` if nothing is said, the truth; ``"slice"`` or ``"project"`` are quicker.
 
     The renderer's own window draws; without a display it can be an off-screen one.
     """

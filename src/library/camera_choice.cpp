@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "render/pipeline.h"
+#include "scene/given_transfer.h"
 
 namespace lamina {
 namespace {
@@ -27,8 +28,10 @@ Camera fitted_camera(const Scene& scene, const MeshData& mesh, double azimuth, d
 }
 
 TransferFunction chosen_transfer_function(const Scene& scene, const Volume& volume) {
+    if (!scene.automatic_transfer_function) return scene.transfer_function;
     Scene drawn = scene;
     drawn.method = Method::slice;
+    if (has_open_colormap(drawn)) drawn.automatic_camera = false;  // it would be fitted
     return Pipeline(std::move(drawn), SceneData(volume)).scene().transfer_function;
 }
 

@@ -19,7 +19,7 @@ struct KrausSubject {
     Scene faint;       // the same with opacity up to .1
     Scene dense;       // the same with opacity up to .95
     Scene isosurface;  // a sharp peak, nearly opaque; its camera may be another one
-    // Those of all who draw it; a stage's are those of all its subjects.
+    // Has the pre-integration tables of its pictures. Subjects of one stage share the stage's.
     std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
 };
 

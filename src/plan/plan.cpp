@@ -95,6 +95,7 @@ Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capa
     const TargetChoice choice = choose_target(chosen, facts, trials);
     Plan plan = plan_slicing(with_target(chosen, choice.target), facts, capabilities, omissions,
                              trials, *tables);
+    build_drawn_table(chosen, facts, plan.slice, *tables);
     plan.slice.classification_reason = way.reason;
     plan.slice.target_reason = choice.reason;
     return plan;

@@ -374,7 +374,7 @@ class ProjectPlanner {
         sum += (1 - sum.a) * glm::dvec4(segment.color, segment.alpha);
     }
 
-    // SegmentTable, PreintegrationTable.
+    // Looks runs up in a SegmentTable or a PreintegrationTable, which must outlive the result.
     template <typename Table>
     static Lookup lookup_in(const Table& table) {
         return [&table](const MeshFacts::Run& run) {

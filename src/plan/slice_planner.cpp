@@ -79,8 +79,6 @@ class SlicePlanner {
         slice.rounding_bound =
             slice.error_bound ? slice.error_bound : rounding_bound(tree_question(), slice.tree);
         choose_termination();
-        if (slice.uses_table() && !slice.table.built && !slice.nothing_visible)
-            build_table(scene_, facts_, slice.table, tables_);
         return std::move(plan_);
     }
 
@@ -397,6 +395,12 @@ class SlicePlanner {
 Plan plan_slicing(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                   const OmissionSwitch& omissions, const SampleTrials& trials, TableCache& tables) {
     return SlicePlanner(scene, facts, capabilities, omissions, trials, tables).make();
+}
+
+void build_drawn_table(const Scene& scene, const Facts& facts, SlicePlan& plan,
+                       TableCache& tables) {
+    if (plan.uses_table() && !plan.table.built && !plan.nothing_visible)
+        build_table(scene, facts, plan.table, tables);
 }
 
 }  // namespace lamina

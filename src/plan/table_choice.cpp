@@ -164,7 +164,7 @@ int affordable_layers(const TablePlan& table, double knots, double wanted) {
 
 }  // namespace
 
-// It is the table that is drawn: of samples of one value, it is wider than their range.
+// Takes the range that is drawn, which is wider than that of the samples if they have one value.
 void build_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables) {
     const double unit = world_unit(box_diagonal(facts.grid));
     const ValueRange range = drawn_range(scene.transfer_function, facts.range);

@@ -85,14 +85,22 @@ std::unique_ptr<Field> SceneData::field(const Scene& scene) {
     return std::make_unique<VolumeField>(*volume(scene));
 }
 
-ValueRange SceneData::range(const Scene& scene) {
-    if (volume_given_ || (!mesh_given_ && scene.has_volume())) return volume(scene)->bricks.whole;
-    return measure_range(mesh(scene)->scalar.values).range;
+const ValueRange& SceneData::range(const Scene& scene) {
+    if (range_) return *range_;
+    if (volume_given_ || (!mesh_given_ && scene.has_volume())) {
+        const bool needed = volume_ != nullptr || !scene.draws_mesh() || makes_mesh(scene);
+        range_ = volume(scene)->bricks.whole;
+        if (!needed) volume_.reset();
+    } else {
+        range_ = measure_range(mesh(scene)->scalar.values).range;
+    }
+    return *range_;
 }
 
 void SceneData::forget_mesh() {
     if (mesh_given_) return;
     mesh_.reset();
+    range_.reset();
     open_faces_.reset();
     mesh_counts_.reset();
     mesh_ms_.clear();

@@ -45,7 +45,7 @@ class SceneData {
 
     // The range of the finite values that a colour map is stretched over: those of the volume if
     // there is one, so that the pictures of volume and mesh have the same colours.
-    ValueRange range(const Scene& scene);
+    const ValueRange& range(const Scene& scene);
 
     // Keeps a volume that a mesh is made from, for further meshes. Otherwise it is read into memory
     // for the mesh alone.
@@ -65,6 +65,7 @@ class SceneData {
     std::shared_ptr<const VolumeData> volume_;
     std::shared_ptr<const SceneMesh> mesh_;
     bool volume_given_ = false, mesh_given_ = false, keeps_volume_ = false;
+    std::optional<ValueRange> range_;
     std::shared_ptr<const FaceTree> open_faces_;
     Stages volume_ms_, mesh_ms_;
     std::optional<std::map<std::string, std::int64_t>> mesh_counts_;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "optics/colormap.h"
 #include "optics/opacity.h"
@@ -95,7 +94,8 @@ TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRan
 }
 
 bool has_open_colormap(const Scene& scene) {
-    return scene.automatic_transfer_function && scene.given_transfer;
+    return scene.automatic_transfer_function && scene.given_transfer &&
+           scene.given_transfer->open();
 }
 
 void close_colormap(Scene& scene, const ValueRange& data) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -52,7 +53,7 @@ inline constexpr double largest_map_value = 1e300;
 // map make no function.
 TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRange& data = {});
 
-// Whether the scene's colours are those of a map that is stretched over the data.
+// Tells whether the scene's colours are those of a map that is stretched over the data.
 bool has_open_colormap(const Scene& scene);
 // Stretches an open colour map over data of this range: then the scene's transfer function is
 // known. Throws Error, which names file and key.

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "lamina/image_color_space.h"
 #include "scene_files/json_reader.h"
 
 namespace lamina {

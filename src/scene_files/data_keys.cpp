@@ -172,7 +172,7 @@ const KeyTable<MeshSettings>& mesh_keys() {
                              "a number above 0 and up to 1 (of the range of values)"),
                  "Largest difference from the trilinear field, of the volume's range of values.");
         keys.key("max_tets", &MeshSettings::max_tets, whole_form<std::int64_t>(6, most_tets),
-                 "Where the making of the mesh stops.");
+                 "The making of the mesh stops at so many.");
         keys.key("kuhn", &MeshSettings::kuhn, flag_form(), "Every sample, six tets a cell.");
         return keys;
     }();
@@ -249,7 +249,7 @@ void add_data_keys(KeyTable<Scene>& scene) {
     });
     scene.key("scalar", &Scene::scalar, text_form(),
               "Array of the mesh file, of points or (averaged to points) of cells; the first one "
-              "of points where nothing is said.");
+              "of points if nothing is said.");
     scene.check([](JsonReader& reader, Scene& read) {
         if (reader.has("scalar") && !reader.context.mesh_given && read.mesh_file.empty())
             reader.reject("scalar", "a mesh from a file beside it");

@@ -11,7 +11,7 @@ namespace lamina {
 // Adds the keys that say what is drawn: "volume", "mesh", "scalar" and "nan".
 void add_data_keys(KeyTable<Scene>& scene);
 
-// What a scene has to be drawn: named by its keys, or given.
+// Tells whether the scene has a volume (a mesh), named by a key or given.
 bool has_volume(const JsonReader& reader, const Scene& scene);
 bool has_mesh(const JsonReader& reader, const Scene& scene);
 

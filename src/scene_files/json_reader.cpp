@@ -95,10 +95,6 @@ double JsonReader::number(const std::string& key) {
     return found;
 }
 
-double JsonReader::number_or(const std::string& key, double otherwise) {
-    return has(key) ? number(key) : otherwise;
-}
-
 std::int64_t JsonReader::whole(const std::string& key, std::int64_t lo, std::int64_t hi) {
     const std::string expected = fmt::format("a whole number from {} to {}", lo, hi);
     if (!has(key) || !object_[key].is_number()) reject(key, expected);
@@ -130,10 +126,6 @@ glm::dvec3 JsonReader::vector(const std::string& key) {
     if (!three_numbers) reject(key, "three finite numbers [x, y, z]");
     return {object_[key][0].get<double>(), object_[key][1].get<double>(),
             object_[key][2].get<double>()};
-}
-
-glm::dvec3 JsonReader::vector_or(const std::string& key, const glm::dvec3& otherwise) {
-    return has(key) ? vector(key) : otherwise;
 }
 
 std::filesystem::path JsonReader::path_of(const std::string& key) {

@@ -31,7 +31,7 @@ class UnknownKeyError : public KeyError {
     using KeyError::KeyError;
 };
 
-// What values depend on beside their own text.
+// Has what the meaning of values depends on beside their own text.
 struct JsonContext {
     ImageColorSpace color_space = ImageColorSpace::linear;  // of colours
     bool volume_given = false, mesh_given = false;  // data in memory, which no key needs to name
@@ -55,12 +55,10 @@ class JsonReader {
     const nlohmann::json& value(const std::string& key);
 
     double number(const std::string& key);
-    double number_or(const std::string& key, double otherwise);
     std::int64_t whole(const std::string& key, std::int64_t lo, std::int64_t hi);
     bool flag_or(const std::string& key, bool otherwise);
     std::string text(const std::string& key);
     glm::dvec3 vector(const std::string& key);
-    glm::dvec3 vector_or(const std::string& key, const glm::dvec3& otherwise);
     // A path of the file system. ${LAMINA_DATA} is expanded, and relative paths start at the file's
     // folder.
     std::filesystem::path path_of(const std::string& key);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of JSON objects, from one table a struct (docs/architecture.md, "Keys"). What reads a file,
-// what writes one and the schema all come from the table.
+// Keys of JSON objects, from one table a struct (docs/architecture.md, "Keys"): the reader, the
+// writer and the schema come from it.
 #pragma once
 
+#include <cassert>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -111,7 +110,7 @@ class KeyTable {
                         json[name] = table().json(std::invoke(access, object));
                     }});
     }
-    // The same of keys of this struct.
+    // Adds an object whose keys are this struct's own.
     KeyTable& object(const std::string& name, const KeyTable& (*table)(),
                      const std::string& description = "") {
         return object(
@@ -130,6 +129,7 @@ class KeyTable {
         Key<Struct>& last = keys_.back();
         last.required = true;
         last.schema.erase("default");
+        assert(last.read_required);
         last.read = last.read_required;
         return *this;
     }

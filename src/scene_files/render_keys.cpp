@@ -210,8 +210,7 @@ const KeyTable<ProjectSettings>& project_keys() {
 const KeyTable<Scene>& trace_keys() {
     static const auto table = [] {
         KeyTable<Scene> keys;
-        keys.key("of", &Scene::trace_of, words_form<TraceOf>(),
-                 "The volume where the scene has one.")
+        keys.key("of", &Scene::trace_of, words_form<TraceOf>(), "The volume if the scene has one.")
             .without_default();
         keys.check([](JsonReader& reader, Scene& scene) {
             const bool volume = has_volume(reader, scene), mesh = has_mesh(reader, scene);
@@ -292,9 +291,9 @@ const KeyTable<Scene>& render_keys() {
                  number_form({.above = 0, .up_to = 255},
                              "a number above 0 and up to 255 (in 1/255 of full scale)"),
                  "Bound for what is automatic, in 1/255 of full scale.");
-        keys.object("slice", &Scene::slice, slice_keys);
+        keys.object("slice", &Scene::slice, slice_keys, "Slices of a volume.");
         keys.object("project", &Scene::project, project_keys, "Projected tetrahedra.");
-        keys.object("trace", trace_keys);
+        keys.object("trace", trace_keys, "The reference tracer.");
         keys.check(check_method);
         return keys;
     }();

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_files/view_keys.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "image/image_limits.h"
-#include "scene/camera.h"
 #include "scene/largest_scene_coordinate.h"
 #include "scene/lighting_check.h"
 #include "scene_files/forms.h"
@@ -218,7 +216,7 @@ void add_view_keys(KeyTable<Scene>& scene) {
     };
     scene.key("clip", &Scene::clip, clip,
               "What is drawn of the data: what lies on the kept side of all planes and in the "
-              "box. Nothing is cut away where it is left out.");
+              "box. Nothing is cut away if it is left out.");
     add_lighting(scene);
     scene.object("image", image_keys);
 }

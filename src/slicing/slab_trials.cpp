@@ -205,7 +205,8 @@ class SlabTrials {
     Image draw(int slabs, Filter filter, const OmissionSwitch& omissions) {
         scene_.slice.samples = slabs;
         scene_.slice.filter = filter;
-        const Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions, {}, tables_);
+        Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions, {}, tables_);
+        build_drawn_table(scene_, facts_, plan.slice, tables_);
         TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
                                    scene_.width, scene_.height, ready_);
         ready_ = renderer.volume();

@@ -38,7 +38,7 @@ std::string mesh_name(const Scene& scene) {
     }
     const MeshSettings& settings = *scene.mesh_request;
     return fmt::format("{} {} {} {} {}", volume_name(scene), settings.tolerance, settings.max_tets,
-                       settings.kuhn, transfer_function_key(scene));
+                       settings.kuhn, transfer_function_key(scene.transfer_function));
 }
 
 const DataStore::StoredVolume& DataStore::volume(const Scene& scene) {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/picture_key.h"
 
+#include <cassert>
 #include <glm/vec3.hpp>
-#include <nlohmann/json.hpp>
 
 #include "base/content_hash.h"
-#include "base/json_text.h"
 #include "scene/given_transfer.h"
 #include "scene/half_space.h"
-#include "scene_files/transfer_keys.h"
 #include "volume/volume_store.h"
 
 namespace lamina::study {
@@ -40,7 +38,8 @@ std::string picture_key(const Scene& scene) {
     add(hash, camera.eye);
     add(hash, camera.center);
     add(hash, camera.up);
-    hash.add(transfer_function_key(scene));
+    assert(!has_open_colormap(scene));
+    hash.add(transfer_function_key(scene.transfer_function));
     for (const HalfSpace& half : half_spaces(scene.clip)) {
         add(hash, half.point);
         add(hash, half.normal);
@@ -49,15 +48,9 @@ std::string picture_key(const Scene& scene) {
     return hash.hex();
 }
 
-std::string transfer_function_key(const Scene& scene) {
+std::string transfer_function_key(const TransferFunction& transfer_function) {
     ContentHash hash;
-    if (has_open_colormap(scene)) {
-        const GivenTransfer& given = *scene.given_transfer;
-        hash.add(json_text(transfer_keys().json(given)));
-        hash.add(content_of(*given.map));
-        return hash.hex();
-    }
-    for (const TransferKnot& knot : scene.transfer_function.knots()) {
+    for (const TransferKnot& knot : transfer_function.knots()) {
         hash.add(knot.value);
         add(hash, knot.optics.color);
         hash.add(knot.optics.extinction);

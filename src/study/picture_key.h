@@ -14,8 +14,7 @@ namespace lamina::study {
 // clip and lighting.
 std::string picture_key(const Scene& scene);
 
-// Identifies the scene's transfer function, also if its colour map is open.
-std::string transfer_function_key(const Scene& scene);
+std::string transfer_function_key(const TransferFunction& transfer_function);
 
 // Identifies the contents of data, wherever they came from.
 std::string content_of(const Volume& volume);

@@ -18,7 +18,7 @@ using Kind = StudyData::Kind;
 std::string content_of(const StudyData& data, DataStore& store) {
     try {
         if (data.kind == Kind::volume) return store.volume(data.drawn).content;
-        if (data.kind == Kind::mesh) return store.mesh(store.closed(data.drawn)).content;
+        if (data.kind == Kind::mesh) return store.mesh(data.drawn).content;
         return study::content_of(read_paraview_colormap(colormap_file_of(data.drawn)));
     } catch (const Interrupted&) {
         throw;

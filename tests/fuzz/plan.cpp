@@ -7,9 +7,11 @@
 #include "json_paths.h"
 #include "plan_check.h"
 #include "runs.h"
+#include "scene/given_transfer.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/scene_reader.h"
 #include "violation.h"
+#include "volume/min_max_bricks.h"
 
 namespace lamina::fuzz {
 namespace {
@@ -47,6 +49,8 @@ void run_plan(std::string_view input) {
         if (!paths_stay_in_folder(document)) return;
         Scene scene = read_scene(document, file);
         shrink(scene);
+        if (has_open_colormap(scene))
+            close_colormap(scene, measure_bricks(load_volume(scene)).whole);
         if (scene.draws_mesh())
             check_project_plans(scene, load_mesh(scene));
         else

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/camera.h"
+#include "scene/given_transfer.h"
+#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 #include "input_parts.h"
@@ -17,7 +19,9 @@ void run_scene(std::string_view input) {
     may_fail([&] {
         const nlohmann::json document = load_json(file);
         if (!paths_stay_in_folder(document)) return;
-        const Scene scene = read_scene(document, file);
+        Scene scene = read_scene(document, file);
+        read_scene(scene_json(scene), file);
+        if (has_open_colormap(scene)) close_colormap(scene, {0, 255});
         const View view(scene.camera, scene.width, scene.height);
         for (const double column : {0.0, scene.width - 1.0}) {
             const View::Ray ray = view.ray(column, 0);

@@ -8,7 +8,7 @@ import sys
 import tempfile
 
 module, source = map(pathlib.Path, sys.argv[1:])
-OF_KEYS = ["python/lamina/_keywords.py", "tests/fuzz/scene.dict"]
+OF_KEYS = ["python/lamina/keywords.py", "tests/fuzz/scene.dict"]
 with tempfile.TemporaryDirectory() as folder:
     subprocess.run([source / "tools/key_files", "-o", folder], check=True)
     old_files = [name for name in OF_KEYS if pathlib.Path(folder, name).read_text() != (source / name).read_text()]

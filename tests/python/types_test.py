@@ -19,6 +19,8 @@ volume = lamina.Volume(np.zeros((2, 2, 2)), spacing=0.5)
 function = lamina.TransferFunction([(0, "red", 0.0), (1, (1, 1, 1), 2)])
 picture = lamina.render(volume, function, camera=lamina.Camera.orbit(volume), size=(8, 6), max_error=1)
 array: np.ndarray = picture.array
+view: lamina.keywords.CameraKeys = {"eye": np.array([2, 1, 3]), "center": (0, 0, 0)}
+lamina.Session(volume, camera=view, size=array.shape[:2]).set(lighting={"lights": [lamina.Light()]}, transfer_function="auto")
 worst: float = picture.compare(array).linf
 reveal_type(lamina.Session(volume).turntable(3)[0])
 reveal_type(lamina.read("a.nrrd"))
@@ -50,7 +52,7 @@ def test_the_package_and_a_client_pass_mypy(source, tmp_path):
     assert found.returncode == 0, found.stdout + found.stderr
     found = run(sys.executable, "-m", "mypy", "--config-file", settings, tmp_path / "client.py")
     lines = [line.split("client.py:")[1] for line in found.stdout.splitlines() if "client.py:" in line]
-    assert [line.split(":")[0] for line in lines] == ["10", "11", "12", "13", "14", "15"], found.stdout
+    assert [line.split(":")[0] for line in lines] == ["12", "13", "14", "15", "16", "17"], found.stdout
     assert "Picture" in lines[0] and "Union[" in lines[1] and "incompatible type" in lines[2]
     assert "did you mean \"max_error\"" in lines[3] and "SliceKeys" in lines[4]
     assert '"Picture" has no attribute "size"' in lines[5]

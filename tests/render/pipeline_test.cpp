@@ -2,11 +2,16 @@
 // Choices that a pipeline makes between a scene and its renderer.
 #include "render/pipeline.h"
 
+#include <array>
 #include <fstream>
+#include <memory>
 
+#include "base/atomic_file.h"
+#include "mesh_files/mesh_file.h"
 #include "scene/given_transfer.h"
 #include "support/heard_warnings.h"
 #include "support/scene_fixture.h"
+#include "support/split_box.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {
@@ -50,14 +55,50 @@ TEST(Pipeline, StretchesAnotherColormapOverTheDataItHas) {
     EXPECT_EQ(pipeline.scene().transfer_function, chosen.scene().transfer_function);
 }
 
-// Pictures of a volume and of its mesh have the same colours.
+// Pictures of a volume and of a mesh beside it have the same colours.
 TEST(Pipeline, StretchesAColormapOverTheVolumeForItsMeshToo) {
+    const TemporaryFolder folder;
+    AtomicFile file(folder / "wide.vtu");
+    write_vtu(file, test::kuhn_box({2, 2, 2}, [](const glm::dvec3& p) { return 5000 * p.x; }));
+    file.commit();
     nlohmann::json document = with_open_map();
-    document["mesh"] = {{"kuhn", true}};
+    document["mesh"] = (folder / "wide.vtu").string();
     Pipeline slices(read_scene(document, "s"));
     document["render"]["method"] = "project";
     Pipeline tets(read_scene(document, "s"));
     EXPECT_EQ(slices.scene().transfer_function, tets.scene().transfer_function);
+    document.erase("volume");
+    Pipeline alone(read_scene(document, "s"));
+    EXPECT_EQ(alone.scene().transfer_function.knots().back().value, 5000);
+}
+
+TEST(Pipeline, StretchesAColormapOverDataInMemory) {
+    const nlohmann::json document = with_open_map();
+    const Scene scene = read_scene(document, "s");  // it names a volume of 0 to 255
+    const MeshData mesh = test::kuhn_box({2, 2, 2}, [](const glm::dvec3& p) { return 7 * p.x; });
+    Scene projected = scene;
+    projected.method = Method::project;
+    Pipeline of_mesh(projected, SceneData(projected, mesh));
+    EXPECT_EQ(of_mesh.scene().transfer_function.knots().back().value, 7);
+    Grid grid;
+    grid.size = {2, 2, 2};
+    const auto samples =
+        std::make_shared<const std::array<float, 8>>(std::array<float, 8>{0, 1, 2, 9, 1, 1, 1, 1});
+    const Volume volume(grid, SampleType::float32, {samples, samples->data()});
+    Pipeline of_volume(scene, SceneData(volume));
+    EXPECT_EQ(of_volume.scene().transfer_function.knots().back().value, 9);
+}
+
+TEST(Pipeline, ChoosesInPlaceOfAFileThatGivesAFunction) {
+    Scene scene = read_scene(minimal_scene(), "s");
+    const TransferFunction given = scene.transfer_function;
+    scene.automatic_transfer_function = true;
+    EXPECT_NE(Pipeline(scene).scene().transfer_function, given);
+    // An open map does not replace what a caller puts in its place.
+    Scene open = read_scene(with_open_map(), "s");
+    open.transfer_function = given;
+    open.automatic_transfer_function = false;
+    EXPECT_EQ(Pipeline(open).scene().transfer_function, given);
 }
 
 TEST(Pipeline, SaysThatOpacityOneWasReplaced) {

@@ -135,6 +135,21 @@ TEST(Document, TakesWhatTheDataSuggest) {
     EXPECT_EQ(document.scene().transfer_function.knots().size(), 2u);
 }
 
+TEST(Document, ShowsOpacitiesOfAnOpenColormapForTheirLength) {
+    Document document;
+    document.open(parse_scene(
+        R"({"version": 1, "volume": {"generate": "gaussians"},
+            "transfer_function": {"unit_length": 0.1, "colormap": "viridis",
+                                  "points": [{"value": 0, "opacity": 0.1},
+                                             {"value": 9, "opacity": 0.5}]}})",
+        "scene.json"));
+    Scene chosen = document.scene();
+    chosen.transfer_function =
+        TransferFunction::linear_opacity({{0, {1, 1, 1}, .1}, {9, {1, 1, 1}, .5}}, .1);
+    document.take_chosen(chosen);
+    EXPECT_NEAR(document.transfer().unit_length(), .1, 1e-9);
+}
+
 TEST(Document, AnotherSceneHasNoPast) {
     Document document = opened();
     document.set_setting("render.target", "float16");

@@ -13,16 +13,20 @@ Document::Document() = default;
 void Document::open(Scene scene) {
     scene_ = std::move(scene);
     transfer_ = TransferEditor();
-    transfer_.take(scene_.transfer_function);
-    // Opacities are shown for the length that the scene has them for.
-    for (const DensityPoint& point : transfer_.curves().density)
-        if (point.opacity_length > 0) transfer_.set_unit_length(point.opacity_length);
-    curves_ = transfer_.curves();
+    take_transfer_function();
     undo_.clear();
     redo_.clear();
     end_step();
     ++revisions_.data;
     dirty_ = false;
+}
+
+// Opacities are shown for the length that the scene has them for.
+void Document::take_transfer_function() {
+    transfer_.take(scene_.transfer_function);
+    for (const DensityPoint& point : transfer_.curves().density)
+        if (point.opacity_length > 0) transfer_.set_unit_length(point.opacity_length);
+    curves_ = transfer_.curves();
 }
 
 void Document::record(const std::string& name, bool camera) {
@@ -145,8 +149,7 @@ void Document::take_chosen(const Scene& chosen) {
     if (scene_.automatic_camera) scene_.camera = chosen.camera;
     if (scene_.automatic_transfer_function) {
         scene_.transfer_function = chosen.transfer_function;
-        transfer_.take(scene_.transfer_function);
-        curves_ = transfer_.curves();
+        take_transfer_function();
     }
     scene_.automatic_camera = scene_.automatic_transfer_function = false;
 }

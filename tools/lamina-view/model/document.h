@@ -64,6 +64,7 @@ class Document {
     bool size_follows_window = true;
 
   private:
+    void take_transfer_function();
     struct Step {
         std::string name;
         Scene scene;  // before or, to be done again, after

@@ -6,9 +6,13 @@ import os
 from typing import TYPE_CHECKING, Any, Literal, Mapping, Sequence, TypedDict, Union
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from ._camera import Camera
-    from ._lighting import Lighting
+    from ._lighting import Light, Lighting
     from ._transfer_function import Color, TransferFunction
+
+    Vector = Union[Sequence[float], np.ndarray]
 
 # The keys of scene files that keyword arguments set.
 KEYWORDS: dict[str, tuple[str, ...]] = {
@@ -34,10 +38,12 @@ KEYWORDS: dict[str, tuple[str, ...]] = {
 
 
 class VolumeKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``volume``.
 
+    - ``generate``
     - ``type``: Default: "uint8".
     - ``size``: Samples of a file without a header.
+    - ``path``
     - ``array``: By its name; the first unless told.
     - ``level``: Of a pyramid. Default: 0.
     - ``channel``: Default: 0.
@@ -51,24 +57,25 @@ class VolumeKeys(TypedDict, total=False):
     generate: Literal["ramp", "constant", "marschner-lobb", "gaussians", "sheets", "mixing"]
     type: Union[Literal["uint8", "uint16", "float"], Literal["int8", "uint8", "int16", "uint16", "int32", "uint32", "int64",
                 "uint64", "float", "double"]]
-    size: Sequence[int]
+    size: Vector
     path: Union[str, os.PathLike[str]]
     array: str
     level: int
     channel: int
     time: int
-    spacing: Sequence[float]
-    origin: Sequence[float]
+    spacing: Vector
+    origin: Vector
     offset: int
     endian: Literal["little", "big"]
 
 
 class MeshKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``mesh``.
 
+    - ``path``
     - ``time``: Step of a .pvd, counted from 0 in the order of time. Default: 0.
     - ``tolerance``: Largest difference from the trilinear field, of the volume's range of values. Default: 0.02.
-    - ``max_tets``: Where the making of the mesh stops. Default: 5000000.
+    - ``max_tets``: The making of the mesh stops at so many. Default: 5000000.
     - ``kuhn``: Every sample, six tets a cell. Default: false.
     """
 
@@ -80,25 +87,28 @@ class MeshKeys(TypedDict, total=False):
 
 
 class CameraKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``camera``.
 
     - ``projection``: Default: "perspective".
+    - ``eye``
+    - ``center``
     - ``up``: Default: [0, 1, 0].
     - ``fov_y``: Degrees, perspective. Default: 40.
     - ``height``: World units, orthographic (required there).
     """
 
     projection: Literal["perspective", "orthographic"]
-    eye: Sequence[float]
-    center: Sequence[float]
-    up: Sequence[float]
+    eye: Vector
+    center: Vector
+    up: Vector
     fov_y: float
     height: float
 
 
 class ClipKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``clip``.
 
+    - ``planes``
     - ``box``: World; min at most max on each axis.
     """
 
@@ -107,25 +117,29 @@ class ClipKeys(TypedDict, total=False):
 
 
 class ClipPlaneKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``clip.plane``.
 
     - ``point``: Of the plane, world.
     - ``normal``: Towards what is kept; any length but 0.
     """
 
-    point: Sequence[float]
-    normal: Sequence[float]
+    point: Vector
+    normal: Vector
 
 
 class ClipBoxKeys(TypedDict, total=False):
-    """Keys of a scene file."""
+    """Keys of ``clip.box``.
 
-    min: Sequence[float]
-    max: Sequence[float]
+    - ``min``
+    - ``max``
+    """
+
+    min: Vector
+    max: Vector
 
 
 class LightingKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``lighting``.
 
     - ``ambient``: Default: 0.1.
     - ``diffuse``: Default: 0.7.
@@ -141,23 +155,23 @@ class LightingKeys(TypedDict, total=False):
     specular: float
     power: float
     smallest_gradient: Union[Literal["auto"], float]
-    lights: Sequence[LightingLightKeys]
+    lights: Sequence[Union[LightingLightKeys, Light]]
 
 
 class LightingLightKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``lighting.light``.
 
     - ``direction``: Towards the light, in world space; headlight: towards the eye, along every ray. Default:
       "headlight".
     - ``color``: Components 0..1000. Default: [1, 1, 1].
     """
 
-    direction: Union[Literal["headlight"], Sequence[float]]
+    direction: Union[Literal["headlight"], Vector]
     color: Color
 
 
 class EmulateKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``emulate``.
 
     - ``bits``: Of a code. Default: 8.
     - ``alpha``: Default: "truncate".
@@ -172,13 +186,14 @@ class EmulateKeys(TypedDict, total=False):
 
 
 class SliceKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``slice``.
 
     - ``samples``: Slabs N, or auto: the fewest that keep render.max_error. Default: "auto".
     - ``classification``: Default: "auto".
     - ``order``: Default: "back_to_front".
     - ``filter``: Default: "exact".
     - ``dither``: Along depth, of the codes of fixed-point slabs.
+    - ``tree``
     - ``table``: Pre-integration table; auto: the plan chooses it for the view.
     """
 
@@ -192,7 +207,7 @@ class SliceKeys(TypedDict, total=False):
 
 
 class SliceDitherKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``slice.dither``.
 
     - ``seed``: Default: 1.
     - ``color``: Default: false.
@@ -207,7 +222,7 @@ class SliceDitherKeys(TypedDict, total=False):
 
 
 class TreeKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``tree``.
 
     - ``factors``: Bifurcation factors from the root to the leaves.
     - ``nodes``: Default: "shader".
@@ -222,7 +237,7 @@ class TreeKeys(TypedDict, total=False):
 
 
 class SliceTableKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``slice.table``.
 
     - ``scalar``: Default: 256.
     - ``length``: Default: 1.
@@ -235,7 +250,7 @@ class SliceTableKeys(TypedDict, total=False):
 
 
 class ProjectKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``project``.
 
     - ``coloring``: Default: "preintegrated".
     - ``interpolation``: Default: "perspective".
@@ -258,7 +273,7 @@ class ProjectKeys(TypedDict, total=False):
 
 
 class ProjectTableKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``project.table``.
 
     - ``scalar``: Default: 256.
     - ``length``: Default: 16.
@@ -277,9 +292,9 @@ class ProjectTableKeys(TypedDict, total=False):
 
 
 class TraceKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``trace``.
 
-    - ``of``: The volume where the scene has one.
+    - ``of``: The volume if the scene has one.
     - ``tolerance``: Error bound, of full scale. Default: 1e-05.
     """
 
@@ -288,7 +303,7 @@ class TraceKeys(TypedDict, total=False):
 
 
 class TransferFunctionKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``transfer_function``.
 
     - ``unit_length``: World length that opacity refers to. Default: 1.
     - ``interpolation``: linear: opacity between two points given by opacity, else extinction; extinction: extinction
@@ -303,13 +318,14 @@ class TransferFunctionKeys(TypedDict, total=False):
     unit_length: float
     interpolation: Literal["linear", "extinction", "nearest"]
     colormap: Union[str, os.PathLike[str]]
-    colormap_range: Sequence[float]
+    colormap_range: Vector
     points: Sequence[TransferFunctionPointKeys]
 
 
 class TransferFunctionPointKeys(TypedDict, total=False):
-    """Keys of a scene file.
+    """Keys of ``transfer_function.point``.
 
+    - ``value``
     - ``color``: Not associated. Default: [1, 1, 1].
     - ``extinction``: Per world unit.
     - ``smooth``: With extinction: the straight pieces on both sides stand for a smooth curve, which may be followed
@@ -331,13 +347,13 @@ class Keywords(TypedDict, total=False):
       or a generated volume.
     - ``mesh``: Path of a mesh (.vtu, .pvtu, .pvd, legacy .vtk, TetGen .node with its .ele; relative to the scene;
       ${LAMINA_DATA} expands), or one made from the volume.
-    - ``scalar``: Array of the mesh file, of points or (averaged to points) of cells; the first one of points where
+    - ``scalar``: Array of the mesh file, of points or (averaged to points) of cells; the first one of points if
       nothing is said.
     - ``nan``: What NaN and infinite values do: refuse the volume or mesh, or make the cells and tets around them
       transparent. Default: "error".
     - ``camera``: auto: chosen from the data (docs/first-picture.md). Default: "auto".
     - ``clip``: What is drawn of the data: what lies on the kept side of all planes and in the box. Nothing is cut
-      away where it is left out.
+      away if it is left out.
     - ``lighting``: Emission is lit by the gradient of the scalar, on both of its sides; absent: colours are shown as
       they are.
     - ``width``: Default: 800.
@@ -349,7 +365,9 @@ class Keywords(TypedDict, total=False):
     - ``target``: Default: "float32".
     - ``emulate``: Fixed-point compositing step by step, for target emulated.
     - ``max_error``: Bound for what is automatic, in 1/255 of full scale. Default: 1.
+    - ``slice``: Slices of a volume.
     - ``project``: Projected tetrahedra.
+    - ``trace``: The reference tracer.
     - ``size``: (width, height) in pixels, in place of width and height.
     - ``set``: Any key, named by its path: {"render.slice.samples": 64}.
     """
@@ -372,11 +390,14 @@ class Keywords(TypedDict, total=False):
     slice: Union[SliceKeys, None]
     project: Union[ProjectKeys, None]
     trace: Union[TraceKeys, None]
-    size: Union[Sequence[int], None]
+    size: Union[Vector, None]
     set: Union[Mapping[str, Any], None]
 
 
 class Changes(Keywords, total=False):
-    """Keywords of ``Session.set``: those of ``render``, and the transfer function."""
+    """Keywords of ``Session.set``: those of ``render``, and the transfer function.
+
+    - ``transfer_function``: As ``TransferFunction.to_scene()`` has it.
+    """
 
     transfer_function: Union[Literal["auto"], TransferFunctionKeys, TransferFunction, None]
