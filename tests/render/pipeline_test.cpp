@@ -69,7 +69,7 @@ TEST(Pipeline, StretchesAColormapOverTheVolumeForItsMeshToo) {
     EXPECT_EQ(slices.scene().transfer_function, tets.scene().transfer_function);
     document.erase("volume");
     Pipeline alone(read_scene(document, "s"));
-    EXPECT_EQ(alone.scene().transfer_function.knots().back().value, 5000);
+    EXPECT_EQ(alone.scene().transfer_function.knots().back().value, 10000);  // x goes to 2
 }
 
 TEST(Pipeline, StretchesAColormapOverDataInMemory) {
@@ -79,7 +79,7 @@ TEST(Pipeline, StretchesAColormapOverDataInMemory) {
     Scene projected = scene;
     projected.method = Method::project;
     Pipeline of_mesh(projected, SceneData(projected, mesh));
-    EXPECT_EQ(of_mesh.scene().transfer_function.knots().back().value, 7);
+    EXPECT_EQ(of_mesh.scene().transfer_function.knots().back().value, 14);  // x goes to 2
     Grid grid;
     grid.size = {2, 2, 2};
     const auto samples =
