@@ -18,8 +18,8 @@ struct DitheredMixing {
     std::vector<Image> dithered;
 };
 
-// What the items that draw share: the current context, pre-integration tables, and pictures that
-// two of them show.
+// A stage has the current context, the pre-integration tables and the pictures that several of the
+// items share.
 class LamarStage {
   public:
     // Pictures of the mixing liquids have `pixels` x `pixels` pixels.

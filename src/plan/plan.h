@@ -133,8 +133,8 @@ SlicePlan without_remarks(SlicePlan plan);
 // from what is left.
 SlicePlan of_all_views(SlicePlan plan);
 
-// What will run, with the pre-integration tables that renderers look up. It is a pure function of
-// scene, facts, trials and capabilities, and can be printed.
+// Says what will run, and has the pre-integration tables that renderers look up. It is a pure
+// function of scene, facts, trials and capabilities, and can be printed.
 struct Plan {
     Method method = Method::slice;
     SlicePlan slice;      // for Method::slice

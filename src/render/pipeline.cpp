@@ -148,8 +148,7 @@ void Pipeline::set_transfer_function_of(const Scene& like) {
     next.transfer_function = like.transfer_function;
     next.automatic_transfer_function = like.automatic_transfer_function;
     next.given_transfer = like.given_transfer;
-    if (like.automatic_transfer_function && !has_open_colormap(like))
-        return set_scene(std::move(next));
+    if (chooses_transfer_function(like)) return set_scene(std::move(next));
     Scene closed = like;
     if (has_open_colormap(closed)) close_colormap(closed, data_.range(scene()));
     if (const auto ramp = opaque_ramp(closed)) warn(*ramp);

@@ -98,6 +98,10 @@ bool has_open_colormap(const Scene& scene) {
            scene.given_transfer->open();
 }
 
+bool chooses_transfer_function(const Scene& scene) {
+    return scene.automatic_transfer_function && !has_open_colormap(scene);
+}
+
 void close_colormap(Scene& scene, const ValueRange& data) {
     const GivenTransfer& given = *scene.given_transfer;
     try {

@@ -53,6 +53,8 @@ inline constexpr double largest_map_value = 1e300;
 // map make no function.
 TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRange& data = {});
 
+// Tells whether the scene's transfer function is chosen from the data.
+bool chooses_transfer_function(const Scene& scene);
 // Tells whether the scene's colours are those of a map that is stretched over the data.
 bool has_open_colormap(const Scene& scene);
 // Stretches an open colour map over data of this range: then the scene's transfer function is

@@ -12,18 +12,17 @@ constexpr std::int64_t largest_number = std::int64_t{1} << 40;
 constexpr std::int64_t most_steps = 1'000'000'000;
 constexpr std::int64_t most_tets = 500000000;
 
-const auto is_text = [](const nlohmann::json& value) { return value.is_string(); };
 const auto is_any = [](const nlohmann::json&) { return true; };
 const auto has_key = [](const char* key) {
     return [key](const nlohmann::json& value) { return value.is_object() && value.contains(key); };
 };
 
-// A path alone, in place of an object.
+// A path alone, in place of an object: all but objects are read as paths, or refused as such.
 template <typename Access>
 Alternative<Scene> path_alternative(const Access& access,
                                     const std::function<bool(const Scene&)>& writes) {
     const Form<std::filesystem::path> form = path_form();
-    return {is_text,
+    return {[](const nlohmann::json& value) { return !value.is_object(); },
             [access, form](JsonReader& reader, const std::string& key, Scene& scene) {
                 access(scene) = form.read(reader, key);
             },
@@ -141,11 +140,10 @@ void add_volume(KeyTable<Scene>& keys) {
         [](const Scene& scene) { return generator_keys().json(*scene.volume_request); },
         generator_keys().schema()};
     const auto in_file = [](const Scene& scene) { return !scene.volume_file.empty(); };
-    std::vector<Alternative<Scene>> forms{
+    const std::vector<Alternative<Scene>> forms{
         path_alternative(
             [](auto& scene) -> auto& { return scene.volume_file; }, file_alone),
         generated, object_alternative(has_key("path"), volume_file_keys, in_file)};
-    forms[0].reads = [](const nlohmann::json& value) { return !value.is_object(); };
     keys.variant("volume", forms, "",
                  "Path of a file or folder (relative to the scene; ${LAMINA_DATA} expands), with "
                  "what of it is drawn, or a generated volume.");
@@ -196,11 +194,10 @@ void add_mesh(KeyTable<Scene>& keys) {
         [](const Scene& scene) { return scene.mesh_request.has_value(); },
         [](const Scene& scene) { return mesh_keys().json(*scene.mesh_request); },
         mesh_keys().schema()};
-    std::vector<Alternative<Scene>> forms{
+    const std::vector<Alternative<Scene>> forms{
         path_alternative(
             [](auto& scene) -> auto& { return scene.mesh_file; }, file_alone),
         object_alternative(has_key("path"), mesh_file_keys, in_file), made};
-    forms[0].reads = [](const nlohmann::json& value) { return !value.is_object(); };
     keys.variant("mesh", forms, "",
                  "Path of a mesh (.vtu, .pvtu, .pvd, legacy .vtk, TetGen .node with its .ele; "
                  "relative to the scene; ${LAMINA_DATA} expands), or one made from the volume.");

@@ -17,8 +17,8 @@ double read_scalar(JsonReader& reader, const std::string& key) {
 }  // namespace
 
 IntegrationCase read_integration_case(JsonReader reader) {
-    GivenTransfer given = read_transfer_function(reader.object("transfer_function"));
-    if (given.open()) {
+    ReadTransfer read = read_transfer_function(reader.object("transfer_function"));
+    if (!read.function) {
         reader.fail_at("transfer_function.colormap_range",
                        "is missing, expected [lo, hi]: there are no data here");
     }
@@ -27,7 +27,7 @@ IntegrationCase read_integration_case(JsonReader reader) {
     const double length = reader.number("length");
     if (!(length >= 0)) reader.reject("length", "a number >= 0");
     reader.close();
-    return {std::move(given), front, back, length};
+    return {std::move(*read.function), std::move(read.given), front, back, length};
 }
 
 }  // namespace lamina

@@ -8,6 +8,7 @@ namespace lamina {
 
 // A segment that `lamina integrate` integrates.
 struct IntegrationCase {
+    TransferFunction transfer_function;
     GivenTransfer given;
     double front = 0, back = 0;  // scalars, up to 1e300
     double length = 0;           // world units, >= 0

@@ -47,8 +47,8 @@ struct Alternative {
     KeyJson schema;
 };
 
-// The keys of a struct, in the order in which they are read and written. What no key is given for
-// keeps its initial value, which is the key's default.
+// The keys of a struct, in the order in which they are read and written. A member whose
+// key is left out keeps its initial value, which is the key's default.
 template <typename Struct>
 class KeyTable {
   public:

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_files/render_keys.h"
-
 #include <algorithm>
 
 #include "compositing/dither.h"
@@ -8,6 +6,7 @@
 #include "scene/coloring.h"
 #include "scene_files/data_keys.h"
 #include "scene_files/forms.h"
+#include "scene_files/scene_keys.h"
 
 namespace lamina {
 namespace {
@@ -74,14 +73,15 @@ const KeyTable<TreeSettings>& tree_keys() {
 }
 
 Form<TreeSettings> tree_form() {
-    const auto read = [](JsonReader& reader, const std::string& key) {
+    const Form<TreeSettings> object = object_form(tree_keys);
+    const auto read = [object](JsonReader& reader, const std::string& key) {
         if (reader.value(key) == "auto") return TreeSettings{.automatic = true, .factors = {}};
         if (!reader.value(key).is_object())
             reader.reject(key, "an object {\"factors\": ...}, or \"auto\"");
-        return object_form(tree_keys).read(reader, key);
+        return object.read(reader, key);
     };
-    const auto write = [](const TreeSettings& tree) {
-        return tree.automatic ? KeyJson("auto") : tree_keys().json(tree);
+    const auto write = [object](const TreeSettings& tree) {
+        return tree.automatic ? KeyJson("auto") : object.write(tree);
     };
     return {read, write, reference_to("tree")};
 }

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "scene_files/scene_keys.h"
-#include "scene_files/view_keys.h"
 
 namespace lamina {
 

@@ -5,9 +5,7 @@
 
 #include "scene_files/data_keys.h"
 #include "scene_files/forms.h"
-#include "scene_files/render_keys.h"
 #include "scene_files/transfer_keys.h"
-#include "scene_files/view_keys.h"
 
 namespace lamina {
 namespace {
@@ -22,7 +20,7 @@ Key<Scene> version_key() {
             [](const Scene&, KeyJson& json) { json["version"] = 1; }};
 }
 
-// What colours mean is known before the first one is read.
+// Reads the colour space ahead of its turn: the colours before it depend on it.
 void read_color_space(JsonReader& reader, Scene& /*scene*/) {
     reader.context.color_space =
         reader.object("image").choice("color_space", enum_words<ImageColorSpace>());

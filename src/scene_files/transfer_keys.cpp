@@ -218,35 +218,31 @@ const KeyTable<GivenTransfer>& transfer_keys() {
     return table;
 }
 
-GivenTransfer read_transfer_function(JsonReader reader) {
-    GivenTransfer given;
-    given.place = reader.place();
-    transfer_keys().read(reader, given);
-    if (given.open()) return given;
+ReadTransfer read_transfer_function(JsonReader reader) {
+    ReadTransfer read;
+    read.given.place = reader.place();
+    transfer_keys().read(reader, read.given);
+    if (read.given.open()) return read;
     try {
-        transfer_function_of(given);
+        read.function = transfer_function_of(read.given);
     } catch (const GivenTransferError& error) {
         reader.fail_at(error.key, error.what());
     }
-    return given;
+    return read;
 }
 
 void add_transfer_function(KeyTable<Scene>& scene) {
     const Alternative<Scene> automatic{[](const nlohmann::json& value) { return value == "auto"; },
                                        [](JsonReader&, const std::string&, Scene&) {},
-                                       [](const Scene& written) {
-                                           return written.automatic_transfer_function &&
-                                                  !has_open_colormap(written);
-                                       },
+                                       chooses_transfer_function,
                                        [](const Scene&) { return KeyJson("auto"); },
                                        {{"const", "auto"}}};
     // The range of an open colour map is known with the data.
     const auto read = [](JsonReader& reader, const std::string& key, Scene& into) {
-        const auto given =
-            std::make_shared<const GivenTransfer>(read_transfer_function(reader.object(key)));
-        into.given_transfer = given;
-        into.automatic_transfer_function = given->open();
-        if (!given->open()) into.transfer_function = transfer_function_of(*given);
+        ReadTransfer found = read_transfer_function(reader.object(key));
+        into.given_transfer = std::make_shared<const GivenTransfer>(std::move(found.given));
+        into.automatic_transfer_function = !found.function;
+        if (found.function) into.transfer_function = std::move(*found.function);
     };
     const auto write = [](const Scene& written) {
         return has_open_colormap(written) ? transfer_keys().json(*written.given_transfer)

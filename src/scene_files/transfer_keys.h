@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "lamina/scene.h"
 #include "scene/given_transfer.h"
 #include "scene_files/keys.h"
@@ -11,9 +13,15 @@ namespace lamina {
 // (docs/scene.md).
 const KeyTable<GivenTransfer>& transfer_keys();
 
+// A transfer function as a file gives it, with what it means: none if its colour map is open.
+struct ReadTransfer {
+    GivenTransfer given;
+    std::optional<TransferFunction> function;
+};
+
 // Reads that object, and closes the reader; colours are of its colour space. Throws KeyError, also
-// if the function is not open and there is none of these points and this map.
-GivenTransfer read_transfer_function(JsonReader reader);
+// if points and map make no function.
+ReadTransfer read_transfer_function(JsonReader reader);
 
 // Adds "transfer_function" to the scene's keys.
 void add_transfer_function(KeyTable<Scene>& scene);

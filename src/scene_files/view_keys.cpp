@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_files/view_keys.h"
-
 #include <cmath>
 
 #include "image/image_limits.h"
 #include "scene/largest_scene_coordinate.h"
 #include "scene/lighting_check.h"
 #include "scene_files/forms.h"
+#include "scene_files/scene_keys.h"
 
 namespace lamina {
 namespace {

@@ -43,10 +43,9 @@ Scene scene_of(const StudyRun& run, const StudyFile& file) {
                                    "\"project\": the tracer is what runs are measured against",
                                    name));
     }
-    const bool chooses_transfer = scene.automatic_transfer_function && !has_open_colormap(scene);
-    const char* const automatic = chooses_transfer         ? "transfer_function"
-                                  : scene.automatic_camera ? "camera"
-                                                           : nullptr;
+    const char* const automatic = chooses_transfer_function(scene) ? "transfer_function"
+                                  : scene.automatic_camera         ? "camera"
+                                                                   : nullptr;
     if (automatic != nullptr) {
         throw KeyError(automatic,
                        fmt::format("{0}: {1}: is \"auto\" or missing, expected an object {{...}}: "

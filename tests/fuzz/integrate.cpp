@@ -12,8 +12,8 @@ namespace lamina::fuzz {
 namespace {
 
 void check_integral(const IntegrationCase& segment) {
-    const SegmentIntegral found = integrate_segment(transfer_function_of(segment.given),
-                                                    segment.front, segment.back, segment.length);
+    const SegmentIntegral found =
+        integrate_segment(segment.transfer_function, segment.front, segment.back, segment.length);
     require(found.alpha >= 0 && found.alpha <= 1, "alpha is no opacity");
     for (int channel = 0; channel < 3; ++channel) {
         require_finite(found.color[channel], "a colour");

@@ -22,7 +22,7 @@ namespace lamina {
 namespace {
 
 SegmentIntegral integral_of(const IntegrationCase& segment) {
-    return integrate_segment(transfer_function_of(segment.given), segment.front, segment.back,
+    return integrate_segment(segment.transfer_function, segment.front, segment.back,
                              segment.length);
 }
 
