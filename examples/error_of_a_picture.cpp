@@ -16,7 +16,6 @@ int main(int argc, char** argv) try {
          {lamina::Target::fixed8, lamina::Target::fixed16, lamina::Target::float32}) {
         lamina::Scene scene = session.scene();
         scene.target = target;
-        scene.automatic_target = false;
         session.set_scene(scene);
         session.draw();  // chooses and prepares
         const lamina::Image& picture = session.draw();

@@ -18,7 +18,7 @@ int main(int argc, char** argv) try {
     std::filesystem::create_directories(folder);
 
     lamina::Session session(lamina::load_scene(argv[1]));
-    const lamina::Camera first = session.scene().camera;
+    const lamina::Camera first = *session.chosen_scene().camera;
     for (int i = 0; i < views; ++i) {
         // The data are read, measured and uploaded once.
         session.set_camera(lamina::turned(first, 360.0 * i / views));

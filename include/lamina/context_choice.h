@@ -3,8 +3,9 @@
 
 namespace lamina {
 
-// What draws. automatic: a GPU through EGL where there is one, else the native engine; osmesa and
-// egl: OpenGL 4.5 without a window; cpu: the native engine, which needs no OpenGL.
-enum class ContextChoice { automatic, osmesa, egl, cpu };
+// Names what draws. osmesa and egl: OpenGL 4.5 without a window; cpu: the native engine, which
+// needs no OpenGL. An automatic choice takes a GPU through EGL if there is one, else the native
+// engine.
+enum class ContextChoice { osmesa, egl, cpu };
 
 }  // namespace lamina

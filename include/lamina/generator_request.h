@@ -18,6 +18,8 @@ struct GeneratorRequest {
         // 1.
         size;
     SampleType type = SampleType::uint8;  // or uint16, float32
+
+    bool operator==(const GeneratorRequest&) const = default;
 };
 
 }  // namespace lamina

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "lamina/auto.h"
+
 namespace lamina {
 
 struct Light {
@@ -27,8 +29,8 @@ struct Lighting {
 
     double ambient = .1, diffuse = .7, specular = .2;  // 0..1000
     double power = 10;                                 // of the specular highlight, 1..1000
-    // In scalar units per world unit, 1e-150..1e150; none: "auto", chosen from the data.
-    std::optional<double> smallest_gradient;
+    // In scalar units per world unit, 1e-150..1e150; automatic: chosen from the data.
+    Auto<double> smallest_gradient;
     std::vector<Light> lights = std::vector<Light>(1);  // 1..8; a headlight
 
     friend bool operator==(const Lighting&, const Lighting&) = default;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "lamina/auto.h"
 #include "lamina/export.h"
 #include "lamina/table_settings.h"
 #include "lamina/tree_settings.h"
@@ -21,9 +22,8 @@ enum class Thickness {
     exact,
     dz  // difference of eye-space depths (Kraus 2004, section 2.3)
 };
-enum class ProjectOrder { automatic, mpvo, exact, centroid, none };
+enum class ProjectOrder { mpvo, exact, centroid, none };
 enum class ProjectGeometry {
-    automatic,
     silhouette,  // one polygon around the tet, faces as linear functions of the pixel
     triangles    // three or four triangles around a thick vertex (Kraus 2004, Figure 3)
 };
@@ -40,11 +40,12 @@ struct ProjectSettings {
     Coloring coloring = Coloring::preintegrated;
     Interpolation interpolation = Interpolation::perspective;
     Thickness thickness = Thickness::exact;
-    ProjectOrder order = ProjectOrder::automatic;
-    ProjectGeometry geometry = ProjectGeometry::automatic;
+    Auto<ProjectOrder> order;
+    Auto<ProjectGeometry> geometry;
     ProjectDither dither = ProjectDither::none;
-    std::optional<TableSettings> table;  // none: "auto"
-    std::optional<TreeSettings> tree;
+    Auto<TableSettings> table;
+    // An automatic one is refused: a tree over tets needs factors.
+    std::optional<Auto<TreeSettings>> tree;
 };
 
 LAMINA_API const char* name_of(Coloring coloring);

@@ -7,8 +7,9 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
+#include <variant>
 
+#include "lamina/auto.h"
 #include "lamina/camera.h"
 #include "lamina/clip.h"
 #include "lamina/emulation.h"
@@ -30,28 +31,40 @@ enum class Target { float32, float16, fixed16, fixed8, emulated };
 enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };
 
+// A volume in a file or a folder, and what of it is drawn.
+struct VolumeFile {
+    std::filesystem::path path;
+    VolumeRequest selection = {};
+
+    bool operator==(const VolumeFile&) const = default;
+};
+// A mesh in a file.
+struct MeshFile {
+    std::filesystem::path path;
+    std::int64_t time = 0;  // its step, from 0 (.pvd)
+
+    bool operator==(const MeshFile&) const = default;
+};
+// These say where the data come from: a file, a formula, or the volume that a mesh is made from. A
+// scene of data in memory names none.
+using VolumeSource = std::variant<std::monostate, VolumeFile, GeneratorRequest>;
+using MeshSource = std::variant<std::monostate, MeshFile, MeshSettings>;
+
 struct GivenTransfer;  // internal (scene/given_transfer.h)
 
 // A scene file as read (docs/scene.md): what to draw and how, nothing measured yet.
 struct Scene {
     std::filesystem::path file;
-    std::filesystem::path volume_file;               // or
-    VolumeRequest volume_selection;                  // what of that file
-    std::optional<GeneratorRequest> volume_request;  // {"generate": ...}
-    std::filesystem::path mesh_file;                 // or
-    std::int64_t mesh_time = 0;                      // its step, from 0 (.pvd)
-    std::optional<MeshSettings> mesh_request;        // made from the volume
+    VolumeSource volume;
+    MeshSource mesh;
     std::string scalar;  // of the mesh file; empty: its first point array
     NanPolicy nan = NanPolicy::error;
-    TransferFunction transfer_function = TransferFunction::linear({TransferKnot{}});
-    Camera camera;
+    // Automatic ones are what the data suggest (docs/first-picture.md).
+    Auto<TransferFunction> transfer_function = TransferFunction::linear({TransferKnot{}});
+    Auto<Camera> camera = Camera{};
     Clip clip;
-    // Where these are set, what stands above is replaced by what the data suggest, once they are
-    // known (docs/first-picture.md).
-    bool automatic_transfer_function = false, automatic_camera = false;
-    // The transfer function as a scene file gives it; null if it gives none. A colour map without a
-    // range is stretched over the data as long as automatic_transfer_function is set: callers who
-    // set a function of their own end that.
+    // The transfer function as a scene file gives it; null if it gives none. If it is a colour map
+    // without a range, an automatic transfer function is that map, stretched over the data.
     std::shared_ptr<const GivenTransfer> given_transfer;
     std::optional<Lighting> lighting;  // none: colours are shown as they are
     int width = 800;
@@ -60,9 +73,8 @@ struct Scene {
     ImageColorSpace color_space = ImageColorSpace::linear;
     glm::dvec3 background{0};
     Method method = Method::slice;
-    Target target = Target::float32;
-    bool automatic_target = false;  // "target": "auto": the plan chooses
-    Emulation emulate;              // for Target::emulated
+    Auto<Target> target = Target::float32;
+    Emulation emulate;  // for Target::emulated
     // In 1/255. Choices that the scene leaves open ("auto") keep the picture's error below this
     // bound.
     double max_error = 1;
@@ -71,8 +83,14 @@ struct Scene {
     TraceOf trace_of = TraceOf::volume;
     double trace_tolerance = 1e-5;  // largest error of a traced picture, as a share of full scale
 
-    bool has_volume() const { return !volume_file.empty() || volume_request; }
-    bool has_mesh() const { return !mesh_file.empty() || mesh_request; }
+    bool has_volume() const { return !std::holds_alternative<std::monostate>(volume); }
+    bool has_mesh() const { return !std::holds_alternative<std::monostate>(mesh); }
+    // Null if the volume or the mesh comes from elsewhere.
+    const VolumeFile* volume_file() const { return std::get_if<VolumeFile>(&volume); }
+    VolumeFile* volume_file() { return std::get_if<VolumeFile>(&volume); }
+    const MeshFile* mesh_file() const { return std::get_if<MeshFile>(&mesh); }
+    MeshFile* mesh_file() { return std::get_if<MeshFile>(&mesh); }
+    const MeshSettings* made_mesh() const { return std::get_if<MeshSettings>(&mesh); }
     // Whether the mesh is drawn. The volume is then needed at most to make it.
     bool draws_mesh() const {
         return method == Method::project || (method == Method::trace && trace_of == TraceOf::mesh);

@@ -23,7 +23,7 @@
 namespace lamina {
 
 struct SessionOptions {
-    ContextChoice context = ContextChoice::automatic;
+    Auto<ContextChoice> context;
     int threads = 0;  // that the session takes at most; 0: one for each processor
     // Many pictures will be drawn: choices may take longer where they make each of them quicker.
     // Otherwise the time to the first one counts.
@@ -67,7 +67,7 @@ class LAMINA_API Session {
     // Reads what the scene names as its data (docs/scene.md), or makes it.
     explicit Session(Scene scene, SessionOptions options = {});
     // Draws these data, whatever the scene says of files. Volumes share their samples: nothing is
-    // copied. A Scene{} with automatic_transfer_function and automatic_camera is enough.
+    // copied. A Scene{} whose transfer function and camera are `automatic` is enough.
     Session(Scene scene, Volume volume, SessionOptions options = {});
     // Draws `scene.scalar` of the mesh, or its first scalar at points.
     Session(Scene scene, MeshData mesh, SessionOptions options = {});

@@ -4,16 +4,17 @@
 #include <cstdint>
 #include <optional>
 
+#include "lamina/auto.h"
 #include "lamina/order.h"
 #include "lamina/tree_settings.h"
 
 namespace lamina {
 
-enum class Classification { automatic, post, preintegrated, exact };
-enum class Filter { exact, hardware, automatic };
+enum class Classification { post, preintegrated, exact };
+enum class Filter { exact, hardware };
 
 struct DitherSettings {
-    std::optional<int> period = 16;  // slabs after which the pattern repeats; none: "auto"
+    Auto<int> period = 16;  // slabs after which the pattern repeats; automatic: all of them
     std::uint32_t seed = 1;
     bool color = false;
     int increment = 1;
@@ -29,13 +30,13 @@ struct SliceTableSettings {
 };
 
 struct SliceSettings {
-    std::optional<int> samples;  // number of slabs; none: "auto"
-    Classification classification = Classification::automatic;
+    Auto<int> samples;  // number of slabs
+    Auto<Classification> classification;
     Order order = Order::back_to_front;
-    Filter filter = Filter::exact;
+    Auto<Filter> filter = Filter::exact;
     std::optional<DitherSettings> dither;
-    std::optional<TreeSettings> tree;
-    std::optional<SliceTableSettings> table;  // none: "auto"
+    std::optional<Auto<TreeSettings>> tree;  // none: slabs are blended one by one
+    Auto<SliceTableSettings> table;
 };
 
 }  // namespace lamina

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
+
+#include "lamina/auto.h"
 
 namespace lamina {
 
@@ -18,11 +21,15 @@ enum class NodeCode { minimax, phi, alpha };
 enum class NodeArithmetic { shader, fixed };
 
 struct TreeSettings {
-    bool automatic = false;    // "tree": "auto"; then the plan chooses factors and code
     std::vector<int> factors;  // children of a node, for each level from the root to the leaves
     NodeArithmetic nodes = NodeArithmetic::shader;
     NodeCode code = NodeCode::minimax;
     int alpha_bits = 8;
 };
+
+// Returns the tree whose factors are given, or null.
+inline const TreeSettings* given_tree(const std::optional<Auto<TreeSettings>>& tree) {
+    return tree && tree->is_given() ? &**tree : nullptr;
+}
 
 }  // namespace lamina

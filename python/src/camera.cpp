@@ -43,7 +43,7 @@ void bind_camera(py::module_& module) {
     module.def(
         "turned",
         [](const Scene& scene, double degrees) {
-            return camera_keys(turned(scene.camera, degrees));
+            return camera_keys(turned(*scene.camera, degrees));
         },
         py::arg("scene"), py::arg("degrees"));
 }

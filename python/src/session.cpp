@@ -10,8 +10,8 @@
 namespace lamina::python {
 namespace {
 
-ContextChoice context_of(const std::string& word) {
-    if (word == "auto") return ContextChoice::automatic;
+Auto<ContextChoice> context_of(const std::string& word) {
+    if (word == "auto") return automatic;
     if (word == "osmesa") return ContextChoice::osmesa;
     if (word == "egl") return ContextChoice::egl;
     if (word == "cpu") return ContextChoice::cpu;
@@ -61,7 +61,7 @@ void changed(SharedSession& session, const Scene& to) {
     });
 }
 
-constexpr auto camera = [](Session& session, const Scene& to) { session.set_camera(to.camera); };
+constexpr auto camera = [](Session& session, const Scene& to) { session.set_camera(*to.camera); };
 constexpr auto size = [](Session& session, const Scene& to) {
     session.set_size(to.width, to.height);
 };

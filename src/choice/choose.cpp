@@ -52,8 +52,9 @@ std::string camera_text(const Camera& camera) {
 
 // A file has a name.
 std::string name_of_data(const Scene& scene) {
-    const auto& file = scene.volume_file.empty() ? scene.mesh_file : scene.volume_file;
-    return file.empty() ? "data" : file.string();
+    if (const VolumeFile* const volume = scene.volume_file()) return volume->path.string();
+    const MeshFile* const mesh = scene.mesh_file();
+    return mesh != nullptr ? mesh->path.string() : "data";
 }
 
 // Rays with less than this share of the deepest one's optical depth meet noise alone.
@@ -92,7 +93,7 @@ TransferFunction displayed(const TransferFunction& transfer_function) {
 constexpr double smallest_gradient_share = .01;
 
 bool leaves_gradient_open(const Scene& scene) {
-    return scene.lighting && !scene.lighting->smallest_gradient;
+    return scene.lighting && scene.lighting->smallest_gradient.is_automatic();
 }
 
 // Of the values that were measured.
@@ -117,7 +118,7 @@ void choose_smallest_gradient(Choices& choices, const Field& field) {
 }
 
 void change_transfer_function(Scene& scene, const Wishes& wishes) {
-    TransferFunction& changed = scene.transfer_function;
+    TransferFunction& changed = *scene.transfer_function;
     if (wishes.transfer.range) changed = stretched(changed, *wishes.transfer.range);
     if (wishes.transfer.colormap) changed = recolored(changed, *wishes.transfer.colormap);
 }
@@ -125,7 +126,7 @@ void change_transfer_function(Scene& scene, const Wishes& wishes) {
 }  // namespace
 
 bool leaves_something_open(const Scene& scene) {
-    return scene.automatic_transfer_function || scene.automatic_camera ||
+    return scene.transfer_function.is_automatic() || scene.camera.is_automatic() ||
            leaves_gradient_open(scene);
 }
 
@@ -139,43 +140,42 @@ Choices choose(Scene asked, const Field& field, const Wishes& wishes) {
         fail("{}: all values are NaN or infinite, expected numbers to choose what shows by",
              name_of_data(scene));
     }
+    const bool chooses_function = scene.transfer_function.is_automatic();
+    const bool chooses_camera = scene.camera.is_automatic();
     std::string reason;
-    if (scene.automatic_transfer_function) {
+    if (chooses_function) {
         AutomaticTransfer chosen =
             choose_transfer_function(field.distribution(), field.whole_numbers(), wishes.transfer,
                                      field.least_padding_share());
         scene.transfer_function = std::move(chosen.transfer_function);
         if (scene.color_space == ImageColorSpace::display && !wishes.transfer.colormap)
-            scene.transfer_function = displayed(scene.transfer_function);
+            scene.transfer_function = displayed(*scene.transfer_function);
         reason = std::move(chosen.reason);
         if (!chosen.padding.empty())
             warn(fmt::format("{}: {}", name_of_data(scene), chosen.padding));
     } else {
         change_transfer_function(scene, wishes);
     }
-    if (scene.automatic_camera) {
-        scene.camera = fitted_camera(points_to_fit(scene.transfer_function, field), field.axes(),
+    if (chooses_camera) {
+        scene.camera = fitted_camera(points_to_fit(*scene.transfer_function, field), field.axes(),
                                      wishes.turn, scene.width, scene.height, wishes.all_around);
     } else {
-        scene.camera = turned(scene.camera, wishes.turn);
+        scene.camera = turned(*scene.camera, wishes.turn);
     }
-    if (scene.automatic_transfer_function) {
-        scene.transfer_function = per_diagonal(scene.transfer_function, field);
+    if (chooses_function) {
+        scene.transfer_function = per_diagonal(*scene.transfer_function, field);
         const double density = density_of(scene, field);
-        scene.transfer_function = scene.transfer_function.attenuated(density);
+        scene.transfer_function = scene.transfer_function->attenuated(density);
         choices.reasons.push_back(
             fmt::format("transfer function: {}; extinction up to {:.4g} per unit of length", reason,
-                        wishes.density * largest_extinction(scene.transfer_function)));
+                        wishes.density * largest_extinction(*scene.transfer_function)));
     }
     // As it is read from a file again: without points that rounding has put on straight lines.
-    const TransferFunction dense = scene.transfer_function.attenuated(wishes.density);
+    const TransferFunction dense = scene.transfer_function->attenuated(wishes.density);
     scene.transfer_function =
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
-    scene.camera = zoomed(scene.camera, wishes.zoom);
-    if (scene.automatic_camera) {
-        choices.reasons.push_back(camera_text(scene.camera));
-    }
-    scene.automatic_transfer_function = scene.automatic_camera = false;
+    scene.camera = zoomed(*scene.camera, wishes.zoom);
+    if (chooses_camera) choices.reasons.push_back(camera_text(*scene.camera));
     return choices;
 }
 

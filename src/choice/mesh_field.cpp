@@ -129,7 +129,7 @@ std::vector<double> MeshField::optical_depths(const Scene& scene) const {
     std::vector<double> depths;
     for (const auto& ray : find_view_rays(scene, mesh_)) {
         double depth = 0;
-        for (const MeshFacts::Run& run : ray) depth += depth_of(scene.transfer_function, run);
+        for (const MeshFacts::Run& run : ray) depth += depth_of(*scene.transfer_function, run);
         depths.push_back(depth);
     }
     return depths;

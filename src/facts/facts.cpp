@@ -37,7 +37,8 @@ double margin_of(const Facts& facts) {
 }
 
 void check_finite(const Scene& scene, const Facts& facts) {
-    const std::string name = scene.volume_file.empty() ? "volume" : scene.volume_file.string();
+    const VolumeFile* const file = scene.volume_file();
+    const std::string name = file == nullptr ? "volume" : file->path.string();
     const std::int64_t samples = facts.grid.sample_count();
     if (facts.non_finite == samples) fail("{}: all {} samples are NaN or infinite", name, samples);
     if (facts.non_finite > 0 && scene.nan == NanPolicy::error) {
@@ -251,7 +252,7 @@ DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view) 
 }
 
 void measure_view(const Scene& scene, Facts& facts) {
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     const glm::dvec3 lo = facts.grid.index_min(), hi = facts.grid.index_max();
     facts.orthographic = view.projection == Projection::orthographic;
     const glm::dvec3 eye = facts.grid.to_index(view.eye);
@@ -285,7 +286,7 @@ Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks&
     facts.non_finite = bricks.non_finite;
     check_finite(scene, facts);
     facts.side_ratio = side_ratio_of(facts.grid);
-    const TransferFunction& transfer_function = scene.transfer_function;
+    const TransferFunction& transfer_function = *scene.transfer_function;
     facts.constant = transfer_function.constant(facts.range.lo, facts.range.hi);
     facts.single_color = transfer_function.single_color(facts.range.lo, facts.range.hi);
     facts.max_extinction = transfer_function.max_extinction(facts.range.lo, facts.range.hi);

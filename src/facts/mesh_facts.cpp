@@ -25,7 +25,7 @@ void measure_edges(const TetMesh& mesh, MeshFacts& facts) {
 
 void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const TetPieces& pieces,
                                MeshFacts& facts) {
-    const TransferFunction& transfer_function = scene.transfer_function;
+    const TransferFunction& transfer_function = *scene.transfer_function;
     const double lo = facts.range.lo, hi = facts.range.hi;
     facts.constant = transfer_function.constant(lo, hi);
     facts.single_color = mixes_colors(scene.project.coloring)
@@ -76,8 +76,8 @@ MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
     }
     facts.convexity = convexity(mesh.mesh);
     measure_edges(mesh.mesh, facts);
-    const TetPieces pieces(scene.transfer_function,
-                           drawn_range(scene.transfer_function, facts.range));
+    const TetPieces pieces(*scene.transfer_function,
+                           drawn_range(*scene.transfer_function, facts.range));
     measure_transfer_function(scene, mesh, pieces, facts);
     return facts;
 }
@@ -87,7 +87,7 @@ std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity) {
 }
 
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     facts.orthographic = view.projection == Projection::orthographic;
     facts.in_front = std::ranges::any_of(mesh.mesh.points(), [&](const glm::dvec3& point) {
         return glm::dot(point - view.eye, view.forward) > 0;
@@ -99,8 +99,8 @@ void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
     const bool integrated =
         scene.method == Method::project && facts.parts > 0 && !mixes_colors(scene.project.coloring);
     if (!integrated) return;
-    const TetPieces pieces(scene.transfer_function,
-                           drawn_range(scene.transfer_function, facts.range));
+    const TetPieces pieces(*scene.transfer_function,
+                           drawn_range(*scene.transfer_function, facts.range));
     facts.trial_rays = find_trial_rays(scene, mesh, pieces);
 }
 

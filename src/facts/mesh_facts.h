@@ -72,8 +72,8 @@ struct MeshFacts {
 
 // Tells whether an order is right on every ray. Other orders are there to be studied, with their
 // mistakes.
-inline bool is_right_order(ProjectOrder order) {
-    return order == ProjectOrder::automatic || order == ProjectOrder::exact;
+inline bool is_right_order(const Auto<ProjectOrder>& order) {
+    return order.is_automatic() || order == ProjectOrder::exact;
 }
 
 // Makes MeshFacts::trial_rays from rays of the view, and from tets of the mesh one by one.

@@ -20,8 +20,8 @@ class ShareCounter {
     ShareCounter(const Scene& scene, const Volume& volume, const Facts& facts)
         : volume_(volume),
           facts_(facts),
-          transfer_function_(scene.transfer_function),
-          view_(scene.camera, scene.width, scene.height),
+          transfer_function_(*scene.transfer_function),
+          view_(*scene.camera, scene.width, scene.height),
           opaque_(opaque_depth(scene.max_error, facts.max_color)),
           steps_(static_cast<int>(std::clamp(facts.voxels_along_view, 1.0, double{most_steps}))) {}
 

@@ -29,8 +29,8 @@ class RaySampler {
           bricks_(bricks),
           grid_(facts.grid),
           clip_(facts.clip),
-          transfer_function_(scene.transfer_function),
-          view_(scene.camera, scene.width, scene.height),
+          transfer_function_(*scene.transfer_function),
+          view_(*scene.camera, scene.width, scene.height),
           most_scalars_(most_scalars),
           step_((facts.far_depth - facts.near_depth) /
                 std::clamp(std::ceil(scalars_per_voxel * facts.voxels_along_view), 1.0,

@@ -83,7 +83,7 @@ void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
 }  // namespace
 
 std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh) {
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
     const bool all = view.width * std::int64_t{view.height} <= most_rays;
     const int columns = all ? view.width : std::min(rays_along_side, view.width);

@@ -51,7 +51,7 @@ const char* advice(ContextKind kind) {
         case ContextKind::egl:
             return "install libegl1 and libegl-mesa0 or the GPU's own driver, or pass --context "
                    "osmesa";
-        case ContextKind::automatic:
+        case ContextKind::any:
             return "install libosmesa6, or libegl1 with libegl-mesa0 or the GPU's own driver";
     }
     unreachable_enum();

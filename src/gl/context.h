@@ -12,10 +12,10 @@
 
 namespace lamina::gl {
 
-// automatic: a GPU through EGL where there is one, else OSMesa, else EGL with a software renderer.
+// any: a GPU through EGL where there is one, else OSMesa, else EGL with a software renderer.
 // gpu: a GPU through EGL.
 // egl: a GPU where there is one, else a software renderer.
-enum class ContextKind { automatic, gpu, osmesa, egl };
+enum class ContextKind { any, gpu, osmesa, egl };
 
 // An OpenGL 4.5 core context without a window or a display server. Several may be there, each is
 // current in one thread at a time (gl/current_context.h). Every object of this room belongs to the

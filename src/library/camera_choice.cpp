@@ -11,10 +11,11 @@ namespace {
 
 Camera fitted(Scene scene, SceneData data, Method method, const ViewTurn& turn) {
     scene.method = method;
-    scene.automatic_camera = true;
+    scene.camera = automatic;
     PipelineOptions options;
     options.wishes.turn = turn;
-    return Pipeline(std::move(scene), std::move(data), std::move(options)).scene().camera;
+    Pipeline pipeline(std::move(scene), std::move(data), std::move(options));
+    return *pipeline.scene().camera;
 }
 
 }  // namespace
@@ -28,11 +29,13 @@ Camera fitted_camera(const Scene& scene, const MeshData& mesh, double azimuth, d
 }
 
 TransferFunction chosen_transfer_function(const Scene& scene, const Volume& volume) {
-    if (!scene.automatic_transfer_function) return scene.transfer_function;
+    if (scene.transfer_function.is_given()) return *scene.transfer_function;
     Scene drawn = scene;
     drawn.method = Method::slice;
-    if (has_open_colormap(drawn)) drawn.automatic_camera = false;  // it would be fitted
-    return Pipeline(std::move(drawn), SceneData(volume)).scene().transfer_function;
+    // A camera would be fitted.
+    if (has_open_colormap(drawn)) drawn.camera = drawn.camera.value_or(Camera{});
+    Pipeline pipeline(std::move(drawn), SceneData(volume));
+    return *pipeline.scene().transfer_function;
 }
 
 }  // namespace lamina

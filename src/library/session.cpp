@@ -49,7 +49,7 @@ void Session::set_camera(const Camera& camera) {
 }
 
 void Session::set_size(int width, int height) {
-    check_view(chosen_scene().camera, width, height);
+    check_view(*chosen_scene().camera, width, height);
     parts_->pipeline->set_size(width, height);
 }
 
@@ -67,7 +67,7 @@ void Session::set_clip(const Clip& clip) {
 }
 
 void Session::set_scene(Scene scene) {
-    check_view(scene.camera, scene.width, scene.height);
+    check_view(scene.camera.value_or({}), scene.width, scene.height);
     check_lighting(scene);
     parts_->run([&] { parts_->pipeline->set_scene(std::move(scene)); });
 }
@@ -93,7 +93,7 @@ const Scene& Session::resolved_scene() {
 void Session::save_resolved_scene(const std::filesystem::path& file) {
     const Scene& resolved = resolved_scene();
     if (!resolved.has_volume() && !resolved.has_mesh()) {
-        fail("{}: the scene names no data; expected volume_file or mesh_file to say where they are",
+        fail("{}: the scene names no data; expected a volume or a mesh, to say where they are",
              file.string());
     }
     save_scene(resolved, file);

@@ -27,7 +27,7 @@ void check_view(const Camera& camera, int width, int height) {
 
 Session::Parts::Parts(Scene scene, const SessionOptions& options)
     : only_below(allowed_folder(options.only_below)), threads(arena_threads(options.threads)) {
-    check_view(scene.camera, scene.width, scene.height);
+    check_view(scene.camera.value_or({}), scene.width, scene.height);
     check_lighting(scene);
     pipeline = std::make_unique<Pipeline>(
         std::move(scene), SceneData(),

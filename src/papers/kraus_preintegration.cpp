@@ -32,8 +32,8 @@ std::vector<Variant> ways(const Scene& scene) {
         made.project.table->construction = construction;
         return made;
     };
-    Scene default_integration = scene, closed_form = scene;
-    default_integration.project.table.reset();
+    const Scene default_integration = with_default_integration(scene);
+    Scene closed_form = scene;
     closed_form.project.coloring = Coloring::analytic;
     using enum TableStore;
     return {
@@ -52,7 +52,7 @@ Json build_ms(const KrausSubject& subject, const Scene& scene, const Capabilitie
                       {.capabilities = capabilities, .tables = subject.tables});
     const Plan& plan = pipeline.plan();
     if (plan.project.source != SegmentSource::table) return nullptr;
-    return build_segment_table(in_units(scene.transfer_function, plan.project.unit),
+    return build_segment_table(in_units(*scene.transfer_function, plan.project.unit),
                                plan.project.table)
         .build_ms;
 }

@@ -51,7 +51,7 @@ KrausSubject KrausStage::make(const std::string& name) const {
                        false);
     }
     Scene scene;
-    scene.mesh_file = file_of(data_, name);
+    scene.mesh = MeshFile{file_of(data_, name)};
     SceneData data;
     data.mesh(scene);
     return subject(study::TracedMesh(std::move(data)), true);

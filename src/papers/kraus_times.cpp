@@ -49,8 +49,8 @@ std::vector<Technique> techniques(const Scene& best) {
     ladder.push_back({"ours, triangles", with_default_integration(fans)});
     ladder.push_back({"ours, silhouettes",
                       with_default_integration(with_geometry(best, ProjectGeometry::silhouette))});
-    ladder.push_back({"ours, the default",
-                      with_default_integration(with_geometry(best, ProjectGeometry::automatic))});
+    ladder.push_back(
+        {"ours, the default", with_default_integration(with_geometry(best, Automatic()))});
     return ladder;
 }
 

@@ -16,7 +16,7 @@ inline Scene with_mapping(Scene scene, LengthMapping mapping) {
     return scene;
 }
 inline Scene with_default_integration(Scene scene) {
-    scene.project.table.reset();
+    scene.project.table = automatic;
     return scene;
 }
 
@@ -37,7 +37,7 @@ inline Scene with_target(Scene scene, Target target, ProjectDither dither = Proj
     scene.project.dither = dither;
     return scene;
 }
-inline Scene with_geometry(Scene scene, ProjectGeometry geometry) {
+inline Scene with_geometry(Scene scene, const Auto<ProjectGeometry>& geometry) {
     scene.project.geometry = geometry;
     return scene;
 }

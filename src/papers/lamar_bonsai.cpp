@@ -45,9 +45,9 @@ Scene bonsai_scene() {
     scene.transfer_function = TransferFunction::linear(
         {knot(28, {.05, .25, .02}, 0), knot(52, {.1, .5, .05}, .006), knot(90, {.55, .4, .08}, .01),
          knot(140, {.5, .22, .08}, .03), knot(255, {1, .85, .6}, .1)});
-    scene.camera.eye = {500, 230, 490};
-    scene.camera.center = {127.5, 115, 127.5};
-    scene.camera.fov_y = 35;
+    scene.camera->eye = {500, 230, 490};
+    scene.camera->center = {127.5, 115, 127.5};
+    scene.camera->fov_y = 35;
     scene.width = 320;
     scene.height = 240;
     scene.slice.classification = Classification::post;

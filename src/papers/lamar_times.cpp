@@ -33,10 +33,10 @@ Scene timed_scene(bool white) {
     const auto color = [&](const glm::dvec3& c) { return white ? glm::dvec3(1) : c; };
     scene.transfer_function =
         TransferFunction::linear({{0, {color({0, 1, 0}), .02}}, {255, {color({1, 0, 0}), 1.45}}});
-    scene.camera.projection = Projection::orthographic;
-    scene.camera.eye = {0.5, 0.5, 2};
-    scene.camera.center = glm::dvec3(0.5);
-    scene.camera.height = 1 / volume_in_picture;
+    scene.camera->projection = Projection::orthographic;
+    scene.camera->eye = {0.5, 0.5, 2};
+    scene.camera->center = glm::dvec3(0.5);
+    scene.camera->height = 1 / volume_in_picture;
     scene.width = scene.height = timed_pixels;
     scene.slice.classification = Classification::post;
     scene.slice.samples = slices;
@@ -89,7 +89,7 @@ study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const 
                            const Scene& scene, const PipelineOptions& how) {
     const auto frames = std::make_shared<Pipeline>(scene, SceneData(volume), how);
     Scene far = scene;
-    far.camera.height *= nearly_nothing;
+    far.camera->height *= nearly_nothing;
     const auto far_frames = std::make_shared<Pipeline>(far, SceneData(volume), how);
     frames->set_up();
     far_frames->set_up();

@@ -23,10 +23,10 @@ Scene scene_of(int pixels, bool white) {
         knots.push_back({double(value), {color, -std::log1p(-opacity_per_density * density)}});
     }
     scene.transfer_function = TransferFunction::linear(std::move(knots));
-    scene.camera.projection = Projection::orthographic;
-    scene.camera.eye = {0.5, 0.5, 2};
-    scene.camera.center = glm::dvec3(0.5);
-    scene.camera.height = 1;
+    scene.camera->projection = Projection::orthographic;
+    scene.camera->eye = {0.5, 0.5, 2};
+    scene.camera->center = glm::dvec3(0.5);
+    scene.camera->height = 1;
     scene.width = scene.height = pixels;
     scene.slice.classification = Classification::post;
     scene.slice.samples = depth;

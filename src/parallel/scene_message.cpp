@@ -13,12 +13,19 @@
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
+namespace {
+
+std::string path_of_volume(const Scene& scene) {
+    const VolumeFile* const file = scene.volume_file();
+    return file == nullptr ? "" : std::filesystem::absolute(file->path).string();
+}
+
+}  // namespace
 
 SceneMessage::SceneMessage(const Scene& scene, const OmissionSwitch& omissions)
     : name_(scene.file.string()),
       text_(json_text(scene_json(scene))),
-      volume_(scene.volume_file.empty() ? ""
-                                        : std::filesystem::absolute(scene.volume_file).string()),
+      volume_(path_of_volume(scene)),
       kept_(omissions.none ? "all" : fmt::format("{}", fmt::join(omissions.kept, " "))) {
     if (const auto folder = ClientScope::current().only_below) only_below_ = folder->string();
 }
@@ -30,7 +37,7 @@ void SceneMessage::broadcast(const Ranks& ranks) {
 
 Scene SceneMessage::scene() const {
     Scene scene = read_scene(parse_json(text_), name_);
-    scene.volume_file = volume_;
+    if (VolumeFile* const file = scene.volume_file()) file->path = volume_;
     return scene;
 }
 

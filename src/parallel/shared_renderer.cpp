@@ -23,12 +23,11 @@ namespace {
 // OVER is associative in float alone; codes are those of slabs one by one, from the first to the
 // last.
 Scene checked(Scene scene) {
-    if (!scene.automatic_target && scene.target != Target::float32)
+    if (scene.target.value_or(Target::float32) != Target::float32)
         refuse(scene, "render.target", name_of(scene.target), "float32");
     if (scene.slice.tree) refuse(scene, "render.slice.tree", "a tree", "none");
     if (scene.slice.dither) refuse(scene, "render.slice.dither", "dithering", "none");
     scene.target = Target::float32;
-    scene.automatic_target = false;
     return scene;
 }
 

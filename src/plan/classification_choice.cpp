@@ -16,10 +16,11 @@ namespace {
 // the context's loops need.
 int slabs_of(const Scene& scene, int least) {
     const SliceSettings& slice = scene.slice;
-    if (slice.samples) return *slice.samples;
-    if (!slice.tree || slice.tree->automatic) return least;
+    if (slice.samples.is_given()) return *slice.samples;
+    const TreeSettings* const tree = given_tree(slice.tree);
+    if (tree == nullptr) return least;
     std::int64_t leaves = 1;
-    for (const int factor : slice.tree->factors)
+    for (const int factor : tree->factors)
         leaves = std::min<std::int64_t>(leaves * factor, max_slabs);
     return static_cast<int>(leaves);
 }
@@ -53,8 +54,8 @@ ClassificationChoice choose_classification(const Scene& scene, const Facts& fact
                                            const Capabilities& capabilities,
                                            const SampleTrials& trials) {
     check_lit_slicing(scene);
-    const Classification asked = scene.slice.classification;
-    if (asked != Classification::automatic && asked != Classification::exact) return {asked, 1, {}};
+    const Auto<Classification>& asked = scene.slice.classification;
+    if (asked.is_given() && asked != Classification::exact) return {*asked, 1, {}};
     const int least = least_exact_slabs(scene, facts, capabilities);
     if (asked == Classification::exact || scene.lighting) {
         check_exact(scene, facts, least, capabilities);
@@ -83,9 +84,9 @@ ClassificationChoice choose_classification(const Scene& scene, const Facts& fact
 }
 
 bool may_be_quicker(const Scene& scene) {
-    return !scene.lighting && scene.slice.classification == Classification::automatic &&
-           !scene.slice.samples && !scene.slice.tree && !scene.slice.dither &&
-           scene.target == Target::float32 && !scene.automatic_target;
+    return !scene.lighting && scene.slice.classification.is_automatic() &&
+           scene.slice.samples.is_automatic() && !scene.slice.tree && !scene.slice.dither &&
+           scene.target == Target::float32;
 }
 
 Scene with_classification(Scene scene, const ClassificationChoice& choice) {

@@ -9,7 +9,7 @@ namespace lamina {
 namespace {
 
 void check_smallest_gradient(const Scene& scene) {
-    if (scene.lighting->smallest_gradient) return;
+    if (scene.lighting->smallest_gradient.is_given()) return;
     fail("{}: lighting.smallest_gradient: has not been chosen from the data", scene.file.string());
 }
 
@@ -40,7 +40,7 @@ void check_lit_projection(const Scene& scene) {
             "leave a tet",
             file, name_of(project.geometry), name_of(project.interpolation));
     }
-    if (project.table) {
+    if (project.table.is_given()) {
         fail(
             "{}: render.project.table: found a table, expected none with lighting: it knows no "
             "gradients",

@@ -28,10 +28,10 @@ bool is_unlimited(const Capabilities& capabilities) {
 
 // Rounds of one search: knots in the fullest cell, and one to see that it is done.
 int search_rounds(const Scene& scene, const Facts& facts) {
-    const ValueRange range = drawn_range(scene.transfer_function, facts.range);
+    const ValueRange range = drawn_range(*scene.transfer_function, facts.range);
     assert(range.hi > range.lo);
     std::vector<int> knots(search_cells, 0);
-    for (const TransferKnot& knot : scene.transfer_function.knots()) {
+    for (const TransferKnot& knot : scene.transfer_function->knots()) {
         if (knot.value < range.lo || knot.value > range.hi) continue;
         const double share = (knot.value - range.lo) / (range.hi - range.lo);
         ++knots[static_cast<std::size_t>(std::min<double>(share * search_cells, search_cells - 1))];

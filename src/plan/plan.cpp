@@ -116,7 +116,7 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
         return plan;
     }
     plan.omitted.push_back(no_context);
-    if (scene.has_volume() && !scene.mesh_request)
+    if (scene.has_volume() && scene.made_mesh() == nullptr)
         plan.omitted.push_back({"volume", "the mesh is traced: the volume is not read"});
     return plan;
 }

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/unreachable.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "optics/front_weights.h"
@@ -62,6 +63,20 @@ constexpr std::size_t most_table_points = 200;
 // their faces are always found in double, which takes some third longer.
 constexpr std::int64_t fewest_plain_tets = 10000;
 
+OrderMethod method_of(ProjectOrder order) {
+    switch (order) {
+        case ProjectOrder::mpvo:
+            return OrderMethod::mpvo;
+        case ProjectOrder::exact:
+            return OrderMethod::exact;
+        case ProjectOrder::centroid:
+            return OrderMethod::centroid;
+        case ProjectOrder::none:
+            return OrderMethod::none;
+    }
+    unreachable_enum();
+}
+
 class ProjectPlanner {
   public:
     ProjectPlanner(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
@@ -75,17 +90,17 @@ class ProjectPlanner {
           omitted_(omitted),
           tables_(tables) {
         plan_.unit = world_unit(facts.diagonal);
-        transfer_function_ = in_units(scene.transfer_function, plan_.unit);
+        transfer_function_ = in_units(*scene.transfer_function, plan_.unit);
     }
 
     ProjectPlan make() {
-        plan_.target = scene_.target;
+        plan_.target = *scene_.target;
         plan_.seed = scene_.emulate.seed;
         plan_.interpolation = settings_.interpolation;
         plan_.thickness = settings_.thickness;
         plan_.table_filtered = capabilities_.exact_float_filter;
         plan_.near_depth = near_share * facts_.diagonal * plan_.unit;
-        drawn_ = drawn_range(scene_.transfer_function, facts_.range);
+        drawn_ = drawn_range(*scene_.transfer_function, facts_.range);
         plan_.range = drawn_;
         plan_light(scene_, facts_.max_color, plan_);
         check_size();
@@ -124,9 +139,8 @@ class ProjectPlanner {
         // What is interpolated between the vertices of a fan, a silhouette cannot carry.
         const bool fan =
             settings_.interpolation == Interpolation::linear || mixes_colors(settings_.coloring);
-        plan_.geometry = settings_.geometry;
-        if (plan_.geometry == ProjectGeometry::automatic)
-            plan_.geometry = fan ? ProjectGeometry::triangles : ProjectGeometry::silhouette;
+        plan_.geometry = settings_.geometry.value_or(fan ? ProjectGeometry::triangles
+                                                         : ProjectGeometry::silhouette);
         plan_.orthographic = facts_.orthographic;  // the other way is for no such view
         if (plan_.orthographic) {
             omitted_.push_back({"perspective",
@@ -159,30 +173,15 @@ class ProjectPlanner {
     }
 
     void choose_visibility() {
-        switch (settings_.order) {
-            case ProjectOrder::automatic:
-                plan_.visibility =
-                    facts_.convexity == Convexity::none ? OrderMethod::exact : OrderMethod::mpvo;
-                break;
-            case ProjectOrder::mpvo:
-                plan_.visibility = OrderMethod::mpvo;
-                break;
-            case ProjectOrder::exact:
-                plan_.visibility = OrderMethod::exact;
-                break;
-            case ProjectOrder::centroid:
-                plan_.visibility = OrderMethod::centroid;
-                break;
-            case ProjectOrder::none:
-                plan_.visibility = OrderMethod::none;
-                break;
-        }
-        const bool asked = settings_.order == ProjectOrder::automatic;
+        plan_.visibility = settings_.order.is_given()            ? method_of(*settings_.order)
+                           : facts_.convexity == Convexity::none ? OrderMethod::exact
+                                                                 : OrderMethod::mpvo;
         // `auto` takes `mpvo` for a convex mesh, where it is right.
         plan_.solve_rings =
             is_right_order(settings_.order) ||
             (settings_.order == ProjectOrder::mpvo && facts_.convexity != Convexity::none);
-        if (asked && scene_.target == Target::float32 && !scene_.lighting &&
+        if (settings_.order.is_automatic() && scene_.target == Target::float32 &&
+            !scene_.lighting &&
             leave_out(
                 facts_.single_color, "order",
                 "one colour: OVER gives the same whatever comes first, to float32's rounding"))
@@ -192,7 +191,7 @@ class ProjectPlanner {
     void choose_compositing() {
         if (scene_.target == Target::emulated) plan_.emulation = scene_.emulate;
         plan_.dither = settings_.dither;
-        if (!is_fixed_point(scene_.target) && plan_.dither != ProjectDither::none) {
+        if (!is_fixed_point(*scene_.target) && plan_.dither != ProjectDither::none) {
             plan_.dither = ProjectDither::none;
             omitted_.push_back(
                 {"dither", "tets are composited in float: there is nothing to dither"});
@@ -204,9 +203,9 @@ class ProjectPlanner {
 
     void choose_tree() {
         check_project_tree(scene_, facts_.single_color);
-        plan_.tree = settings_.tree->factors;
+        plan_.tree = given_tree(settings_.tree)->factors;
         plan_.scattered =
-            settings_.order == ProjectOrder::automatic &&
+            settings_.order.is_automatic() &&
             leave_out(true, "order",
                       "one colour: leaves take tets from all over the mesh, so that every ray "
                       "meets some of each leaf; codes are rounded in another order");
@@ -266,7 +265,7 @@ class ProjectPlanner {
             plan_.trial_error = error_of(exact_integral());
         } else if (plan_.nothing_visible) {
             return;
-        } else if (settings_.table) {
+        } else if (settings_.table.is_given()) {
             take_window();
             plan_.table = {request_of(*settings_.table)};
             plan_.table.built = tables_.get(*transfer_function_, plan_.table);
@@ -386,7 +385,7 @@ class ProjectPlanner {
         const bool whole = plan_.geometry == ProjectGeometry::triangles;
         take_window();
         const bool few = facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets);
-        const bool narrow = has_narrow_pieces(scene_.transfer_function, drawn_);
+        const bool narrow = has_narrow_pieces(*scene_.transfer_function, drawn_);
         const bool cut = plan_.windowed ? few && facts_.far_tets == 0 : few || narrow;
         if (!whole && cut) {
             plan_.windowed = false;
@@ -405,7 +404,7 @@ class ProjectPlanner {
     // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh that
     // has a value next to one would be off by several codes.
     bool try_cut_table() {
-        if (scene_.transfer_function.knots().size() > most_table_points) return false;
+        if (scene_.transfer_function->knots().size() > most_table_points) return false;
         const double depth = facts_.max_extinction * facts_.longest_edge;
         const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
         plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge * plan_.unit,

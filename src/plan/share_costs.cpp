@@ -66,7 +66,7 @@ ShareCosts::ShareCosts(const Scene& scene, const Facts& facts, const MinMaxBrick
 
 void ShareCosts::find_stretches(const Scene& scene, const Facts& facts,
                                 const MinMaxBricks& bricks) {
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     const int columns = columns_of(view), rows = rows_of(view);
     const int steps = static_cast<int>(
         std::clamp(facts.voxels_along_view / MinMaxBricks::edge, 8.0, double{most_steps}));
@@ -89,7 +89,7 @@ void ShareCosts::find_stretches(const Scene& scene, const Facts& facts,
                 const std::size_t brick = facts.occupied_bricks.place_of(at);
                 if (facts.occupied_bricks.distance[brick] > 0) continue;
                 const double depth =
-                    length * mean_extinction(scene.transfer_function, bricks.range(brick));
+                    length * mean_extinction(*scene.transfer_function, bricks.range(brick));
                 by_row[static_cast<std::size_t>(row)].push_back(
                     {glm::vec3(at), static_cast<float>(walked.x + walked.y + walked.z),
                      static_cast<float>(depth), static_cast<std::int32_t>(row * columns + column)});
@@ -101,7 +101,7 @@ void ShareCosts::find_stretches(const Scene& scene, const Facts& facts,
 
 void ShareCosts::find_pages(const Scene& scene, const Facts& facts) {
     constexpr double edge = BrickCache::edge;
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     page_cost_ = cells_of_page * columns_of(view) / view.width * rows_of(view) / view.height;
     const glm::dvec3 end = facts.grid.index_max();
     for (double z = 0; z < end.z; z += edge) {

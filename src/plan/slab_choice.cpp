@@ -35,15 +35,15 @@ int slabs_per_voxel(const Facts& facts, double slabs) {
 double slab_error_goal(const Scene& scene, double max_color, int slabs, double rays) {
     const double all_rays = static_cast<double>(scene.width) * scene.height;
     const double share = used_share * std::pow(std::min(rays / all_rays, 1.0), rays_power);
-    const auto& tree = scene.slice.tree;
-    if (scene.automatic_target) {
-        const double unknown = tree && !tree->automatic ? target_share * scene.max_error : 0;
+    const bool tree_given = given_tree(scene.slice.tree) != nullptr;
+    if (scene.target.is_automatic()) {
+        const double unknown = tree_given ? target_share * scene.max_error : 0;
         const double rounding = choose_target(scene, max_color, slabs).error;
         return share * (scene.max_error - std::max(rounding, unknown));
     }
-    if (!tree || !tree->automatic) return share * scene.max_error;
+    if (!scene.slice.tree || tree_given) return share * scene.max_error;
     TreeQuestion question;  // of a tree that needs no more than its root's rounding
-    question.target = scene.target;
+    question.target = *scene.target;
     question.emulation = scene.emulate;
     const double root = one_level_error_bound(question);
     return share * std::max(scene.max_error - root, scene.max_error * target_share);

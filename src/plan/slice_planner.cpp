@@ -55,8 +55,8 @@ class SlicePlanner {
         check_limits(scene_, capabilities_);
         SlicePlan& slice = plan_.slice;
         slice.unit = world_unit(box_diagonal(facts_.grid));
-        slice.target = scene_.target;
-        slice.classification = scene_.slice.classification;
+        slice.target = *scene_.target;
+        slice.classification = *scene_.slice.classification;
         slice.order = scene_.slice.order;
         slice.batches = capabilities_.software ? software_batches : 1;
         slice.nan_transparent = facts_.non_finite > 0;
@@ -101,7 +101,7 @@ class SlicePlanner {
 
     void choose_slabs() {
         SlicePlan& slice = plan_.slice;
-        if (scene_.slice.samples) {
+        if (scene_.slice.samples.is_given()) {
             slice.slabs = *scene_.slice.samples;
             return;
         }
@@ -116,14 +116,14 @@ class SlicePlanner {
         SlicePlan& slice = plan_.slice;
         if (scene_.slice.filter == Filter::hardware) slice.sampling = VolumeSampling::hardware;
         const std::optional<SlabTrial> trial = slabs_of_hardware_filter(trials_);
-        if (scene_.slice.filter != Filter::automatic || !trial || !capabilities_.eight_bit_filter)
-            return;
+        if (scene_.slice.filter.is_given() || !trial || !capabilities_.eight_bit_filter) return;
         slice.filter_reason = fmt::format(
             "one look-up instead of eight: an error of {:.2g} / 255, {}, was found, of "
             "{:.3g} wanted",
-            trial->error, scene_.slice.samples ? "its own" : "with that of the slabs", trial->goal);
+            trial->error, scene_.slice.samples.is_given() ? "its own" : "with that of the slabs",
+            trial->goal);
         slice.sampling = VolumeSampling::hardware;
-        if (scene_.slice.samples) {
+        if (scene_.slice.samples.is_given()) {
             slice.filter_error = trial->error;
         } else {
             slice.slabs = trial->slabs;
@@ -274,7 +274,7 @@ class SlicePlanner {
             return;
         }
         if (!table.colored) return;
-        if (scene_.slice.table) {
+        if (scene_.slice.table.is_given()) {
             take_table(scene_, facts_, slice.slabs, longest, slice.unit, table, tables_);
             return;
         }
@@ -301,7 +301,7 @@ class SlicePlanner {
         SlicePlan& slice = plan_.slice;
         if (scene_.target == Target::emulated) slice.emulation = scene_.emulate;
         if (scene_.slice.tree) {
-            choose_tree_for(*scene_.slice.tree);
+            take_tree(given_tree(scene_.slice.tree));
         } else {
             const int most = most_marched_slabs(scene_, facts_, capabilities_, slice.slabs);
             const bool whole = slice.slabs <= most;
@@ -328,11 +328,11 @@ class SlicePlanner {
         if (scene_.slice.dither) choose_dither(*scene_.slice.dither);
     }
 
-    void choose_tree_for(const TreeSettings& settings) {
+    // Takes the given tree, or chooses one.
+    void take_tree(const TreeSettings* given) {
         SlicePlan& slice = plan_.slice;
-        if (!settings.automatic) {
-            slice.tree =
-                TreePlan{settings.factors, settings.nodes, settings.code, settings.alpha_bits};
+        if (given != nullptr) {
+            slice.tree = TreePlan{given->factors, given->nodes, given->code, given->alpha_bits};
             check_slice_tree(scene_, facts_.single_color);
             return;
         }

@@ -167,13 +167,13 @@ int affordable_layers(const TablePlan& table, double knots, double wanted) {
 // Takes the range that is drawn, which is wider than that of the samples if they have one value.
 void build_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables) {
     const double unit = world_unit(box_diagonal(facts.grid));
-    const ValueRange range = drawn_range(scene.transfer_function, facts.range);
-    table.built = tables.get(in_units(scene.transfer_function, unit), table.request(range));
+    const ValueRange range = drawn_range(*scene.transfer_function, facts.range);
+    table.built = tables.get(in_units(*scene.transfer_function, unit), table.request(range));
 }
 
 double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& plan) {
     const double unit = world_unit(box_diagonal(facts.grid));
-    const TransferFunction transfer_function = in_units(scene.transfer_function, unit);
+    const TransferFunction transfer_function = in_units(*scene.transfer_function, unit);
     const MostLight light = most_light(scene);
     const auto looked_up = [&](const Segment& segment) {
         return plan.built->lookup_lit(segment.front, segment.back, segment.length);

@@ -37,9 +37,8 @@ TargetChoice smallest_target(TreeQuestion question, const Bound& bound) {
 }  // namespace
 
 TargetChoice choose_target(const Scene& scene, double max_color, int slabs) {
-    if (!scene.automatic_target) return {scene.target, {}};
-    const auto& tree = scene.slice.tree;
-    if (tree && !tree->automatic) {
+    if (scene.target.is_given()) return {*scene.target, {}};
+    if (const TreeSettings* const tree = given_tree(scene.slice.tree)) {
         if (tree->nodes == NodeArithmetic::fixed)
             return {Target::fixed16, "the most bits that fixed nodes can have"};
         return {Target::float32, "no smaller target has a bound for a tree of given factors"};
@@ -59,16 +58,15 @@ TargetChoice choose_target(const Scene& scene, const Facts& facts, const SampleT
 }
 
 Scene with_target(Scene scene, Target target) {
-    scene.target = target;
-    if (scene.automatic_target && target != Target::float32 && scene.method == Method::slice &&
+    if (scene.target.is_automatic() && target != Target::float32 && scene.method == Method::slice &&
         !scene.slice.tree)
-        scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
-    scene.automatic_target = false;
+        scene.slice.tree = automatic;
+    scene.target = target;
     return scene;
 }
 
 TargetChoice choose_project_target(const Scene& scene) {
-    if (!scene.automatic_target) return {scene.target, {}};
+    if (scene.target.is_given()) return {*scene.target, {}};
     if (scene.project.tree)
         return {Target::fixed16, "the most bits that a tree over tets can have"};
     return {Target::float32,

@@ -10,7 +10,7 @@ namespace {
 // `otherwise`: what the scene may ask for instead of one colour.
 void check_fixed_nodes(const Scene& scene, bool single_color, const char* tree,
                        const char* otherwise) {
-    if (!is_fixed_point(scene.target)) {
+    if (!is_fixed_point(*scene.target)) {
         fail(
             "{}: {}.nodes: found \"fixed\" with target \"{}\", expected target fixed8, fixed16 or "
             "emulated",
@@ -33,7 +33,7 @@ void check_fixed_nodes(const Scene& scene, bool single_color, const char* tree,
 }  // namespace
 
 void check_slice_tree(const Scene& scene, bool single_color) {
-    if (scene.slice.tree->nodes == NodeArithmetic::fixed) {
+    if (given_tree(scene.slice.tree)->nodes == NodeArithmetic::fixed) {
         check_fixed_nodes(scene, single_color, "render.slice.tree", ", or \"nodes\": \"shader\"");
     } else if (scene.target == Target::emulated) {
         fail(
@@ -44,14 +44,14 @@ void check_slice_tree(const Scene& scene, bool single_color) {
 }
 
 void check_project_tree(const Scene& scene, bool single_color) {
-    const TreeSettings& tree = *scene.project.tree;
+    const TreeSettings* const tree = given_tree(scene.project.tree);
     const ProjectSettings& project = scene.project;
     const std::string file = scene.file.string();
-    if (tree.automatic || tree.nodes == NodeArithmetic::shader) {
+    if (tree == nullptr || tree->nodes == NodeArithmetic::shader) {
         fail(
             "{}: render.project.{}, expected an object with \"factors\" and \"nodes\": \"fixed\": "
             "nodes computed in a shader march slabs, and tets are drawn one by one",
-            file, tree.automatic ? "tree: found \"auto\"" : "tree.nodes: found \"shader\"");
+            file, tree == nullptr ? "tree: found \"auto\"" : "tree.nodes: found \"shader\"");
     }
     check_fixed_nodes(scene, single_color, "render.project.tree", "");
     if (project.geometry == ProjectGeometry::triangles ||
@@ -62,7 +62,7 @@ void check_project_tree(const Scene& scene, bool single_color) {
             file, name_of(project.geometry), name_of(project.interpolation),
             name_of(project.coloring));
     }
-    if (project.table && project.table->store == TableStore::opacity) {
+    if (project.table.is_given() && project.table->store == TableStore::opacity) {
         fail(
             "{}: render.project.table.store: found \"opacity\" with render.project.tree, expected "
             "\"mean_extinction\": leaves multiply optical depth",
@@ -76,7 +76,7 @@ void check_leaves(const Scene& scene, const TreeShape& shape, int most,
     for (int level = 0; level + 1 < shape.levels(); ++level)
         leaf = (leaf + shape.factor(level) - 1) / shape.factor(level);
     if (leaf <= most) return;
-    if (scene.slice.tree && scene.slice.tree->automatic) {
+    if (scene.slice.tree && scene.slice.tree->is_automatic()) {
         fail(
             "{}: render.slice.tree: found \"auto\", which takes one node of all {} slabs, expected "
             "at most {} with {}, which ends longer loops: take fewer samples, factors, or "

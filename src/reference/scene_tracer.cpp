@@ -5,7 +5,7 @@ namespace lamina {
 namespace {
 
 View view_of(const Scene& scene) {
-    return View(scene.camera, scene.width, scene.height);
+    return View(*scene.camera, scene.width, scene.height);
 }
 
 TraceOptions options_of(const Scene& scene) {
@@ -15,7 +15,7 @@ TraceOptions options_of(const Scene& scene) {
 }  // namespace
 
 TraceResult trace(const Scene& scene, const Volume& volume, const TileDone& tile_done) {
-    return trace_volume(volume, scene.transfer_function, view_of(scene), options_of(scene),
+    return trace_volume(volume, *scene.transfer_function, view_of(scene), options_of(scene),
                         tile_done);
 }
 
@@ -25,7 +25,7 @@ MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const TileDone&
 
 MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces,
                       const TileDone& tile_done) {
-    return trace_mesh(mesh.mesh, open_faces, mesh.scalar.values, scene.transfer_function,
+    return trace_mesh(mesh.mesh, open_faces, mesh.scalar.values, *scene.transfer_function,
                       view_of(scene), options_of(scene), tile_done);
 }
 

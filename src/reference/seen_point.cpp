@@ -67,7 +67,7 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
     const Chord chord = clip_to_box(grid, ray, half_spaces(scene.clip));
     if (!(chord.length_z > 0)) return {};
     const CellSamples<Samples> samples(grid, first_sample);
-    const TransferIntervals transfer(scene.transfer_function);
+    const TransferIntervals transfer(*scene.transfer_function);
     const auto integrate = [&](const CellIndex& cell, double from, double to,
                                RayIntegrator& integrator) {
         CellBatch alone;
@@ -106,7 +106,7 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
 
 std::optional<SeenPoint> seen_point(const Scene& scene, const Volume& volume, double column,
                                     double row) {
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     return visit_samples(volume, [&](const auto& first_sample) {
         return seen_in(scene, volume.grid(), first_sample, view.ray(column, row));
     });
@@ -114,7 +114,7 @@ std::optional<SeenPoint> seen_point(const Scene& scene, const Volume& volume, do
 
 std::optional<SeenPoint> seen_point(const Scene& scene, const SceneMesh& mesh,
                                     const FaceTree& open_faces, double column, double row) {
-    const View::Ray ray = View(scene.camera, scene.width, scene.height).ray(column, row);
+    const View::Ray ray = View(*scene.camera, scene.width, scene.height).ray(column, row);
     const double world_per_z = glm::length(ray.direction);
     const SeenRange seen = seen_range(half_spaces(scene.clip), ray);
     const std::span<const double> scalar = mesh.scalar.values;
@@ -124,7 +124,7 @@ std::optional<SeenPoint> seen_point(const Scene& scene, const SceneMesh& mesh,
     walk.list(listed);
     const auto depth_of = [&](const SeenSegment& part, double from, double to) {
         const double slope = (part.back - part.front) / (part.to - part.from);
-        return integrate_segment(scene.transfer_function, part.front + slope * (from - part.from),
+        return integrate_segment(*scene.transfer_function, part.front + slope * (from - part.from),
                                  part.front + slope * (to - part.from), (to - from) * world_per_z)
             .optical_depth;
     };

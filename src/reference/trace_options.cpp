@@ -10,7 +10,7 @@ void check(const TraceOptions& options) {
         fail("render.trace.tolerance: {} is out of range, expected {} to 1", options.tolerance,
              TraceOptions::smallest_tolerance);
     }
-    if (options.lighting && !options.lighting->smallest_gradient) {
+    if (options.lighting && options.lighting->smallest_gradient.is_automatic()) {
         fail(
             "lighting.smallest_gradient: is \"auto\", expected a number: it has not been chosen "
             "from the data");

@@ -16,8 +16,6 @@ namespace lamina {
 // Its words are listed by enum_words() (base/enum_words.h), too.
 const char* name_of(ContextChoice choice) {
     switch (choice) {
-        case ContextChoice::automatic:
-            return "auto";
         case ContextChoice::osmesa:
             return "osmesa";
         case ContextChoice::egl:
@@ -28,13 +26,23 @@ const char* name_of(ContextChoice choice) {
     return nullptr;
 }
 
-ContextChoice context_choice(const std::string& word) {
-    if (const auto found = value_of_word<ContextChoice>(word)) return *found;
-    throw UsageError(fmt::format("--context {}: expected {}", word, alternatives<ContextChoice>()));
+bool is_context(const std::string& word) {
+    return word == "auto" || value_of_word<ContextChoice>(word);
 }
 
-ContextChoice context_for_files(ContextChoice choice) {
-    if (choice != ContextChoice::automatic && choice != ContextChoice::cpu) {
+std::string context_words() {
+    return "auto, " + alternatives<ContextChoice>();
+}
+
+Auto<ContextChoice> context_choice(const std::string& word) {
+    if (!is_context(word))
+        throw UsageError(fmt::format("--context {}: expected {}", word, context_words()));
+    if (const auto found = value_of_word<ContextChoice>(word)) return *found;
+    return automatic;
+}
+
+ContextChoice context_for_files(const Auto<ContextChoice>& choice) {
+    if (choice.value_or(ContextChoice::cpu) != ContextChoice::cpu) {
         fail(
             "--context {}: the volume does not fit the memory limit of {} bytes, and OpenGL draws "
             "volumes in memory alone: expected cpu, or more memory (--memory)",
@@ -44,9 +52,9 @@ ContextChoice context_for_files(ContextChoice choice) {
 }
 
 gl::ContextKind opengl_kind(const std::string& word) {
-    switch (context_choice(word)) {
-        case ContextChoice::automatic:
-            return gl::ContextKind::automatic;
+    const Auto<ContextChoice> choice = context_choice(word);
+    if (choice.is_automatic()) return gl::ContextKind::any;
+    switch (*choice) {
         case ContextChoice::osmesa:
             return gl::ContextKind::osmesa;
         case ContextChoice::egl:

@@ -17,10 +17,9 @@ std::unique_ptr<gl::Context> find_gpu() {
     }
 }
 
-std::unique_ptr<gl::Context> make_opengl(ContextChoice choice) {
-    switch (choice) {
-        case ContextChoice::automatic:
-            return find_gpu();
+std::unique_ptr<gl::Context> make_opengl(const Auto<ContextChoice>& choice) {
+    if (choice.is_automatic()) return find_gpu();
+    switch (*choice) {
         case ContextChoice::osmesa:
             return gl::Context::create(gl::ContextKind::osmesa);
         case ContextChoice::egl:
@@ -33,7 +32,7 @@ std::unique_ptr<gl::Context> make_opengl(ContextChoice choice) {
 
 }  // namespace
 
-DrawContext::DrawContext(ContextChoice choice)
+DrawContext::DrawContext(const Auto<ContextChoice>& choice)
     : opengl_(make_opengl(choice)),
       capabilities_(opengl_ ? opengl_->capabilities() : tile_capabilities()) {}
 

@@ -14,9 +14,8 @@ namespace lamina {
 // loaded.
 class DrawContext {
   public:
-    // Throws Error where OpenGL fails, except for ContextChoice::automatic, which then takes the
-    // native engine.
-    explicit DrawContext(ContextChoice choice);
+    // Throws Error if OpenGL fails; an automatic choice then takes the native engine.
+    explicit DrawContext(const Auto<ContextChoice>& choice);
     // Always makes an OpenGL context; throws Error where it fails.
     explicit DrawContext(gl::ContextKind kind);
 

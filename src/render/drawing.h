@@ -7,6 +7,7 @@
 #include "lamina/frame_statistics.h"
 #include "plan/frame_renderer.h"
 #include "plan/plan.h"
+#include "render/resolved.h"
 #include "render/warnings.h"
 
 namespace lamina {
@@ -34,13 +35,12 @@ class Drawing {
     // `for_people`: the plan also says how much work each omission saves.
     virtual Plan plan(const Scene& scene, const Capabilities& capabilities,
                       const OmissionSwitch& omissions, bool for_people) const = 0;
-    // The scene with every "auto" replaced by what the plan has chosen.
-    virtual Scene resolved(Scene scene, const Plan& plan) const = 0;
+    // Puts what the plan has chosen in place of every "auto".
+    virtual Resolved resolve(Scene scene, const Plan& plan) const = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
 
-    // Sentences for people about the data, the plan and, once a frame is drawn, about it. The scene
-    // is a resolved one.
-    virtual Warnings warnings(const Scene& scene, const Plan& plan) = 0;
+    // Sentences for people about the data, the plan and, once a frame is drawn, about it.
+    virtual Warnings warnings(const Resolved& resolved, const Plan& plan) = 0;
 
     // Adds what the renderer, which is there, found in its last frame.
     virtual void add_to(FrameStatistics& /*statistics*/) const {}
@@ -51,7 +51,7 @@ class Drawing {
     virtual std::vector<int> front_to_back(const Scene& /*scene*/) const { return {0}; }
 
     // The new renderer replaces the one before, from which it takes over the data that both need.
-    virtual void make_renderer(const Scene& scene, const Plan& plan,
+    virtual void make_renderer(const Resolved& resolved, const Plan& plan,
                                const Capabilities& capabilities) = 0;
     virtual FrameRenderer* renderer() const = 0;  // null before there is one
 };

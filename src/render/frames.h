@@ -8,6 +8,7 @@
 #include "lamina/image.h"
 #include "lamina/scene.h"
 #include "plan/plan.h"
+#include "render/resolved.h"
 #include "render/warnings.h"
 
 namespace lamina {
@@ -27,7 +28,7 @@ class Frames {
     virtual void set_transfer_function(const TransferFunction& transfer_function);
     virtual void set_clip(const Clip& clip);
 
-    virtual const Scene& resolved_scene() = 0;  // with what was chosen in place of "auto"
+    virtual const Resolved& resolved() = 0;  // with what was chosen in place of "auto"
     virtual const Plan& plan() = 0;
     virtual std::string explanation() = 0;
     // Sentences for people about the data, the plan and, once a frame was drawn, about it.

@@ -90,7 +90,7 @@ void Pipeline::load() {
 // A mesh that is made from a volume depends on the transfer function.
 bool Pipeline::changes_mesh(const Scene& next) const {
     const bool made = data_.makes_mesh(scene_), makes = data_.makes_mesh(next);
-    return made != makes || (makes && (next.mesh_request != scene_.mesh_request ||
+    return made != makes || (makes && (mesh_settings(next) != mesh_settings(scene_) ||
                                        next.transfer_function != scene_.transfer_function));
 }
 
@@ -111,8 +111,7 @@ void Pipeline::set_scene(Scene scene) {
     if (reads_mesh) {
         if (scene_.method == Method::project) drop_frames();
         data_.forget_mesh();
-        scene_.mesh_file = asked_.mesh_file;
-        scene_.mesh_time = asked_.mesh_time;
+        scene_.mesh = asked_.mesh;
     }
     take(chosen());
     chosen_ = true;
@@ -121,7 +120,6 @@ void Pipeline::set_scene(Scene scene) {
 
 void Pipeline::set_camera(const Camera& camera) {
     scene_.camera = asked_.camera = camera;
-    asked_.automatic_camera = false;
     trace_plan_.reset();
     if (frames_) frames_->set_camera(camera);
 }
@@ -135,7 +133,6 @@ void Pipeline::set_size(int width, int height) {
 
 void Pipeline::set_transfer_function(const TransferFunction& transfer_function) {
     asked_.transfer_function = transfer_function;
-    asked_.automatic_transfer_function = false;
     asked_.given_transfer.reset();
     Choices next{scene_, reasons_};
     next.scene.transfer_function = transfer_function;
@@ -146,13 +143,12 @@ void Pipeline::set_transfer_function(const TransferFunction& transfer_function) 
 void Pipeline::set_transfer_function_of(const Scene& like) {
     Scene next = asked_;
     next.transfer_function = like.transfer_function;
-    next.automatic_transfer_function = like.automatic_transfer_function;
     next.given_transfer = like.given_transfer;
     if (chooses_transfer_function(like)) return set_scene(std::move(next));
     Scene closed = like;
     if (has_open_colormap(closed)) close_colormap(closed, data_.range(scene()));
     if (const auto ramp = opaque_ramp(closed)) warn(*ramp);
-    set_transfer_function(closed.transfer_function);
+    set_transfer_function(*closed.transfer_function);
     asked_ = std::move(next);
 }
 
@@ -207,7 +203,7 @@ SceneRenderer& Pipeline::renderer() {
 const Scene& Pipeline::resolved_scene() {
     if (scene().method == Method::trace) return scene_;
     Frames& drawing = frames();
-    return in_context([&]() -> const Scene& { return drawing.resolved_scene(); });
+    return in_context([&]() -> const Scene& { return drawing.resolved().scene(); });
 }
 
 const Plan& Pipeline::plan() {

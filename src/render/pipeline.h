@@ -32,7 +32,7 @@ using FramesMaker = std::function<std::unique_ptr<Frames>(const Scene& scene, Sc
                                                           const PipelineOptions& options)>;
 
 struct PipelineOptions {
-    ContextChoice context = ContextChoice::automatic;
+    Auto<ContextChoice> context = {};
     // Replaces `context` by the caller's own, which has these capabilities: it is current whenever
     // the pipeline is called and when it ends, and outlives it.
     std::optional<Capabilities> capabilities = {};
@@ -68,7 +68,7 @@ class Pipeline {
     const Scene& scene();
     // Sentences that say what was chosen; none if nothing was automatic.
     const std::vector<std::string>& reasons();
-    const Scene& resolved_scene();  // with nothing automatic at all
+    const Scene& resolved_scene();  // with nothing open that its method draws by
     SceneData& data() { return data_; }
     std::unique_ptr<Field> field() { return data_.field(scene()); }
 

@@ -74,23 +74,23 @@ Plan ProjectDrawing::plan(const Scene& scene, const Capabilities& capabilities,
 
 // Where the order is automatic and there is a tree, the order stays automatic, because leaves of a
 // tree come from all over the mesh.
-Scene ProjectDrawing::resolved(Scene scene, const Plan& plan) const {
+Resolved ProjectDrawing::resolve(Scene scene, const Plan& plan) const {
     const ProjectPlan& project = plan.project;
     ProjectSettings& settings = scene.project;
-    if (settings.order == ProjectOrder::automatic && !settings.tree)
+    if (settings.order.is_automatic() && !settings.tree)
         settings.order = order_of(project.visibility);
     settings.geometry = project.geometry;
     if (project.source == SegmentSource::analytic) settings.coloring = Coloring::analytic;
     scene.target = project.target;
-    scene.automatic_target = false;
-    return scene;
+    return Resolved(std::move(scene));
 }
 
 std::string ProjectDrawing::explanation(const Plan& plan, const Capabilities& capabilities) const {
     return explain(plan, facts_, capabilities);
 }
 
-Warnings ProjectDrawing::warnings(const Scene& scene, const Plan& /*plan*/) {
+Warnings ProjectDrawing::warnings(const Resolved& resolved, const Plan& /*plan*/) {
+    const Scene& scene = resolved.scene();
     if (!data_warnings_) data_warnings_ = data_warnings(scene, *whole_);
     Warnings all = *data_warnings_;
     const auto add = [&](Warnings more) {
@@ -109,10 +109,11 @@ void ProjectDrawing::add_to(FrameStatistics& statistics) const {
     statistics.counts["pairs_in_wrong_order"] = order.broken;
 }
 
-void ProjectDrawing::make_renderer(const Scene& scene, const Plan& plan,
+void ProjectDrawing::make_renderer(const Resolved& resolved, const Plan& plan,
                                    const Capabilities& capabilities) {
+    const Scene& scene = resolved.scene();
     const bool same_mesh = renderer_ && renderer_->kept_mesh() == mesh_.get();
-    auto made = make_project_renderer(*mesh_, scene.transfer_function, plan.project, capabilities,
+    auto made = make_project_renderer(*mesh_, *scene.transfer_function, plan.project, capabilities,
                                       scene.width, scene.height,
                                       same_mesh ? renderer_->parts() : ProjectParts());
     made->keep(mesh_);

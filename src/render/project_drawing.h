@@ -23,11 +23,11 @@ class ProjectDrawing : public Drawing {
     void measure_view(const Scene& scene, const Plan* planned) override;
     Plan plan(const Scene& scene, const Capabilities& capabilities, const OmissionSwitch& omissions,
               bool for_people) const override;
-    Scene resolved(Scene scene, const Plan& plan) const override;
+    Resolved resolve(Scene scene, const Plan& plan) const override;
     std::string explanation(const Plan& plan, const Capabilities& capabilities) const override;
-    Warnings warnings(const Scene& scene, const Plan& plan) override;
+    Warnings warnings(const Resolved& resolved, const Plan& plan) override;
     void add_to(FrameStatistics& statistics) const override;
-    void make_renderer(const Scene& scene, const Plan& plan,
+    void make_renderer(const Resolved& resolved, const Plan& plan,
                        const Capabilities& capabilities) override;
     FrameRenderer* renderer() const override { return renderer_.get(); }
 

@@ -53,7 +53,9 @@ class SceneData {
 
     // Tells whether the mesh that the scene draws is made from its volume, and so follows its
     // transfer function.
-    bool makes_mesh(const Scene& scene) const { return !mesh_given_ && scene.mesh_file.empty(); }
+    bool makes_mesh(const Scene& scene) const {
+        return !mesh_given_ && scene.mesh_file() == nullptr;
+    }
     void forget_mesh();
 
     // Adds what loading took and what was found in the data that the scene draws.

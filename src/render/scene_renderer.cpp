@@ -36,7 +36,7 @@ SceneRenderer::SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,
 template <typename Change>
 void SceneRenderer::change(const Change& change_scene) {
     change_scene(asked_);
-    if (resolved_) change_scene(*resolved_);
+    if (resolved_) resolved_->change(change_scene);
     view_measured_ = planned_ = false;
 }
 
@@ -56,7 +56,7 @@ void SceneRenderer::set_size(int width, int height) {
 // A table belongs to one transfer function, so it is chosen again.
 void SceneRenderer::set_transfer_function(const TransferFunction& transfer_function) {
     change([&](Scene& scene) { scene.transfer_function = transfer_function; });
-    if (resolved_) resolved_->slice.table = asked_.slice.table;
+    if (resolved_) resolved_->change([&](Scene& scene) { scene.slice.table = asked_.slice.table; });
     data_measured_ = renderer_fits_ = false;
     plan_.reset();
 }
@@ -84,13 +84,13 @@ void SceneRenderer::choose_again() {
     view_measured_ = planned_ = false;
 }
 
-const Scene& SceneRenderer::resolved_scene() {
+const Resolved& SceneRenderer::resolved() {
     plan();
     return *resolved_;
 }
 
 void SceneRenderer::measure() {
-    const Scene& scene = resolved_ ? *resolved_ : asked_;
+    const Scene& scene = resolved_ ? resolved_->scene() : asked_;
     Stage measuring("facts");
     if (!data_measured_) {
         drawing_->measure_data(scene);
@@ -117,10 +117,10 @@ const Plan& SceneRenderer::plan() {
         stages_ms_["trials"] = trying.end();
     }
     Stage planning("plan");
-    const Scene& scene = first ? asked_ : *resolved_;
+    const Scene& scene = first ? asked_ : resolved_->scene();
     plan_ = drawing_->plan(scene, capabilities_, omissions_, first);
     ++counts_.plans;
-    resolved_ = drawing_->resolved(scene, *plan_);
+    resolved_ = drawing_->resolve(scene, *plan_);
     planned_ = true;
     stages_ms_["plan"] = planning.end();
     return *plan_;
@@ -142,7 +142,7 @@ std::vector<IndexBox> SceneRenderer::shares() {
 
 std::vector<int> SceneRenderer::front_to_back() {
     plan();
-    return drawing_->front_to_back(*resolved_);
+    return drawing_->front_to_back(resolved_->scene());
 }
 
 void SceneRenderer::set_up() {
@@ -168,7 +168,8 @@ void SceneRenderer::draw(std::stop_token stop) {
     set_up();
     FrameRenderer& renderer = *drawing_->renderer();
     Progress progress(drawing_->activity(), renderer.step_count());
-    renderer.draw(View(resolved_->camera, resolved_->width, resolved_->height), &progress);
+    const Scene& scene = resolved_->scene();
+    renderer.draw(View(*scene.camera, scene.width, scene.height), &progress);
 }
 
 Image SceneRenderer::picture() const {
@@ -189,7 +190,7 @@ void SceneRenderer::add_to(FrameStatistics& statistics) {
     for (const auto& [stage, ms] : renderer->stages_ms()) statistics.stages_ms[stage] = ms;
     statistics.fragments = renderer->fragments();
     statistics.bytes = renderer->byte_count();
-    statistics.counts["clamped_colors"] = clamped_colors(*resolved_);
+    statistics.counts["clamped_colors"] = clamped_colors(resolved_->scene());
     drawing_->add_to(statistics);
 }
 

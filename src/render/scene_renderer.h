@@ -35,7 +35,7 @@ namespace lamina {
 //                       mesh is cut again
 //   settings, choose_again()   the same, and what is automatic is tried and chosen again
 //
-// What is automatic is chosen for the first picture and kept: resolved_scene() has it written out.
+// What is automatic is chosen for the first picture and kept: resolved() has it written out.
 // (A table grows where a view has longer segments than it knows.) A picture is, bit for bit on the
 // native engine, that of a new renderer with that scene.
 class SceneRenderer : public Frames {
@@ -65,10 +65,9 @@ class SceneRenderer : public Frames {
     // first picture counts.
     void expect_many_frames();
 
-    // The scene as it was asked for, with "auto"; and the scene with what was chosen instead, which
-    // save_scene() can write.
+    // The scene as it was asked for, with "auto"; and with what was chosen instead.
     const Scene& scene() const override { return asked_; }
-    const Scene& resolved_scene() override;
+    const Resolved& resolved() override;
     // Throws Error if the data cannot be drawn as the scene asks, or the context cannot do it.
     const Plan& plan() override;
     std::string explanation() override;
@@ -107,7 +106,7 @@ class SceneRenderer : public Frames {
     void measure();
 
     Scene asked_;
-    std::optional<Scene> resolved_;
+    std::optional<Resolved> resolved_;
     Capabilities capabilities_;
     OmissionSwitch omissions_;
     std::unique_ptr<Drawing> drawing_;

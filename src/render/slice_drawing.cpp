@@ -8,7 +8,7 @@ namespace lamina {
 namespace {
 
 TreeSettings settings_of(const TreePlan& tree) {
-    return {false, tree.factors, tree.nodes, tree.code, tree.alpha_bits};
+    return {tree.factors, tree.nodes, tree.code, tree.alpha_bits};
 }
 
 }  // namespace
@@ -22,7 +22,7 @@ void SliceDrawing::measure_data(const Scene& scene) {
 // The scene of a later view has its table already, so no rays are needed to choose one.
 void SliceDrawing::measure_view(const Scene& scene, const Plan* planned) {
     lamina::measure_view(scene, facts_);
-    if (planned != nullptr && scene.slice.table) {
+    if (planned != nullptr && scene.slice.table.is_given()) {
         facts_.ray_shares = measure_ray_shares(scene, data_->volume, facts_);
         facts_.scalar_rays = {};
     } else {
@@ -60,25 +60,26 @@ Plan SliceDrawing::plan(const Scene& scene, const Capabilities& capabilities,
     return plan;
 }
 
-Scene SliceDrawing::resolved(Scene scene, const Plan& plan) const {
+Resolved SliceDrawing::resolve(Scene scene, const Plan& plan) const {
     const SlicePlan& slice = plan.slice;
     SliceSettings& settings = scene.slice;
     settings.samples = slice.slabs;
     settings.classification = slice.classification;
-    if (settings.filter == Filter::automatic)
+    if (settings.filter.is_automatic())
         settings.filter =
             slice.sampling == VolumeSampling::hardware ? Filter::hardware : Filter::exact;
-    if (settings.tree ? settings.tree->automatic
-                      : scene.automatic_target && slice.target != Target::float32)
-        settings.tree = slice.tree ? std::optional(settings_of(*slice.tree)) : std::nullopt;
-    if (settings.dither && !settings.dither->period)
+    if (settings.tree ? settings.tree->is_automatic()
+                      : scene.target.is_automatic() && slice.target != Target::float32) {
+        settings.tree.reset();
+        if (slice.tree) settings.tree = settings_of(*slice.tree);
+    }
+    if (settings.dither && settings.dither->period.is_automatic())
         settings.dither->period = dither_period_for(slice.slabs);
     if (slice.uses_table() && slice.table.colored)
-        settings.table = {slice.table.scalar_nodes, slice.table.length_layers,
-                          slice.table.max_length / slice.unit};
+        settings.table = SliceTableSettings{slice.table.scalar_nodes, slice.table.length_layers,
+                                            slice.table.max_length / slice.unit};
     scene.target = slice.target;
-    scene.automatic_target = false;
-    return scene;
+    return Resolved(std::move(scene));
 }
 
 std::vector<IndexBox> SliceDrawing::shares() const {
@@ -87,23 +88,25 @@ std::vector<IndexBox> SliceDrawing::shares() const {
 
 std::vector<int> SliceDrawing::front_to_back(const Scene& scene) const {
     if (!shares_) return {0};
-    return shares_->front_to_back(facts_.grid, View(scene.camera, scene.width, scene.height));
+    return shares_->front_to_back(facts_.grid, View(*scene.camera, scene.width, scene.height));
 }
 
 std::string SliceDrawing::explanation(const Plan& plan, const Capabilities& capabilities) const {
     return explain(plan, facts_, capabilities);
 }
 
-Warnings SliceDrawing::warnings(const Scene& scene, const Plan& plan) {
+Warnings SliceDrawing::warnings(const Resolved& resolved, const Plan& plan) {
     Warnings all = data_warnings(*data_);
-    for (std::string& warning : plan_warnings(scene, plan.slice)) all.push_back(std::move(warning));
+    for (std::string& warning : plan_warnings(resolved.scene(), plan.slice))
+        all.push_back(std::move(warning));
     return all;
 }
 
-void SliceDrawing::make_renderer(const Scene& scene, const Plan& plan,
+void SliceDrawing::make_renderer(const Resolved& resolved, const Plan& plan,
                                  const Capabilities& capabilities) {
+    const Scene& scene = resolved.scene();
     const SliceParts ready = renderer_ ? renderer_->parts() : SliceParts();
-    renderer_ = make_slice_renderer(data_->volume, scene.transfer_function, facts_, plan.slice,
+    renderer_ = make_slice_renderer(data_->volume, *scene.transfer_function, facts_, plan.slice,
                                     capabilities, scene.width, scene.height, ready);
 }
 

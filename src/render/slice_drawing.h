@@ -28,10 +28,10 @@ class SliceDrawing : public Drawing {
                      bool many_frames) override;
     Plan plan(const Scene& scene, const Capabilities& capabilities, const OmissionSwitch& omissions,
               bool for_people) const override;
-    Scene resolved(Scene scene, const Plan& plan) const override;
+    Resolved resolve(Scene scene, const Plan& plan) const override;
     std::string explanation(const Plan& plan, const Capabilities& capabilities) const override;
-    Warnings warnings(const Scene& scene, const Plan& plan) override;
-    void make_renderer(const Scene& scene, const Plan& plan,
+    Warnings warnings(const Resolved& resolved, const Plan& plan) override;
+    void make_renderer(const Resolved& resolved, const Plan& plan,
                        const Capabilities& capabilities) override;
     FrameRenderer* renderer() const override { return renderer_.get(); }
 

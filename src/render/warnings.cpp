@@ -34,7 +34,7 @@ void add_cells(const CellCounts& cells, Warnings& to) {
 }
 
 void add_made(const Scene& scene, const MeshReport& report, Warnings& to) {
-    const MeshSettings wanted = scene.mesh_request.value_or(MeshSettings{});
+    const MeshSettings wanted = mesh_settings(scene);
     if (report.within_tolerance || wanted.kuhn) return;
     to.push_back(fmt::format(
         "the mesh stopped {} with {} tets: it differs from the volume by up to {:.3g} of the "
@@ -131,11 +131,11 @@ const char* side_beside(const View& view, const std::array<glm::dvec3, 8>& corne
 
 std::string why_nothing_shows(const Scene& scene, const Field& field, float largest) {
     const ValueRange range = field.range();
-    if (scene.transfer_function.transparent(range.lo, range.hi)) {
+    if (scene.transfer_function->transparent(range.lo, range.hi)) {
         return fmt::format("the transfer function shows {}, and the data have {}",
-                           shown_values(scene.transfer_function), range_text(range));
+                           shown_values(*scene.transfer_function), range_text(range));
     }
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     const auto corners = field.corners();
     const bool behind = std::ranges::all_of(corners, [&](const glm::dvec3& corner) {
         return glm::dot(corner - view.eye, view.forward) <= 0;
@@ -155,7 +155,7 @@ std::string why_nothing_shows(const Scene& scene, const Field& field, float larg
             "the largest opacity is {:.2g}, for the extinction of at most {:.3g} per unit of "
             "length "
             "is small for these data",
-            largest, scene.transfer_function.max_extinction(range.lo, range.hi));
+            largest, scene.transfer_function->max_extinction(range.lo, range.hi));
     }
     return clip.empty() ? "no pixel's ray meets a value that the transfer function shows"
                         : "no pixel's ray meets a value that the transfer function shows in what "
@@ -164,7 +164,7 @@ std::string why_nothing_shows(const Scene& scene, const Field& field, float larg
 
 // Warns if the data lie beyond all values between which colours change: they all get one colour.
 void warn_of_colors(const Scene& scene, const ValueRange& range) {
-    const auto knots = scene.transfer_function.knots();
+    const auto knots = scene.transfer_function->knots();
     std::size_t first = 0, last = knots.size() - 1;
     const auto change = [&](std::size_t i) {
         return knots[i].optics.color != knots[i + 1].optics.color;
@@ -248,8 +248,8 @@ Warnings trace_warnings(std::int64_t overlapping_rays) {
 }
 
 std::int64_t clamped_colors(const Scene& scene) {
-    if (!is_fixed_point(scene.target)) return 0;
-    return std::ranges::count_if(scene.transfer_function.knots(), [](const TransferKnot& knot) {
+    if (!is_fixed_point(*scene.target)) return 0;
+    return std::ranges::count_if(scene.transfer_function->knots(), [](const TransferKnot& knot) {
         return glm::any(glm::greaterThan(knot.optics.color, glm::dvec3(1)));
     });
 }

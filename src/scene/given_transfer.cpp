@@ -23,7 +23,7 @@ ValueRange widened(const ValueRange& range) {
 }
 
 ValueRange range_of_map(const GivenTransfer& given, const ValueRange& data) {
-    if (given.colormap_range) return *given.colormap_range;
+    if (given.colormap_range.is_given()) return *given.colormap_range;
     const ValueRange range = widened(data);
     if (range.lo >= -largest_map_value && range.hi <= largest_map_value) return range;
     throw GivenTransferError(
@@ -42,7 +42,7 @@ std::vector<TransferKnot> knots_of(const GivenTransfer& given,
 // Takes the map's colours, with the given points for extinction or with the map's own opacities.
 TransferFunction colored_by_map(const GivenTransfer& given, const ValueRange& data) {
     Colormap map = *given.map;
-    if (given.colormap_range || given.open()) {
+    if (given.colormap_range.is_given() || given.open()) {
         const ValueRange range = range_of_map(given, data);
         stretch(map, range.lo, range.hi);
     }
@@ -94,12 +94,12 @@ TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRan
 }
 
 bool has_open_colormap(const Scene& scene) {
-    return scene.automatic_transfer_function && scene.given_transfer &&
+    return scene.transfer_function.is_automatic() && scene.given_transfer &&
            scene.given_transfer->open();
 }
 
 bool chooses_transfer_function(const Scene& scene) {
-    return scene.automatic_transfer_function && !has_open_colormap(scene);
+    return scene.transfer_function.is_automatic() && !has_open_colormap(scene);
 }
 
 void close_colormap(Scene& scene, const ValueRange& data) {
@@ -109,7 +109,6 @@ void close_colormap(Scene& scene, const ValueRange& data) {
     } catch (const GivenTransferError& error) {
         fail("{}.{}: {}", given.place, error.key, error.what());
     }
-    scene.automatic_transfer_function = false;
 }
 
 std::filesystem::path colormap_file_of(const Scene& scene) {

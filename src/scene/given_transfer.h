@@ -24,14 +24,14 @@ const char* name_of(PointInterpolation interpolation);
 struct GivenTransfer {
     double unit_length = 1;  // world units that opacities refer to, > 0
     PointInterpolation interpolation = PointInterpolation::linear;
-    std::vector<GivenPoint> points;            // empty: the colour map's own opacities
-    std::string colormap;                      // name of a shipped map, or path; empty: none
-    std::optional<Colormap> map;               // with its own values; none without a colour map
-    std::optional<ValueRange> colormap_range;  // scalars that the map is stretched to
-    std::string place;  // file and key, for messages: "scene.json: transfer_function"
+    std::vector<GivenPoint> points;   // empty: the colour map's own opacities
+    std::string colormap;             // name of a shipped map, or path; empty: none
+    std::optional<Colormap> map;      // with its own values; none without a colour map
+    Auto<ValueRange> colormap_range;  // scalars that the map is stretched to
+    std::string place;                // file and key, for messages: "scene.json: transfer_function"
 
     // Tells whether the map is stretched over the range of the data.
-    bool open() const { return map && !colormap_range && !map->own_range; }
+    bool open() const { return map && colormap_range.is_automatic() && !map->own_range; }
     // The file that the map is read from; empty if there is none.
     std::filesystem::path colormap_file() const;
 };

@@ -64,7 +64,7 @@ std::optional<LightingMistake> mistake_in(const Lighting& lighting) {
     check.number("diffuse", lighting.diffuse, 0, Lighting::largest_term);
     check.number("specular", lighting.specular, 0, Lighting::largest_term);
     check.number("power", lighting.power, 1, Lighting::largest_power);
-    if (lighting.smallest_gradient) {
+    if (lighting.smallest_gradient.is_given()) {
         check.number("smallest_gradient", *lighting.smallest_gradient, Lighting::least_gradient,
                      Lighting::largest_gradient);
     }

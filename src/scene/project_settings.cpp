@@ -40,8 +40,6 @@ const char* name_of(Thickness thickness) {
 
 const char* name_of(ProjectOrder order) {
     switch (order) {
-        case ProjectOrder::automatic:
-            return "auto";
         case ProjectOrder::mpvo:
             return "mpvo";
         case ProjectOrder::exact:
@@ -56,8 +54,6 @@ const char* name_of(ProjectOrder order) {
 
 const char* name_of(ProjectGeometry geometry) {
     switch (geometry) {
-        case ProjectGeometry::automatic:
-            return "auto";
         case ProjectGeometry::silhouette:
             return "silhouette";
         case ProjectGeometry::triangles:

@@ -2,11 +2,20 @@
 #include "lamina/scene.h"
 
 #include "base/client.h"
+#include "base/error.h"
 #include "scene/scene_volume.h"
 #include "volume/generate.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
+namespace {
+
+const VolumeFile& file_of_volume(const Scene& scene) {
+    if (const VolumeFile* const file = scene.volume_file()) return *file;
+    fail("no volume was given, and the scene names none");
+}
+
+}  // namespace
 
 // The words of every enum below are listed by enum_words() (base/enum_words.h), too.
 const char* name_of(Method method) {
@@ -59,8 +68,6 @@ const char* name_of(NanPolicy policy) {
 
 const char* name_of(Classification classification) {
     switch (classification) {
-        case Classification::automatic:
-            return "auto";
         case Classification::post:
             return "post";
         case Classification::preintegrated:
@@ -87,8 +94,6 @@ const char* name_of(Filter filter) {
             return "exact";
         case Filter::hardware:
             return "hardware";
-        case Filter::automatic:
-            return "auto";
     }
     return nullptr;
 }
@@ -139,14 +144,18 @@ const char* name_of(OverRounding rounding) {
 
 Volume load_volume(const Scene& scene, const std::filesystem::path& only_below) {
     const OnlyBelowScope scope(only_below);
-    if (scene.volume_request) return generate(*scene.volume_request);
-    return read_volume(scene.volume_file, scene.volume_selection);
+    if (const auto* request = std::get_if<GeneratorRequest>(&scene.volume))
+        return generate(*request);
+    const VolumeFile& file = file_of_volume(scene);
+    return read_volume(file.path, file.selection);
 }
 
 Volume open_volume(const Scene& scene) {
-    if (scene.volume_request) return generate(*scene.volume_request);
+    if (const auto* request = std::get_if<GeneratorRequest>(&scene.volume))
+        return generate(*request);
+    const VolumeFile& file = file_of_volume(scene);
     return open_volume(
-        scene.volume_file, scene.volume_selection,
+        file.path, file.selection,
         {.residence = VolumeUse::Residence::as_fits, .lit = scene.lighting.has_value()});
 }
 

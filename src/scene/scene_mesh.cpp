@@ -67,8 +67,13 @@ std::vector<glm::dvec3> gradients_of(const SceneMesh& mesh) {
     return point_gradients(mesh.mesh, mesh.scalar.values);
 }
 
+MeshSettings mesh_settings(const Scene& scene) {
+    const MeshSettings* const given = scene.made_mesh();
+    return given != nullptr ? *given : MeshSettings{};
+}
+
 std::string name_of_mesh(const Scene& scene) {
-    if (!scene.mesh_file.empty()) return scene.mesh_file.string();
+    if (const MeshFile* const file = scene.mesh_file()) return file->path.string();
     return scene.file.empty() ? "mesh" : scene.file.string() + ": mesh";
 }
 
@@ -84,8 +89,7 @@ SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
     MeshData data;
     try {
         const Stage making("make mesh");
-        const MeshSettings settings = scene.mesh_request.value_or(MeshSettings{});
-        data = make_volume_mesh(volume, settings, &scene.transfer_function, report);
+        data = make_volume_mesh(volume, mesh_settings(scene), &*scene.transfer_function, report);
     } catch (const Error& error) {
         fail("{}: {}", name_of_mesh(scene), error.what());
     }
@@ -96,9 +100,9 @@ SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
 }
 
 SceneMesh load_mesh(const Scene& scene) {
-    if (!scene.mesh_file.empty()) {
+    if (const MeshFile* const file = scene.mesh_file()) {
         Stage reading("read file");
-        MeshData data = read_mesh(scene.mesh_file, scene.mesh_time);
+        MeshData data = read_mesh(file->path, file->time);
         reading.end();
         return scene_mesh(scene, std::move(data));
     }

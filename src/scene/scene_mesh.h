@@ -26,6 +26,9 @@ struct SceneMesh {
 // The gradients at the points by which the mesh is lit (docs/numerics.md, section 10).
 std::vector<glm::dvec3> gradients_of(const SceneMesh& mesh);
 
+// Returns how a mesh is made from the scene's volume: as the scene says, or by default.
+MeshSettings mesh_settings(const Scene& scene);
+
 // The mesh's name for messages: its file, or the key of the scene that says how to make it.
 std::string name_of_mesh(const Scene& scene);
 

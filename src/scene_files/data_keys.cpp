@@ -18,28 +18,39 @@ const auto has_key = [](const char* key) {
 };
 
 // A path alone, in place of an object: all but objects are read as paths, or refused as such.
-template <typename Access>
-Alternative<Scene> path_alternative(const Access& access,
-                                    const std::function<bool(const Scene&)>& writes) {
+// `File`: VolumeFile or MeshFile, which needs no other keys if it is like File{path}.
+template <typename File, typename Source>
+Alternative<Scene> path_alternative(Source Scene::*source) {
     const Form<std::filesystem::path> form = path_form();
     return {[](const nlohmann::json& value) { return !value.is_object(); },
-            [access, form](JsonReader& reader, const std::string& key, Scene& scene) {
-                access(scene) = form.read(reader, key);
+            [source, form](JsonReader& reader, const std::string& key, Scene& scene) {
+                scene.*source = File{form.read(reader, key), {}};
             },
-            writes, [access, form](const Scene& scene) { return form.write(access(scene)); },
+            [source](const Scene& scene) {
+                const File* const file = std::get_if<File>(&(scene.*source));
+                return file != nullptr && *file == File{file->path, {}};
+            },
+            [source, form](const Scene& scene) {
+                return form.write(std::get<File>(scene.*source).path);
+            },
             form.schema};
 }
 
-// An object with the keys of a table of the scene's own.
-Alternative<Scene> object_alternative(const std::function<bool(const nlohmann::json&)>& reads,
-                                      const KeyTable<Scene>& (*table)(),
-                                      const std::function<bool(const Scene&)>& writes) {
-    return {reads,
-            [table](JsonReader& reader, const std::string& key, Scene& scene) {
-                JsonReader object = reader.object(key);
-                table().read(object, scene);
-            },
-            writes, [table](const Scene& scene) { return table().json(scene); }, table().schema()};
+// An object with the keys of one kind of source. Its reader is told of "path", too, for messages.
+template <typename Kind, typename Source>
+Alternative<Scene> object_alternative(Source Scene::*source,
+                                      const std::function<bool(const nlohmann::json&)>& reads,
+                                      const KeyTable<Kind>& (*table)()) {
+    return {
+        reads,
+        [source, table](JsonReader& reader, const std::string& key, Scene& scene) {
+            JsonReader object = reader.object(key);
+            object.has("path");
+            table().read(object, (scene.*source).template emplace<Kind>());
+        },
+        [source](const Scene& scene) { return std::holds_alternative<Kind>(scene.*source); },
+        [source, table](const Scene& scene) { return table().json(std::get<Kind>(scene.*source)); },
+        table().schema()};
 }
 
 // --- volume
@@ -111,11 +122,11 @@ void add_raw_keys(KeyTable<VolumeRequest>& keys) {
     }
 }
 
-const KeyTable<Scene>& volume_file_keys() {
+const KeyTable<VolumeFile>& volume_file_keys() {
     static const auto table = [] {
-        KeyTable<Scene> keys;
-        keys.key("path", &Scene::volume_file, path_form()).required();
-        keys.part(&Scene::volume_selection, volume_selection_keys());
+        KeyTable<VolumeFile> keys;
+        keys.key("path", &VolumeFile::path, path_form()).required();
+        keys.part(&VolumeFile::selection, volume_selection_keys());
         keys.also(
             "dependentRequired",
             {{"size", {"type"}}, {"type", {"size"}}, {"offset", {"size"}}, {"endian", {"size"}}});
@@ -125,37 +136,26 @@ const KeyTable<Scene>& volume_file_keys() {
 }
 
 void add_volume(KeyTable<Scene>& keys) {
-    const auto file_alone = [](const Scene& scene) {
-        return !scene.volume_file.empty() && scene.volume_selection == VolumeRequest{} &&
-               !scene.volume_request;
+    const auto is_generated = [](const nlohmann::json& value) {
+        return value.is_object() && !value.contains("path");
     };
-    const Alternative<Scene> generated{
-        [](const nlohmann::json& value) { return value.is_object() && !value.contains("path"); },
-        [](JsonReader& reader, const std::string& key, Scene& scene) {
-            JsonReader object = reader.object(key);
-            object.has("path");  // which messages then name, too
-            generator_keys().read(object, scene.volume_request.emplace());
-        },
-        [](const Scene& scene) { return scene.volume_request.has_value(); },
-        [](const Scene& scene) { return generator_keys().json(*scene.volume_request); },
-        generator_keys().schema()};
-    const auto in_file = [](const Scene& scene) { return !scene.volume_file.empty(); };
-    const std::vector<Alternative<Scene>> forms{
-        path_alternative(
-            [](auto& scene) -> auto& { return scene.volume_file; }, file_alone),
-        generated, object_alternative(has_key("path"), volume_file_keys, in_file)};
-    keys.variant("volume", forms, "",
-                 "Path of a file or folder (relative to the scene; ${LAMINA_DATA} expands), with "
-                 "what of it is drawn, or a generated volume.");
+    keys.variant(
+        "volume",
+        {path_alternative<VolumeFile>(&Scene::volume),
+         object_alternative<GeneratorRequest>(&Scene::volume, is_generated, generator_keys),
+         object_alternative<VolumeFile>(&Scene::volume, has_key("path"), volume_file_keys)},
+        "",
+        "Path of a file or folder (relative to the scene; ${LAMINA_DATA} expands), with what of it "
+        "is drawn, or a generated volume.");
 }
 
 // --- mesh
 
-const KeyTable<Scene>& mesh_file_keys() {
+const KeyTable<MeshFile>& mesh_file_keys() {
     static const auto table = [] {
-        KeyTable<Scene> keys;
-        keys.key("path", &Scene::mesh_file, path_form()).required();
-        keys.key("time", &Scene::mesh_time, whole_form<std::int64_t>(0, most_steps),
+        KeyTable<MeshFile> keys;
+        keys.key("path", &MeshFile::path, path_form()).required();
+        keys.key("time", &MeshFile::time, whole_form<std::int64_t>(0, most_steps),
                  "Step of a .pvd, counted from 0 in the order of time.");
         return keys;
     }();
@@ -178,29 +178,17 @@ const KeyTable<MeshSettings>& mesh_keys() {
 }
 
 void add_mesh(KeyTable<Scene>& keys) {
-    const auto file_alone = [](const Scene& scene) {
-        return !scene.mesh_request && !scene.mesh_file.empty() && scene.mesh_time == 0;
-    };
-    const auto in_file = [](const Scene& s) { return !s.mesh_request && !s.mesh_file.empty(); };
-    const Alternative<Scene> made{
-        is_any,
-        [](JsonReader& reader, const std::string& key, Scene& scene) {
-            JsonReader object = reader.object(key);
-            object.has("path");  // which messages then name, too
-            mesh_keys().read(object, scene.mesh_request.emplace());
-            if (!has_volume(reader, scene))
-                reader.reject("volume", "a volume, which \"mesh\" is made from");
-        },
-        [](const Scene& scene) { return scene.mesh_request.has_value(); },
-        [](const Scene& scene) { return mesh_keys().json(*scene.mesh_request); },
-        mesh_keys().schema()};
-    const std::vector<Alternative<Scene>> forms{
-        path_alternative(
-            [](auto& scene) -> auto& { return scene.mesh_file; }, file_alone),
-        object_alternative(has_key("path"), mesh_file_keys, in_file), made};
-    keys.variant("mesh", forms, "",
+    keys.variant("mesh",
+                 {path_alternative<MeshFile>(&Scene::mesh),
+                  object_alternative<MeshFile>(&Scene::mesh, has_key("path"), mesh_file_keys),
+                  object_alternative<MeshSettings>(&Scene::mesh, is_any, mesh_keys)},
+                 "",
                  "Path of a mesh (.vtu, .pvtu, .pvd, legacy .vtk, TetGen .node with its .ele; "
                  "relative to the scene; ${LAMINA_DATA} expands), or one made from the volume.");
+    keys.check([](JsonReader& reader, Scene& read) {
+        if (read.made_mesh() != nullptr && !has_volume(reader, read))
+            reader.reject("volume", "a volume, which \"mesh\" is made from");
+    });
 }
 
 }  // namespace
@@ -248,7 +236,7 @@ void add_data_keys(KeyTable<Scene>& scene) {
               "Array of the mesh file, of points or (averaged to points) of cells; the first one "
               "of points if nothing is said.");
     scene.check([](JsonReader& reader, Scene& read) {
-        if (reader.has("scalar") && !reader.context.mesh_given && read.mesh_file.empty())
+        if (reader.has("scalar") && !reader.context.mesh_given && read.mesh_file() == nullptr)
             reader.reject("scalar", "a mesh from a file beside it");
     });
     scene.key("nan", &Scene::nan, words_form<NanPolicy>(),

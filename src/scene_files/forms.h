@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/enum_words.h"
+#include "lamina/auto.h"
 #include "scene_files/keys.h"
 
 namespace lamina {
@@ -112,12 +113,32 @@ Form<std::optional<T>> word_or_form(const std::string& word, const Form<T>& form
             },
             {{"oneOf", KeyJson::array({{{"const", word}}, form.schema})}}};
 }
-// "auto", or a value.
+
+// A form in which "auto" stands for no value.
 template <typename T>
-Form<std::optional<T>> automatic_form(const Form<T>& form,
-                                      bool (nlohmann::json::*is_type)() const noexcept,
-                                      const std::string& expected) {
-    return word_or_form("auto", form, is_type, expected);
+Form<Auto<T>> automatic_if_none(const Form<std::optional<T>>& form) {
+    return {[read = form.read](JsonReader& reader, const std::string& key) {
+                const std::optional<T> value = read(reader, key);
+                return value ? Auto<T>(*value) : Auto<T>(automatic);
+            },
+            [write = form.write](const Auto<T>& value) {
+                return write(value.is_given() ? std::optional<T>(*value) : std::nullopt);
+            },
+            form.schema};
+}
+// "auto", or a value of JSON's type `type`.
+template <typename T>
+Form<Auto<T>> automatic_form(const Form<T>& form, bool (nlohmann::json::*is_type)() const noexcept,
+                             const std::string& expected) {
+    return automatic_if_none(word_or_form("auto", form, is_type, expected));
+}
+// "auto", or one of an enum's words. `initial`: the key's default.
+template <typename Enum>
+Form<Auto<Enum>> automatic_words_form(const Auto<Enum>& initial) {
+    std::vector<std::pair<const char*, std::optional<Enum>>> words;
+    for (const auto& [word, value] : enum_words<Enum>()) words.emplace_back(word, value);
+    words.insert(initial.is_automatic() ? words.begin() : words.end(), {"auto", std::nullopt});
+    return automatic_if_none(words_form<std::optional<Enum>>(words));
 }
 
 // A list of objects with the keys of a table. `what`: plural, for messages about more than `most`;

@@ -72,18 +72,11 @@ const KeyTable<TreeSettings>& tree_keys() {
     return table;
 }
 
-Form<TreeSettings> tree_form() {
-    const Form<TreeSettings> object = object_form(tree_keys);
-    const auto read = [object](JsonReader& reader, const std::string& key) {
-        if (reader.value(key) == "auto") return TreeSettings{.automatic = true, .factors = {}};
-        if (!reader.value(key).is_object())
-            reader.reject(key, "an object {\"factors\": ...}, or \"auto\"");
-        return object.read(reader, key);
-    };
-    const auto write = [object](const TreeSettings& tree) {
-        return tree.automatic ? KeyJson("auto") : object.write(tree);
-    };
-    return {read, write, reference_to("tree")};
+Form<Auto<TreeSettings>> tree_form() {
+    auto form = automatic_form(object_form(tree_keys), &nlohmann::json::is_object,
+                               "an object {\"factors\": ...}, or \"auto\"");
+    form.schema = reference_to("tree");
+    return form;
 }
 
 // --- slice
@@ -120,10 +113,12 @@ const KeyTable<SliceTableSettings>& slice_table_keys() {
 
 // A table that the plan chooses is not written.
 template <typename Table>
-Form<std::optional<Table>> table_form(const KeyTable<Table>& (*table)()) {
+Form<Auto<Table>> table_form(const KeyTable<Table>& (*table)()) {
     auto form = automatic_form(object_form(table), &nlohmann::json::is_object,
                                "an object {\"scalar\": ...}, or \"auto\"");
-    form.write = optional_form(object_form(table)).write;
+    form.write = [table](const Auto<Table>& value) {
+        return value.is_given() ? table().json(*value) : KeyJson();
+    };
     return form;
 }
 
@@ -134,9 +129,10 @@ const KeyTable<SliceSettings>& slice_keys() {
                  automatic_form(whole_form<int>(1, max_slabs), &nlohmann::json::is_number,
                                 fmt::format("a whole number from 1 to {}, or \"auto\"", max_slabs)),
                  "Slabs N, or auto: the fewest that keep render.max_error.");
-        keys.key("classification", &SliceSettings::classification, words_form<Classification>());
+        keys.key("classification", &SliceSettings::classification,
+                 automatic_words_form(SliceSettings().classification));
         keys.key("order", &SliceSettings::order, words_form<Order>());
-        keys.key("filter", &SliceSettings::filter, words_form<Filter>());
+        keys.key("filter", &SliceSettings::filter, automatic_words_form(SliceSettings().filter));
         keys.key("dither", &SliceSettings::dither, optional_form(object_form(dither_keys)),
                  "Along depth, of the codes of fixed-point slabs.");
         keys.key("tree", &SliceSettings::tree, optional_form(tree_form()));
@@ -192,8 +188,9 @@ const KeyTable<ProjectSettings>& project_keys() {
         keys.key("coloring", &ProjectSettings::coloring, words_form<Coloring>());
         keys.key("interpolation", &ProjectSettings::interpolation, words_form<Interpolation>());
         keys.key("thickness", &ProjectSettings::thickness, words_form<Thickness>());
-        keys.key("order", &ProjectSettings::order, words_form<ProjectOrder>());
-        keys.key("geometry", &ProjectSettings::geometry, words_form<ProjectGeometry>());
+        keys.key("order", &ProjectSettings::order, automatic_words_form(ProjectSettings().order));
+        keys.key("geometry", &ProjectSettings::geometry,
+                 automatic_words_form(ProjectSettings().geometry));
         keys.key("dither", &ProjectSettings::dither, words_form<ProjectDither>());
         keys.key("table", &ProjectSettings::table, table_form(project_table_keys),
                  "Pre-integration table; auto: the cheapest that keeps its error under max_error / "
@@ -231,26 +228,6 @@ const KeyTable<Scene>& trace_keys() {
     return table;
 }
 
-// Two members stand for the one key.
-Key<Scene> target_key() {
-    std::vector<std::pair<const char*, std::optional<Target>>> words;
-    for (const auto& [word, target] : enum_words<Target>()) words.emplace_back(word, target);
-    words.emplace_back("auto", std::nullopt);
-    const auto form = words_form<std::optional<Target>>(words);
-    Key<Scene> key{"target", form.schema, false, {}, {}};
-    key.schema["default"] = name_of(Scene{}.target);
-    key.read = [form](JsonReader& reader, Scene& scene) {
-        const std::optional<Target> target = form.read(reader, "target");
-        scene.automatic_target = !target;
-        scene.target = target.value_or(Target::float32);
-    };
-    key.write = [form](const Scene& scene, KeyJson& json) {
-        json["target"] =
-            form.write(scene.automatic_target ? std::nullopt : std::optional(scene.target));
-    };
-    return key;
-}
-
 void check_method(JsonReader& reader, Scene& scene) {
     if (scene.method == Method::slice && !has_volume(reader, scene))
         reader.reject("method", "\"project\" or \"trace\" for a scene without a volume");
@@ -284,7 +261,7 @@ const KeyTable<Scene>& render_keys() {
             if (!reader.has("method"))
                 scene.method = has_volume(reader, scene) ? Method::slice : Method::project;
         });
-        keys.add(target_key());
+        keys.key("target", &Scene::target, automatic_words_form(Scene().target));
         keys.object("emulate", &Scene::emulate, emulation_keys,
                     "Fixed-point compositing step by step, for target emulated.");
         keys.key("max_error", &Scene::max_error,

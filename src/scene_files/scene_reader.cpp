@@ -56,7 +56,7 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     scene.file = file;
     scene_keys().read(reader, scene);
     try {
-        View(scene.camera, scene.width, scene.height);
+        if (scene.camera.is_given()) View(*scene.camera, scene.width, scene.height);
     } catch (const Error& error) {
         throw KeyError("camera", fmt::format("{}: {}", file.string(), error.what()));
     }

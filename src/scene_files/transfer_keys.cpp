@@ -183,7 +183,7 @@ Key<GivenTransfer> range_key() {
         {"minItems", 2},
         {"maxItems", 2}};
     const auto write = [](const GivenTransfer& given, KeyJson& json) {
-        if (given.colormap_range)
+        if (given.colormap_range.is_given())
             json["colormap_range"] = {given.colormap_range->lo, given.colormap_range->hi};
     };
     return {"colormap_range", schema, false, read_map_range, write};
@@ -232,28 +232,27 @@ ReadTransfer read_transfer_function(JsonReader reader) {
 }
 
 void add_transfer_function(KeyTable<Scene>& scene) {
-    const Alternative<Scene> automatic{[](const nlohmann::json& value) { return value == "auto"; },
-                                       [](JsonReader&, const std::string&, Scene&) {},
-                                       chooses_transfer_function,
-                                       [](const Scene&) { return KeyJson("auto"); },
-                                       {{"const", "auto"}}};
+    const Alternative<Scene> chosen{[](const nlohmann::json& value) { return value == "auto"; },
+                                    [](JsonReader&, const std::string&, Scene&) {},
+                                    chooses_transfer_function,
+                                    [](const Scene&) { return KeyJson("auto"); },
+                                    {{"const", "auto"}}};
     // The range of an open colour map is known with the data.
     const auto read = [](JsonReader& reader, const std::string& key, Scene& into) {
         ReadTransfer found = read_transfer_function(reader.object(key));
         into.given_transfer = std::make_shared<const GivenTransfer>(std::move(found.given));
-        into.automatic_transfer_function = !found.function;
         if (found.function) into.transfer_function = std::move(*found.function);
     };
     const auto write = [](const Scene& written) {
         return has_open_colormap(written) ? transfer_keys().json(*written.given_transfer)
-                                          : transfer_function_json(written.transfer_function);
+                                          : transfer_function_json(*written.transfer_function);
     };
     const Alternative<Scene> given{[](const nlohmann::json& value) { return value.is_object(); },
                                    read, [](const Scene&) { return true; }, write,
                                    transfer_keys().schema()};
-    scene.check([](JsonReader&, Scene& into) { into.automatic_transfer_function = true; });
+    scene.check([](JsonReader&, Scene& into) { into.transfer_function = automatic; });
     scene
-        .variant("transfer_function", {automatic, given}, "an object {...}, or \"auto\"",
+        .variant("transfer_function", {chosen, given}, "an object {...}, or \"auto\"",
                  "auto: chosen from the data (docs/first-picture.md).")
         .otherwise("auto");
 }

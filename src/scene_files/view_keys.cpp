@@ -26,27 +26,14 @@ void check_camera(JsonReader& reader, const Camera& camera) {
         reader.reject("height", "at most 1e100 world units");
 }
 
+// A camera that is left out is automatic.
 void add_camera(KeyTable<Scene>& scene) {
-    const Alternative<Scene> automatic{
-        [](const nlohmann::json& value) { return value == "auto"; },
-        [](JsonReader&, const std::string&, Scene& read) { read.automatic_camera = true; },
-        [](const Scene& written) { return written.automatic_camera; },
-        [](const Scene&) { return KeyJson("auto"); },
-        {{"const", "auto"}}};
-    const Alternative<Scene> given{
-        [](const nlohmann::json& value) { return value.is_object(); },
-        [](JsonReader& reader, const std::string& key, Scene& read) {
-            JsonReader camera = reader.object(key);
-            camera_keys().read(camera, read.camera);
-            read.automatic_camera = false;
-        },
-        [](const Scene&) { return true; },
-        [](const Scene& written) { return camera_keys().json(written.camera); },
-        camera_keys().schema()};
-    scene.check([](JsonReader&, Scene& read) { read.automatic_camera = true; });
+    scene.check([](JsonReader&, Scene& read) { read.camera = automatic; });
     scene
-        .variant("camera", {automatic, given}, "an object {...}, or \"auto\"",
-                 "auto: chosen from the data (docs/first-picture.md).")
+        .key("camera", &Scene::camera,
+             automatic_form(object_form(camera_keys), &nlohmann::json::is_object,
+                            "an object {...}, or \"auto\""),
+             "auto: chosen from the data (docs/first-picture.md).")
         .otherwise("auto");
 }
 

@@ -39,11 +39,11 @@ Volume cell_volume(bool saddle) {
 Scene cell_scene_of(const CellScene& cell) {
     Scene scene;
     scene.transfer_function = cell.transfer_function;
-    scene.camera.projection = Projection::orthographic;
-    scene.camera.center = {.5, .5, .5};
-    scene.camera.eye = cell.saddle ? glm::dvec3(2.5, -1.5, .5) : glm::dvec3(3, 3, 3);
-    scene.camera.up = {0, .1, 1};
-    scene.camera.height = 1e-9;
+    scene.camera->projection = Projection::orthographic;
+    scene.camera->center = {.5, .5, .5};
+    scene.camera->eye = cell.saddle ? glm::dvec3(2.5, -1.5, .5) : glm::dvec3(3, 3, 3);
+    scene.camera->up = {0, .1, 1};
+    scene.camera->height = 1e-9;
     scene.width = scene.height = 1;
     scene.slice.samples = 1;
     return scene;

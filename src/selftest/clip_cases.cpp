@@ -39,9 +39,9 @@ SelftestScene cut_by_box() {
 SelftestScene seen_from_inside() {
     SelftestScene scene = cut_scene("eye_in_cut", "The eye in the part that is cut away",
                                     {{{.5, .4, .6}, {.2, -.3, -1}}});
-    scene.scene.camera.eye = {.45, .4, 1};
-    scene.scene.camera.center = {.5, .35, .2};
-    scene.scene.camera.fov_y = 70;
+    scene.scene.camera->eye = {.45, .4, 1};
+    scene.scene.camera->center = {.5, .35, .2};
+    scene.scene.camera->fov_y = 70;
     return scene;
 }
 
@@ -65,9 +65,9 @@ std::vector<SelftestScene> all_clips() {
     scenes.push_back(seen_from_inside());
     SelftestScene parallel =
         cut_scene("orthographic", "Parallel rays along the plane", {{middle, {1, 0, .5}}});
-    parallel.scene.camera.projection = Projection::orthographic;
-    parallel.scene.camera.height = 1.9;
-    parallel.scene.camera.eye = parallel.scene.camera.center + glm::dvec3(-1.5, .1, 3);
+    parallel.scene.camera->projection = Projection::orthographic;
+    parallel.scene.camera->height = 1.9;
+    parallel.scene.camera->eye = parallel.scene.camera->center + glm::dvec3(-1.5, .1, 3);
     scenes.push_back(parallel);
     return scenes;
 }

@@ -103,8 +103,7 @@ DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Ta
     // added for the whole picture (picture_bounds.h).
     return slice("tree " + name + " " + name_of(target), [factors, target](Scene& scene) {
         scene.target = target;
-        scene.slice.tree =
-            TreeSettings{false, factors, NodeArithmetic::shader, NodeCode::minimax, 8};
+        scene.slice.tree = TreeSettings{factors, NodeArithmetic::shader, NodeCode::minimax, 8};
     });
 }
 

@@ -40,7 +40,7 @@ Lighting headlight() {
 SelftestScene orthographic(const std::string& name, const std::string& about,
                            const Lighting& lighting) {
     SelftestScene scene = lit_scene(name, about, lighting);
-    Camera& camera = scene.scene.camera;
+    Camera& camera = *scene.scene.camera;
     camera.projection = Projection::orthographic;
     camera.height = 1.9;
     return scene;
@@ -52,7 +52,8 @@ SelftestScene light_behind() {
                                        "A light straight towards the eye: no "
                                        "highlight",
                                        two_lights(.1));
-    scene.scene.lighting->lights[0].direction = scene.scene.camera.center - scene.scene.camera.eye;
+    scene.scene.lighting->lights[0].direction =
+        scene.scene.camera->center - scene.scene.camera->eye;
     return scene;
 }
 

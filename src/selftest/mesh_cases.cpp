@@ -142,9 +142,9 @@ MeshScene one_color(const std::string& name, const std::string& about,
                     const std::function<MeshData()>& mesh) {
     MeshScene scene{name, about, plain_scene("", "").scene, mesh};
     scene.scene.transfer_function = optics_of({{0, {{.3, .6, .9}, .5}}, {1, {{.3, .6, .9}, 3}}});
-    scene.scene.camera.eye = {1.3, -.7, 4};
-    scene.scene.camera.center = {0, 0, 0};
-    scene.scene.camera.fov_y = 38;
+    scene.scene.camera->eye = {1.3, -.7, 4};
+    scene.scene.camera->center = {0, 0, 0};
+    scene.scene.camera->fov_y = 38;
     return scene;
 }
 
@@ -182,7 +182,7 @@ std::vector<MeshScene> mesh_scenes() {
     // The second colour is too near to the first to be seen, but makes the order matter.
     cyclic.scene.transfer_function =
         optics_of({{0, {{.3, .6, .9}, .5}}, {1, {{.3, .6, .9 - 1e-9}, 3}}});
-    cyclic.scene.camera.eye = {0, 0, 4};
+    cyclic.scene.camera->eye = {0, 0, 4};
     cyclic.cyclic = true;
     scenes.push_back(cyclic);
     return scenes;

@@ -29,7 +29,7 @@ template <typename Point, typename Direction>
 void move_world(SelftestScene& scene, const Point& point, const Direction& direction) {
     scene.box.corner = point(scene.box.corner);
     for (glm::dvec3& edge : scene.box.edges) edge = direction(edge);
-    Camera& camera = scene.scene.camera;
+    Camera& camera = *scene.scene.camera;
     camera.eye = point(camera.eye);
     camera.center = point(camera.center);
     camera.up = direction(camera.up);
@@ -59,7 +59,7 @@ SelftestScene scaled(double factor, const std::string& about) {
     SelftestScene scene = base_scene(about);
     const auto scale = [factor](const glm::dvec3& d) { return factor * d; };
     move_world(scene, scale, scale);
-    const auto knots = scene.scene.transfer_function.knots();
+    const auto knots = scene.scene.transfer_function->knots();
     std::vector<TransferKnot> thinner(knots.begin(), knots.end());
     for (TransferKnot& knot : thinner) knot.optics.extinction /= factor;
     scene.scene.transfer_function = optics_of(thinner);
@@ -82,12 +82,12 @@ SelftestScene axes_exchanged() {
 
 SelftestScene split_pieces() {
     SelftestScene scene = base_scene("The transfer function's pieces split in the middle");
-    const auto knots = scene.scene.transfer_function.knots();
+    const auto knots = scene.scene.transfer_function->knots();
     std::vector<TransferKnot> finer;
     for (std::size_t i = 0; i < knots.size(); ++i) {
         if (i > 0) {
             const double middle = .5 * (knots[i - 1].value + knots[i].value);
-            finer.push_back({middle, scene.scene.transfer_function.at(middle)});
+            finer.push_back({middle, scene.scene.transfer_function->at(middle)});
         }
         finer.push_back(knots[i]);
     }

@@ -38,8 +38,8 @@ void append_boxes(std::vector<SelftestScene>& scenes) {
     SelftestScene long_box =
         box_scene("long_1e4", "A box 1e4 times as long as wide, seen through its length", {0, 0, 0},
                   {1e-4, 1e-4, 1});
-    long_box.scene.camera.eye = long_box.scene.camera.center + glm::dvec3(3e-5, -2e-5, 1.2);
-    long_box.scene.camera.fov_y = .01;
+    long_box.scene.camera->eye = long_box.scene.camera->center + glm::dvec3(3e-5, -2e-5, 1.2);
+    long_box.scene.camera->fov_y = .01;
     scenes.push_back(long_box);
 }
 

@@ -91,7 +91,7 @@ Precision precision_of(const LayeredBox& box, const DrawingWay& way) {
 
 template <typename Pixel>
 PictureBounds all_pixels(const Scene& scene, const Pixel& pixel) {
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     PictureBounds picture{scene.width, scene.height, {}, {}};
     const std::int64_t count = std::int64_t{scene.width} * scene.height;
     picture.exact.resize(static_cast<std::size_t>(count));
@@ -150,9 +150,9 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
                               const SceneMesh* mesh) {
     const Scene scene = way.scene_of(subject.scene);
     const LayeredBox& box = subject.box;
-    const TransferFunction& optics = scene.transfer_function;
+    const TransferFunction& optics = *scene.transfer_function;
     const Precision precision = precision_of(box, way);
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     std::optional<MeshChords> chords;
     if (mesh) chords.emplace(*mesh, view, precision.face);
     const bool sliced = way.method == Method::slice;
@@ -172,7 +172,8 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
                                  way.rounding);
             widen(possible, hidden_light, 0);
             if (scene.slice.tree)
-                widen(possible, tree_error(*scene.slice.tree, code_step(scene.target)), 0x1p-20);
+                widen(possible, tree_error(*given_tree(scene.slice.tree), code_step(*scene.target)),
+                      0x1p-20);
         } else {
             double length_error = 3 * precision.position * box.longest_edge();
             double blends = static_cast<double>(box.layers());
@@ -201,8 +202,8 @@ PictureBounds one_color_picture(const Scene& base, const DrawingWay& way, const 
     const Scene scene = way.scene_of(base);
     const Precision precision =
         way.method == Method::trace ? Precision::traced() : Precision::drawn();
-    const MeshChords chords(mesh, View(scene.camera, scene.width, scene.height), precision.face);
-    const TransferFunction& optics = scene.transfer_function;
+    const MeshChords chords(mesh, View(*scene.camera, scene.width, scene.height), precision.face);
+    const TransferFunction& optics = *scene.transfer_function;
     const OpticsRange all = optics_range(optics, everything);
     return all_pixels(scene, [&](const View::Ray& ray, std::array<double, 4>& exact,
                                  PixelBounds& possible) {

@@ -36,9 +36,9 @@ SelftestScene view_scene(const std::string& name, const std::string& about) {
 SelftestScene looking(const std::string& name, const std::string& about, const glm::dvec3& eye,
                       const glm::dvec3& at, double fov_y) {
     SelftestScene scene = view_scene(name, about);
-    scene.scene.camera.eye = scene.box.world(eye);
-    scene.scene.camera.center = scene.box.world(at);
-    scene.scene.camera.fov_y = fov_y;
+    scene.scene.camera->eye = scene.box.world(eye);
+    scene.scene.camera->center = scene.box.world(at);
+    scene.scene.camera->fov_y = fov_y;
     return scene;
 }
 
@@ -103,7 +103,7 @@ std::vector<SelftestCase> view_cases() {
                                           {"oblique", glm::dvec3(-.7, .2, -.4)}}) {
         SelftestScene scene = view_scene(fmt::format("orthographic_{}", name),
                                          "Parallel rays, also along edges and faces of the mesh");
-        Camera& camera = scene.scene.camera;
+        Camera& camera = *scene.scene.camera;
         camera.projection = Projection::orthographic;
         camera.height = 1.9;
         camera.eye = camera.center - 3.0 * direction;

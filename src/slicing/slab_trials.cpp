@@ -87,7 +87,8 @@ class SlabTrials {
           ready_(std::move(ready)),
           most_(most),
           all_traced_(rays_of(scene_) <= all_traced_rays),
-          truth_(volume, scene.transfer_function, View(scene_.camera, scene_.width, scene_.height),
+          truth_(volume, *scene.transfer_function,
+                 View(*scene_.camera, scene_.width, scene_.height),
                  {.tolerance = std::clamp(tracer_share * scene.max_error / 255, finest_tolerance,
                                           coarsest_tolerance),
                   .lighting = scene.lighting,
@@ -190,8 +191,8 @@ class SlabTrials {
 
     std::vector<float> points_cover() const {
         if (facts_.knots == 0) return {};
-        return cover_of_points(bricks_, facts_.grid, scene_.transfer_function,
-                               View(scene_.camera, scene_.width, scene_.height));
+        return cover_of_points(bricks_, facts_.grid, *scene_.transfer_function,
+                               View(*scene_.camera, scene_.width, scene_.height));
     }
 
     void draw_fine(int slabs) {
@@ -207,12 +208,12 @@ class SlabTrials {
         scene_.slice.filter = filter;
         Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions, {}, tables_);
         build_drawn_table(scene_, facts_, plan.slice, tables_);
-        TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
+        TileSliceRenderer renderer(volume_, *scene_.transfer_function, facts_, plan.slice,
                                    scene_.width, scene_.height, ready_);
         ready_ = renderer.volume();
         const Stage trial("trial");
         Progress progress(fmt::format("trying {} slabs", slabs), renderer.step_count());
-        renderer.draw(View(scene_.camera, scene_.width, scene_.height), &progress);
+        renderer.draw(View(*scene_.camera, scene_.width, scene_.height), &progress);
         return renderer.read();
     }
 
@@ -282,7 +283,7 @@ std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
 
 // What texture units make of NaN is their own.
 bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
-    return scene.slice.filter == Filter::automatic && capabilities.eight_bit_filter &&
+    return scene.slice.filter.is_automatic() && capabilities.eight_bit_filter &&
            facts.non_finite == 0 && !facts.constant;
 }
 
@@ -300,11 +301,11 @@ SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxB
             trials.exact = try_quicker(asked, volume, bricks, facts, tables);
         return trials;
     }
-    if (!scene.slice.samples)
+    if (scene.slice.samples.is_automatic())
         trials.exact = try_numbers(scene, volume, bricks, facts, most_slabs(facts), tables);
     if (!may_filter(scene, facts, capabilities)) return trials;
     SlabTrials filtered(scene, volume, bricks, facts, most_slabs(facts), filter_rays, true, tables);
-    if (scene.slice.samples) {
+    if (scene.slice.samples.is_given()) {
         trials.hardware = {filtered.try_filter(*scene.slice.samples)};
     } else if (const SlabTrial exact = chosen_slabs(facts, trials); exact.keeps_goal()) {
         trials.hardware = filtered.run_filter(exact.slabs);

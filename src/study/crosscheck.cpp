@@ -29,10 +29,11 @@ Scene slicing_scene(const Scene& scene, int samples) {
 Scene projection_scene(const Scene& scene, double tolerance, std::int64_t max_tets) {
     Scene projected = scene;
     projected.method = Method::project;
-    if (projected.mesh_file.empty()) {
-        if (!projected.mesh_request) projected.mesh_request.emplace();
-        projected.mesh_request->tolerance = tolerance;
-        projected.mesh_request->max_tets = max_tets;
+    if (projected.mesh_file() == nullptr) {
+        MeshSettings settings = mesh_settings(scene);
+        settings.tolerance = tolerance;
+        settings.max_tets = max_tets;
+        projected.mesh = settings;
     }
     return projected;
 }
@@ -77,7 +78,8 @@ class Crosschecker {
   private:
     std::vector<int> all_samples() {
         std::vector<int> samples = settings_.samples;
-        made_.samples = scene_.slice.samples ? *scene_.slice.samples : automatic_samples();
+        made_.samples =
+            scene_.slice.samples.is_given() ? *scene_.slice.samples : automatic_samples();
         samples.push_back(made_.samples);
         std::sort(samples.begin(), samples.end());
         samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
@@ -90,15 +92,14 @@ class Crosschecker {
                           {.capabilities = capabilities_, .tables = tables_});
         return pipeline.plan().slice.slabs;
     }
-    MeshSettings own_mesh() const { return scene_.mesh_request.value_or(MeshSettings{}); }
     // The tolerance of the mesh that the scene states, or nothing.
     std::optional<double> stated_tolerance() const {
-        if (!scene_.mesh_request) return std::nullopt;
-        return scene_.mesh_request->tolerance;
+        if (scene_.made_mesh() == nullptr) return std::nullopt;
+        return scene_.made_mesh()->tolerance;
     }
     std::vector<double> all_tolerances() {
-        if (!scene_.mesh_file.empty()) return {0.0};
-        made_.tolerance = own_mesh().tolerance;
+        if (scene_.mesh_file() != nullptr) return {0.0};
+        made_.tolerance = mesh_settings(scene_).tolerance;
         std::vector<double> tolerances;
         if (makes_meshes(scene_)) tolerances = settings_.tolerances;
         tolerances.push_back(made_.tolerance);
@@ -112,7 +113,7 @@ class Crosschecker {
         return settings_.ends_by_itself && tolerance != stated_tolerance();
     }
     std::int64_t most_tets(double tolerance) const {
-        const std::int64_t own = own_mesh().max_tets;
+        const std::int64_t own = mesh_settings(scene_).max_tets;
         return is_bounded(tolerance) ? std::min(settings_.ladder_tets, own) : own;
     }
     std::vector<LadderCost::Step> steps_of(const std::vector<double>& tolerances) const {
@@ -192,7 +193,7 @@ class Crosschecker {
         const double e = image_error(last.picture, made_.slicings.back().picture).all.linf;
         const bool agrees = e <= scene_.max_error && last.tolerance <= made_.tolerance;
         is_ended_ = is_ended_ || agrees || last.stopped;
-        if (last.stopped && !scene_.mesh_request)
+        if (last.stopped && scene_.made_mesh() == nullptr)
             made_.tolerance = std::max(made_.tolerance, last.tolerance);
     }
 
@@ -268,7 +269,7 @@ class Crosschecker {
 }  // namespace
 
 bool makes_meshes(const Scene& scene) {
-    return scene.mesh_file.empty() && !(scene.mesh_request && scene.mesh_request->kuhn);
+    return scene.mesh_file() == nullptr && !mesh_settings(scene).kuhn;
 }
 
 Crosscheck crosscheck(const Scene& scene, const CrosscheckSettings& settings,

@@ -18,12 +18,12 @@
 namespace lamina::study {
 
 std::string volume_name(const Scene& scene) {
-    if (!scene.volume_request) {
-        const std::string file = scene.volume_file.string();
-        if (scene.volume_selection == VolumeRequest{}) return file;
-        return json_text(volume_selection_json(file, scene.volume_selection));
+    if (const VolumeFile* const file = scene.volume_file()) {
+        const std::string path = file->path.string();
+        if (file->selection == VolumeRequest{}) return path;
+        return json_text(volume_selection_json(path, file->selection));
     }
-    const GeneratorRequest& request = *scene.volume_request;
+    const auto& request = std::get<GeneratorRequest>(scene.volume);
     const auto size = generated_grid(request).size;
     return fmt::format("{} {} {}", request.name, fmt::join(size, "x"), name_of(request.type));
 }
@@ -31,14 +31,14 @@ std::string volume_name(const Scene& scene) {
 // The name includes the transfer function: a mesh made from a volume stays coarse where that shows
 // nothing.
 std::string mesh_name(const Scene& scene) {
-    if (!scene.mesh_request) {
-        std::string file = scene.mesh_file.string();
-        if (scene.mesh_time != 0) file += fmt::format(" {}", scene.mesh_time);
-        return scene.scalar.empty() ? file : file + " " + scene.scalar;
+    if (const MeshFile* const file = scene.mesh_file()) {
+        std::string name = file->path.string();
+        if (file->time != 0) name += fmt::format(" {}", file->time);
+        return scene.scalar.empty() ? name : name + " " + scene.scalar;
     }
-    const MeshSettings& settings = *scene.mesh_request;
+    const MeshSettings settings = mesh_settings(scene);
     return fmt::format("{} {} {} {} {}", volume_name(scene), settings.tolerance, settings.max_tets,
-                       settings.kuhn, transfer_function_key(scene.transfer_function));
+                       settings.kuhn, transfer_function_key(*scene.transfer_function));
 }
 
 const DataStore::StoredVolume& DataStore::volume(const Scene& scene) {
@@ -65,13 +65,13 @@ DataStore::StoredMesh& DataStore::mesh(const Scene& scene) {
 
 MadeMesh DataStore::read_or_make(const Scene& scene) {
     const auto make = [&] {
-        const bool makes = scene.mesh_file.empty();
+        const bool makes = scene.mesh_file() == nullptr;
         SceneData data = makes ? SceneData(volume(scene).data, nullptr) : SceneData();
         const Stopwatch watch;
         data.mesh(scene);
         return MadeMesh{std::move(data), watch.milliseconds()};
     };
-    if (!kept_ || !scene.mesh_file.empty()) return make();
+    if (!kept_ || scene.mesh_file() != nullptr) return make();
     // Data of the volume's name may change between two processes.
     ContentHash id;
     id.add(volume(scene).content);
@@ -86,7 +86,7 @@ MadeMesh DataStore::read_or_make(const Scene& scene) {
 SceneData DataStore::data_of(const Scene& scene) {
     if (!scene.draws_mesh()) return SceneData(volume(scene).data);
     const SceneData& data = mesh(scene).data.data();
-    if (!scene.mesh_file.empty() || !leaves_something_open(scene)) return data;
+    if (scene.mesh_file() != nullptr || !leaves_something_open(scene)) return data;
     return SceneData(volume(scene).data, SceneData(data).mesh(scene));
 }
 

@@ -6,7 +6,7 @@ namespace lamina::study {
 const Capabilities& DrawContexts::use(const std::string& word) {
     const auto found = contexts_.find(word);
     if (found != contexts_.end()) return found->second.capabilities();
-    const ContextChoice choice = context_choice(word);
+    const Auto<ContextChoice> choice = context_choice(word);
     if (choice != ContextChoice::cpu) {
         before_switch_();
         current_.reset();

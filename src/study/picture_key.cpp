@@ -30,7 +30,7 @@ void add(ContentHash& hash, const Lighting& lighting) {
 
 std::string picture_key(const Scene& scene) {
     ContentHash hash;
-    const Camera& camera = scene.camera;
+    const Camera& camera = *scene.camera;
     hash.add(static_cast<double>(camera.projection));
     hash.add(camera.projection == Projection::perspective ? camera.fov_y : camera.height);
     hash.add(scene.width);
@@ -39,7 +39,7 @@ std::string picture_key(const Scene& scene) {
     add(hash, camera.center);
     add(hash, camera.up);
     assert(!has_open_colormap(scene));
-    hash.add(transfer_function_key(scene.transfer_function));
+    hash.add(transfer_function_key(*scene.transfer_function));
     for (const HalfSpace& half : half_spaces(scene.clip)) {
         add(hash, half.point);
         add(hash, half.normal);

@@ -16,14 +16,13 @@ namespace lamina::study {
 namespace {
 
 void check_file(const std::filesystem::path& path, const StudyFile::SceneEntry& scene) {
-    if (!path.empty() && !std::filesystem::exists(path))
+    if (!std::filesystem::exists(path))
         fail("scene \"{}\": {}: no such file", scene.name, path.string());
 }
 
 void check_context(const std::string& word, const StudyFile& study) {
-    if (!value_of_word<ContextChoice>(word)) {
-        fail("{}: context: found \"{}\", expected {}", study.file.string(), word,
-             alternatives<ContextChoice>());
+    if (!is_context(word)) {
+        fail("{}: context: found \"{}\", expected {}", study.file.string(), word, context_words());
     }
 }
 
@@ -44,7 +43,7 @@ Scene scene_of(const StudyRun& run, const StudyFile& file) {
                                    name));
     }
     const char* const automatic = chooses_transfer_function(scene) ? "transfer_function"
-                                  : scene.automatic_camera         ? "camera"
+                                  : scene.camera.is_automatic()    ? "camera"
                                                                    : nullptr;
     if (automatic != nullptr) {
         throw KeyError(automatic,
@@ -78,8 +77,8 @@ std::vector<StudyData> check_runs(const RunList& list, const StudyFile& study) {
         check_context(context_of(run, study), study);
         try {
             const Scene scene = scene_of(run, study);
-            check_file(scene.volume_file, entry);
-            check_file(scene.mesh_file, entry);
+            if (const VolumeFile* const file = scene.volume_file()) check_file(file->path, entry);
+            if (const MeshFile* const file = scene.mesh_file()) check_file(file->path, entry);
             add_data(run.scene, scene, reference_of(scene, study), data);
         } catch (const UnknownKeyError& error) {
             fail("{}: {}", study.file.string(), error.what());

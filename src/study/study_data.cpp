@@ -37,10 +37,10 @@ void add_data(std::size_t number, const Scene& drawn, TraceOf reference,
             data.push_back(std::move(found));
     };
     const bool needs_mesh = drawn.draws_mesh() || reference == TraceOf::mesh;
-    const bool needs_volume =
-        !drawn.draws_mesh() || reference == TraceOf::volume || (needs_mesh && drawn.mesh_request);
+    const bool needs_volume = !drawn.draws_mesh() || reference == TraceOf::volume ||
+                              (needs_mesh && drawn.made_mesh() != nullptr);
     if (needs_volume && drawn.has_volume()) add(Kind::volume, volume_name(drawn));
-    if (needs_mesh && !drawn.mesh_file.empty()) add(Kind::mesh, mesh_name(drawn));
+    if (needs_mesh && drawn.mesh_file() != nullptr) add(Kind::mesh, mesh_name(drawn));
     const std::filesystem::path colormap = colormap_file_of(drawn);
     if (!colormap.empty()) add(Kind::colormap, colormap.string());
 }

@@ -10,7 +10,7 @@ namespace lamina::study {
 
 StudyFrames::StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities,
                          std::shared_ptr<TableCache> tables)
-    : camera_(scene.camera),
+    : camera_(*scene.camera),
       pipeline_(std::make_unique<Pipeline>(
           scene, data.data_of(scene),
           PipelineOptions{.capabilities = capabilities, .tables = std::move(tables)})) {

@@ -26,7 +26,8 @@ Scene open_scene() {
     Scene scene;
     scene.width = 64;
     scene.height = 48;
-    scene.automatic_transfer_function = scene.automatic_camera = true;
+    scene.transfer_function = automatic;
+    scene.camera = automatic;
     return scene;
 }
 
@@ -72,7 +73,7 @@ TEST(Choose, TheMedianRayIsNineTenthsOpaque) {
     const Ball one;
     const auto [scene, reasons] = choose(open_scene(), one.field);
     expect_median_opacity(scene, one.field);
-    EXPECT_FALSE(scene.automatic_transfer_function || scene.automatic_camera);
+    EXPECT_FALSE(scene.transfer_function.is_automatic() || scene.camera.is_automatic());
     EXPECT_EQ(reasons.size(), 2u);
     const SceneMesh mesh = ball_mesh();
     expect_median_opacity(chosen_of(open_scene(), MeshField(mesh)), MeshField(mesh));
@@ -89,7 +90,7 @@ TEST(Choose, TheUnitOfLengthDoesNotMatter) {
         });
         const MinMaxBricks bricks = measure_bricks(volume);
         const Scene scene = chosen_of(open_scene(), VolumeField(volume, bricks));
-        return spacing * scene.transfer_function.max_extinction(0, 1);
+        return spacing * scene.transfer_function->max_extinction(0, 1);
     };
     // Depths are sums of some 100 numbers of float32.
     for (const double spacing : {1e-90, 1e-40, 1e40, 1e90})
@@ -99,11 +100,11 @@ TEST(Choose, TheUnitOfLengthDoesNotMatter) {
 TEST(Choose, OnlyWhatIsOpenIsChosen) {
     const Ball one;
     Scene scene = open_scene();
-    scene.automatic_camera = false;
-    scene.camera.eye = {100, 20, 30};
-    EXPECT_EQ(chosen_of(scene, one.field).camera.eye, scene.camera.eye);
+    scene.camera = Camera{};
+    scene.camera->eye = {100, 20, 30};
+    EXPECT_EQ(chosen_of(scene, one.field).camera->eye, scene.camera->eye);
     scene = open_scene();
-    scene.automatic_transfer_function = false;
+    scene.transfer_function = Scene().transfer_function;
     const auto [chosen, reasons] = choose(scene, one.field);
     EXPECT_EQ(chosen.transfer_function, scene.transfer_function);
     EXPECT_EQ(reasons.size(), 1u);  // the camera
@@ -120,24 +121,25 @@ TEST(Choose, DoesNotDependOnThreads) {
 TEST(Choose, IsReadBackAsItWas) {
     const Ball one;
     Scene scene = open_scene();
-    scene.volume_file = "ball.nrrd";
+    scene.volume = VolumeFile{"ball.nrrd"};
     scene = chosen_of(scene, one.field);
     const Scene read = read_scene(nlohmann::json(scene_json(scene)), "/scene.json");
     EXPECT_EQ(read.transfer_function, scene.transfer_function);
-    EXPECT_EQ(read.camera.eye, scene.camera.eye);
-    EXPECT_EQ(read.camera.up, scene.camera.up);
-    EXPECT_FALSE(read.automatic_transfer_function || read.automatic_camera);
+    EXPECT_EQ(read.camera->eye, scene.camera->eye);
+    EXPECT_EQ(read.camera->up, scene.camera->up);
+    EXPECT_FALSE(read.transfer_function.is_automatic() || read.camera.is_automatic());
 }
 
 TEST(Choose, DoesAsWished) {
     const Ball one;
     const Scene plain = chosen_of(open_scene(), one.field);
     const Scene dense = chosen_of(open_scene(), one.field, {.density = 2});
-    EXPECT_EQ(dense.transfer_function, plain.transfer_function.attenuated(2));
+    EXPECT_EQ(dense.transfer_function, plain.transfer_function->attenuated(2));
     // A quarter turn and back: the same direction as no turn.
     const Scene around = chosen_of(open_scene(), one.field, {.turn = {360, 0}});
-    EXPECT_LT(glm::distance(around.camera.eye, plain.camera.eye), 1e-10);
-    EXPECT_LT(chosen_of(open_scene(), one.field, {.zoom = 3}).camera.fov_y, plain.camera.fov_y / 2);
+    EXPECT_LT(glm::distance(around.camera->eye, plain.camera->eye), 1e-10);
+    EXPECT_LT(chosen_of(open_scene(), one.field, {.zoom = 3}).camera->fov_y,
+              plain.camera->fov_y / 2);
 }
 
 TEST(Choose, NothingFromNoNumber) {
@@ -145,7 +147,7 @@ TEST(Choose, NothingFromNoNumber) {
                                           [](double, double, double) { return NAN; });
     const MinMaxBricks bricks = measure_bricks(volume);
     Scene scene = open_scene();
-    scene.volume_file = "none.nrrd";
+    scene.volume = VolumeFile{"none.nrrd"};
     expect_error([&] { chosen_of(scene, VolumeField(volume, bricks)); },
                  {"none.nrrd: all values are NaN or infinite, expected numbers"});
 }
@@ -163,11 +165,11 @@ TEST(Choose, ASingleVertexFarFromAllOthersIsPadding) {
     const test::HeardWarnings heard;
     const Scene chosen = chosen_of(open_scene(), MeshField(marked));
     EXPECT_NE(heard.all().find("-9999, "), std::string::npos) << heard.all();
-    EXPECT_TRUE(chosen.transfer_function.transparent(-9999, -1));
+    EXPECT_TRUE(chosen.transfer_function->transparent(-9999, -1));
     // Of the field 24 of 10,368 tets count otherwise: the values that show stay nearly the same.
     const Scene without = chosen_of(open_scene(), MeshField(plain));
     const auto last = [](const Scene& scene) {
-        return scene.transfer_function.knots().back().value;
+        return scene.transfer_function->knots().back().value;
     };
     EXPECT_NEAR(last(chosen), last(without), .02);
 }
@@ -177,8 +179,8 @@ TEST(Choose, ACameraThatIsTurnedAllAroundFitsAllViews) {
     const Scene plain = chosen_of(open_scene(), one.field);
     const Scene around = chosen_of(open_scene(), one.field, {.all_around = true});
     // The ball's bricks reach farther from its axis than from the front.
-    EXPECT_GT(glm::distance(around.camera.eye, around.camera.center),
-              glm::distance(plain.camera.eye, plain.camera.center));
+    EXPECT_GT(glm::distance(around.camera->eye, around.camera->center),
+              glm::distance(plain.camera->eye, plain.camera->center));
 }
 
 // What is said has the digits that tell values and places apart.
@@ -204,11 +206,11 @@ TEST(Choose, TheSmallestGradientIsAShareOfTheRange) {
     const MinMaxBricks bricks = measure_bricks(volume);
     Scene scene;
     scene.lighting = Lighting{};
-    scene.camera.eye = {1, 2, 3};
+    scene.camera->eye = {1, 2, 3};
     const auto [chosen, reasons] = choose(scene, VolumeField(volume, bricks));
-    EXPECT_DOUBLE_EQ(chosen.lighting->smallest_gradient.value(), .01 * 43 / 2);
+    EXPECT_DOUBLE_EQ(*chosen.lighting->smallest_gradient, .01 * 43 / 2);
     EXPECT_EQ(reasons.size(), 1u);
-    EXPECT_EQ(chosen.camera.eye, scene.camera.eye);
+    EXPECT_EQ(chosen.camera->eye, scene.camera->eye);
     EXPECT_FALSE(leaves_something_open(chosen));
     EXPECT_TRUE(leaves_something_open(scene));
     EXPECT_EQ(chosen_of(chosen, VolumeField(volume, bricks)).lighting, chosen.lighting);
@@ -223,9 +225,8 @@ TEST(Choose, PaddingDoesNotCountForTheSmallestGradient) {
     const MinMaxBricks bricks = measure_bricks(volume);
     Scene scene;
     scene.lighting = Lighting{};
-    EXPECT_DOUBLE_EQ(
-        chosen_of(scene, VolumeField(volume, bricks)).lighting->smallest_gradient.value(),
-        .01 * 1000);
+    EXPECT_DOUBLE_EQ(*chosen_of(scene, VolumeField(volume, bricks)).lighting->smallest_gradient,
+                     .01 * 1000);
 }
 
 // A cube of edge 1 cut into six tets: each has three edges of the cube, two diagonals of its faces
@@ -236,8 +237,8 @@ TEST(Choose, TheSmallestGradientOfAMeshHasItsMeanEdge) {
     const SceneMesh mesh =
         scene_mesh(scene, test::kuhn_box({2, 3, 4}, [](const glm::dvec3& p) { return 5 * p.x; }));
     const double mean = (3 + 2 * std::sqrt(2.) + std::sqrt(3.)) / 6;
-    EXPECT_NEAR(chosen_of(scene, MeshField(mesh)).lighting->smallest_gradient.value(),
-                .01 * 10 / mean, 1e-14);
+    EXPECT_NEAR(*chosen_of(scene, MeshField(mesh)).lighting->smallest_gradient, .01 * 10 / mean,
+                1e-14);
 }
 
 TEST(Choose, DataOfOneValueHaveSomeSmallestGradient) {
@@ -257,9 +258,9 @@ TEST(Choose, OddData) {
     const auto check = [](const Volume& volume, const std::string& name) {
         const MinMaxBricks bricks = measure_bricks(volume);
         const Scene scene = chosen_of(open_scene(), VolumeField(volume, bricks));
-        const View view(scene.camera, scene.width, scene.height);
+        const View view(*scene.camera, scene.width, scene.height);
         for (int axis = 0; axis < 3; ++axis) EXPECT_TRUE(std::isfinite(view.eye[axis])) << name;
-        EXPECT_TRUE(std::isfinite(scene.transfer_function.max_extinction(-1e9, 1e9))) << name;
+        EXPECT_TRUE(std::isfinite(scene.transfer_function->max_extinction(-1e9, 1e9))) << name;
     };
     const auto one = test::grid_of({1, 1, 1}, Centering::cell);
     const auto flat = test::grid_of({9, 1, 7}, Centering::cell);

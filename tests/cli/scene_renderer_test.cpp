@@ -26,7 +26,7 @@ class SceneRendererAndProgram : public testing::Test {
   protected:
     void expect_the_programs(SceneRenderer& frames, const std::string& what) {
         const Image drawn = frames.draw_picture();
-        save_scene(frames.resolved_scene(), folder / "resolved.json");
+        save_scene(frames.resolved().scene(), folder / "resolved.json");
         const ProgramResult result = lamina_run(
             {"render", folder / "resolved.json", "-o", folder / "fresh.exr", "--context", "cpu"});
         ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -36,7 +36,7 @@ class SceneRendererAndProgram : public testing::Test {
 
     static void turn(SceneRenderer& frames, double degrees) {
         const double angle = degrees * std::numbers::pi / 180;
-        Camera camera = frames.scene().camera;
+        Camera camera = *frames.scene().camera;
         camera.eye = camera.center + glm::dvec3(2 * std::sin(angle), .7, 2 * std::cos(angle));
         frames.set_camera(camera);
     }
@@ -63,8 +63,8 @@ TEST_F(SceneRendererAndProgram, DrawSlabsAlike) {
                  knot(255, {0, .3, 1}, 2)}));
         } else if (degrees % 72 == 0) {
             Scene other = frames.scene();
-            other.automatic_target = changes++ % 2 == 0;
             other.target = Target::fixed16;
+            if (changes++ % 2 == 0) other.target = automatic;
             other.max_error = 2;
             frames.set_scene(other);
         }

@@ -41,10 +41,10 @@ class TimeSeriesRun : public ::testing::Test {
         write_bytes_to(folder / name, bytes);
     }
     // A scene of 30 x 20 pixels with a camera and a transfer function of its own.
-    void write_scene(json data, bool automatic = false) {
+    void write_scene(json data, bool open = false) {
         data["version"] = 1;
         data["image"] = {{"width", 30}, {"height", 20}};
-        if (!automatic) {
+        if (!open) {
             data["camera"] = {{"eye", {20, 5, 6}}, {"center", {4, 3.5, 3}}};
             data["transfer_function"] = json::parse(
                 R"({"points": [{"value": 0, "extinction": 0}, {"value": 160, "extinction": 1}]})");

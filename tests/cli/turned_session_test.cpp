@@ -35,7 +35,7 @@ void change(Session& session, int number) {
             break;
         case 3:
             scene.target = Target::float32;
-            scene.automatic_target = number % 8 == 3;
+            if (number % 8 == 3) scene.target = automatic;
             break;
     }
     session.set_scene(scene);
@@ -48,7 +48,7 @@ TEST(TurnedSession, DrawsWhatTheProgramDraws) {
     document["render"]["slice"]["samples"] = "auto";
     const Scene scene = read_scene(document, folder / "scene.json");
     Session session(scene, {ContextChoice::cpu, 0});
-    const Camera first = scene.camera;
+    const Camera first = *scene.camera;
     for (int view = 0; view < 120; ++view) {
         if (view % 6 == 5) change(session, view / 6);
         session.set_camera(turned(first, 3 * view));

@@ -64,7 +64,7 @@ class TurntableRun : public testing::Test {
 // A view is, bit for bit, the picture of the scene with the turned camera.
 TEST_F(TurntableRun, ViewsAreTurnedByEqualAngles) {
     turn_well("turn/v_%02d.exr", "wrote 4 of 4 views as");
-    const Camera own = load_scene(std::string(folder / "scene.json")).camera;
+    const Camera own = *load_scene(std::string(folder / "scene.json")).camera;
     for (int view = 0; view < 4; ++view) {
         const Camera camera = view == 0 ? own : turned(own, 90 * view);
         const json eye{camera.eye.x, camera.eye.y, camera.eye.z};

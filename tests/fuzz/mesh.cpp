@@ -60,7 +60,7 @@ void check_mesh(MeshData data) {
     Scene scene =
         scene_around({bounds.min, bounds.max}, range.range.lo, range.range.hi, Method::project);
     scene.nan = NanPolicy::transparent;
-    check_orders(mesh.mesh, scene.camera.eye);
+    check_orders(mesh.mesh, scene.camera->eye);
     check_project_plans(scene, mesh);
 }
 

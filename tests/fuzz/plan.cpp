@@ -8,6 +8,7 @@
 #include "plan_check.h"
 #include "runs.h"
 #include "scene/given_transfer.h"
+#include "scene/scene_mesh.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/scene_reader.h"
 #include "violation.h"
@@ -23,18 +24,18 @@ constexpr int most_nodes = 32, most_layers = 4;
 
 // The data that the scene asks for, but small ones: the plan is what is tried.
 void shrink(Scene& scene) {
-    if (!scene.volume_request) scene.volume_request = GeneratorRequest{"gaussians", {}, {}};
-    scene.volume_file.clear();
-    auto& size = scene.volume_request->size;
-    if (!size) size = {9, 7, 5};
-    for (std::int64_t& edge : *size) edge = std::min(edge, longest_axis);
-    if (!scene.mesh_file.empty()) scene.mesh_request = MeshSettings{};
-    scene.mesh_file.clear();
-    if (scene.mesh_request) {
-        scene.mesh_request->kuhn = true;
-        scene.mesh_request->max_tets = most_tets;
+    const auto* const asked = std::get_if<GeneratorRequest>(&scene.volume);
+    GeneratorRequest volume = asked != nullptr ? *asked : GeneratorRequest{"gaussians", {}, {}};
+    if (!volume.size) volume.size = {9, 7, 5};
+    for (std::int64_t& edge : *volume.size) edge = std::min(edge, longest_axis);
+    scene.volume = volume;
+    if (scene.has_mesh()) {
+        MeshSettings mesh = mesh_settings(scene);
+        mesh.kuhn = true;
+        mesh.max_tets = most_tets;
+        scene.mesh = mesh;
     }
-    if (auto& table = scene.project.table) {
+    if (auto& table = scene.project.table; table.is_given()) {
         table->scalar = std::min(table->scalar, most_nodes);
         table->length = std::min(table->length, most_layers);
     }

@@ -109,9 +109,9 @@ void check_slice_plans(const Scene& scene, const Volume& volume) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     SampleTrials trials;
     check_facts(facts);
-    if (scene.method == Method::slice && !scene.slice.samples) {
+    if (scene.method == Method::slice && scene.slice.samples.is_automatic()) {
         trials.exact = made_up_trials(scene, facts);
-        if (scene.slice.filter == Filter::automatic) trials.hardware = trials.exact;
+        if (scene.slice.filter.is_automatic()) trials.hardware = trials.exact;
     }
     for_all_contexts([&](const Capabilities& capabilities, const OmissionSwitch& omissions) {
         const Plan plan = make_plan(scene, facts, capabilities, omissions, trials);
@@ -141,10 +141,10 @@ Scene scene_around(const Box& box, double lowest, double highest, Method method)
     if (middle > lowest) knots.push_back({middle, {glm::dvec3(1, 0.5, 0), 1}});
     if (highest > knots.back().value) knots.push_back({highest, {glm::dvec3(0, 0.5, 1), 3}});
     scene.transfer_function = TransferFunction::linear(std::move(knots));
-    scene.camera.center = box.min / 2.0 + box.max / 2.0;
+    scene.camera->center = box.min / 2.0 + box.max / 2.0;
     const double away =
         std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z, 1e-30});
-    scene.camera.eye = scene.camera.center + glm::dvec3(0.3, 0.2, 3) * away;
+    scene.camera->eye = scene.camera->center + glm::dvec3(0.3, 0.2, 3) * away;
     scene.width = scene.height = 8;
     scene.method = method;
     return scene;

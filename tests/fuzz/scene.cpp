@@ -22,7 +22,7 @@ void run_scene(std::string_view input) {
         Scene scene = read_scene(document, file);
         read_scene(scene_json(scene), file);
         if (has_open_colormap(scene)) close_colormap(scene, {0, 255});
-        const View view(scene.camera, scene.width, scene.height);
+        const View view(*scene.camera, scene.width, scene.height);
         for (const double column : {0.0, scene.width - 1.0}) {
             const View::Ray ray = view.ray(column, 0);
             for (int axis = 0; axis < 3; ++axis) {

@@ -16,7 +16,8 @@ const SessionOptions native{ContextChoice::cpu, 0};
 
 Scene automatic_scene() {
     Scene scene;
-    scene.automatic_transfer_function = scene.automatic_camera = true;
+    scene.transfer_function = automatic;
+    scene.camera = automatic;
     return scene;
 }
 

@@ -41,7 +41,7 @@ TEST(SceneText, NamesItselfAndStartsPathsAtItsFolder) {
                  {"mine", "volume"});
     expect_error([] { parse_scene("{", "mine"); }, {"mine: parse error"});
     const Scene scene = parse_scene(R"({"version": 1, "volume": "a.nrrd"})", "/there/scene.json");
-    EXPECT_EQ(scene.volume_file, "/there/a.nrrd");
+    EXPECT_EQ(scene.volume_file()->path, "/there/a.nrrd");
 }
 
 TEST(SceneText, NeedsNoNamesForDataInMemory) {
@@ -71,9 +71,10 @@ TEST(SceneText, NeedsNoNamesForDataInMemory) {
 TEST(CameraChoice, IsTheAutomaticCamera) {
     const Volume volume = ramp(8);
     Scene scene;
-    scene.automatic_transfer_function = scene.automatic_camera = true;
+    scene.transfer_function = automatic;
+    scene.camera = automatic;
     const Camera camera = fitted_camera(scene, volume);
-    EXPECT_EQ(camera.eye, Session(scene, volume).chosen_scene().camera.eye);
+    EXPECT_EQ(camera.eye, Session(scene, volume).chosen_scene().camera->eye);
     EXPECT_NE(fitted_camera(scene, volume, 40, 10).eye, camera.eye);
 }
 

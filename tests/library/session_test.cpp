@@ -75,18 +75,18 @@ TEST(Session, SaysWhatErrorIsExpectedWhereThatIsKnown) {
     const double blended = expected().value();
     scene.slice.tree = TreeSettings{.factors = {8, 8}};
     const double tree = expected().value();
-    scene.slice.tree->factors = {64};
+    (*scene.slice.tree)->factors = {64};
     const double node = expected().value();
     EXPECT_LT(tree, blended / 4);
     EXPECT_LT(node, tree);
-    scene.slice.tree->factors = {8, 8};
-    scene.slice.tree->code = NodeCode::alpha;
+    (*scene.slice.tree)->factors = {8, 8};
+    (*scene.slice.tree)->code = NodeCode::alpha;
     EXPECT_FALSE(expected());
     scene.slice.tree.reset();
     scene.target = Target::float32;
     scene.slice.classification = Classification::post;
     EXPECT_FALSE(expected());
-    scene.slice.samples.reset();
+    scene.slice.samples = automatic;
     EXPECT_LE(expected().value(), scene.max_error);
 }
 
@@ -103,7 +103,7 @@ TEST(Session, DrawsAMeshInMemory) {
     EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
     EXPECT_LE(session.plan().error.known().value(), 1);
     // The order of a convex mesh is resolved to mpvo, which is right for it.
-    Camera moved = scene.camera;
+    Camera moved = *scene.camera;
     moved.eye.x += .1;
     session.set_camera(moved);
     EXPECT_LE(session.plan().error.known().value(), 1);
@@ -132,7 +132,7 @@ TEST(Session, ClipsAreSetAndTakenBack) {
 TEST(Session, GoesFromMethodToMethodOfOneVolume) {
     const Volume volume = waves(8);
     Scene scene = scene_for(volume.grid().bounds());
-    scene.mesh_request = MeshSettings{.kuhn = true};
+    scene.mesh = MeshSettings{.kuhn = true};
     Session session(scene, volume, native);
     const Image sliced = session.draw();
     scene.method = Method::project;
@@ -235,7 +235,7 @@ TEST(Session, FindsThePointThatIsSeen) {
     const auto ramp = [](const glm::dvec3& p) { return 2 * p.x; };
     Scene scene;
     scene.transfer_function = TransferFunction::linear({knot(0, {1, 1, 1}, 1)});
-    scene.camera = {.eye = {-2, 1.2, .7}, .center = {0, 1.2, .7}};
+    scene.camera = Camera{.eye = {-2, 1.2, .7}, .center = {0, 1.2, .7}};
     scene.method = Method::project;
     scene.width = scene.height = 5;
     Session session(scene, test::kuhn_box({3, 2, 2}, ramp), native);
@@ -286,8 +286,8 @@ TEST(Session, TracesALitSceneAndChoosesItsSmallestGradient) {
     Session unlit(scene, volume, native);
     scene.lighting = Lighting{};
     Session session(scene, volume, native);
-    EXPECT_FALSE(session.scene().lighting->smallest_gradient);
-    EXPECT_NEAR(session.resolved_scene().lighting->smallest_gradient.value(), .01, 1e-5);
+    EXPECT_TRUE(session.scene().lighting->smallest_gradient.is_automatic());
+    EXPECT_NEAR(*session.resolved_scene().lighting->smallest_gradient, .01, 1e-5);
     const auto plain = unlit.trace(), lit = session.trace();
     EXPECT_GT(error_of(session.draw(), plain).linf, 20);
     for (std::size_t i = 3; i < plain.rgba.size(); i += 4) EXPECT_EQ(lit.rgba[i], plain.rgba[i]);
@@ -301,32 +301,33 @@ TEST(Session, ChoosesWhatASceneLeavesOpen) {
     Scene open;
     open.width = 50;
     open.height = 40;
-    open.automatic_transfer_function = open.automatic_camera = true;
+    open.transfer_function = automatic;
+    open.camera = automatic;
     Session session(open, volume, native);
     const Image picture = session.draw();
-    EXPECT_TRUE(session.scene().automatic_camera);  // as asked for
+    EXPECT_TRUE(session.scene().camera.is_automatic());  // as asked for
     const Scene resolved = session.resolved_scene();
-    EXPECT_FALSE(resolved.automatic_transfer_function || resolved.automatic_camera);
+    EXPECT_FALSE(resolved.transfer_function.is_automatic() || resolved.camera.is_automatic());
     EXPECT_EQ(Session(resolved, volume, native).draw().rgba, picture.rgba);
     EXPECT_EQ(session.explanation().find("chosen\n  transfer function: "), 0u);
     // It is chosen once, and again on request.
     session.set_camera(orbit(volume.grid().bounds(), 40, -10));
     EXPECT_EQ(session.resolved_scene().transfer_function, resolved.transfer_function);
-    EXPECT_FALSE(session.scene().automatic_camera);
+    EXPECT_FALSE(session.scene().camera.is_automatic());
     session.choose_again();
     EXPECT_NE(session.resolved_scene().transfer_function, resolved.transfer_function);
     session.set_scene(open);
     EXPECT_EQ(session.draw().rgba, picture.rgba);
     // A mesh that is made from the volume follows what the volume suggests.
-    open.mesh_request = MeshSettings{.kuhn = true};
+    open.mesh = MeshSettings{.kuhn = true};
     open.method = Method::project;
     session.set_scene(open);
     EXPECT_EQ(session.resolved_scene().transfer_function, resolved.transfer_function);
-    open.mesh_request.reset();
+    open.mesh = {};
     Session mesh(open, test::kuhn_box({3, 2, 4}, [](const glm::dvec3& p) { return p.x * p.y; }),
                  native);
     mesh.draw();
-    EXPECT_GT(mesh.resolved_scene().transfer_function.max_extinction(0, 6), 0);
+    EXPECT_GT(mesh.resolved_scene().transfer_function->max_extinction(0, 6), 0);
 }
 
 TEST(Session, WarnsOnceOfAPictureThatShowsNothing) {

@@ -161,7 +161,7 @@ TEST_F(Kraus, TracesASceneOnce) {
     EXPECT_EQ(&plate.mesh.exact(with_target(plate.smooth, Target::fixed8)), traced);
     EXPECT_NE(&plate.mesh.exact(plate.dense), traced);
     Scene moved = plate.smooth;
-    moved.camera.eye.x += 1e-9;
+    moved.camera->eye.x += 1e-9;
     EXPECT_NE(&plate.mesh.exact(moved), traced);
     EXPECT_EQ(&plate.mesh.exact(plate.smooth), traced);
 }

@@ -31,14 +31,14 @@ nlohmann::json mesh_scene(const std::string& file) {
 
 TEST(MeshScene, ReadsFilesAndRequests) {
     const Scene from_file = read_scene(mesh_scene("some/mesh.vtu"), "dir/s.json");
-    EXPECT_EQ(from_file.mesh_file, "dir/some/mesh.vtu");
+    EXPECT_EQ(from_file.mesh_file()->path, "dir/some/mesh.vtu");
     EXPECT_TRUE(from_file.draws_mesh());
     EXPECT_FALSE(from_file.has_volume());
     nlohmann::json made = with("/mesh", {{"tolerance", .1}, {"max_tets", 1000}, {"kuhn", true}});
     const Scene request = read_scene(made, "s.json");
-    EXPECT_EQ(request.mesh_request->tolerance, .1);
-    EXPECT_EQ(request.mesh_request->max_tets, 1000);
-    EXPECT_TRUE(request.mesh_request->kuhn);
+    EXPECT_EQ(request.made_mesh()->tolerance, .1);
+    EXPECT_EQ(request.made_mesh()->max_tets, 1000);
+    EXPECT_TRUE(request.made_mesh()->kuhn);
     EXPECT_FALSE(request.draws_mesh());
     made["render"] = {{"method", "trace"}, {"trace", {{"of", "mesh"}}}};
     EXPECT_TRUE(read_scene(made, "s.json").draws_mesh());
@@ -105,7 +105,7 @@ TEST(MeshScene, MeasuresAndPlans) {
 
 TEST(MeshScene, NanValuesAreAnErrorUnlessTransparent) {
     Scene scene;
-    scene.mesh_file = "m.vtu";
+    scene.mesh = MeshFile{"m.vtu"};
     MeshData data;
     data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     data.tets = {{0, 1, 2, 3}};

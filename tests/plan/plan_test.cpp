@@ -63,7 +63,7 @@ TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
     EXPECT_NE(explain(plan, facts, gpu).find("one look-up"), std::string::npos);
     scene.slice.filter = Filter::exact;
     EXPECT_EQ(plan_for().slice.slabs, 60);
-    scene.slice.filter = Filter::automatic;
+    scene.slice.filter = automatic;
 
     trials.hardware.back().error = 1.01;
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);

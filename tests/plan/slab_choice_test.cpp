@@ -63,7 +63,7 @@ TEST(SlabChoice, SlabsGetWhatCompositingLeavesOfTheError) {
     EXPECT_GT(goal(), .9);
     EXPECT_EQ(goal(2), goal());
     EXPECT_NEAR(goal(1. / 16), goal() / 2, 1e-9);
-    scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
+    scene.slice.tree = automatic;
     // The root of one level is rounded to a code once.
     EXPECT_LT(goal(), .5);
     EXPECT_GT(goal(), .45);
@@ -96,7 +96,7 @@ TEST(SlabChoice, SlabsGetWhatTheChosenTargetLeaves) {
 TEST(TargetChoice, TheFewestBytesWhoseRoundingsAreASmallShareOfTheError) {
     const auto target = [](double max_error, float color = 1) {
         const Scene scene = automatic_scene("auto", max_error, color);
-        EXPECT_TRUE(scene.automatic_target);
+        EXPECT_TRUE(scene.target.is_automatic());
         const Tried tried = with_trials(scene, {{40, max_error / 2, 9}});
         const Plan plan = make_plan(scene, tried.facts, tiles(), {}, tried.trials);
         EXPECT_FALSE(plan.slice.target_reason.empty());
@@ -114,7 +114,7 @@ TEST(TargetChoice, TreesOfGivenFactorsAndTets) {
     const Tried tried = with_trials(scene, {});
     scene.slice.tree = TreeSettings{.factors = {8, 8}, .nodes = NodeArithmetic::shader};
     EXPECT_EQ(choose_target(scene, tried.facts, tried.trials).target, Target::float32);
-    scene.slice.tree->nodes = NodeArithmetic::fixed;
+    (*scene.slice.tree)->nodes = NodeArithmetic::fixed;
     EXPECT_EQ(choose_target(scene, tried.facts, tried.trials).target, Target::fixed16);
     EXPECT_EQ(choose_project_target(scene).target, Target::float32);
     expect_error([] { automatic_scene("automatic", 1); }, {"render.target", "\"auto\""});

@@ -32,8 +32,8 @@ Scene scene_of(const TransferFunction& transfer_function) {
     Scene scene;
     scene.transfer_function = transfer_function;
     scene.slice.classification = Classification::preintegrated;
-    scene.camera.eye = {1.7, -.9, 1.3};
-    scene.camera.center = {.5, .5, .5};
+    scene.camera->eye = {1.7, -.9, 1.3};
+    scene.camera->center = {.5, .5, .5};
     scene.width = scene.height = 64;
     scene.slice.samples = 200;
     return scene;

@@ -158,17 +158,17 @@ class Clipped : public ProjectionTest {
             TransferFunction::linear({knot(.1, {1, .2, 0}, .3), knot(.4, {1, 1, 0}, 2),
                                       knot(.45, {0, 1, .5}, .1), knot(1, {0, .3, 1}, 4)}),
             60, 45);
-        scene.camera.center = {.5, .5, .5};
-        scene.camera.up = {0, 1, .001};
-        scene.camera.fov_y = 60;
-        scene.camera.height = 1.6;
+        scene.camera->center = {.5, .5, .5};
+        scene.camera->up = {0, 1, .001};
+        scene.camera->fov_y = 60;
+        scene.camera->height = 1.6;
         for (const test::NamedClip& named : test::clips_of_unit_box()) {
             scene.clip = named.clip;
             const auto cut = clipped_mesh(mesh, scene.clip, scene.lighting.has_value(), "mesh");
             for (const glm::dvec3 eye : {glm::dvec3(1.6, -.5, .9), glm::dvec3(.31, .42, .63)}) {
                 for (const auto projection : {Projection::perspective, Projection::orthographic}) {
-                    scene.camera.projection = projection;
-                    scene.camera.eye = eye;
+                    scene.camera->projection = projection;
+                    scene.camera->eye = eye;
                     const Image truth = trace(*mesh, scene);
                     if (cut == nullptr) {
                         EXPECT_EQ(truth.rgba, Image(scene.width, scene.height).rgba) << named.name;

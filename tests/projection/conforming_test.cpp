@@ -25,12 +25,12 @@ class Conforming : public ProjectionTest {
                 for (const auto projection : {Projection::perspective, Projection::orthographic}) {
                     Scene scene = projection_scene(
                         TransferFunction::linear({knot(0, {1, 1, 1}, 2.5)}), pixels, pixels);
-                    scene.camera.projection = projection;
-                    scene.camera.eye = eye;
-                    scene.camera.center = {.5, .5, .5};
-                    scene.camera.up = {0, 1, .001};
-                    scene.camera.fov_y = 50;
-                    scene.camera.height = 1.5;
+                    scene.camera->projection = projection;
+                    scene.camera->eye = eye;
+                    scene.camera->center = {.5, .5, .5};
+                    scene.camera->up = {0, 1, .001};
+                    scene.camera->fov_y = 50;
+                    scene.camera->height = 1.5;
                     const double error =
                         image_error(project(mesh, scene, capabilities()), trace(mesh, scene))
                             .all.linf;
@@ -68,12 +68,12 @@ TEST_P(Conforming, SidesOnPixelCentres) {
                 const int pixels = across + 3;  // odd: the middle is a pixel's centre
                 Scene scene = projection_scene(TransferFunction::linear({knot(0, {1, 1, 1}, 2.5)}),
                                                pixels, pixels);
-                scene.camera.projection = Projection::orthographic;
-                scene.camera.center = scene.camera.eye = {.5, .5, .5};
-                scene.camera.eye[axis] += 3;
-                scene.camera.up = {};
-                scene.camera.up[(axis + turn) % 3] = 1;
-                scene.camera.height = static_cast<double>(pixels) / across;
+                scene.camera->projection = Projection::orthographic;
+                scene.camera->center = scene.camera->eye = {.5, .5, .5};
+                scene.camera->eye[axis] += 3;
+                scene.camera->up = {};
+                scene.camera->up[(axis + turn) % 3] = 1;
+                scene.camera->height = static_cast<double>(pixels) / across;
                 const double error =
                     image_error(project(mesh, scene, capabilities()), trace(mesh, scene)).all.linf;
                 EXPECT_LE(error, 0.02) << across << " pixels, axis " << axis << ", turn " << turn;

@@ -50,12 +50,12 @@ Scene random_scene(const SceneMesh& mesh, std::mt19937& random) {
                                   knot(.6, {0, .3, 1}, most_extinction), knot(1, {.1, 1, 0}, .2)}),
         48, 36);
     scene.project.coloring = Coloring::analytic;  // no table
-    scene.camera.eye = eye_in(mesh, random);
-    scene.camera.center = scene.camera.eye + direction(random);
-    scene.camera.up = direction(random);
-    scene.camera.fov_y = random() % 2 > 0 ? 50 : 100;
-    scene.camera.height = 2;
-    if (random() % 8 == 0) scene.camera.projection = Projection::orthographic;
+    scene.camera->eye = eye_in(mesh, random);
+    scene.camera->center = scene.camera->eye + direction(random);
+    scene.camera->up = direction(random);
+    scene.camera->fov_y = random() % 2 > 0 ? 50 : 100;
+    scene.camera->height = 2;
+    if (random() % 8 == 0) scene.camera->projection = Projection::orthographic;
     return scene;
 }
 
@@ -110,9 +110,9 @@ TEST_P(EyeInside, AtACornerOfTetsPicturesAreTheTracers) {
     for (int number = 0; number < 20; ++number) {
         const SceneMesh mesh = random_mesh({2, 2, 2}, random);
         Scene scene = random_scene(mesh, random);
-        scene.camera.projection = Projection::perspective;
-        scene.camera.eye = mesh.mesh.points()[13];  // of 3 x 3 x 3
-        scene.camera.center = scene.camera.eye + direction(random);
+        scene.camera->projection = Projection::perspective;
+        scene.camera->eye = mesh.mesh.points()[13];  // of 3 x 3 x 3
+        scene.camera->center = scene.camera->eye + direction(random);
         expect_the_tracers(mesh, scene, number);
     }
 }

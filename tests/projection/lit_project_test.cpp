@@ -30,13 +30,13 @@ TransferFunction colors(double extinction) {
 
 Scene lit_scene(double extinction, const Lighting& lighting, int width = 60, int height = 45) {
     Scene scene = projection_scene(colors(extinction), width, height);
-    scene.camera.eye = {1.6, -.5, .9};
-    scene.camera.center = {.5, .5, .5};
-    scene.camera.up = {0, 1, .001};
-    scene.camera.fov_y = 60;
-    scene.camera.height = 1.6;
+    scene.camera->eye = {1.6, -.5, .9};
+    scene.camera->center = {.5, .5, .5};
+    scene.camera->up = {0, 1, .001};
+    scene.camera->fov_y = 60;
+    scene.camera->height = 1.6;
     scene.lighting = lighting;
-    if (!scene.lighting->smallest_gradient) scene.lighting->smallest_gradient = .05;
+    if (scene.lighting->smallest_gradient.is_automatic()) scene.lighting->smallest_gradient = .05;
     return scene;
 }
 
@@ -51,7 +51,7 @@ class LitProjection : public ProjectionTest {
             for (const Projection projection :
                  {Projection::perspective, Projection::orthographic}) {
                 Scene scene = lit_scene(extinction, lighting);
-                scene.camera.projection = projection;
+                scene.camera->projection = projection;
                 const Image truth = trace(mesh, scene);
                 for (const Coloring coloring : {Coloring::preintegrated, Coloring::analytic}) {
                     for (const double max_error : {1., 4.}) {
@@ -81,7 +81,7 @@ TEST_P(LitProjection, CoarseMeshesKeepMaxError) {
 TEST_P(LitProjection, TheEyeMayBeInside) {
     const SceneMesh mesh = scene_mesh(test::split_box(3, 300, .05, waves));
     Scene scene = lit_scene(3, directional());
-    scene.camera.eye = {.31, .42, .63};
+    scene.camera->eye = {.31, .42, .63};
     EXPECT_LE(linf(project(mesh, scene, capabilities()), trace(mesh, scene)), scene.max_error);
 }
 
@@ -93,12 +93,12 @@ TEST_P(LitProjection, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     const SceneMesh mesh = scene_mesh(test::split_box(
         5, 1000, .01, [&](const glm::dvec3& p) { return .2 + glm::dot(gradient, p); }));
     Scene scene = lit_scene(4, directional());
-    scene.camera.projection = Projection::orthographic;
+    scene.camera->projection = Projection::orthographic;
     Scene unlit = scene;
     unlit.lighting.reset();
     const Image lit = project(mesh, scene, capabilities()),
                 plain = project(mesh, unlit, capabilities());
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     for (int row = 0; row < scene.height; ++row) {
         for (int column = 0; column < scene.width; ++column) {
             const float *const a = plain.pixel(column, row), *const b = lit.pixel(column, row);
@@ -135,9 +135,9 @@ TEST_P(LitProjection, EverythingTurnedAndScaled) {
     scene.transfer_function = colors(5 / scale);
     for (Light& light : scene.lighting->lights) light.direction = turn * *light.direction;
     scene.lighting->smallest_gradient = *scene.lighting->smallest_gradient / scale;
-    scene.camera.eye = scale * (turn * scene.camera.eye);
-    scene.camera.center = scale * (turn * scene.camera.center);
-    scene.camera.up = turn * scene.camera.up;
+    scene.camera->eye = scale * (turn * scene.camera->eye);
+    scene.camera->center = scale * (turn * scene.camera->center);
+    scene.camera->up = turn * scene.camera->up;
     EXPECT_LE(linf(project(scene_mesh(turned), scene, capabilities()), truth), scene.max_error);
 }
 
@@ -171,8 +171,8 @@ TEST_P(LitProjection, OtherTargetsAreLit) {
     Scene scene = lit_scene(.7, directional());
     scene.lighting->diffuse = .4;
     scene.lighting->specular = .2;  // no colour is clamped
-    scene.camera.center = {1.5, 1.5, 1.5};
-    scene.camera.eye = {6, -3, 4};
+    scene.camera->center = {1.5, 1.5, 1.5};
+    scene.camera->eye = {6, -3, 4};
     const Image truth = trace(mesh, scene);
     for (const Target target : {Target::float16, Target::fixed16}) {
         scene.target = target;
@@ -221,7 +221,7 @@ TEST(LitTets, ExtremesAreNumbers) {
 TEST(LitTets, ThePlanLeavesOutWhatLightDoesNotNeed) {
     const SceneMesh mesh = scene_mesh(test::kuhn_box({2, 2, 2}, waves));
     Scene scene = projection_scene(TransferFunction::linear({knot(0, {1, .5, .2}, .5)}), 20, 15);
-    scene.camera.eye = {9, -3, 4};
+    scene.camera->eye = {9, -3, 4};
     const auto left_out = [&](const std::string& name) {
         const Plan plan = plan_of(mesh, scene, tile_capabilities());
         return std::ranges::find(plan.omitted, name, &Omission::name) != plan.omitted.end();
@@ -255,7 +255,7 @@ TEST(LitTets, WhatCannotBeDrawnLitIsRefused) {
             {"render.project.table", "gradients"});
     refused([](Scene& scene) { scene.project.tree = TreeSettings{.factors = {4}}; },
             {"render.project.tree", "one colour"});
-    refused([](Scene& scene) { scene.lighting->smallest_gradient.reset(); },
+    refused([](Scene& scene) { scene.lighting->smallest_gradient = automatic; },
             {"lighting.smallest_gradient"});
 }
 

@@ -35,10 +35,10 @@ SceneMesh marked_mesh(double marker, std::size_t every) {
 
 Scene marked_scene(const TransferFunction& transfer_function) {
     Scene scene = projection_scene(transfer_function, 80, 60);
-    scene.camera.eye = {1.6, -.5, .9};
-    scene.camera.center = {.5, .5, .5};
-    scene.camera.up = {0, 1, .001};
-    scene.camera.fov_y = 60;
+    scene.camera->eye = {1.6, -.5, .9};
+    scene.camera->center = {.5, .5, .5};
+    scene.camera->up = {0, 1, .001};
+    scene.camera->fov_y = 60;
     return scene;
 }
 
@@ -66,8 +66,8 @@ TEST_P(Markers, CostNoDigitsWithAnyColoring) {
     Scene scene = marked_scene(colorful(40, 1));
     scene.project.coloring = Coloring::analytic;
     EXPECT_LE(error(mesh, scene), promised);
-    scene.camera.projection = Projection::orthographic;
-    scene.camera.height = 1.6;
+    scene.camera->projection = Projection::orthographic;
+    scene.camera->height = 1.6;
     EXPECT_LE(error(mesh, scene), promised);
 }
 

@@ -38,12 +38,12 @@ TEST_P(Needles, OfNoWidthShowNothing) {
                     TransferFunction::linear({knot(0, {1, 0, 0}, .5), knot(1, {0, 1, 1}, 5)}), 64,
                     64);
                 scene.project.order = ProjectOrder::none;
-                scene.camera.projection = projection;
-                scene.camera.eye = {2, 1, 3};
-                scene.camera.center = {.5, .5, 0};
-                scene.camera.up = {0, 1, 0};
-                scene.camera.fov_y = 30;
-                scene.camera.height = 1.2;
+                scene.camera->projection = projection;
+                scene.camera->eye = {2, 1, 3};
+                scene.camera->center = {.5, .5, 0};
+                scene.camera->up = {0, 1, 0};
+                scene.camera->fov_y = 30;
+                scene.camera->height = 1.2;
                 const Image drawn = project(mesh, scene, capabilities());
                 const float most = *std::max_element(drawn.rgba.begin(), drawn.rgba.end());
                 EXPECT_EQ(most, 0) << tets << " tets of width " << width;

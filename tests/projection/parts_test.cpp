@@ -35,11 +35,11 @@ class Parts : public ProjectionTest {
 
     Scene scene(const TransferFunction& transfer_function, const glm::dvec3& eye) const {
         Scene scene = projection_scene(transfer_function, 96, 96);
-        scene.camera.eye = eye;
-        scene.camera.center = {.45, .5, .5};
-        scene.camera.up = {0, 1, 0};
-        scene.camera.fov_y = 50;
-        scene.camera.height = 1.4;
+        scene.camera->eye = eye;
+        scene.camera->center = {.45, .5, .5};
+        scene.camera->up = {0, 1, 0};
+        scene.camera->fov_y = 50;
+        scene.camera->height = 1.4;
         return scene;
     }
 
@@ -55,7 +55,7 @@ TEST_P(Parts, AreExact) {
         for (const glm::dvec3& eye : eyes) {
             for (const auto projection : {Projection::perspective, Projection::orthographic}) {
                 Scene wanted = scene(crooked(height), eye);
-                wanted.camera.projection = projection;
+                wanted.camera->projection = projection;
                 const Plan plan = plan_of(mesh_, wanted, capabilities());
                 ASSERT_EQ(plan.project.source, SegmentSource::parts);
                 ASSERT_TRUE(plan.project.plain);
@@ -76,7 +76,7 @@ TEST_P(Parts, EyeOnASurfaceOfThePoints) {
                                                    knot(4, {0, 0, 1}, .3), knot(9, {1, 1, 0}, 1)}),
                          {4, 6.2, 5.7});
     for (const glm::dvec3& center : {glm::dvec3(4, 9, 8), glm::dvec3(12, 6, 7)}) {
-        wanted.camera.center = center;
+        wanted.camera->center = center;
         const Image drawn = project(mesh, wanted, capabilities());
         EXPECT_LE(image_error(drawn, trace(mesh, wanted)).all.linf, 0.05) << center.x;
     }
@@ -90,7 +90,7 @@ TEST_P(Parts, StepAtTheLargestValue) {
     Scene wanted = scene(TransferFunction::linear({knot(0, {1, 0, 0}, .1), knot(1, {1, .5, 0}, .2),
                                                    knot(1, {0, 0, 1}, .8)}),
                          {7, 6, 9});
-    wanted.camera.center = {2, 2, 2};
+    wanted.camera->center = {2, 2, 2};
     for (const Coloring coloring : {Coloring::preintegrated, Coloring::analytic}) {
         wanted.project.coloring = coloring;
         const Image drawn = project(mesh, wanted, capabilities());

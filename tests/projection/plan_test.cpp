@@ -15,9 +15,9 @@ Plan plan_for(const TransferFunction& transfer_function,
     const SceneMesh mesh = scene_mesh(
         test::split_box(2, 200, .1, [](const glm::dvec3& p) { return p.x * p.y + .3 * p.z; }));
     Scene scene = projection_scene(transfer_function, 32, 32);
-    scene.camera.eye = {2, 2, 2};
-    scene.camera.center = {.5, .5, .5};
-    scene.camera.up = {0, 1, 0};
+    scene.camera->eye = {2, 2, 2};
+    scene.camera->center = {.5, .5, .5};
+    scene.camera->up = {0, 1, 0};
     if (change) change(scene);
     Capabilities capabilities;
     capabilities.max_texture_size = 1024;
@@ -63,8 +63,8 @@ TEST(ProjectPlan, ManyPointsAndTrianglesUseTables) {
     const SceneMesh large = scene_mesh(test::kuhn_box(
         {12, 12, 12}, [](const glm::dvec3& p) { return std::fmod(.3 * p.x + .7 * p.y, 1.0); }));
     Scene wanted = projection_scene(TransferFunction::linear(knots), 32, 32);
-    wanted.camera.eye = {20, 20, 20};
-    wanted.camera.center = {6, 6, 6};
+    wanted.camera->eye = {20, 20, 20};
+    wanted.camera->center = {6, 6, 6};
     Capabilities capabilities;
     capabilities.max_texture_size = 1024;
     const Plan many = plan_of(large, wanted, capabilities);
@@ -159,12 +159,10 @@ TEST(ProjectPlan, TreesNeedFixedNodesAndOneColour) {
             {"s.json: render.project.tree.nodes: found \"fixed\"", "one colour"});
     refused(grey, [](Scene& scene) { scene.target = Target::float32; },
             {"s.json: render.project.tree.nodes: found \"fixed\"", "\"float32\"", "fixed8"});
-    refused(grey, [](Scene& scene) { scene.project.tree->nodes = NodeArithmetic::shader; },
+    refused(grey, [](Scene& scene) { (*scene.project.tree)->nodes = NodeArithmetic::shader; },
             {"s.json: render.project.tree.nodes: found \"shader\"", "\"fixed\""});
-    refused(
-        grey,
-        [](Scene& scene) { scene.project.tree = TreeSettings{.automatic = true, .factors = {}}; },
-        {"s.json: render.project.tree: found \"auto\"", "\"factors\""});
+    refused(grey, [](Scene& scene) { scene.project.tree = automatic; },
+            {"s.json: render.project.tree: found \"auto\"", "\"factors\""});
     refused(grey, [](Scene& scene) { scene.project.interpolation = Interpolation::linear; },
             {"s.json: render.project.tree: found", "\"linear\"", "perspective"});
     refused(grey,

@@ -67,24 +67,24 @@ inline std::unique_ptr<ProjectRenderer> make_renderer(const SceneMesh& mesh, con
                                                       const OmissionSwitch& omissions = {}) {
     const Plan plan = plan_of(mesh, scene, capabilities, omissions);
     if (capabilities.tiles) {
-        return std::make_unique<TileProjectRenderer>(mesh, scene.transfer_function, plan.project,
+        return std::make_unique<TileProjectRenderer>(mesh, *scene.transfer_function, plan.project,
                                                      scene.width, scene.height);
     }
-    return std::make_unique<GlProjectRenderer>(mesh, scene.transfer_function, plan.project,
+    return std::make_unique<GlProjectRenderer>(mesh, *scene.transfer_function, plan.project,
                                                capabilities, scene.width, scene.height);
 }
 
 inline Image project(const SceneMesh& mesh, const Scene& scene, const Capabilities& capabilities,
                      const OmissionSwitch& omissions = {}) {
     const auto renderer = make_renderer(mesh, scene, capabilities, omissions);
-    renderer->draw(View(scene.camera, scene.width, scene.height));
+    renderer->draw(View(*scene.camera, scene.width, scene.height));
     return renderer->read();
 }
 
 inline Image trace(const SceneMesh& mesh, const Scene& scene) {
     const FaceTree tree(mesh.mesh, mesh.mesh.open_faces());
-    return to_float(trace_mesh(mesh.mesh, tree, mesh.scalar.values, scene.transfer_function,
-                               View(scene.camera, scene.width, scene.height),
+    return to_float(trace_mesh(mesh.mesh, tree, mesh.scalar.values, *scene.transfer_function,
+                               View(*scene.camera, scene.width, scene.height),
                                {.lighting = scene.lighting, .clip = half_spaces(scene.clip)})
                         .image);
 }

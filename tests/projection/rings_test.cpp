@@ -26,7 +26,7 @@ class Rings : public ProjectionTest {
     };
     Drawn draw(const SceneMesh& mesh, const Scene& scene) const {
         const auto renderer = make_renderer(mesh, scene, capabilities());
-        renderer->draw(View(scene.camera, scene.width, scene.height));
+        renderer->draw(View(*scene.camera, scene.width, scene.height));
         return {renderer->read(), renderer->order_report()};
     }
 };
@@ -47,9 +47,9 @@ MeshData valued(MeshData mesh) {
 
 Scene scene_at(const glm::dvec3& eye, const glm::dvec3& center) {
     Scene scene = projection_scene(colors(), 120, 90);
-    scene.camera.eye = eye;
-    scene.camera.center = center;
-    scene.camera.fov_y = 36;
+    scene.camera->eye = eye;
+    scene.camera->center = center;
+    scene.camera->fov_y = 36;
     return scene;
 }
 
@@ -79,7 +79,8 @@ TEST_P(Rings, AreDrawnAsTheTracerSeesThem) {
     for (const RingScene& each : ring_scenes()) {
         const SceneMesh mesh = scene_mesh(each.mesh);
         for (const bool lit : {false, true}) {
-            for (const ProjectOrder order : {ProjectOrder::automatic, ProjectOrder::exact}) {
+            for (const auto& order :
+                 {Auto<ProjectOrder>(automatic), Auto<ProjectOrder>(ProjectOrder::exact)}) {
                 Scene scene = each.scene;
                 scene.project.order = order;
                 if (lit) scene.lighting = light;
@@ -137,7 +138,7 @@ TEST_P(Rings, OfAMeshThatOverlapsAreWrongOnOverlappingRaysAlone) {
     const Drawn drawn = draw(mesh, scene);
     EXPECT_GT(drawn.order.broken, 0);
     const Image traced = trace(mesh, scene);
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     const FaceTree tree(mesh.mesh, mesh.mesh.open_faces());
     RayWalk walk(mesh.mesh, tree);
     int wrong = 0;

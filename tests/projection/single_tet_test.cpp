@@ -41,9 +41,9 @@ TransferFunction crooked(double extinction) {
 Scene scene_of(const glm::dvec3& eye, const glm::dvec3& center, const glm::dvec3& up,
                const TransferFunction& transfer_function, int pixels) {
     Scene scene = projection_scene(transfer_function, pixels, pixels);
-    scene.camera.eye = eye;
-    scene.camera.center = center;
-    scene.camera.up = up;
+    scene.camera->eye = eye;
+    scene.camera->center = center;
+    scene.camera->up = up;
     return scene;
 }
 
@@ -76,10 +76,10 @@ TEST_P(SingleTet, RandomPosesFillingTheView) {
                                                : constant(extinction),
                                256);
         if (pose % 3 == 0) {
-            scene.camera.projection = Projection::orthographic;
-            scene.camera.height = 1;
+            scene.camera->projection = Projection::orthographic;
+            scene.camera->height = 1;
         } else {
-            scene.camera.fov_y =
+            scene.camera->fov_y =
                 std::min(120.0, 2 * std::atan(0.5 / distance) * 180 / 3.14159265358979);
         }
         if (pose % 5 == 0) scene.project.coloring = Coloring::analytic;
@@ -121,12 +121,12 @@ TEST_P(SingleTet, DegeneratePoses) {
         for (const SceneMesh* mesh : {&corner, &needle, &sliver, &flat}) {
             for (const int pixels : {64, 65}) {
                 Scene scene = scene_of(pose.eye, pose.center, pose.up, ramp(3), pixels);
-                scene.camera.fov_y = 70;
+                scene.camera->fov_y = 70;
                 if (pixels == 65) scene.transfer_function = crooked(4);
                 const std::string name = std::to_string(number) + ", " + std::to_string(pixels);
                 expect_exact(*mesh, scene, "perspective " + name);
-                scene.camera.projection = Projection::orthographic;
-                scene.camera.height = 2;
+                scene.camera->projection = Projection::orthographic;
+                scene.camera->height = 2;
                 expect_exact(*mesh, scene, "orthographic " + name);
             }
             ++number;
@@ -146,8 +146,8 @@ TEST_P(SingleTet, TrianglesAgree) {
         Scene scene =
             scene_of(1.5 * direction(random), glm::dvec3(0), direction(random), ramp(2), 96);
         if (pose % 2 == 0) {
-            scene.camera.projection = Projection::orthographic;
-            scene.camera.height = 1.1;
+            scene.camera->projection = Projection::orthographic;
+            scene.camera->height = 1.1;
         }
         scene.project.geometry = ProjectGeometry::triangles;
         const ErrorNorms error =

@@ -29,9 +29,9 @@ class TileCodes : public gl::GlTest {
             TransferFunction::linear(
                 {knot(0, {.1, .2, .9}, .3), knot(.5, {.2, .9, .3}, .5), knot(1, {.9, .3, .1}, 3)}),
             101, 83);
-        scene.camera.eye = {1.4, -.5, 1.3};
-        scene.camera.center = {.5, .5, .5};
-        scene.camera.fov_y = 60;
+        scene.camera->eye = {1.4, -.5, 1.3};
+        scene.camera->center = {.5, .5, .5};
+        scene.camera->fov_y = 60;
         scene.target = target;
         return scene;
     }

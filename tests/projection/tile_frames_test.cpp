@@ -27,8 +27,8 @@ std::vector<Case> cases() {
                                   knot(.5, {1, .2, 1}, 9), knot(.7, {.3, 0, 1}, .1),
                                   knot(.7, {1, .6, 0}, 2)}),
         75, 53);
-    scene.camera.eye = {1.4, -.5, 1.3};
-    scene.camera.center = {.5, .5, .5};
+    scene.camera->eye = {1.4, -.5, 1.3};
+    scene.camera->center = {.5, .5, .5};
     std::vector<Case> all{{"parts", scene}};
     for (const Target target : {Target::float16, Target::fixed8, Target::emulated}) {
         Scene other = scene;
@@ -94,7 +94,7 @@ TEST(TetTileFrames, FramesAfterTheFirstTakeNoMemory) {
     const SceneMesh mesh = mesh_of(1500);
     for (const Case& each : cases()) {
         const auto renderer = make_renderer(mesh, each.scene, tile_capabilities());
-        const View view(each.scene.camera, each.scene.width, each.scene.height);
+        const View view(*each.scene.camera, each.scene.width, each.scene.height);
         renderer->draw(view);
         const std::int64_t before = test::allocation_count();
         renderer->draw(view);

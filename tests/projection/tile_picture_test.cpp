@@ -50,20 +50,20 @@ class TilePicture : public gl::GlTest {
 
     Scene scene(const TransferFunction& transfer_function) const {
         Scene scene = projection_scene(transfer_function, 101, 83);
-        scene.camera.eye = {1.4, -.5, 1.3};
-        scene.camera.center = {.5, .5, .5};
-        scene.camera.fov_y = 60;
-        scene.camera.height = 1.6;
+        scene.camera->eye = {1.4, -.5, 1.3};
+        scene.camera->center = {.5, .5, .5};
+        scene.camera->fov_y = 60;
+        scene.camera->height = 1.6;
         return scene;
     }
 
     // With the same plan.
     void expect_same(const Scene& scene, const ProjectPlan& plan, const std::string& name) const {
-        const View view(scene.camera, scene.width, scene.height);
-        GlProjectRenderer shaders(mesh_, scene.transfer_function, plan, capabilities(), scene.width,
-                                  scene.height);
+        const View view(*scene.camera, scene.width, scene.height);
+        GlProjectRenderer shaders(mesh_, *scene.transfer_function, plan, capabilities(),
+                                  scene.width, scene.height);
         shaders.draw(view);
-        TileProjectRenderer tiles(mesh_, scene.transfer_function, plan, scene.width, scene.height);
+        TileProjectRenderer tiles(mesh_, *scene.transfer_function, plan, scene.width, scene.height);
         tiles.draw(view);
         const Difference found = difference(tiles.read(), shaders.read());
         // A hundred fragments, each good to float32's rounding of a sum or two: the same formulas.
@@ -83,14 +83,14 @@ class TilePicture : public gl::GlTest {
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
             for (const Thickness thickness : {Thickness::exact, Thickness::dz}) {
                 for (const bool plain : {false, true}) {
-                    scene.camera.projection = projection;
+                    scene.camera->projection = projection;
                     scene.project.thickness = thickness;
                     ProjectPlan plan = plan_of(mesh_, scene, tile_capabilities()).project;
                     if (source == SegmentSource::cut_table) {
                         plan.source = source;
                         plan.aligned = {200, plan.single_color ? 1 : 8, 0.5, !plan.single_color};
                         plan.aligned.built =
-                            tables.get(in_units(scene.transfer_function, plan.unit),
+                            tables.get(in_units(*scene.transfer_function, plan.unit),
                                        plan.aligned.request(plan.range));
                     }
                     plan.plain = plain;
@@ -169,12 +169,12 @@ TEST_F(TilePicture, TableFormats) {
 // pixel: up to 1/128 pixel more at each side of tets that are some pixels wide.
 TEST_F(TilePicture, CountsAreAlike) {
     const Scene wanted = scene(crooked());
-    const View view(wanted.camera, wanted.width, wanted.height);
+    const View view(*wanted.camera, wanted.width, wanted.height);
     const ProjectPlan plan = plan_of(mesh_, wanted, tile_capabilities()).project;
-    GlProjectRenderer shaders(mesh_, wanted.transfer_function, plan, capabilities(), wanted.width,
+    GlProjectRenderer shaders(mesh_, *wanted.transfer_function, plan, capabilities(), wanted.width,
                               wanted.height);
     shaders.draw(view);
-    TileProjectRenderer tiles(mesh_, wanted.transfer_function, plan, wanted.width, wanted.height);
+    TileProjectRenderer tiles(mesh_, *wanted.transfer_function, plan, wanted.width, wanted.height);
     tiles.draw(view);
     EXPECT_NEAR(static_cast<double>(tiles.tets_drawn()), static_cast<double>(shaders.tets_drawn()),
                 0.02 * static_cast<double>(shaders.tets_drawn()));

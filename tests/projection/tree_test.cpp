@@ -16,9 +16,9 @@ class TetTree : public ProjectionTest {
     Scene scene(Target target, double depth) const {
         Scene scene = projection_scene(
             TransferFunction::linear({knot(0, {1, 1, 1}, depth / (8 * std::sqrt(3.0)))}), 64, 48);
-        scene.camera.eye = {15, -9, 13};
-        scene.camera.center = {4, 4, 4};
-        scene.camera.fov_y = 45;
+        scene.camera->eye = {15, -9, 13};
+        scene.camera->center = {4, 4, 4};
+        scene.camera->fov_y = 45;
         scene.target = target;
         return scene;
     }
@@ -50,12 +50,13 @@ TEST_P(TetTree, IsAsPreciseAsItsNodes) {
           std::pair{ProjectDither::alpha, 1.5}}) {
         const double codes =
             1.005 * 72 * rounding / 64 * std::exp(63 * depth) + 8 * std::exp(7 * depth) + 8;
-        for (const ProjectOrder order : {ProjectOrder::automatic, ProjectOrder::exact}) {
+        for (const auto& order :
+             {Auto<ProjectOrder>(automatic), Auto<ProjectOrder>(ProjectOrder::exact)}) {
             Scene tree = with_tree(scene(Target::fixed16, depth), {8, 8});
             tree.project.dither = dither;
             tree.project.order = order;
             EXPECT_LE(error(tree, exact).linf, codes / 257)
-                << name_of(dither) << ", order " << static_cast<int>(order);
+                << name_of(dither) << ", order " << name_of(order);
         }
     }
 }
@@ -93,7 +94,7 @@ TEST_P(TetTree, FramesAreAlike) {
     const Plan plan = plan_of(mesh_, wanted, capabilities());
     EXPECT_TRUE(plan.project.scattered);
     const auto renderer = make_renderer(mesh_, wanted, capabilities());
-    const View view(wanted.camera, wanted.width, wanted.height);
+    const View view(*wanted.camera, wanted.width, wanted.height);
     renderer->draw(view);
     const Image first = renderer->read();
     renderer->draw(view);

@@ -22,9 +22,9 @@ class Variants : public ProjectionTest {
 
     Scene scene(const TransferFunction& transfer_function = smooth()) const {
         Scene scene = projection_scene(transfer_function, 96, 96);
-        scene.camera.eye = {1.4, -.5, 1.3};
-        scene.camera.center = {.5, .5, .5};
-        scene.camera.fov_y = 60;
+        scene.camera->eye = {1.4, -.5, 1.3};
+        scene.camera->center = {.5, .5, .5};
+        scene.camera->fov_y = 60;
         return scene;
     }
     double l2(const Scene& scene) const {
@@ -122,7 +122,7 @@ TEST_P(Variants, OmissionsKeepThePicture) {
           TransferFunction::linear({knot(.6, {1, .5, 0}, 0), knot(.8, {1, .5, 0}, 3)})}) {
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
             Scene wanted = scene(transfer_function);
-            wanted.camera.projection = projection;
+            wanted.camera->projection = projection;
             const Image less = project(mesh_, wanted, capabilities());
             const Image all = project(mesh_, wanted, capabilities(), nothing);
             EXPECT_LE(image_error(less, all).all.linf, 0.01);

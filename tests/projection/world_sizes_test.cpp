@@ -16,10 +16,10 @@ SceneMesh resized_mesh(double size) {
 }
 
 Scene resized(Scene scene, double size) {
-    scene.transfer_function = scene.transfer_function.attenuated(1 / size);
-    scene.camera.eye *= size;
-    scene.camera.center *= size;
-    scene.camera.height *= size;
+    scene.transfer_function = scene.transfer_function->attenuated(1 / size);
+    scene.camera->eye *= size;
+    scene.camera->center *= size;
+    scene.camera->height *= size;
     return scene;
 }
 
@@ -30,17 +30,17 @@ std::vector<Scene> scenes() {
     for (const auto geometry : {ProjectGeometry::silhouette, ProjectGeometry::triangles}) {
         Scene scene = projection_scene(optics, 40, 30);
         scene.project.geometry = geometry;
-        scene.camera.eye = {1.9, -.7, 1.6};
-        scene.camera.center = {.5, .5, .5};
-        scene.camera.height = 1.7;
+        scene.camera->eye = {1.9, -.7, 1.6};
+        scene.camera->center = {.5, .5, .5};
+        scene.camera->height = 1.7;
         all.push_back(scene);
-        scene.camera.projection = Projection::orthographic;
+        scene.camera->projection = Projection::orthographic;
         all.push_back(scene);
-        scene.camera.projection = Projection::perspective;
-        scene.camera.eye = {.4, .3, .6};
-        scene.camera.fov_y = 80;
+        scene.camera->projection = Projection::perspective;
+        scene.camera->eye = {.4, .3, .6};
+        scene.camera->fov_y = 80;
         all.push_back(scene);
-        scene.camera.eye = {1.9, -.7, 1.6};
+        scene.camera->eye = {1.9, -.7, 1.6};
         scene.project.coloring = Coloring::attenuation;
         scene.project.interpolation = Interpolation::linear;
         if (geometry == ProjectGeometry::triangles) all.push_back(scene);

@@ -69,8 +69,8 @@ TEST(LitCases, Volumes) {
         for (std::size_t axis = 0; axis < 3; ++axis)
             grid.step[axis] = vector_of(all[i]["step"][axis]);
         const TraceResult result =
-            trace_volume(make_volume<float>(grid, all[i]["samples"]), scene.transfer_function,
-                         View(scene.camera, 1, 1), {tolerance, scene.lighting});
+            trace_volume(make_volume<float>(grid, all[i]["samples"]), *scene.transfer_function,
+                         View(*scene.camera, 1, 1), {tolerance, scene.lighting});
         expect_rgba(result.image, result.error_estimate, all[i], i);
     }
 }
@@ -87,8 +87,8 @@ TEST(LitCases, Meshes) {
         const TetMesh mesh(data, "case");
         const FaceTree tree(mesh, mesh.open_faces());
         const MeshTraceResult result =
-            trace_mesh(mesh, tree, mesh.point_scalars()[0].values, scene.transfer_function,
-                       View(scene.camera, 1, 1), {tolerance, scene.lighting});
+            trace_mesh(mesh, tree, mesh.point_scalars()[0].values, *scene.transfer_function,
+                       View(*scene.camera, 1, 1), {tolerance, scene.lighting});
         expect_rgba(result.image, result.error_estimate, all[i], i);
     }
 }

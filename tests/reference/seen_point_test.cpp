@@ -32,12 +32,12 @@ const std::array<std::int32_t, 3> ramp_cells{length, 2, 2};
 Scene scene_along_x(Projection projection, const TransferFunction& transfer) {
     Scene scene;
     scene.transfer_function = transfer;
-    scene.camera.projection = projection;
-    scene.camera.eye = {-3, 1.1, .9};
-    scene.camera.center = {1, 1.1, .9};
+    scene.camera->projection = projection;
+    scene.camera->eye = {-3, 1.1, .9};
+    scene.camera->center = {1, 1.1, .9};
     scene.width = scene.height = 3;
-    scene.camera.height = .01;
-    scene.camera.fov_y = .01;
+    scene.camera->height = .01;
+    scene.camera->fov_y = .01;
     return scene;
 }
 

@@ -15,8 +15,8 @@ namespace {
 
 TEST(ChangedClip, DrawsEveryFrameAsANewRenderer) {
     const auto data = blobs();
-    for (const Classification classification :
-         {Classification::automatic, Classification::preintegrated}) {
+    for (const auto& classification :
+         {Auto<Classification>(automatic), Auto<Classification>(Classification::preintegrated)}) {
         Scene scene = volume_scene();
         scene.slice.classification = classification;
         SceneRenderer frames(scene, data, tile_capabilities());
@@ -28,7 +28,7 @@ TEST(ChangedClip, DrawsEveryFrameAsANewRenderer) {
                           ? frames.renderer().stages_ms().at("upload")
                           : 0,
                       0);
-            SceneRenderer other(frames.resolved_scene(), data, tile_capabilities());
+            SceneRenderer other(frames.resolved().scene(), data, tile_capabilities());
             EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << named.name;
         }
         EXPECT_EQ(frames.counts().trials, 1);
@@ -45,7 +45,7 @@ TEST(ChangedClip, MeshesLikewise) {
         const Image drawn = frames.draw_picture();
         frames.set_camera(orbit(20));  // the cut mesh stays
         EXPECT_EQ(frames.draw_picture().rgba, drawn.rgba) << named.name;
-        SceneRenderer other(frames.resolved_scene(), mesh, tile_capabilities());
+        SceneRenderer other(frames.resolved().scene(), mesh, tile_capabilities());
         EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << named.name;
     }
     EXPECT_EQ(frames.counts().data, views + static_cast<int>(test::clips_of_unit_box().size()));

@@ -242,9 +242,9 @@ TEST(LinearOpacity, SlicingIsTheTracersOnCurvedFields) {
         const Case given{
             "curved", {{10, {0, .2, 1}, 0}, {top, {1, 1, 0}, 1}, {256, {1, 0, .3}, .2}}, .03};
         Scene scene = scene_of(given, Method::slice);
-        scene.camera.projection = Projection::perspective;
-        scene.camera.center = glm::dvec3(.5);
-        scene.camera.eye = {1.4, 1.1, 2.2};
+        scene.camera->projection = Projection::perspective;
+        scene.camera->center = glm::dvec3(.5);
+        scene.camera->eye = {1.4, 1.1, 2.2};
         SceneRenderer frames(scene, data, tile_capabilities());
         const Image picture = frames.draw_picture();
         const PreciseImage truth = trace(scene, data->volume).image;

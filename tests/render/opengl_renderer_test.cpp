@@ -108,7 +108,7 @@ std::ostream& operator<<(std::ostream& out, const Done& done) {
 template <typename Data>
 void expect_fresh(SceneRenderer& frames, const Data& data, const Image& drawn,
                   const std::string& what) {
-    SceneRenderer other(frames.resolved_scene(), data, frames.capabilities());
+    SceneRenderer other(frames.resolved().scene(), data, frames.capabilities());
     EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << what;
 }
 
@@ -123,7 +123,7 @@ std::vector<VolumeCase> volume_cases() {
     cases[0].scene.slice.classification = Classification::post;
     cases[2].scene.slice.tree = cases[3].scene.slice.tree = TreeSettings{.factors = {4}};
     cases[2].scene.target = cases[3].scene.target = Target::fixed8;
-    cases[3].scene.slice.tree->nodes = NodeArithmetic::fixed;
+    (*cases[3].scene.slice.tree)->nodes = NodeArithmetic::fixed;
     cases[3].transfer_function = one_colored;
     for (VolumeCase& one : cases) one.scene.transfer_function = one.transfer_function(6);
     return cases;
@@ -219,8 +219,8 @@ TEST_F(OpenGlSession, TwoTakeTurnsWithTheSamePrograms) {
 
 TEST_F(OpenGlSession, MeshesKeepOrderBuffersAndPrograms) {
     const auto data = split_box();
-    for (const ProjectGeometry geometry :
-         {ProjectGeometry::automatic, ProjectGeometry::triangles}) {
+    for (const auto& geometry :
+         {Auto<ProjectGeometry>(automatic), Auto<ProjectGeometry>(ProjectGeometry::triangles)}) {
         Scene scene = mesh_scene();
         scene.project.geometry = geometry;
         SceneRenderer frames(scene, data, capabilities());

@@ -35,7 +35,7 @@ TEST(Pipeline, StretchesAColormapOverTheChannelThatIsDrawn) {
         document["image"]["color_space"] = "display";
         document["volume"] = {{"path", "two.mha"}, {"channel", channel}};
         Pipeline pipeline(read_scene(document, folder / "scene.json"));
-        const TransferFunction& function = pipeline.scene().transfer_function;
+        const TransferFunction& function = *pipeline.scene().transfer_function;
         EXPECT_EQ(function.at(highest).color, glm::dvec3(1)) << channel;
         EXPECT_NEAR(function.at(highest / 2).color.g, .5, 1e-15) << channel;  // a few roundings
         EXPECT_TRUE(has_open_colormap(pipeline.asked()));
@@ -48,10 +48,10 @@ TEST(Pipeline, StretchesAnotherColormapOverTheDataItHas) {
     Pipeline fresh(read_scene(with_open_map(), "s"));
     EXPECT_EQ(pipeline.scene().transfer_function, fresh.scene().transfer_function);
     EXPECT_TRUE(has_open_colormap(pipeline.asked()));
-    nlohmann::json automatic = minimal_scene();
-    automatic.erase("transfer_function");
-    pipeline.set_transfer_function_of(read_scene(automatic, "s"));
-    Pipeline chosen(read_scene(automatic, "s"));
+    nlohmann::json open = minimal_scene();
+    open.erase("transfer_function");
+    pipeline.set_transfer_function_of(read_scene(open, "s"));
+    Pipeline chosen(read_scene(open, "s"));
     EXPECT_EQ(pipeline.scene().transfer_function, chosen.scene().transfer_function);
 }
 
@@ -69,7 +69,7 @@ TEST(Pipeline, StretchesAColormapOverTheVolumeForItsMeshToo) {
     EXPECT_EQ(slices.scene().transfer_function, tets.scene().transfer_function);
     document.erase("volume");
     Pipeline alone(read_scene(document, "s"));
-    EXPECT_EQ(alone.scene().transfer_function.knots().back().value, 10000);  // x goes to 2
+    EXPECT_EQ(alone.scene().transfer_function->knots().back().value, 10000);  // x goes to 2
 }
 
 TEST(Pipeline, StretchesAColormapOverDataInMemory) {
@@ -79,25 +79,24 @@ TEST(Pipeline, StretchesAColormapOverDataInMemory) {
     Scene projected = scene;
     projected.method = Method::project;
     Pipeline of_mesh(projected, SceneData(projected, mesh));
-    EXPECT_EQ(of_mesh.scene().transfer_function.knots().back().value, 14);  // x goes to 2
+    EXPECT_EQ(of_mesh.scene().transfer_function->knots().back().value, 14);  // x goes to 2
     Grid grid;
     grid.size = {2, 2, 2};
     const auto samples =
         std::make_shared<const std::array<float, 8>>(std::array<float, 8>{0, 1, 2, 9, 1, 1, 1, 1});
     const Volume volume(grid, SampleType::float32, {samples, samples->data()});
     Pipeline of_volume(scene, SceneData(volume));
-    EXPECT_EQ(of_volume.scene().transfer_function.knots().back().value, 9);
+    EXPECT_EQ(of_volume.scene().transfer_function->knots().back().value, 9);
 }
 
 TEST(Pipeline, ChoosesInPlaceOfAFileThatGivesAFunction) {
     Scene scene = read_scene(minimal_scene(), "s");
-    const TransferFunction given = scene.transfer_function;
-    scene.automatic_transfer_function = true;
+    const TransferFunction given = *scene.transfer_function;
+    scene.transfer_function = automatic;
     EXPECT_NE(Pipeline(scene).scene().transfer_function, given);
     // An open map does not replace what a caller puts in its place.
     Scene open = read_scene(with_open_map(), "s");
     open.transfer_function = given;
-    open.automatic_transfer_function = false;
     EXPECT_EQ(Pipeline(open).scene().transfer_function, given);
 }
 

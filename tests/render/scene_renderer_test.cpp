@@ -21,7 +21,7 @@ using test::knot;
 
 // One that is given all that the other has chosen.
 Image fresh(SceneRenderer& frames, const std::shared_ptr<const VolumeData>& data) {
-    return SceneRenderer(frames.resolved_scene(), data, frames.capabilities()).draw_picture();
+    return SceneRenderer(frames.resolved().scene(), data, frames.capabilities()).draw_picture();
 }
 
 TEST(SceneRenderer, DrawsEveryFrameAsANewOne) {
@@ -68,22 +68,20 @@ TEST(SceneRenderer, SettingsAreChosenAgain) {
     const auto data = blobs();
     SceneRenderer frames(volume_scene(), data, tile_capabilities());
     for (const Target target : {Target::fixed8, Target::float16, Target::float32}) {
-        for (const bool automatic : {false, true}) {
+        for (const bool chosen : {false, true}) {
             Scene scene = volume_scene();
-            scene.target = target;
-            scene.automatic_target = automatic;
+            if (chosen)
+                scene.target = automatic;
+            else
+                scene.target = target;
             scene.max_error = target == Target::fixed8 ? 4 : 1;
-            if (target == Target::fixed8 && !automatic)
-                scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
-            scene.slice.samples.reset();
+            if (target == Target::fixed8 && !chosen) scene.slice.tree = automatic;
+            scene.slice.samples = automatic;
             frames.set_scene(scene);
             const Image drawn = frames.draw_picture();
             EXPECT_EQ(drawn.rgba, fresh(frames, data).rgba)
-                << name_of(target) << (automatic ? " or another" : "");
-            const Scene& resolved = frames.resolved_scene();
-            EXPECT_TRUE(resolved.slice.samples);
-            EXPECT_FALSE(resolved.automatic_target);
-            EXPECT_FALSE(resolved.slice.tree && resolved.slice.tree->automatic);
+                << name_of(target) << (chosen ? " or another" : "");
+            EXPECT_EQ(open_keys(frames.resolved().scene()), std::vector<std::string>());
         }
     }
 }
@@ -142,14 +140,14 @@ TEST(SceneRenderer, CopiesOfTheVolumeAreTakenOver) {
 
 TEST(SceneRenderer, MeshesLikewise) {
     const auto mesh = split_box();
-    for (const ProjectGeometry geometry :
-         {ProjectGeometry::automatic, ProjectGeometry::triangles}) {
+    for (const auto& geometry :
+         {Auto<ProjectGeometry>(automatic), Auto<ProjectGeometry>(ProjectGeometry::triangles)}) {
         Scene scene = mesh_scene();
         scene.project.geometry = geometry;
         SceneRenderer frames(scene, mesh, tile_capabilities());
         const auto expect_fresh = [&](const std::string& what) {
             const Image drawn = frames.draw_picture();
-            SceneRenderer other(frames.resolved_scene(), mesh, tile_capabilities());
+            SceneRenderer other(frames.resolved().scene(), mesh, tile_capabilities());
             EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << what;
         };
         for (int degrees = 0; degrees < 360; degrees += 30) {

@@ -26,7 +26,7 @@ nlohmann::json colored(const nlohmann::json& color, const char* space) {
 
 void expect_color(const nlohmann::json& color, const char* space, const glm::dvec3& expected) {
     const Scene scene = read_scene(colored(color, space), "s");
-    EXPECT_EQ(scene.transfer_function.knots()[1].optics.color, expected) << color;
+    EXPECT_EQ(scene.transfer_function->knots()[1].optics.color, expected) << color;
     EXPECT_EQ(scene.background, expected) << color;
 }
 
@@ -79,15 +79,15 @@ TEST(ColorJson, AShippedMapIsStretchedOverTheDataUnlessToldOtherwise) {
     ASSERT_TRUE(has_open_colormap(over_data));
     close_colormap(over_data, {20, 60});
     EXPECT_FALSE(has_open_colormap(over_data));
-    EXPECT_EQ(over_data.transfer_function.at(20).color, glm::dvec3(0));
-    EXPECT_EQ(over_data.transfer_function.at(60).color, glm::dvec3(1));
-    EXPECT_NEAR(over_data.transfer_function.at(40).color.g, .5, 1e-15);  // a few roundings
+    EXPECT_EQ(over_data.transfer_function->at(20).color, glm::dvec3(0));
+    EXPECT_EQ(over_data.transfer_function->at(60).color, glm::dvec3(1));
+    EXPECT_NEAR(over_data.transfer_function->at(40).color.g, .5, 1e-15);  // a few roundings
     map["colormap_range"] = {100, 200};
     const auto told = read_scene(mapped(map, "display"), "s").transfer_function;
-    EXPECT_EQ(told.at(150).color, glm::dvec3(.5));
+    EXPECT_EQ(told->at(150).color, glm::dvec3(.5));
     const auto linear = read_scene(mapped(map, "linear"), "s").transfer_function;
     // The map is resampled to 5e-4.
-    EXPECT_NEAR(linear.at(150).color.g, linear_from_srgb(glm::dvec3(.5)).g, 5e-4);
+    EXPECT_NEAR(linear->at(150).color.g, linear_from_srgb(glm::dvec3(.5)).g, 5e-4);
 }
 
 TEST(ColorJson, AnOpenMapIsWrittenAsItIsGiven) {
@@ -119,14 +119,14 @@ TEST(ColorJson, DataBeyondAllMapsAreRefusedByFileAndKey) {
 
 TEST(ColorJson, APresetInUnitsAndAFileKeepTheirRange) {
     const Scene bone = read_scene(mapped({{"colormap", "ct-bone"}}, "display"), "s");
-    EXPECT_TRUE(bone.transfer_function.transparent(-1e9, 150));
+    EXPECT_TRUE(bone.transfer_function->transparent(-1e9, 150));
     EXPECT_TRUE(colormap_file_of(bone).empty());
     const TemporaryFolder folder;
     std::ofstream(folder / "two.json")
         << R"({"RGBPoints": [5, 0, 0, 0, 7, 1, 1, 1], "Points": [5, 0, 0.5, 0, 7, 0.5, 0.5, 0]})";
     const Scene two =
         read_scene(mapped({{"colormap", "two.json"}}, "display"), folder / "scene.json");
-    EXPECT_EQ(two.transfer_function.at(6).color, glm::dvec3(.5));
+    EXPECT_EQ(two.transfer_function->at(6).color, glm::dvec3(.5));
     EXPECT_EQ(colormap_file_of(two), folder / "two.json");
 }
 

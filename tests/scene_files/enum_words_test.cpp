@@ -69,9 +69,9 @@ TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
     EXPECT_EQ(words_of<NanPolicy>(), "error transparent");
     EXPECT_EQ(words_of<ImageColorSpace>(), "linear display");
     EXPECT_EQ(words_of<Projection>(), "perspective orthographic");
-    EXPECT_EQ(words_of<Classification>(), "auto post preintegrated exact");
+    EXPECT_EQ(words_of<Classification>(), "post preintegrated exact");
     EXPECT_EQ(words_of<Order>(), "back_to_front front_to_back");
-    EXPECT_EQ(words_of<Filter>(), "exact hardware auto");
+    EXPECT_EQ(words_of<Filter>(), "exact hardware");
     EXPECT_EQ(words_of<NodeArithmetic>(), "shader fixed");
     EXPECT_EQ(words_of<NodeCode>(), "minimax phi alpha");
     EXPECT_EQ(words_of<AlphaRounding>(), "truncate nearest stochastic");
@@ -79,7 +79,7 @@ TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
     EXPECT_EQ(words_of<Coloring>(), "preintegrated attenuation vertex analytic");
     EXPECT_EQ(words_of<Interpolation>(), "perspective linear");
     EXPECT_EQ(words_of<Thickness>(), "exact dz");
-    EXPECT_EQ(words_of<ProjectGeometry>(), "auto silhouette triangles");
+    EXPECT_EQ(words_of<ProjectGeometry>(), "silhouette triangles");
     EXPECT_EQ(words_of<ProjectDither>(), "none alpha after_blend");
     EXPECT_EQ(words_of<LengthMapping>(), "octave log2 linear");
     EXPECT_EQ(words_of<TableStore>(), "mean_extinction opacity");
@@ -108,17 +108,29 @@ std::set<std::string> lists_in(const nlohmann::json& schema) {
 TEST(EnumWords, AreThoseOfTheSchema) {
     const std::set<std::string> lists =
         lists_in(load_json(LAMINA_SOURCE_DIR "/docs/scene.schema.json"));
-    for (const std::string& words : {words_of<Method>(),          words_of<Target>() + " auto",
-                                     words_of<TraceOf>(),         words_of<NanPolicy>(),
-                                     words_of<Projection>(),      words_of<Classification>(),
-                                     words_of<Order>(),           words_of<Filter>(),
-                                     words_of<NodeArithmetic>(),  words_of<NodeCode>(),
-                                     words_of<AlphaRounding>(),   words_of<OverRounding>(),
-                                     words_of<Coloring>(),        words_of<Interpolation>(),
-                                     words_of<Thickness>(),       words_of<ProjectOrder>(),
-                                     words_of<ProjectGeometry>(), words_of<ProjectDither>(),
-                                     words_of<LengthMapping>(),   words_of<TableStore>(),
-                                     words_of<TableFormat>(),     words_of<TableConstruction>()})
+    // An automatic value comes first if it is the default.
+    for (const std::string& words : {words_of<Method>(),
+                                     words_of<Target>() + " auto",
+                                     words_of<TraceOf>(),
+                                     words_of<NanPolicy>(),
+                                     words_of<Projection>(),
+                                     "auto " + words_of<Classification>(),
+                                     words_of<Order>(),
+                                     words_of<Filter>() + " auto",
+                                     words_of<NodeArithmetic>(),
+                                     words_of<NodeCode>(),
+                                     words_of<AlphaRounding>(),
+                                     words_of<OverRounding>(),
+                                     words_of<Coloring>(),
+                                     words_of<Interpolation>(),
+                                     words_of<Thickness>(),
+                                     "auto " + words_of<ProjectOrder>(),
+                                     "auto " + words_of<ProjectGeometry>(),
+                                     words_of<ProjectDither>(),
+                                     words_of<LengthMapping>(),
+                                     words_of<TableStore>(),
+                                     words_of<TableFormat>(),
+                                     words_of<TableConstruction>()})
         EXPECT_TRUE(lists.contains(words)) << words;
 }
 

@@ -12,7 +12,7 @@ namespace {
 struct Lamp {
     int number = 3;
     double power = .5;
-    std::optional<double> range;  // none: "auto"
+    Auto<double> range;
     std::optional<std::string> name;
     bool on = false;
     bool operator==(const Lamp&) const = default;

@@ -15,7 +15,7 @@ void expect_kept(const Scene& scene, const std::string& name) {
     const nlohmann::ordered_json written = scene_json(scene);
     const Scene read = read_scene(nlohmann::json::parse(written.dump()), "s");
     EXPECT_EQ(scene_json(read), written) << name;
-    const auto before = scene.transfer_function.knots(), after = read.transfer_function.knots();
+    const auto before = scene.transfer_function->knots(), after = read.transfer_function->knots();
     ASSERT_EQ(before.size(), after.size()) << name;
     for (std::size_t i = 0; i < before.size(); ++i) {
         EXPECT_EQ(before[i].value, after[i].value) << name;

@@ -17,11 +17,11 @@ TEST(SceneReader, DefaultsAreTheFirstOfTheListedValues) {
     const Scene scene = read_scene(minimal_scene(), "scene.json");
     EXPECT_EQ(scene.method, Method::slice);
     EXPECT_EQ(scene.target, Target::float32);
-    EXPECT_EQ(scene.slice.classification, Classification::automatic);
+    EXPECT_EQ(scene.slice.classification, automatic);
     EXPECT_EQ(scene.slice.order, Order::back_to_front);
     EXPECT_EQ(scene.slice.filter, Filter::exact);
-    EXPECT_FALSE(scene.slice.samples.has_value());
-    EXPECT_EQ(scene.camera.projection, Projection::perspective);
+    EXPECT_TRUE(scene.slice.samples.is_automatic());
+    EXPECT_EQ(scene.camera->projection, Projection::perspective);
     EXPECT_EQ(scene.nan, NanPolicy::error);
     EXPECT_EQ(scene.trace_tolerance, 1e-5);
 }
@@ -29,7 +29,7 @@ TEST(SceneReader, DefaultsAreTheFirstOfTheListedValues) {
 TEST(SceneReader, OpacityBecomesExtinction) {
     nlohmann::json document = with("/transfer_function/unit_length", 4);
     const Scene scene = read_scene(document, "s");
-    const auto knots = scene.transfer_function.knots();
+    const auto knots = scene.transfer_function->knots();
     EXPECT_DOUBLE_EQ(knots[1].optics.extinction, std::log(2.) / 4);
 }
 
@@ -39,7 +39,7 @@ TransferFunction by_opacity(const nlohmann::json& points, const char* interpolat
     document["transfer_function"]["interpolation"] = interpolation;
     const Scene scene = read_scene(document, "s");
     EXPECT_EQ(!opaque_ramp(scene), std::string(interpolation) != "extinction");
-    return scene.transfer_function;
+    return *scene.transfer_function;
 }
 
 TEST(SceneReader, OpacityIsLinearBetweenTwoPointsThatHaveIt) {
@@ -62,8 +62,8 @@ TEST(SceneReader, OpacityIsLinearBetweenTwoPointsThatHaveIt) {
 TEST(SceneReader, OpacityOneIsAWarningWhereExtinctionIsInterpolatedToIt) {
     const nlohmann::json document = with("/transfer_function/points/1/opacity", 1);
     const Scene linear = read_scene(document, "s");
-    EXPECT_EQ(linear.transfer_function.knots()[1].optics.extinction, 17);
-    EXPECT_EQ(linear.transfer_function.at(255).extinction, 1e7);
+    EXPECT_EQ(linear.transfer_function->knots()[1].optics.extinction, 17);
+    EXPECT_EQ(linear.transfer_function->at(255).extinction, 1e7);
     EXPECT_EQ(opaque_ramp(linear),
               "s: transfer_function: extinction is linear from value 0 to 255 and runs to opacity "
               "1, taken as an optical depth of 17 per unit_length");
@@ -76,11 +76,14 @@ TEST(SceneReader, OpacityOneIsAWarningWhereExtinctionIsInterpolatedToIt) {
 }
 
 TEST(SceneReader, PathsAreRelativeToTheScene) {
-    EXPECT_EQ(read_scene(with("/volume", "a/b.nrrd"), "/x/scene.json").volume_file, "/x/a/b.nrrd");
-    EXPECT_EQ(read_scene(with("/volume", "/a/b.nrrd"), "/x/scene.json").volume_file, "/a/b.nrrd");
+    EXPECT_EQ(read_scene(with("/volume", "a/b.nrrd"), "/x/scene.json").volume_file()->path,
+              "/x/a/b.nrrd");
+    EXPECT_EQ(read_scene(with("/volume", "/a/b.nrrd"), "/x/scene.json").volume_file()->path,
+              "/a/b.nrrd");
     setenv("LAMINA_DATA", "/data", 1);
-    EXPECT_EQ(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json").volume_file,
-              "/data/b.nrrd");
+    EXPECT_EQ(
+        read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json").volume_file()->path,
+        "/data/b.nrrd");
     unsetenv("LAMINA_DATA");
     EXPECT_THROW(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json"), KeyError);
 }
@@ -95,7 +98,7 @@ TEST(SceneReader, ColormapGivesColoursAndPointsExtinction) {
         {"colormap", "map.json"},
         {"colormap_range", {0, 255}},
         {"points", {{{"value", 0}, {"extinction", 0}}, {{"value", 255}, {"extinction", 2}}}}};
-    const TransferFunction read = read_scene(document, folder / "scene.json").transfer_function;
+    const TransferFunction read = *read_scene(document, folder / "scene.json").transfer_function;
     EXPECT_DOUBLE_EQ(read.at(255).extinction, 2);
     EXPECT_DOUBLE_EQ(read.at(255).color.g, 1);
     // sRGB .5 in linear light (IEC 61966-2-1); the map is resampled to 5e-4.
@@ -115,8 +118,8 @@ TEST(SceneReader, SetReachesKeysAndListElements) {
     const Scene scene = read_scene(document, "s");
     EXPECT_EQ(scene.slice.samples, 512);
     EXPECT_EQ(scene.target, Target::fixed8);
-    EXPECT_EQ(scene.camera.eye, glm::dvec3(1, 2, 3));
-    EXPECT_DOUBLE_EQ(scene.transfer_function.knots()[1].optics.extinction, -std::log1p(-.25));
+    EXPECT_EQ(scene.camera->eye, glm::dvec3(1, 2, 3));
+    EXPECT_DOUBLE_EQ(scene.transfer_function->knots()[1].optics.extinction, -std::log1p(-.25));
     set_key(document, "render.slice.samples", "null");
     set_key(document, "transfer_function.points.1", "null");
     set_key(document, "lighting.power", "null");  // not there
@@ -170,20 +173,20 @@ TEST(SceneReader, TurnedCameraKeepsItsDistanceAndHeight) {
 TEST(SceneReader, WhatIsLeftOutIsAutomatic) {
     nlohmann::json document{{"version", 1}, {"volume", {{"generate", "gaussians"}}}};
     Scene scene = read_scene(document, "s.json");
-    EXPECT_TRUE(scene.automatic_transfer_function && scene.automatic_camera);
+    EXPECT_TRUE(scene.transfer_function.is_automatic() && scene.camera.is_automatic());
     EXPECT_EQ(scene.width, 800);
     EXPECT_EQ(scene.height, 600);
     EXPECT_EQ(scene.method, Method::slice);
     document["transfer_function"] = document["camera"] = "auto";
     document["image"] = {{"height", 30}};
     scene = read_scene(document, "s.json");
-    EXPECT_TRUE(scene.automatic_transfer_function && scene.automatic_camera);
+    EXPECT_TRUE(scene.transfer_function.is_automatic() && scene.camera.is_automatic());
     EXPECT_EQ(scene.width, 800);
     EXPECT_EQ(scene.height, 30);
     scene = read_scene({{"version", 1}, {"mesh", "m.vtu"}}, "s.json");
     EXPECT_EQ(scene.method, Method::project);
     scene = read_scene(minimal_scene(), "s.json");
-    EXPECT_FALSE(scene.automatic_transfer_function || scene.automatic_camera);
+    EXPECT_FALSE(scene.transfer_function.is_automatic() || scene.camera.is_automatic());
 }
 
 }  // namespace

@@ -52,29 +52,29 @@ TEST(SliceReader, Dither) {
     EXPECT_EQ(all->seed, 7u);
     EXPECT_TRUE(all->color);
     EXPECT_EQ(all->increment, 128);
-    EXPECT_FALSE(read("/render/slice/dither/period", "auto").slice.dither->period.has_value());
+    EXPECT_FALSE(read("/render/slice/dither/period", "auto").slice.dither->period.is_given());
 }
 
 TEST(SliceReader, Trees) {
-    const auto tree = read("/render/slice/tree", {{"factors", {32, 16, 2}}}).slice.tree;
-    ASSERT_TRUE(tree.has_value());
-    EXPECT_FALSE(tree->automatic);
+    const auto read_tree = [](const nlohmann::json& value) {
+        return *read("/render/slice/tree", value).slice.tree;
+    };
+    const Auto<TreeSettings> tree = read_tree({{"factors", {32, 16, 2}}});
+    ASSERT_TRUE(tree.is_given());
     EXPECT_EQ(tree->factors, (std::vector<int>{32, 16, 2}));
     EXPECT_EQ(tree->nodes, NodeArithmetic::shader);
     EXPECT_EQ(tree->code, NodeCode::minimax);
     EXPECT_EQ(tree->alpha_bits, 8);
-    const auto other =
-        read("/render/slice/tree",
-             {{"factors", {2}}, {"nodes", "fixed"}, {"code", "phi"}, {"alpha_bits", 16}})
-            .slice.tree;
+    const Auto<TreeSettings> other =
+        read_tree({{"factors", {2}}, {"nodes", "fixed"}, {"code", "phi"}, {"alpha_bits", 16}});
     EXPECT_EQ(other->nodes, NodeArithmetic::fixed);
     EXPECT_EQ(other->code, NodeCode::phi);
     EXPECT_EQ(other->alpha_bits, 16);
-    EXPECT_TRUE(read("/render/slice/tree", "auto").slice.tree->automatic);
+    EXPECT_TRUE(read_tree("auto").is_automatic());
 }
 
 std::vector<int> factors(const nlohmann::json& value) {
-    return read("/render/slice/tree/factors", value).slice.tree->factors;
+    return (*read("/render/slice/tree/factors", value).slice.tree)->factors;
 }
 
 TEST(SliceReader, FactorsAreAListANumberOrText) {
@@ -100,16 +100,16 @@ TEST(SliceReader, TakesTheTextsOfTheCommandLine) {
     EXPECT_EQ(scene.emulate.bits, 12);
     EXPECT_EQ(scene.emulate.over, OverRounding::fused);
     EXPECT_EQ(scene.max_error, 2.5);
-    EXPECT_FALSE(scene.slice.dither->period.has_value());
+    EXPECT_FALSE(scene.slice.dither->period.is_given());
     EXPECT_TRUE(scene.slice.dither->color);
-    EXPECT_EQ(scene.slice.tree->factors, (std::vector<int>{32, 32}));
-    EXPECT_EQ(scene.slice.tree->nodes, NodeArithmetic::fixed);
+    EXPECT_EQ((*scene.slice.tree)->factors, (std::vector<int>{32, 32}));
+    EXPECT_EQ((*scene.slice.tree)->nodes, NodeArithmetic::fixed);
     for (const char* list : {"[32,32]", "32x32"}) {
         set_key(document, "render.slice.tree.factors", list);
-        EXPECT_EQ(read_scene(document, "s").slice.tree->factors, (std::vector<int>{32, 32}));
+        EXPECT_EQ((*read_scene(document, "s").slice.tree)->factors, (std::vector<int>{32, 32}));
     }
     set_key(document, "render.slice.tree", "auto");
-    EXPECT_TRUE(read_scene(document, "s").slice.tree->automatic);
+    EXPECT_TRUE(read_scene(document, "s").slice.tree->is_automatic());
 }
 
 struct BadValue {

@@ -16,8 +16,9 @@ const Json everything = {{"path", "/a.bin"},     {"array", "pressure"}, {"level"
 
 TEST(VolumeSelection, IsReadAndWrittenBack) {
     const Scene scene = read_scene(with("/volume", everything), "s.json");
-    EXPECT_EQ(scene.volume_file, "/a.bin");
-    const VolumeRequest& request = scene.volume_selection;
+    ASSERT_NE(scene.volume_file(), nullptr);
+    EXPECT_EQ(scene.volume_file()->path, "/a.bin");
+    const VolumeRequest& request = scene.volume_file()->selection;
     EXPECT_EQ(request.array, "pressure");
     EXPECT_EQ(request.level, 1);
     EXPECT_EQ(request.channel, 2);
@@ -31,7 +32,7 @@ TEST(VolumeSelection, IsReadAndWrittenBack) {
 
 TEST(VolumeSelection, IsAPathWhereNothingIsTold) {
     const Scene scene = read_scene(with("/volume", {{"path", "/a.nrrd"}}), "s.json");
-    EXPECT_EQ(scene.volume_selection, VolumeRequest{});
+    EXPECT_EQ(scene.volume_file()->selection, VolumeRequest{});
     EXPECT_EQ(scene_json(scene)["volume"], "/a.nrrd");
 }
 

@@ -34,8 +34,8 @@ TEST(LayeredPieces, AgreeWithTheTracer) {
         optics_of({{.125, {{.1, .3, 1}, 0}}, {.5, {{.3, 1, .3}, 4}}, {1, {{1, .5, .1}, .5}}});
     const PictureBounds bounds = layered_picture(scene, traces()[0], nullptr);
     const PreciseImage traced =
-        trace_volume(scene.box.volume(), scene.scene.transfer_function,
-                     View(scene.scene.camera, scene.scene.width, scene.scene.height), {1e-12})
+        trace_volume(scene.box.volume(), *scene.scene.transfer_function,
+                     View(*scene.scene.camera, scene.scene.width, scene.scene.height), {1e-12})
             .image;
     for (std::size_t i = 0; i < bounds.exact.size(); ++i) {
         for (std::size_t c = 0; c < 4; ++c)

@@ -21,7 +21,7 @@ SceneMesh mesh_of(MeshData data) {
 TEST(MeshChords, OfABoxAddUp) {
     const SelftestScene scene = plain_scene("", "");
     const TransferFunction optics = optics_of({{0, {{1, 1, 1}, 1}}});
-    const View view(scene.scene.camera, 24, 18);
+    const View view(*scene.scene.camera, 24, 18);
     for (const MeshData& data :
          {kuhn_tets(scene.box, 3), fan_tets(scene.box, 4), split_tets(scene.box, 20, .03, 1),
           shuffled(kuhn_tets(scene.box, 2), 3)}) {

@@ -24,14 +24,14 @@ PreciseImage MistakenMaker::draw(const Scene& scene, const SceneData& data,
 Scene MistakenMaker::mistaken(Scene scene) const {
     switch (mistake_) {
         case Mistake::extinction:
-            scene.transfer_function = with_more_extinction(scene.transfer_function);
+            scene.transfer_function = with_more_extinction(*scene.transfer_function);
             break;
         case Mistake::position:
-            scene.camera.eye += 1e-3 * glm::length(scene.camera.center - scene.camera.eye) *
-                                glm::dvec3(.6, -.48, .64);
+            scene.camera->eye += 1e-3 * glm::length(scene.camera->center - scene.camera->eye) *
+                                 glm::dvec3(.6, -.48, .64);
             break;
         case Mistake::slabs:
-            if (scene.slice.samples && *scene.slice.samples > 1) --*scene.slice.samples;
+            if (scene.slice.samples.value_or(1) > 1) --*scene.slice.samples;
             break;
         case Mistake::thickness:
             scene.project.thickness = Thickness::dz;

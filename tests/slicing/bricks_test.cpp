@@ -55,9 +55,9 @@ TEST_F(SlicingTest, BricksComeInVisibilityOrderAlongEveryRay) {
         Scene scene = unit_box_scene(
             smooth_transfer_function(),
             trial % 2 == 0 ? Projection::perspective : Projection::orthographic, 16, 16);
-        scene.camera.eye = {place(random), place(random), place(random)};
-        scene.camera.fov_y = 120;
-        const View view(scene.camera, scene.width, scene.height);
+        scene.camera->eye = {place(random), place(random), place(random)};
+        scene.camera->fov_y = 120;
+        const View view(*scene.camera, scene.width, scene.height);
         const auto bricks = bricks_of(volume, scene, with_small_textures(capabilities(), 4 * 4000));
         ASSERT_GT(bricks.size(), 10u);
         std::vector<std::size_t> order;
@@ -115,7 +115,7 @@ TEST_F(SlicingTest, BricksOfAHomogeneousBoxGiveTheExactChord) {
     const Image image =
         render(volume, scene, with_small_textures(capabilities(), 16 * 64 * 48 + 4 * 1000),
                leave_nothing_out());
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     double worst = 0;
     for (int row = 0; row < view.height; ++row) {
         for (int column = 0; column < view.width; ++column) {

@@ -39,10 +39,10 @@ TransferFunction many_colors(double brightest) {
 
 Scene sparse_scene(double brightest) {
     Scene scene = exact_scene(many_colors(brightest), Projection::orthographic);
-    scene.camera.eye = {4.34537995494, -7.28572573915, 15.7784443469};
-    scene.camera.center = {4.84054699635, -8.89009754771, 4.44589845152};
-    scene.camera.up = {0, 1, 0};
-    scene.camera.height = 2.399423;
+    scene.camera->eye = {4.34537995494, -7.28572573915, 15.7784443469};
+    scene.camera->center = {4.84054699635, -8.89009754771, 4.44589845152};
+    scene.camera->up = {0, 1, 0};
+    scene.camera->height = 2.399423;
     scene.width = 228;
     scene.height = 222;
     return scene;

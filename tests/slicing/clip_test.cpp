@@ -27,10 +27,10 @@ const Pose poses[] = {{Projection::orthographic, {1.7, -1.2, 1.4}},
 
 Scene posed(const Pose& pose, const TransferFunction& transfer_function) {
     Scene scene = unit_box_scene(transfer_function, pose.projection, 61, 47);
-    scene.camera.eye = pose.eye;
-    scene.camera.center = {.52, .47, .51};
-    scene.camera.up = {0, 1, .02};
-    scene.camera.fov_y = 60;
+    scene.camera->eye = pose.eye;
+    scene.camera->center = {.52, .47, .51};
+    scene.camera->up = {0, 1, .02};
+    scene.camera->fov_y = 60;
     return scene;
 }
 
@@ -54,7 +54,7 @@ void expect_exact_chords(const Draw& draw) {
                 Scene scene =
                     posed(pose, TransferFunction::linear({knot(0, {1, 1, 1}, extinction)}));
                 scene.clip = named.clip;
-                const View view(scene.camera, scene.width, scene.height);
+                const View view(*scene.camera, scene.width, scene.height);
                 for (const int samples : {1, 7, 256}) {
                     scene.slice.samples = samples;
                     const Image image = draw(volume, scene, {});
@@ -119,7 +119,7 @@ TEST_F(SlicingTest, FloatRaysEndAtPlanesToo) {
             scene.slice.samples = 7;
             const Facts facts = measure(scene, volume, measure_bricks(volume));
             ASSERT_FALSE(make_plan(scene, facts, gpu, {}).slice.precise_rays);
-            const View view(scene.camera, scene.width, scene.height);
+            const View view(*scene.camera, scene.width, scene.height);
             const Image image = render(volume, scene, gpu);
             for (int row = 0; row < view.height; ++row) {
                 for (int column = 0; column < view.width; ++column) {
@@ -164,10 +164,10 @@ Scene looking_at(const Grid& grid, Projection projection,
     const Grid::Bounds box = grid.bounds();
     const double diagonal = glm::length(box.max - box.min);
     Scene scene = unit_box_scene(transfer_function, projection, 60, 45);
-    scene.camera.center = .5 * (box.min + box.max);
-    scene.camera.eye =
-        scene.camera.center + .9 * diagonal * glm::normalize(glm::dvec3(.7, .45, .8));
-    scene.camera.height = .8 * diagonal;
+    scene.camera->center = .5 * (box.min + box.max);
+    scene.camera->eye =
+        scene.camera->center + .9 * diagonal * glm::normalize(glm::dvec3(.7, .45, .8));
+    scene.camera->height = .8 * diagonal;
     return scene;
 }
 
@@ -275,7 +275,7 @@ TEST(ClippedTiles, RaysEndEarlyBehindThePlane) {
     const Volume volume = test::volume_of<std::uint8_t>(
         grid, [](double x, double y, double z) { return z < 8 ? 255 : 4 * x + 3 * y; });
     Scene scene = looking_at(grid, Projection::perspective, many_colors(grid, 200));
-    scene.camera.eye = scene.camera.center + glm::dvec3(3, 5, -60);
+    scene.camera->eye = scene.camera->center + glm::dvec3(3, 5, -60);
     scene.clip.planes = {{{0, 0, 9.5}, {.1, 0, 1}}};
     for (const auto classification : {Classification::exact, Classification::post}) {
         scene.slice.classification = classification;
@@ -300,10 +300,10 @@ TEST(ClippedTiles, BricksBehindPlanesAreLeftOut) {
     EXPECT_EQ(facts.occupied.max, glm::dvec3(20, 24, 20));
     EXPECT_FALSE(facts.clipped_away);
     const auto drawn = tile_renderer(volume, scene);
-    drawn->draw(View(scene.camera, scene.width, scene.height));
+    drawn->draw(View(*scene.camera, scene.width, scene.height));
     scene.clip = {};
     const auto whole = tile_renderer(volume, scene);
-    whole->draw(View(scene.camera, scene.width, scene.height));
+    whole->draw(View(*scene.camera, scene.width, scene.height));
     EXPECT_LT(10 * drawn->fragments(), whole->fragments());
 }
 

@@ -24,9 +24,9 @@ Scene fog_scene(Projection projection) {
     Scene scene =
         exact_scene(TransferFunction::linear({knot(0, {.2, .4, .8}, 0), knot(128, {1, .6, .1}, 1)}),
                     projection);
-    scene.camera.up = {0, 1, 0};
-    scene.camera.fov_y = 60;
-    scene.camera.height = 4;
+    scene.camera->up = {0, 1, 0};
+    scene.camera->fov_y = 60;
+    scene.camera->height = 4;
     scene.width = 29;  // the middle column's rays run straight ahead
     scene.height = 23;
     scene.max_error = .25;
@@ -42,10 +42,10 @@ double allowed(Classification classification) {
 void ahead_along(int axis, double sign, const glm::dvec3& from, Scene& scene) {
     glm::dvec3 ahead(0);
     ahead[axis] = sign;
-    scene.camera.eye = from;
-    scene.camera.eye[axis] = sign > 0 ? -1 : 3;
-    scene.camera.center = scene.camera.eye + ahead;
-    scene.camera.up = axis == 1 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+    scene.camera->eye = from;
+    scene.camera->eye[axis] = sign > 0 ? -1 : 3;
+    scene.camera->center = scene.camera->eye + ahead;
+    scene.camera->up = axis == 1 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
 }
 
 TEST_P(ClosedBox, RaysInEachFaceAndEdgeAreInside) {
@@ -87,10 +87,10 @@ TEST_P(ClosedBox, RaysBetweenTwoBricksAreDrawnOnce) {
     Capabilities small = capabilities();
     small.max_texture_bytes = 16 * 64 * 48 + 4 * 1000;
     Scene scene = exact_scene(in_view_of(volume, 4, steps), Projection::orthographic);
-    scene.camera.eye = {20, 15, -40};
-    scene.camera.center = {20, 15, 0};
-    scene.camera.up = {0, 1, 0};
-    scene.camera.height = 31;  // rays are 1 apart, and run in planes of samples
+    scene.camera->eye = {20, 15, -40};
+    scene.camera->center = {20, 15, 0};
+    scene.camera->up = {0, 1, 0};
+    scene.camera->height = 31;  // rays are 1 apart, and run in planes of samples
     scene.width = 41;
     scene.height = 31;
     EXPECT_LE(linf(draw(volume, scene, {}, small), trace(volume, scene, 1e-8)), promised);
@@ -110,10 +110,10 @@ TEST_P(ClosedBox, TheEyeInAnEdgeOfAVoxelSeesIt) {
     scene.transfer_function = TransferFunction::linear(
         {knot(-5.4651e-6, {.5139019, .6756425, .8118434}, 0),
          knot(2.700188e-4, {.9741909, .08278757, .9596987}, 6.732721654247521)});
-    scene.camera.eye = {.3763002, .6098735, -.720299};
-    scene.camera.center = {.3763002, .6098735, .720299};
-    scene.camera.up = {0, 1, 0};
-    scene.camera.fov_y = 64.92081;
+    scene.camera->eye = {.3763002, .6098735, -.720299};
+    scene.camera->center = {.3763002, .6098735, .720299};
+    scene.camera->up = {0, 1, 0};
+    scene.camera->fov_y = 64.92081;
     scene.width = 29;
     scene.height = 24;
     const Image reference = trace(voxel, scene, 1e-8);

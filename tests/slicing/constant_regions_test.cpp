@@ -115,7 +115,7 @@ TEST(ConstantRegionsTest, InTreesAndNotInCodes) {
     Scene scene = unit_box_scene(transfer_functions().front(), Projection::orthographic);
     scene.slice.samples = 150;
     scene.slice.tree = TreeSettings{};
-    scene.slice.tree->factors = {5, 30};
+    (*scene.slice.tree)->factors = {5, 30};
     ASSERT_TRUE(takes_regions(volume, scene));
     EXPECT_LE(image_error(render_tiles(volume, scene),
                           render_tiles(volume, scene, keep("constant_regions")))
@@ -199,7 +199,7 @@ TEST(ConstantRegionsTest, RandomScenes) {
         Scene scene = unit_box_scene(
             round % 3 == 0 ? TransferFunction::nearest(knots) : TransferFunction::linear(knots),
             round % 2 == 0 ? Projection::perspective : Projection::orthographic);
-        scene.camera.eye = {4 * uniform() - 1.5, 4 * uniform() - 1.5, 4 * uniform() - 1.5};
+        scene.camera->eye = {4 * uniform() - 1.5, 4 * uniform() - 1.5, 4 * uniform() - 1.5};
         scene.slice.samples = 20 + static_cast<int>(random() % 300);
         if (!takes_regions(volume, scene)) continue;
         ++taken;

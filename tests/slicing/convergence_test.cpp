@@ -104,7 +104,7 @@ TEST_F(SlicingTest, TheHardwareFilterIsTakenWhereItsErrorIsSmall) {
     Scene scene = unit_box_scene(
         TransferFunction::linear({knot(0, {.1, .2, .6}, 0), knot(65535, {1, .3, .1}, 6)}),
         Projection::perspective);
-    scene.slice.filter = Filter::automatic;
+    scene.slice.filter = automatic;
     Capabilities gpu = capabilities();
     gpu.exact_float_filter = false;
     gpu.eight_bit_filter = true;
@@ -113,22 +113,22 @@ TEST_F(SlicingTest, TheHardwareFilterIsTakenWhereItsErrorIsSmall) {
     TableCache tables;
     const SampleTrials trials = try_samples(scene, volume, bricks, facts, gpu, false, tables);
     const Image traced = trace(volume, scene, 1e-7);
-    const auto draw = [&](Filter filter, VolumeSampling expected) {
+    const auto draw = [&](const Auto<Filter>& filter, VolumeSampling expected) {
         scene.slice.filter = filter;
         const Plan plan = make_plan(scene, facts, gpu, {}, trials);
         EXPECT_EQ(plan.slice.sampling, expected);
-        GlSliceRenderer renderer(volume, scene.transfer_function, facts, plan.slice, gpu,
+        GlSliceRenderer renderer(volume, *scene.transfer_function, facts, plan.slice, gpu,
                                  scene.width, scene.height);
-        renderer.draw(View(scene.camera, scene.width, scene.height));
+        renderer.draw(View(*scene.camera, scene.width, scene.height));
         return renderer.read();
     };
-    const Image filtered = draw(Filter::automatic, VolumeSampling::hardware);
+    const Image filtered = draw(automatic, VolumeSampling::hardware);
     const Image fetched = draw(Filter::exact, VolumeSampling::fetch);
     EXPECT_LE(image_error(filtered, traced).all.linf, scene.max_error);
     EXPECT_LE(image_error(fetched, traced).all.linf, scene.max_error);
 
     gpu.eight_bit_filter = false;
-    draw(Filter::automatic, VolumeSampling::fetch);
+    draw(automatic, VolumeSampling::fetch);
 }
 
 }  // namespace

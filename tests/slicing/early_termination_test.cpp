@@ -26,7 +26,7 @@ class EarlyTerminationTest : public SlicingTest {
     void expect_bound(const Volume& volume, const Scene& scene, const std::string& what) const {
         const OmissionSwitch all = keep("early_termination");
         double largest = 1;
-        for (const TransferKnot& each : scene.transfer_function.knots())
+        for (const TransferKnot& each : scene.transfer_function->knots())
             largest =
                 std::max({largest, each.optics.color.r, each.optics.color.g, each.optics.color.b});
         const double bound = scene.max_error / 1024 + 255 * largest * 1.2e-7;
@@ -65,8 +65,8 @@ TEST_F(EarlyTerminationTest, KeepsItsBoundInRandomScenes) {
         Scene scene = unit_box_scene(
             TransferFunction::linear(knots),
             trial % 3 == 0 ? Projection::orthographic : Projection::perspective, 45, 39);
-        scene.camera.eye = {place(random), place(random), place(random)};
-        scene.camera.center = {.4, .5, .3};
+        scene.camera->eye = {place(random), place(random), place(random)};
+        scene.camera->center = {.4, .5, .3};
         scene.slice.samples = 200;
         scene.max_error = trial % 4 == 3 ? 8 : 1;
         scene.slice.classification =
@@ -94,7 +94,7 @@ TEST_F(EarlyTerminationTest, LeavesOutWhatLiesBehind) {
     const Volume volume = gaussians(24);
     const Scene scene = fog(130);  // 400 slabs over the depth of the box, 1.7 or so: .55 a slab
     const OmissionSwitch all = keep("early_termination");
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     const auto some = tile_renderer(volume, scene), every = tile_renderer(volume, scene, all);
     some->draw(view);
     every->draw(view);
@@ -115,9 +115,9 @@ TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
         reference_test::make_grid({65, 9, 9}, Centering::node, glm::dvec3(1. / 64)),
         [](double i, double, double) { return i / 64; });
     Scene scene = fog(1);
-    scene.camera.eye = {-2, .06, .06};
-    scene.camera.center = {.5, .0625, .0625};
-    scene.camera.height = .1;
+    scene.camera->eye = {-2, .06, .06};
+    scene.camera->center = {.5, .0625, .0625};
+    scene.camera->height = .1;
     // 11 deep in front, .005 of 1e4 behind: half of full scale in a picture of which
     // 1 / 255 / 1024 counts.
     scene.transfer_function = TransferFunction::linear(

@@ -95,9 +95,9 @@ TEST_F(EmptySpaceTest, IsLeaptOverInRandomScenes) {
             random_transfer_function(random),
             trial % 3 == 0 ? Projection::orthographic : Projection::perspective, 41, 37);
         const glm::dvec3 middle = reference_test::middle_of(volume.grid());
-        scene.camera.center = middle;
-        scene.camera.eye = {place(random), place(random), place(random)};
-        if (trial % 4 == 1) scene.camera.eye = middle + glm::dvec3(.03, .01, .02);
+        scene.camera->center = middle;
+        scene.camera->eye = {place(random), place(random), place(random)};
+        if (trial % 4 == 1) scene.camera->eye = middle + glm::dvec3(.03, .01, .02);
         scene.slice.classification =
             trial % 2 == 0 ? Classification::preintegrated : Classification::post;
         scene.slice.samples = std::array{3, 40, 150, 333}[random() % 4];
@@ -134,10 +134,10 @@ Scene one_sample_scene(double extinction, std::size_t place = 24) {
     Scene scene = unit_box_scene(
         TransferFunction::linear({knot(11, {1, 1, 1}, 0), knot(12, {1, 1, 1}, extinction)}),
         Projection::orthographic, 60, 45);
-    const glm::dvec3 moved = glm::dvec3(static_cast<double>(place) / 41) - scene.camera.center;
-    scene.camera.center += moved;
-    scene.camera.eye += moved;
-    scene.camera.height = .3;
+    const glm::dvec3 moved = glm::dvec3(static_cast<double>(place) / 41) - scene.camera->center;
+    scene.camera->center += moved;
+    scene.camera->eye += moved;
+    scene.camera->height = .3;
     scene.slice.samples = 160;
     return scene;
 }

@@ -80,19 +80,19 @@ inline void look_from(const Volume& volume, const glm::dvec3& direction, double 
         .5 * (grid.to_world(grid.index_min()) + grid.to_world(grid.index_max()));
     const double diagonal =
         glm::length(grid.to_world(grid.index_max()) - grid.to_world(grid.index_min()));
-    scene.camera.center = middle;
-    scene.camera.eye = middle + distance * diagonal * glm::normalize(direction);
-    scene.camera.height = .8 * diagonal;
+    scene.camera->center = middle;
+    scene.camera->eye = middle + distance * diagonal * glm::normalize(direction);
+    scene.camera->height = .8 * diagonal;
 }
 
 // One cell, seen along its diagonal by parallel rays that all but coincide: the scalar is x y z =
 // t^3.
 inline Scene diagonal_scene(const TransferFunction& transfer_function) {
     Scene scene = exact_scene(transfer_function, Projection::orthographic);
-    scene.camera.center = {.5, .5, .5};
-    scene.camera.eye = {3, 3, 3};
-    scene.camera.up = {0, 1, .1};
-    scene.camera.height = 1e-9;
+    scene.camera->center = {.5, .5, .5};
+    scene.camera->eye = {3, 3, 3};
+    scene.camera->up = {0, 1, .1};
+    scene.camera->height = 1e-9;
     scene.width = scene.height = 1;
     return scene;
 }

@@ -48,7 +48,7 @@ TEST_P(ExactTest, TouchingAPointIsNotCrossingIt) {
     const auto opacity_above = [&](double value) {
         Scene scene = diagonal_scene(
             TransferFunction::linear({knot(value, {1, 1, 1}, 0), knot(value, {1, 1, 1}, 50)}));
-        scene.camera.eye = {2.5, -1.5, .5};
+        scene.camera->eye = {2.5, -1.5, .5};
         return draw(saddle, scene).rgba[3];
     };
     // Steps lie 2^-22 earlier, and roundings are some 1e-7: the scalar is above for at most the
@@ -67,7 +67,7 @@ TEST_P(ExactTest, DeepCellsHaveTheColourOfTheirFront) {
     Scene scene = diagonal_scene(steep);
     const Image reference = trace(corner_cell(), scene, 1e-9);
     EXPECT_LE(linf(draw(corner_cell(), scene), reference), float_error);
-    scene.camera.eye = {-3, -3, -3};
+    scene.camera->eye = {-3, -3, -3};
     EXPECT_LE(linf(draw(corner_cell(), scene), trace(corner_cell(), scene, 1e-9)), promised);
 }
 
@@ -298,7 +298,7 @@ TEST_P(ExactTest, RaysOfManyCellsAndPointsArePartedWhereLoopsAreLimited) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     EXPECT_EQ(make_plan(scene, facts, capabilities(), {}).slice.slabs > 1, limited);
     EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised);
-    scene.slice.classification = Classification::automatic;
+    scene.slice.classification = automatic;
     EXPECT_EQ(make_plan(scene, facts, capabilities(), {}).slice.classification,
               Classification::exact);
     EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised);

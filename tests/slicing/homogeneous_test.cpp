@@ -41,11 +41,11 @@ double bound(double depth) {
 void expect_exact_chords(const Volume& volume, const Pose& pose, const Capabilities& capabilities,
                          const OmissionSwitch& omissions) {
     Scene scene = unit_box_scene(smooth_transfer_function(), pose.projection, 61, 47);
-    scene.camera.eye = pose.eye;
-    scene.camera.fov_y = pose.fov_y;
-    scene.camera.center = {.52, .47, .51};
-    scene.camera.up = {0, 1, .02};
-    const View view(scene.camera, scene.width, scene.height);
+    scene.camera->eye = pose.eye;
+    scene.camera->fov_y = pose.fov_y;
+    scene.camera->center = {.52, .47, .51};
+    scene.camera->up = {0, 1, .02};
+    const View view(*scene.camera, scene.width, scene.height);
     const double longest = longest_chord(volume.grid(), view);
     ASSERT_GT(longest, .5);
     for (const double depth : {1e-4, .01, .3, 3., 30.}) {

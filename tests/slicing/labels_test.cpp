@@ -29,9 +29,9 @@ TEST_F(SlicingTest, StepsAtLabelsShowTheirLaterSide) {
     }
     for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
         Scene scene = unit_box_scene(TransferFunction::linear(points), projection);
-        scene.camera.eye = {20, 15, 18};
-        scene.camera.center = {6.5, 3.5, 3.5};
-        scene.camera.height = 12;
+        scene.camera->eye = {20, 15, 18};
+        scene.camera->center = {6.5, 3.5, 3.5};
+        scene.camera->height = 12;
         scene.slice.samples = slabs;
         const double longest =
             2 * std::hypot(13, 7, 7);  // of the box's depth, and of a ray's slant

@@ -32,9 +32,9 @@ Scene scene_of(const Volume& volume, double depth) {
         Projection::perspective, 48, 36);
     scene.slice.classification = Classification::exact;
     scene.lighting.emplace().smallest_gradient = .01 * (range.hi - range.lo);
-    scene.camera.center = reference_test::middle_of(volume.grid());
-    scene.camera.eye =
-        scene.camera.center + .8 * diagonal * glm::normalize(glm::dvec3(.4, -.7, .9));
+    scene.camera->center = reference_test::middle_of(volume.grid());
+    scene.camera->eye =
+        scene.camera->center + .8 * diagonal * glm::normalize(glm::dvec3(.4, -.7, .9));
     return scene;
 }
 

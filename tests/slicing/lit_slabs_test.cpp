@@ -66,7 +66,7 @@ Scene lit_scene(Classification classification, const Lighting& lighting) {
         Projection::perspective, 60, 45);
     scene.slice.classification = classification;
     scene.lighting = lighting;
-    if (!scene.lighting->smallest_gradient) scene.lighting->smallest_gradient = .2;
+    if (scene.lighting->smallest_gradient.is_automatic()) scene.lighting->smallest_gradient = .2;
     return scene;
 }
 
@@ -79,7 +79,7 @@ TEST_P(LitSlabsOf, ManySlabsMeetTheTracer) {
                  {Projection::perspective, Projection::orthographic}) {
                 if (!is_native() && projection == Projection::orthographic) continue;
                 Scene scene = lit_scene(each, lighting);
-                scene.camera.projection = projection;
+                scene.camera->projection = projection;
                 const Image traced = trace(volume, scene, 1e-6);
                 scene.slice.samples = 40;
                 const double few = linf(draw(volume, scene), traced);
@@ -132,7 +132,7 @@ TEST_P(LitSlabsOf, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     for (const Classification each : both) {
         for (const int slabs : {7, 60}) {
             Scene scene = lit_scene(each, directional());
-            scene.camera.projection = Projection::orthographic;
+            scene.camera->projection = Projection::orthographic;
             scene.slice.samples = slabs;
             Scene unlit = scene;
             unlit.lighting.reset();
@@ -141,7 +141,7 @@ TEST_P(LitSlabsOf, ALinearFieldIsTheUnlitPictureTimesAConstant) {
                 const float *const a = &plain.rgba[i], *const b = &lit.rgba[i];
                 const glm::dvec3 expected =
                     lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, *scene.lighting,
-                                        scene.camera.center - scene.camera.eye);
+                                        scene.camera->center - scene.camera->eye);
                 ASSERT_EQ(b[3], a[3]);
                 for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * float_error / 255);
             }

@@ -58,7 +58,7 @@ TransferFunction colors_of(const Volume& volume, double depth) {
 
 Scene lit_scene(const Volume& volume, double depth, Lighting lighting, double smallest_share) {
     Scene scene = unit_box_scene(colors_of(volume, depth), Projection::perspective, 60, 45);
-    scene.slice.classification = Classification::automatic;
+    scene.slice.classification = automatic;
     const ValueRange range = measure_bricks(volume).whole;
     double step = 1e300;
     for (const glm::dvec3& each : volume.grid().step) step = std::min(step, glm::length(each));
@@ -71,14 +71,14 @@ Scene lit_scene(const Volume& volume, double depth, Lighting lighting, double sm
 void look_from(const Volume& volume, const glm::dvec3& direction, double distance, Scene& scene) {
     const Grid& grid = volume.grid();
     const double diagonal = reference_test::diagonal_of(grid);
-    scene.camera.center = reference_test::middle_of(grid);
-    scene.camera.eye = scene.camera.center + distance * diagonal * glm::normalize(direction);
-    scene.camera.height = .8 * diagonal;
+    scene.camera->center = reference_test::middle_of(grid);
+    scene.camera->eye = scene.camera->center + distance * diagonal * glm::normalize(direction);
+    scene.camera->height = .8 * diagonal;
 }
 
 Image traced(const Volume& volume, const Scene& scene) {
-    return to_float(trace_volume(volume, scene.transfer_function,
-                                 View(scene.camera, scene.width, scene.height),
+    return to_float(trace_volume(volume, *scene.transfer_function,
+                                 View(*scene.camera, scene.width, scene.height),
                                  {1e-6, scene.lighting})
                         .image);
 }
@@ -95,7 +95,7 @@ void LitTest::keeps_max_error(const Volume& volume, Scene& scene, const Image& r
     for (const double max_error : {1., 4.}) {
         scene.max_error = max_error;
         EXPECT_LE(linf(draw(volume, scene), reference), max_error)
-            << name_of(scene.camera.projection) << ", power " << scene.lighting->power;
+            << name_of(scene.camera->projection) << ", power " << scene.lighting->power;
     }
 }
 
@@ -103,7 +103,7 @@ void LitTest::keeps_max_error(const Volume& volume, double smallest_share) {
     for (const Lighting& lighting : lightings()) {
         Scene scene = lit_scene(volume, 5, lighting, smallest_share);
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
-            scene.camera.projection = projection;
+            scene.camera->projection = projection;
             look_from(volume, {.4, -.7, .9}, projection == Projection::perspective ? .4 : 1, scene);
             keeps_max_error(volume, scene, traced(volume, scene));
         }
@@ -142,7 +142,7 @@ TEST_P(LitTest, ALinearFieldIsTheUnlitPictureTimesAConstant) {
         return glm::dot(gradient, grid.to_world({x, y, z}));
     });
     Scene scene = lit_scene(volume, 3, directional(), .05);
-    scene.camera.projection = Projection::orthographic;
+    scene.camera->projection = Projection::orthographic;
     look_from(volume, {.4, -.7, .9}, 1, scene);
     Scene unlit = scene;
     unlit.lighting.reset();
@@ -152,7 +152,7 @@ TEST_P(LitTest, ALinearFieldIsTheUnlitPictureTimesAConstant) {
             const float *const a = plain.pixel(column, row), *const b = lit.pixel(column, row);
             const glm::dvec3 expected =
                 lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, *scene.lighting,
-                                    scene.camera.center - scene.camera.eye);
+                                    scene.camera->center - scene.camera->eye);
             // Lit rays are walked in double precision, and others in floats.
             ASSERT_NEAR(b[3], a[3], float_error / 255);
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * float_error / 255);
@@ -304,7 +304,7 @@ TEST_P(LitTest, SlabsDrawnOneByOneAreLit) {
         EXPECT_LE(linf(draw(volume, scene, keep("blending")), reference), 1);
         EXPECT_LE(linf(draw(volume, scene, leave_nothing_out()), reference), 1);
     }
-    scene.slice.samples.reset();
+    scene.slice.samples = automatic;
     scene.target = Target::fixed16;
     EXPECT_LE(linf(draw(volume, scene), reference), 1.1);
 }
@@ -320,7 +320,7 @@ TEST_P(LitTest, WhatIsCutIsLit) {
 TEST_P(LitTest, WhatCannotBeDrawnLitIsRefused) {
     const Volume volume = waves<float>(test::grid_of({5, 5, 5}, Centering::node), 1);
     Scene scene = lit_scene(volume, 5, Lighting{}, .01);
-    scene.lighting->smallest_gradient.reset();
+    scene.lighting->smallest_gradient = automatic;
     expect_error([&] { draw(volume, scene); }, {"lighting.smallest_gradient"});
 }
 

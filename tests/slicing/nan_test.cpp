@@ -35,7 +35,7 @@ Scene scene_of(const Volume& volume, std::mt19937& random) {
     scene.camera = reference_test::camera_at(
         volume.grid(), random() % 2 > 0 ? Projection::perspective : Projection::orthographic,
         {direction(random), direction(random), direction(random)}, 1.2);
-    scene.camera.fov_y = 45;
+    scene.camera->fov_y = 45;
     scene.width = 24;
     scene.height = 18;
     scene.nan = NanPolicy::transparent;

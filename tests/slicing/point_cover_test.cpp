@@ -24,7 +24,7 @@ TEST(PointCover, RaysThroughTheOnlyFeatureAreCoveredAndFewOthers) {
         {knot(100, {1, 1, 1}, 0), knot(101, {1, 1, 1}, 50), knot(102, {1, 1, 1}, 0)});
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
         const Scene scene = unit_box_scene(optics, projection);
-        const View view(scene.camera, scene.width, scene.height);
+        const View view(*scene.camera, scene.width, scene.height);
         const auto cover = cover_of_points(measure_bricks(volume), volume.grid(), optics, view);
         const Image picture = trace(volume, scene, 1e-6);
         ASSERT_EQ(cover.size() * 4, picture.rgba.size());
@@ -47,7 +47,7 @@ TEST(PointCover, WithoutPointsNothingIsCovered) {
         TransferFunction::linear({knot(-1, {1, 1, 1}, 0), knot(256, {1, 1, 1}, 50)});
     const Scene scene = unit_box_scene(optics, Projection::perspective);
     const auto cover = cover_of_points(measure_bricks(volume), volume.grid(), optics,
-                                       View(scene.camera, scene.width, scene.height));
+                                       View(*scene.camera, scene.width, scene.height));
     EXPECT_EQ(std::ranges::count(cover, 0.0f), static_cast<std::ptrdiff_t>(cover.size()));
 }
 

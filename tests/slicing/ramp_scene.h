@@ -20,10 +20,10 @@ inline Scene ramp_scene(const glm::dvec3& color) {
     Scene scene;
     scene.slice.classification = Classification::post;
     scene.transfer_function = TransferFunction::nearest(points);
-    scene.camera.projection = Projection::orthographic;
-    scene.camera.eye = {127.5, 1.5, 10};
-    scene.camera.center = {127.5, 1.5, 0};
-    scene.camera.height = ramp_height;
+    scene.camera->projection = Projection::orthographic;
+    scene.camera->eye = {127.5, 1.5, 10};
+    scene.camera->center = {127.5, 1.5, 0};
+    scene.camera->height = ramp_height;
     scene.width = ramp_width;
     scene.height = ramp_height;
     scene.target = Target::emulated;

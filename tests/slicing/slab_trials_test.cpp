@@ -33,9 +33,9 @@ Tried try_slabs(const Scene& scene, const Volume& volume,
 Image draw(const Volume& volume, const Scene& scene, const Tried& tried) {
     const Plan plan = make_plan(scene, tried.facts, tile_capabilities(), {}, tried.trials);
     const auto renderer =
-        make_slice_renderer(volume, scene.transfer_function, tried.facts, plan.slice,
+        make_slice_renderer(volume, *scene.transfer_function, tried.facts, plan.slice,
                             tile_capabilities(), scene.width, scene.height);
-    renderer->draw(View(scene.camera, scene.width, scene.height));
+    renderer->draw(View(*scene.camera, scene.width, scene.height));
     return renderer->read();
 }
 
@@ -75,20 +75,20 @@ TEST(SlabTrials, ManyFramesKeepExactSegmentsWhereFewSlabsDoNotDo) {
 // Where the error grows with the slabs, or the scene says how many there are, none are tried.
 TEST(SlabTrials, ManyFramesTryNothingWhereSlabsAreGivenOrRounded) {
     const Volume volume = gaussians(24);
-    Scene automatic = unit_box_scene(smooth_transfer_function(), Projection::perspective);
-    automatic.slice = {};
+    Scene open = unit_box_scene(smooth_transfer_function(), Projection::perspective);
+    open.slice = {};
     const auto expect_exact = [&](const Scene& scene) {
         const Tried tried = try_for_many_frames(scene, volume);
         EXPECT_TRUE(tried.trials.exact.empty());
         EXPECT_EQ(classification_of(scene, tried), Classification::exact);
     };
-    Scene scene = automatic;
+    Scene scene = open;
     scene.slice.samples = 64;
     expect_exact(scene);
-    scene = automatic;
+    scene = open;
     scene.target = Target::fixed8;
     expect_exact(scene);
-    scene = automatic;
+    scene = open;
     scene.slice.tree = TreeSettings{.factors = {8, 8}};
     expect_exact(scene);
 }
@@ -104,7 +104,7 @@ TEST(SlabTrials, KeepTheErrorWithFewSlabs) {
             const Image traced = trace(volume, scene, 1e-7);
             for (const double max_error : {.25, 1., 4.}) {
                 scene.max_error = max_error;
-                scene.slice.samples.reset();
+                scene.slice.samples = automatic;
                 const Tried tried = try_slabs(scene, volume);
                 const SlabTrial chosen = tried.chosen();
                 EXPECT_LE(chosen.error, max_error);
@@ -147,7 +147,7 @@ TEST(SlabTrials, NothingIsTriedThatNobodyAskedFor) {
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::orthographic);
     scene.slice.samples = 9;
     EXPECT_TRUE(try_slabs(scene, volume).trials.exact.empty());
-    scene.slice.samples.reset();
+    scene.slice.samples = automatic;
     EXPECT_FALSE(try_slabs(scene, volume).trials.exact.empty());
     scene.method = Method::trace;
     EXPECT_TRUE(try_slabs(scene, volume).trials.exact.empty());
@@ -204,10 +204,10 @@ TEST(SlabTrials, NarrowPeaksAreNotMissedByAllPictures) {
     scene.transfer_function =
         TransferFunction::linear({knot(100, {1, 1, 1}, 0), knot(100.1, {1, 1, 1}, 0),
                                   knot(100.2, {1, 1, 1}, 1e4), knot(100.3, {1, 1, 1}, 0)});
-    scene.camera.projection = Projection::orthographic;
-    scene.camera.eye = {-10, 1.5, 0};
-    scene.camera.center = {128, 1.5, 0};
-    scene.camera.height = 4;
+    scene.camera->projection = Projection::orthographic;
+    scene.camera->eye = {-10, 1.5, 0};
+    scene.camera->center = {128, 1.5, 0};
+    scene.camera->height = 4;
     for (const Classification classification :
          {Classification::post, Classification::preintegrated}) {
         scene.slice.classification = classification;
@@ -267,7 +267,7 @@ Tried measure_filter(const Scene& scene, const Volume& volume) {
 TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
     for (const Volume& volume : {gaussians(32), mixing(24)}) {
         Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
-        scene.slice.filter = Filter::automatic;
+        scene.slice.filter = automatic;
         const Image traced = trace(volume, scene, 1e-7);
         const Tried tried = measure_filter(scene, volume);
         const SlabTrial trial = slabs_of_hardware_filter(tried.trials).value();
@@ -278,7 +278,7 @@ TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
         const Image filtered = draw(volume, given, tried);
         EXPECT_LE(image_error(filtered, traced).all.linf, scene.max_error);
 
-        given.slice.filter = Filter::automatic;
+        given.slice.filter = automatic;
         const Tried with_slabs = measure_filter(given, volume);
         given.slice.filter = Filter::exact;
         EXPECT_DOUBLE_EQ(with_slabs.trials.hardware.at(0).error,
@@ -290,7 +290,7 @@ TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
 TEST(SlabTrials, TheHardwareFilterIsNotTakenWhereItsErrorIsTooLarge) {
     const Volume volume = mixing(24);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
-    scene.slice.filter = Filter::automatic;
+    scene.slice.filter = automatic;
     scene.slice.samples = 200;
     const auto trial = [&](double max_error) {
         scene.max_error = max_error;
@@ -307,7 +307,7 @@ TEST(SlabTrials, NoFilterIsTriedWhereNobodyAsksOrItCannotBeTaken) {
     scene.slice.samples = 9;
     const auto trials = [&] { return measure_filter(scene, volume).trials.hardware.size(); };
     EXPECT_EQ(trials(), 0u);
-    scene.slice.filter = Filter::automatic;
+    scene.slice.filter = automatic;
     EXPECT_EQ(trials(), 1u);
     EXPECT_TRUE(try_slabs(scene, volume).trials.hardware.empty());
     scene.transfer_function = TransferFunction::linear({knot(0, {.2, .4, .8}, 2)});

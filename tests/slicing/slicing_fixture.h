@@ -35,15 +35,15 @@ inline Image render(const Volume& volume, const Scene& scene, const Capabilities
                     const OmissionSwitch& omissions = {}) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     const Plan plan = make_plan(scene, facts, capabilities, omissions);
-    GlSliceRenderer renderer(volume, scene.transfer_function, facts, plan.slice, capabilities,
+    GlSliceRenderer renderer(volume, *scene.transfer_function, facts, plan.slice, capabilities,
                              scene.width, scene.height);
-    renderer.draw(View(scene.camera, scene.width, scene.height));
+    renderer.draw(View(*scene.camera, scene.width, scene.height));
     return renderer.read();
 }
 
 inline Image trace(const Volume& volume, const Scene& scene, double tolerance) {
-    return to_float(trace_volume(volume, scene.transfer_function,
-                                 View(scene.camera, scene.width, scene.height),
+    return to_float(trace_volume(volume, *scene.transfer_function,
+                                 View(*scene.camera, scene.width, scene.height),
                                  {tolerance, scene.lighting, half_spaces(scene.clip)})
                         .image);
 }
@@ -65,12 +65,12 @@ inline Scene unit_box_scene(const TransferFunction& transfer_function, Projectio
     Scene scene;
     scene.slice.classification = Classification::post;
     scene.transfer_function = transfer_function;
-    scene.camera.projection = projection;
-    scene.camera.eye = {1.7, -.9, 1.3};
-    scene.camera.center = {.5, .5, .5};
-    scene.camera.up = {.1, .05, 1};
-    scene.camera.fov_y = 50;
-    scene.camera.height = 1.7;
+    scene.camera->projection = projection;
+    scene.camera->eye = {1.7, -.9, 1.3};
+    scene.camera->center = {.5, .5, .5};
+    scene.camera->up = {.1, .05, 1};
+    scene.camera->fov_y = 50;
+    scene.camera->height = 1.7;
     scene.width = width;
     scene.height = height;
     return scene;

@@ -20,12 +20,12 @@ std::unique_ptr<TileSliceRenderer> renderer_of(const Volume& drawn, const Volume
                                                const Capabilities& capabilities) {
     const Facts facts = measure(scene, drawn, measure_bricks(in_memory));
     const Plan plan = make_plan(scene, facts, capabilities, {});
-    return std::make_unique<TileSliceRenderer>(drawn, scene.transfer_function, facts, plan.slice,
+    return std::make_unique<TileSliceRenderer>(drawn, *scene.transfer_function, facts, plan.slice,
                                                scene.width, scene.height);
 }
 
 Image draw(TileSliceRenderer& renderer, const Scene& scene) {
-    renderer.draw(View(scene.camera, scene.width, scene.height));
+    renderer.draw(View(*scene.camera, scene.width, scene.height));
     return renderer.read();
 }
 
@@ -65,7 +65,7 @@ void expect_same_in_all_ways(double largest) {
         slabs.slice.samples = 70;
         expect_same(volume, slabs, "post");
         slabs.slice.classification = Classification::preintegrated;
-        slabs.camera.projection = Projection::orthographic;
+        slabs.camera->projection = Projection::orthographic;
         expect_same(volume, slabs, "preintegrated");
         slabs.slice.filter = Filter::hardware;
         expect_same(volume, slabs, "hardware filter");
@@ -90,9 +90,9 @@ TEST(StoredVolumes, WithMoreBricksThanFitLookTheSame) {
     ASSERT_GT(volume.byte_count(), std::size_t{1} << 23);
     expect_same(volume, scene_of(volume, Classification::exact), "exact");
     Scene inside = scene_of(volume, Classification::exact);
-    inside.camera.eye = inside.camera.center + glm::dvec3(1, 2, 3);
-    inside.camera.center += glm::dvec3(30, 20, 10);
-    inside.camera.fov_y = 100;
+    inside.camera->eye = inside.camera->center + glm::dvec3(1, 2, 3);
+    inside.camera->center += glm::dvec3(30, 20, 10);
+    inside.camera->fov_y = 100;
     expect_same(volume, inside, "eye inside");
 }
 
@@ -163,7 +163,7 @@ TEST(StoredVolumes, InFixedPointTreesLookTheSame) {
     scene.slice.samples = 64;
     scene.target = Target::fixed8;
     expect_same(volume, scene, "blended");
-    scene.slice.tree = TreeSettings{.automatic = false, .factors = {8, 8}};
+    scene.slice.tree = TreeSettings{.factors = {8, 8}};
     expect_same(volume, scene, "tree");
 }
 
@@ -187,7 +187,7 @@ TEST(StoredVolumes, ReadWhatShowsAndThatOnce) {
     // Two pages by one by one, and the pages that their last samples also belong to.
     EXPECT_LE(reads.samples_read, 3 * 2 * 2 * BrickCache::sample_count);
     reads.samples_read = 0;
-    scene.camera.eye += glm::dvec3(1, 2, 3);
+    scene.camera->eye += glm::dvec3(1, 2, 3);
     draw(*renderer, scene);
     EXPECT_EQ(reads.samples_read, 0);
 }
@@ -201,13 +201,13 @@ TEST(StoredVolumes, AViewFindsThePagesThatItSees) {
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
     const auto seen = [&] {
         return pages_seen(all, cache.count(), {0, 0, 0}, volume.grid(),
-                          View(scene.camera, scene.width, scene.height))
+                          View(*scene.camera, scene.width, scene.height))
             .size();
     };
     EXPECT_EQ(seen(), all.size());
-    scene.camera.fov_y = 1;
+    scene.camera->fov_y = 1;
     EXPECT_LT(seen(), all.size() / 3);
-    scene.camera.center = 2.0 * scene.camera.eye - scene.camera.center;
+    scene.camera->center = 2.0 * scene.camera->eye - scene.camera->center;
     EXPECT_EQ(seen(), 0u);
 }
 

@@ -11,9 +11,9 @@ Scene one_slab(Target target, double opacity) {
     Scene scene =
         unit_box_scene(TransferFunction::linear({knot(0, {.25, .5, 1}, -std::log1p(-opacity))}),
                        Projection::orthographic, 8, 8);
-    scene.camera.eye = {.5, .5, 3};
-    scene.camera.up = {0, 1, 0};
-    scene.camera.height = .5;
+    scene.camera->eye = {.5, .5, 3};
+    scene.camera->up = {0, 1, 0};
+    scene.camera->height = .5;
     scene.target = target;
     scene.slice.samples = 1;
     return scene;

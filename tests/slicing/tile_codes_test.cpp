@@ -36,7 +36,7 @@ class TileCodesTest : public SlicingTest {
             << name_of(scene.target) << ", " << scene.emulate.bits << " bits, alpha "
             << name_of(scene.emulate.alpha) << ", over " << name_of(scene.emulate.over) << ", "
             << name_of(scene.slice.order) << ", tree "
-            << (scene.slice.tree ? to_text(scene.slice.tree->factors) : "") << ", dither "
+            << (scene.slice.tree ? to_text((*scene.slice.tree)->factors) : "") << ", dither "
             << (scene.slice.dither ? scene.slice.dither->increment : 0);
     }
 };

@@ -13,7 +13,7 @@ inline std::unique_ptr<TileSliceRenderer> tile_renderer(
     const Capabilities& capabilities = tile_capabilities()) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     const Plan plan = make_plan(scene, facts, capabilities, omissions);
-    return std::make_unique<TileSliceRenderer>(volume, scene.transfer_function, facts, plan.slice,
+    return std::make_unique<TileSliceRenderer>(volume, *scene.transfer_function, facts, plan.slice,
                                                scene.width, scene.height);
 }
 
@@ -21,7 +21,7 @@ inline Image render_tiles(const Volume& volume, const Scene& scene,
                           const OmissionSwitch& omissions = {},
                           const Capabilities& capabilities = tile_capabilities()) {
     const auto renderer = tile_renderer(volume, scene, omissions, capabilities);
-    renderer->draw(View(scene.camera, scene.width, scene.height));
+    renderer->draw(View(*scene.camera, scene.width, scene.height));
     return renderer->read();
 }
 

@@ -93,7 +93,7 @@ TEST(TileFramesTest, FramesAfterTheFirstTakeNoMemory) {
     const Volume volume = gaussians(30);
     for (const Case& each : cases()) {
         const auto renderer = tile_renderer(volume, each.scene, each.omissions);
-        const View view(each.scene.camera, each.scene.width, each.scene.height);
+        const View view(*each.scene.camera, each.scene.width, each.scene.height);
         renderer->draw(view);
         const std::int64_t before = test::allocation_count();
         renderer->draw(view);
@@ -113,8 +113,8 @@ TEST(TileFramesTest, FramesOfSeveralBricksTakeNoMemory) {
     const Volume volume = gaussians(30);
     for (const Case& each : cases()) {
         const auto renderer = tile_renderer(volume, each.scene, each.omissions, small_bricks());
-        renderer->draw(View(each.scene.camera, 75, 53));
-        const View turned_by_70(turned(each.scene.camera, 70), 75, 53);
+        renderer->draw(View(*each.scene.camera, 75, 53));
+        const View turned_by_70(turned(*each.scene.camera, 70), 75, 53);
         const std::int64_t before = test::allocation_count();
         renderer->draw(turned_by_70);
         EXPECT_EQ(test::allocation_count(), before) << each.name;
@@ -147,7 +147,7 @@ TEST(TileFramesTest, EmptySpaceIsSkippedBitForBit) {
         for (const Capabilities& capabilities : {tile_capabilities(), small_bricks()}) {
             const auto drawn = [&](const OmissionSwitch& omissions, std::int64_t& samples) {
                 const auto renderer = tile_renderer(volume, each.scene, omissions, capabilities);
-                renderer->draw(View(each.scene.camera, 75, 53));
+                renderer->draw(View(*each.scene.camera, 75, 53));
                 samples = renderer->samples();
                 return renderer->read().rgba;
             };
@@ -169,9 +169,9 @@ TEST(TileFramesTest, EmptySpaceIsSkippedInEveryView) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(-.4, 1.4);
     for (int trial = 0; trial < 8; ++trial) {
-        scene.camera.projection =
+        scene.camera->projection =
             trial % 3 == 0 ? Projection::orthographic : Projection::perspective;
-        scene.camera.eye = {place(random), place(random), place(random)};
+        scene.camera->eye = {place(random), place(random), place(random)};
         scene.slice.classification =
             trial % 2 == 0 ? Classification::preintegrated : Classification::post;
         for (const int slabs : {3, 40, 333}) {

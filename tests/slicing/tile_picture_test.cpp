@@ -58,9 +58,9 @@ TEST_F(SlicingTest, TilesShowWhatOpenGlShowsFromEverywhere) {
         for (const glm::dvec3& eye :
              {glm::dvec3(1.7, -.9, 1.3), glm::dvec3(.31, .42, .63), glm::dvec3(.5, .5, 4)}) {
             Scene scene = unit_box_scene(hues(volume, 4), projection, 70, 50);
-            scene.camera.eye = eye;
-            scene.camera.center = {.52, .47, .51};
-            scene.camera.fov_y = 70;
+            scene.camera->eye = eye;
+            scene.camera->center = {.52, .47, .51};
+            scene.camera->fov_y = 70;
             scene.slice.samples = 77;
             for (const Order order : {Order::back_to_front, Order::front_to_back}) {
                 scene.slice.order = order;
@@ -83,16 +83,16 @@ TEST(TilePictureTest, HomogeneousBoxHasTheExactChordsOpacity) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 61, 47);
-    scene.camera.center = {.52, .47, .51};
-    scene.camera.up = {0, 1, .02};
-    scene.camera.fov_y = 60;
+    scene.camera->center = {.52, .47, .51};
+    scene.camera->up = {0, 1, .02};
+    scene.camera->fov_y = 60;
     for (const auto& [projection, eye] :
          {std::pair{Projection::orthographic, glm::dvec3(1.7, -1.2, 1.4)},
           std::pair{Projection::perspective, glm::dvec3(1.21, -.17, 1.19)},
           std::pair{Projection::perspective, glm::dvec3(.31, .42, .63)}}) {
-        scene.camera.projection = projection;
-        scene.camera.eye = eye;
-        const View view(scene.camera, scene.width, scene.height);
+        scene.camera->projection = projection;
+        scene.camera->eye = eye;
+        const View view(*scene.camera, scene.width, scene.height);
         for (const double depth : {1e-4, .3, 30.}) {
             const double extinction = depth / std::sqrt(3.0);
             scene.transfer_function = TransferFunction::linear({knot(0, {1, 1, 1}, extinction)});
@@ -120,12 +120,12 @@ TEST(TilePictureTest, ThinBoxesHaveTheExactChordsOpacity) {
         generate({"constant", std::array<std::int64_t, 3>{40, 1, 40}, SampleType::uint8});
     Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {1, 1, 1}, .3)}),
                                  Projection::perspective, 61, 47);
-    scene.camera.eye = {.4, .506, 2.1};
-    scene.camera.center = {.52, .47, .51};
-    scene.camera.up = {0, 1, .02};
-    scene.camera.fov_y = 30;
+    scene.camera->eye = {.4, .506, 2.1};
+    scene.camera->center = {.52, .47, .51};
+    scene.camera->up = {0, 1, .02};
+    scene.camera->fov_y = 30;
     scene.slice.samples = 40;
-    const View view(scene.camera, scene.width, scene.height);
+    const View view(*scene.camera, scene.width, scene.height);
     const Image image = render_tiles(volume, scene);
     for (int row = 0; row < view.height; ++row) {
         for (int column = 0; column < view.width; ++column) {
@@ -262,8 +262,8 @@ TEST(TilePictureTest, StepsAtLabelsShowTheirLaterSide) {
         points.push_back(knot(value, {label % 2, .5, 1. / label}, label % 2 ? extinction : .05));
     }
     Scene scene = unit_box_scene(TransferFunction::linear(points), Projection::perspective);
-    scene.camera.eye = {20, 15, 18};
-    scene.camera.center = {6.5, 3.5, 3.5};
+    scene.camera->eye = {20, 15, 18};
+    scene.camera->center = {6.5, 3.5, 3.5};
     scene.slice.samples = slabs;
     const double longest = 2 * std::hypot(13, 7, 7);
     const Image reference = trace(volume, scene, 1e-6);

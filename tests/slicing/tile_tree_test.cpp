@@ -52,8 +52,8 @@ TEST_F(TileTreeTest, NodesAreOpenGls) {
               std::pair{Target::fixed16, 8}, std::pair{Target::float16, 8},
               std::pair{Target::float32, 8}}) {
             Scene scene = scene_of(300, target, {10, 6, 5});
-            scene.slice.tree->code = code;
-            scene.slice.tree->alpha_bits = alpha_bits;
+            (*scene.slice.tree)->code = code;
+            (*scene.slice.tree)->alpha_bits = alpha_bits;
             const Image tiles = render_tiles(volume_, scene);
             const Image shaders = render(volume_, scene, capabilities());
             const double one = target == Target::fixed8    ? 255. / 255
@@ -97,7 +97,7 @@ TEST_F(TileTreeTest, NativeFixedNodesAreOpenGls) {
                  {std::vector<int>{32, 32}, std::vector<int>(10, 2)}) {
                 Scene scene = scene_of(1024, target, factors);
                 scene.slice.order = order;
-                scene.slice.tree->nodes = NodeArithmetic::fixed;
+                (*scene.slice.tree)->nodes = NodeArithmetic::fixed;
                 const double scale = target == Target::fixed8 ? 1 : 1. / 257;
                 const auto levels = static_cast<double>(factors.size());
                 EXPECT_LE(

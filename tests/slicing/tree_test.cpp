@@ -109,7 +109,7 @@ TEST_F(TreeTest, ColourGoesThroughTheTree) {
             Scene scene = scene_of(example, samples, Target::fixed8, {factor, factor});
             EXPECT_LE(linf(render(example.volume, scene, capabilities()), expected), most)
                 << example.name;
-            scene.slice.tree->alpha_bits = 16;
+            (*scene.slice.tree)->alpha_bits = 16;
             EXPECT_LE(linf(render(example.volume, scene, capabilities()), expected), 1.02)
                 << example.name;
         }
@@ -136,9 +136,9 @@ TEST_F(TreeTest, PhiFailsOnSheetsAndAutoDoesNotChooseIt) {
     const Image expected =
         render(sheets.volume, scene_of(sheets, 1024, Target::float32, {}), capabilities());
     Scene scene = scene_of(sheets, 1024, Target::fixed8, {32, 32});
-    scene.slice.tree->code = NodeCode::phi;
+    (*scene.slice.tree)->code = NodeCode::phi;
     EXPECT_GT(linf(render(sheets.volume, scene, capabilities()), expected), 50);
-    scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
+    scene.slice.tree = automatic;
     EXPECT_LE(linf(render(sheets.volume, scene, capabilities()), expected), 1);
 }
 
@@ -149,7 +149,7 @@ TEST_F(TreeTest, AutoStaysUnderItsBound) {
         for (const Target target : {Target::fixed8, Target::fixed16, Target::float16}) {
             for (const double max_error : {1.0, 2.0, 4.0, 8.0}) {
                 Scene scene = scene_of(example, 1024, target, {});
-                scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
+                scene.slice.tree = automatic;
                 scene.max_error = max_error;
                 const Facts facts = measure(scene, example.volume, measure_bricks(example.volume));
                 const Plan plan = make_plan(scene, facts, capabilities(), {});

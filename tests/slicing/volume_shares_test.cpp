@@ -24,9 +24,9 @@ double tolerance(const Scene& scene, int shares) {
 }
 
 Image draw(const Volume& volume, const Scene& scene, const Facts& facts, const SlicePlan& plan) {
-    TileSliceRenderer renderer(volume, scene.transfer_function, facts, plan, scene.width,
+    TileSliceRenderer renderer(volume, *scene.transfer_function, facts, plan, scene.width,
                                scene.height);
-    renderer.draw(View(scene.camera, scene.width, scene.height));
+    renderer.draw(View(*scene.camera, scene.width, scene.height));
     return renderer.read();
 }
 
@@ -48,7 +48,7 @@ void expect_same_together(const Volume& volume, const Scene& scene, const char* 
         ASSERT_EQ(shares.boxes().size(), static_cast<std::size_t>(count));
         PreciseImage together(scene.width, scene.height);
         for (const int number :
-             shares.front_to_back(facts.grid, View(scene.camera, scene.width, scene.height))) {
+             shares.front_to_back(facts.grid, View(*scene.camera, scene.width, scene.height))) {
             SlicePlan of_share = plan.slice;
             of_share.share = shares.boxes()[static_cast<std::size_t>(number)];
             put_behind(draw(volume, scene, facts, of_share), together);
@@ -75,7 +75,7 @@ void expect_same_from_everywhere(const Volume& volume, Classification classifica
         if (classification != Classification::exact) scene.slice.samples = 70;
         if (change) change(scene);
         expect_same_together(volume, scene, "perspective");
-        scene.camera.projection = Projection::orthographic;
+        scene.camera->projection = Projection::orthographic;
         expect_same_together(volume, scene, "orthographic");
     }
 }
@@ -142,7 +142,7 @@ TEST(VolumeShares, OfVolumesAroundTheEyeMakeOnePicture) {
         Scene scene = scene_of(some_volume(), classification, {1, 2, 3});
         if (classification != Classification::exact) scene.slice.samples = 70;
         const Grid& grid = some_volume().grid();
-        scene.camera.eye = grid.to_world(glm::dvec3(16, 16, 12.3));
+        scene.camera->eye = grid.to_world(glm::dvec3(16, 16, 12.3));
         expect_same_together(some_volume(), scene, "eye inside, in a plane between shares");
     }
 }

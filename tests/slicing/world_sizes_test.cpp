@@ -18,10 +18,10 @@ World resized(const World& world, double size) {
     for (glm::dvec3& step : grid.step) step *= size;
     const std::shared_ptr<const void> samples(world.volume.data(), [](const void*) {});
     Scene scene = world.scene;
-    scene.transfer_function = scene.transfer_function.attenuated(1 / size);
-    scene.camera.eye *= size;
-    scene.camera.center *= size;
-    scene.camera.height *= size;
+    scene.transfer_function = scene.transfer_function->attenuated(1 / size);
+    scene.camera->eye *= size;
+    scene.camera->center *= size;
+    scene.camera->height *= size;
     return {Volume(grid, world.volume.type(), samples), scene};
 }
 
@@ -30,8 +30,8 @@ enum class Place { outside, inside };
 World world_of(Projection projection, Place place, Classification classification) {
     World world{gaussians(20), unit_box_scene(smooth_transfer_function(), projection, 40, 30)};
     if (place == Place::inside) {
-        world.scene.camera.eye = {.3, .45, .6};
-        world.scene.camera.fov_y = 90;
+        world.scene.camera->eye = {.3, .45, .6};
+        world.scene.camera->fov_y = 90;
     }
     world.scene.slice.classification = classification;
     world.scene.slice.samples = 150;

@@ -20,11 +20,11 @@ class CrosscheckLadder : public testing::Test {
         if (program.empty()) GTEST_SKIP() << "built without TetGen";
         const std::string path = program.parent_path().string() + ":" + std::getenv("PATH");
         setenv("PATH", path.c_str(), 1);
-        scene.volume_request = GeneratorRequest{
-            "gaussians", std::array<std::int64_t, 3>{12, 12, 12}, SampleType::float32};
+        scene.volume = GeneratorRequest{"gaussians", std::array<std::int64_t, 3>{12, 12, 12},
+                                        SampleType::float32};
         scene.transfer_function = test::smooth();
-        scene.camera.eye = {1.7, -.9, 1.3};
-        scene.camera.center = {.5, .5, .5};
+        scene.camera->eye = {1.7, -.9, 1.3};
+        scene.camera->center = {.5, .5, .5};
         scene.width = 12;
         scene.height = 9;
         scene.max_error = 1e-6;  // never kept, so that the ladder ends because of its tets
@@ -54,7 +54,7 @@ TEST_F(CrosscheckLadder, EndsWithTheFirstMeshOfTooManyTets) {
 }
 
 TEST_F(CrosscheckLadder, DrawsTheScenesOwnMeshInAnyCase) {
-    scene.mesh_request = MeshSettings{.tolerance = .0005, .max_tets = 4000};
+    scene.mesh = MeshSettings{.tolerance = .0005, .max_tets = 4000};
     const Crosscheck ladder = made();
     EXPECT_NE(said.find("meshes of up to 4000 tets"), std::string::npos) << said;
     ASSERT_GT(ladder.projections.size(), 2u);
@@ -71,7 +71,7 @@ TEST_F(CrosscheckLadder, DrawsTheScenesOwnMeshInAnyCase) {
 TEST_F(CrosscheckLadder, DrawsAllThatWasAskedFor) {
     settings.ends_by_itself = false;
     settings.tolerances = {.1, .01};
-    scene.mesh_request = MeshSettings{.tolerance = .05, .max_tets = 2000};
+    scene.mesh = MeshSettings{.tolerance = .05, .max_tets = 2000};
     const Crosscheck ladder = made();
     ASSERT_EQ(ladder.projections.size(), 3u);
     EXPECT_EQ(ladder.tolerance, .05);

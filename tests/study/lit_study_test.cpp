@@ -14,11 +14,11 @@ namespace {
 
 Scene lit_scene() {
     Scene scene;
-    scene.volume_request =
+    scene.volume =
         GeneratorRequest{"gaussians", std::array<std::int64_t, 3>{12, 12, 12}, SampleType::float32};
     scene.transfer_function = test::smooth();
-    scene.camera.eye = {1.7, -.9, 1.3};
-    scene.camera.center = {.5, .5, .5};
+    scene.camera->eye = {1.7, -.9, 1.3};
+    scene.camera->center = {.5, .5, .5};
     scene.width = 24;
     scene.height = 18;
     scene.slice.classification = Classification::exact;
@@ -30,7 +30,7 @@ Scene lit_scene() {
 TEST(LitStudy, ChoosesTheSmallestGradientAndTracesWithLight) {
     DataStore data;
     StudyFrames frames(lit_scene(), data, tile_capabilities(), std::make_shared<TableCache>());
-    ASSERT_TRUE(frames.scene().lighting->smallest_gradient);
+    ASSERT_TRUE(frames.scene().lighting->smallest_gradient.is_given());
     // .01 of the range of values, which is up to 1, over the distance of samples.
     EXPECT_GT(*frames.scene().lighting->smallest_gradient, .005 * 11);
     EXPECT_LE(*frames.scene().lighting->smallest_gradient, .01 * 12);

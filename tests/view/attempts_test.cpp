@@ -22,7 +22,7 @@ Scene small_scene(const std::string& render = "{}") {
 }
 
 Scene moved(Scene scene) {
-    scene.camera.eye.x += 1;
+    scene.camera->eye.x += 1;
     return scene;
 }
 

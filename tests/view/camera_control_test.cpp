@@ -16,7 +16,7 @@ class CameraControls : public testing::Test {
   protected:
     CameraControls() {
         document_.open(Scene());
-        camera_ = document_.scene().camera;
+        camera_ = *document_.scene().camera;
     }
 
     bool pointer(double x, double y) { return handle({.kind = Kind::pointer, .place = {x, y}}); }
@@ -30,7 +30,7 @@ class CameraControls : public testing::Test {
     bool release(PointerButton button) { return handle({.kind = Kind::release, .button = button}); }
     bool key(int key) { return handle({.kind = Kind::key, .seconds = seconds_, .key = key}); }
     bool handle(const InputEvent& event) { return control_.handle(event, around_, document_); }
-    const Camera& now() const { return document_.scene().camera; }
+    const Camera& now() const { return *document_.scene().camera; }
 
     Document document_;
     Camera camera_;
@@ -95,7 +95,7 @@ TEST_F(CameraControls, KeysSeeAlongAxes) {
     EXPECT_TRUE(key('P'));
     EXPECT_EQ(now().projection, Projection::orthographic);
     EXPECT_TRUE(key(key::home));
-    EXPECT_TRUE(document_.scene().automatic_camera);
+    EXPECT_TRUE(document_.scene().camera.is_automatic());
     EXPECT_FALSE(key('1'));  // there is no camera yet
 }
 

@@ -82,7 +82,7 @@ TEST(Comparison, NeedsTheSameViewAndAFullPicture) {
     comparison.follow(shown);
     EXPECT_EQ(comparison.missing(), "There is no full picture yet");
     Scene other = scene;
-    other.camera.eye.x += 1;
+    other.camera->eye.x += 1;
     shown = shown_of(a, other);
     comparison.follow(shown);
     EXPECT_EQ(comparison.missing(), "A is not drawn in this view yet");

@@ -30,7 +30,7 @@ Document opened() {
 
 TEST(Document, OneDragIsOneStep) {
     Document document = opened();
-    const TransferFunction before = document.scene().transfer_function;
+    const TransferFunction before = *document.scene().transfer_function;
     document.transfer().select_only({Curve::density, 1});
     document.transfer().begin_move();
     for (int i = 1; i <= 20; ++i) {
@@ -39,13 +39,13 @@ TEST(Document, OneDragIsOneStep) {
     }
     document.transfer().end_move();
     document.end_step();
-    EXPECT_EQ(document.scene().transfer_function.knots().back().value, 100);
+    EXPECT_EQ(document.scene().transfer_function->knots().back().value, 100);
     EXPECT_TRUE(document.dirty());
     document.undo();
     EXPECT_TRUE(document.scene().transfer_function == before);
     EXPECT_FALSE(document.can_undo());
     document.redo();
-    EXPECT_EQ(document.scene().transfer_function.knots().back().value, 100);
+    EXPECT_EQ(document.scene().transfer_function->knots().back().value, 100);
     EXPECT_FALSE(document.can_redo());
 }
 
@@ -54,7 +54,7 @@ TEST(Document, UndoBringsPointsBackThatTheFunctionDoesNotNeed) {
     document.transfer().add_density(105, .35);  // on the line
     document.transfer_edited("add");
     document.end_step();
-    EXPECT_EQ(document.scene().transfer_function.knots().size(), 2u);
+    EXPECT_EQ(document.scene().transfer_function->knots().size(), 2u);
     EXPECT_EQ(document.transfer().curves().density.size(), 3u);
     document.undo();
     EXPECT_EQ(document.transfer().curves().density.size(), 2u);
@@ -102,19 +102,19 @@ TEST(Document, CountsWhatChanges) {
 TEST(Document, UndoLeavesTheViewThatOneHasTurnedTo) {
     Document document = opened();
     document.set_setting("render.target", "float16");
-    Camera camera = document.scene().camera;
+    Camera camera = *document.scene().camera;
     camera.eye = {9, 8, 7};
     document.set_camera(camera);
     document.undo();
-    EXPECT_EQ(document.scene().camera.eye, glm::dvec3(9, 8, 7));
+    EXPECT_EQ(document.scene().camera->eye, glm::dvec3(9, 8, 7));
     document.set_setting("camera.eye", {1, 2, 3});
     document.undo();
-    EXPECT_EQ(document.scene().camera.eye, glm::dvec3(9, 8, 7));
+    EXPECT_EQ(document.scene().camera->eye, glm::dvec3(9, 8, 7));
 }
 
 TEST(Document, ColoursKeepTheirLookInAnotherSpace) {
     Document document = opened();
-    const TransferFunction before = document.scene().transfer_function;
+    const TransferFunction before = *document.scene().transfer_function;
     document.set_setting("image.color_space", "display");
     EXPECT_FALSE(document.scene().transfer_function == before);
     EXPECT_TRUE(document.scene().transfer_function == document.transfer().function());
@@ -125,14 +125,14 @@ TEST(Document, ColoursKeepTheirLookInAnotherSpace) {
 TEST(Document, TakesWhatTheDataSuggest) {
     Document document = opened();
     document.choose_transfer_function();
-    EXPECT_TRUE(document.scene().automatic_transfer_function);
+    EXPECT_TRUE(document.scene().transfer_function.is_automatic());
     Scene chosen = document.scene();
     chosen.transfer_function = TransferFunction::linear({{5, {{1, 1, 1}, 3}, false}});
     document.take_chosen(chosen);
-    EXPECT_FALSE(document.scene().automatic_transfer_function);
+    EXPECT_FALSE(document.scene().transfer_function.is_automatic());
     EXPECT_EQ(document.transfer().curves().density.front().extinction, 3);
     document.undo();
-    EXPECT_EQ(document.scene().transfer_function.knots().size(), 2u);
+    EXPECT_EQ(document.scene().transfer_function->knots().size(), 2u);
 }
 
 TEST(Document, ShowsOpacitiesOfAnOpenColormapForTheirLength) {

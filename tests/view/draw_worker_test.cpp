@@ -42,7 +42,7 @@ class DrawWorkers : public testing::Test {
     }
 
     void turn(double degrees) {
-        request_.scene.camera = turned(request_.scene.camera, degrees);
+        request_.scene.camera = turned(*request_.scene.camera, degrees);
         ++request_.revisions.camera;
     }
 
@@ -108,7 +108,7 @@ TEST_F(DrawWorkers, TheFullPictureIsTheSessions) {
     EXPECT_EQ(first->screen->rgb, screen_codes(session.draw()));
     EXPECT_EQ(first->loaded, 1u);
     EXPECT_EQ(first->plan.error, session.plan().error);
-    EXPECT_FALSE(first->resolved->automatic_camera);
+    EXPECT_TRUE(first->resolved->camera.is_given());
     take_chosen();
     turn(30);
     ask();
@@ -192,7 +192,7 @@ TEST_F(DrawWorkers, WhatIsWrongIsSaidAndThePictureStays) {
     ask();
     const auto good = wait_full();
     const DrawRequest before = request_;
-    request_.scene.volume_file = folder_ / "gone.nrrd";
+    request_.scene.volume = VolumeFile{folder_ / "gone.nrrd"};
     ++request_.revisions.data;
     ask();
     const auto bad = wait([&](const Shown& now) { return now.failed_request == number_; });

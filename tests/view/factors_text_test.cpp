@@ -23,11 +23,11 @@ TEST(FactorsText, IsWhatSceneFilesHave) {
         EXPECT_EQ(factors_text(with_factors(scene, text)), "[16, 8, 4]") << text;
     EXPECT_EQ(factors_text(with_factors(scene, "4^3")), "[4, 4, 4]");
     EXPECT_EQ(factors_text(with_factors(scene, "1024")), "[1024]");
-    const Scene automatic = with_factors(scene, "auto");
-    EXPECT_EQ(factors_text(automatic), "auto");
-    EXPECT_EQ(factors_text(with_factors(automatic, "[2, 2]")), "[2, 2]");
+    const Scene chosen = with_factors(scene, "auto");
+    EXPECT_EQ(factors_text(chosen), "auto");
+    EXPECT_EQ(factors_text(with_factors(chosen, "[2, 2]")), "[2, 2]");
     for (const char* const text : {"", "none", "  "})
-        EXPECT_EQ(factors_text(with_factors(automatic, text)), "none") << text;
+        EXPECT_EQ(factors_text(with_factors(chosen, text)), "none") << text;
 }
 
 TEST(FactorsText, LeavesTheRestOfTheTree) {
@@ -35,16 +35,16 @@ TEST(FactorsText, LeavesTheRestOfTheTree) {
         R"({"target": "fixed8", "slice": {"tree": {"factors": [8, 8], "code": "phi",
             "alpha_bits": 16}}})");
     const Scene changed = with_factors(scene, "[4, 4]");
-    EXPECT_EQ(changed.slice.tree->code, NodeCode::phi);
-    EXPECT_EQ(changed.slice.tree->alpha_bits, 16);
-    EXPECT_EQ(changed.slice.tree->factors, (std::vector<int>{4, 4}));
+    EXPECT_EQ((*changed.slice.tree)->code, NodeCode::phi);
+    EXPECT_EQ((*changed.slice.tree)->alpha_bits, 16);
+    EXPECT_EQ((*changed.slice.tree)->factors, (std::vector<int>{4, 4}));
 }
 
 TEST(FactorsText, OfTetsHaveFixedNodes) {
     Scene scene = scene_of(R"({"method": "project", "target": "fixed8"})");
     scene = with_factors(scene, "[64]");
     ASSERT_TRUE(scene.project.tree);
-    EXPECT_EQ(scene.project.tree->nodes, NodeArithmetic::fixed);
+    EXPECT_EQ((*scene.project.tree)->nodes, NodeArithmetic::fixed);
     EXPECT_FALSE(scene.slice.tree);
     EXPECT_EQ(factors_text(scene), "[64]");
 }

@@ -61,7 +61,7 @@ Image drawn_alone(const Scene& scene) {
 }
 
 void turn(Document& document) {
-    document.set_camera(turned(document.scene().camera, 40));
+    document.set_camera(turned(*document.scene().camera, 40));
 }
 
 TEST(PinnedPicture, IsDrawnAgainInTheViewOfTheOther) {

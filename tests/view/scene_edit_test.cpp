@@ -24,9 +24,9 @@ TEST(SceneEdit, ChangesOneKeyAndNoOther) {
     const Scene before = scene();
     const Scene after = with_setting(before, "render.slice.tree", {{"factors", "32x32"}});
     ASSERT_TRUE(after.slice.tree);
-    EXPECT_EQ(after.slice.tree->factors, (std::vector<int>{32, 32}));
+    EXPECT_EQ((*after.slice.tree)->factors, (std::vector<int>{32, 32}));
     EXPECT_TRUE(after.transfer_function == before.transfer_function);
-    EXPECT_FALSE(after.automatic_transfer_function);
+    EXPECT_FALSE(after.transfer_function.is_automatic());
     EXPECT_EQ(scene_text(with_setting(after, "render.slice.tree", nullptr)), scene_text(before));
     EXPECT_EQ(after.file, before.file);
 }

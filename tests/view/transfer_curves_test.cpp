@@ -14,10 +14,10 @@ namespace lamina::view {
 namespace {
 
 TransferFunction of_scene(const std::string& transfer_function) {
-    return parse_scene(R"({"version": 1, "volume": {"generate": "ramp"}, "transfer_function": )" +
-                           transfer_function + "}",
-                       "scene")
-        .transfer_function;
+    return *parse_scene(R"({"version": 1, "volume": {"generate": "ramp"}, "transfer_function": )" +
+                            transfer_function + "}",
+                        "scene")
+                .transfer_function;
 }
 
 void expect_round_trip(const TransferFunction& function) {

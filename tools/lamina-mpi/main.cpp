@@ -23,7 +23,7 @@ int lead(const Ranks& ranks, int argc, char** argv) {
     const auto add_verbs = [&](CLI::App& app, int&) {
         auto wire = std::make_shared<std::string>(name_of(Wire::float32));
         RenderExtras extras;
-        extras.check = [&leader, wire](const Scene& scene, ContextChoice context) {
+        extras.check = [&leader, wire](const Scene& scene, const Auto<ContextChoice>& context) {
             leader.set_wire(wire_of(*wire));
             check_shared(scene, context);
         };

@@ -13,8 +13,8 @@
 
 namespace lamina {
 
-void check_shared(const Scene& scene, ContextChoice context) {
-    if (context != ContextChoice::automatic && context != ContextChoice::cpu) {
+void check_shared(const Scene& scene, const Auto<ContextChoice>& context) {
+    if (context.value_or(ContextChoice::cpu) != ContextChoice::cpu) {
         throw UsageError(fmt::format(
             "--context {}: expected cpu: ranks draw with the native engine, which alone draws a "
             "part of a volume",

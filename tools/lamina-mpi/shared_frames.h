@@ -10,7 +10,7 @@
 namespace lamina {
 
 // Throws if ranks cannot draw the scene together, or not with what --context names.
-void check_shared(const Scene& scene, ContextChoice context);
+void check_shared(const Scene& scene, const Auto<ContextChoice>& context);
 
 // Frames that all ranks draw together; rank 0 has the picture. The leader must outlive them.
 class SharedFrames : public Frames {
@@ -26,7 +26,7 @@ class SharedFrames : public Frames {
         camera_ = camera;
     }
 
-    const Scene& resolved_scene() override { return own().resolved_scene(); }
+    const Resolved& resolved() override { return own().renderer().resolved(); }
     const Plan& plan() override { return own().plan(); }
     std::string explanation() override { return own().renderer().explanation(); }
     Warnings warnings() override { return own().renderer().warnings(); }

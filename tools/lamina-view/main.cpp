@@ -42,12 +42,12 @@ int run(int argc, char** argv) {
         ->option_text("WxH");
     app.add_option("--script", options.script, "Play this script (docs/viewer.md) and end")
         ->option_text("FILE");
-    const std::map<std::string, ContextChoice> contexts = {{"auto", ContextChoice::automatic},
-                                                           {"osmesa", ContextChoice::osmesa},
+    const std::map<std::string, ContextChoice> contexts = {{"osmesa", ContextChoice::osmesa},
                                                            {"egl", ContextChoice::egl},
                                                            {"cpu", ContextChoice::cpu}};
-    app.add_option("--context", options.session.context, "What draws: auto, osmesa, egl or cpu")
-        ->transform(CLI::CheckedTransformer(contexts))
+    std::string context = "auto";
+    app.add_option("--context", context, "What draws: auto, osmesa, egl or cpu")
+        ->check(CLI::IsMember({"auto", "osmesa", "egl", "cpu"}))
         ->option_text("NAME");
     try {
         app.parse(argc, argv);
@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
     if (!size.empty() && !(options.picture_size = size_of(size)))
         return report(fmt::format("--size: found {}, expected WIDTHxHEIGHT, each 1 to 16384", size),
                       2);
+    if (context != "auto") options.session.context = contexts.at(context);
     lamina::view::Window(options).run();
     return 0;
 }

@@ -83,10 +83,10 @@ void Viewer::draw_file_menu() {
 }
 
 void Viewer::draw_view_menu() {
-    const bool there = document_.is_open() && !document_.scene().automatic_camera;
+    const bool there = document_.is_open() && document_.scene().camera.is_given();
+    const bool flat = there && document_.scene().camera->projection == Projection::orthographic;
     if (ImGui::MenuItem("Fit", "F", false, there)) control_.fit(around(), document_);
     if (ImGui::MenuItem("Automatic camera", "Home", false, there)) document_.choose_camera();
-    const bool flat = document_.scene().camera.projection == Projection::orthographic;
     if (ImGui::MenuItem("Orthographic", "P", flat, there))
         control_.set_projection(document_,
                                 flat ? Projection::perspective : Projection::orthographic);

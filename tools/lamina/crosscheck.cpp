@@ -87,10 +87,11 @@ void write_all(const std::filesystem::path& folder, const study::Crosscheck& mad
 // Tolerances that were asked for and are not drawn are said.
 void say_of_one_mesh(const CrosscheckOptions& options, const Scene& scene) {
     if (options.quiet || options.settings.ends_by_itself || study::makes_meshes(scene)) return;
-    print_message("lamina: --tolerances: not used: {}\n",
-                  scene.mesh_file.empty()
-                      ? "the scene's mesh is Kuhn's, which has no tolerance"
-                      : "the scene's mesh is a file, " + printable(scene.mesh_file.string()));
+    print_message(
+        "lamina: --tolerances: not used: {}\n",
+        scene.mesh_file() == nullptr
+            ? "the scene's mesh is Kuhn's, which has no tolerance"
+            : "the scene's mesh is a file, " + printable(scene.mesh_file()->path.string()));
 }
 
 void say(const CrosscheckOptions& options, const std::string& text) {
@@ -161,7 +162,7 @@ void run(const CrosscheckOptions& options) {
     Choices choices = chosen_by_volume(scene);
     scene = std::move(choices.scene);
     for (const std::string& chosen : choices.reasons) say(options, chosen);
-    const ContextChoice choice = context_choice(options.context);
+    const Auto<ContextChoice> choice = context_choice(options.context);
     restrict_instructions_as_asked();
     make_folder(folder);
     const DrawContext context(choice);

@@ -69,13 +69,15 @@ void DataSeries::begin(nlohmann::json& document) {
 }
 
 Scene DataSeries::at(Scene scene, std::int64_t step) const {
-    if (volume_) scene.volume_file.replace_filename(name_at(*volume_, step));
-    if (mesh_) scene.mesh_file.replace_filename(name_at(*mesh_, step));
+    VolumeFile* const volume = scene.volume_file();
+    MeshFile* const mesh = scene.mesh_file();
+    if (volume_) volume->path.replace_filename(name_at(*volume_, step));
+    if (mesh_) mesh->path.replace_filename(name_at(*mesh_, step));
     if (volume_ || mesh_) return scene;
-    if (scene.mesh_file.empty()) {
-        scene.volume_selection.time = step;
-    } else {
-        scene.mesh_time = step;
+    if (mesh != nullptr) {
+        mesh->time = step;
+    } else if (volume != nullptr) {
+        volume->selection.time = step;
     }
     return scene;
 }
@@ -83,37 +85,37 @@ Scene DataSeries::at(Scene scene, std::int64_t step) const {
 std::vector<Path> DataSeries::files_of_step(const Scene& scene, std::int64_t step) const {
     const Scene there = at(scene, step);
     std::vector<Path> files;
-    if (volume_) files = files_of_volume(there.volume_file, there.volume_selection);
+    if (volume_) files = files_of_volume(there.volume_file()->path, there.volume_file()->selection);
     if (mesh_) {
-        for (const Path& file : files_of_mesh(there.mesh_file)) files.push_back(file);
+        for (const Path& file : files_of_mesh(there.mesh_file()->path)) files.push_back(file);
     }
     return files;
 }
 
 void DataSeries::check(const Scene& scene) const {
+    const auto check_file = [this](const Path& file, std::int64_t step) {
+        expect_allowed(file);
+        if (std::filesystem::exists(file)) return;
+        fail("{}: step {} of --time is not there, expected steps {} to {}", file.string(), step,
+             steps_.front(), steps_.back());
+    };
     for (const std::int64_t step : steps_) {
         const Scene there = at(scene, step);
-        for (const auto& [pattern, file] :
-             {std::pair{&volume_, &there.volume_file}, std::pair{&mesh_, &there.mesh_file}}) {
-            if (*pattern) expect_allowed(*file);
-            if (*pattern && !std::filesystem::exists(*file)) {
-                fail("{}: step {} of --time is not there, expected steps {} to {}", file->string(),
-                     step, steps_.front(), steps_.back());
-            }
-        }
+        if (volume_) check_file(there.volume_file()->path, step);
+        if (mesh_) check_file(there.mesh_file()->path, step);
     }
     if (volume_ || mesh_) return;
-    if (scene.mesh_file.empty()) {
-        if (scene.volume_file.empty()) {
+    const MeshFile* const mesh = scene.mesh_file();
+    if (mesh == nullptr) {
+        if (scene.volume_file() == nullptr)
             throw UsageError("--time: the scene's volume is generated, expected files");
-        }
         load_volume(at(scene, steps_.back()));  // how many steps it has is known once it is read
         return;
     }
-    const std::int64_t there = steps_of_mesh(scene.mesh_file);
+    const std::int64_t there = steps_of_mesh(mesh->path);
     if (steps_.back() >= there) {
-        fail("{}: --time: found step {}, expected 0 to {}: the file has {}",
-             scene.mesh_file.string(), steps_.back(), there - 1, there);
+        fail("{}: --time: found step {}, expected 0 to {}: the file has {}", mesh->path.string(),
+             steps_.back(), there - 1, there);
     }
 }
 

@@ -113,8 +113,7 @@ MeshTask load(const MeshOptions& options, const MeshOutput& output) {
     if (!options.quiet) {
         for (const std::string& chosen : choices.reasons) print_message("lamina: {}\n", chosen);
     }
-    return {load_volume(scene), scene.mesh_request.value_or(MeshSettings{}),
-            scene.transfer_function};
+    return {load_volume(scene), mesh_settings(scene), *scene.transfer_function};
 }
 
 void report_made(const MeshReport& report, const MeshSettings& settings) {

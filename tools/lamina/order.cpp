@@ -83,7 +83,7 @@ Input load(const std::string& file) {
     if (!scene.has_mesh()) fail("{}: has no \"mesh\", whose tets could be put in order", file);
     scene.method = Method::project;
     Pipeline pipeline(scene);
-    return {pipeline.data().mesh(pipeline.scene())->mesh, pipeline.scene().camera};
+    return {pipeline.data().mesh(pipeline.scene())->mesh, *pipeline.scene().camera};
 }
 
 // Halton's sequence: the digits of `index`, from 1, to the base are mirrored at the point.

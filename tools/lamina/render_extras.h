@@ -12,7 +12,7 @@ namespace lamina {
 // Additions of a program to the verb `render`; all of them may be empty.
 struct RenderExtras {
     // Throws if the program cannot draw the scene with that --context.
-    std::function<void(const Scene& scene, ContextChoice context)> check;
+    std::function<void(const Scene& scene, const Auto<ContextChoice>& context)> check;
     FramesMaker make_frames;
     // Adds to what --stats writes, after the last frame.
     std::function<void(nlohmann::ordered_json&)> add_statistics;

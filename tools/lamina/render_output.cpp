@@ -46,7 +46,7 @@ class SinglePicture : public RenderOutput {
     // The camera turns further from frame to frame.
     void time_frames(Pipeline& pipeline, RunStatistics& run) const {
         run.frames_ms.clear();  // the scene's own frame was the warm-up
-        const Camera own = pipeline.scene().camera;
+        const Camera own = *pipeline.scene().camera;
         Progress progress("timing frames", frames_);
         for (int i = 1; i <= frames_; ++i) {
             check_interrupt();

@@ -163,7 +163,7 @@ void run(const ReproduceOptions& options) {
         const gl::ContextKind kind = opengl_kind(options.context);
         reproduce(papers::lamar_items(), options, [kind] { return DrawContext(kind); });
     } else if (options.paper == "kraus") {
-        const ContextChoice choice = context_choice(options.context);
+        const Auto<ContextChoice> choice = context_choice(options.context);
         reproduce(papers::kraus_items(), options, [choice] { return DrawContext(choice); });
     } else {
         throw UsageError(

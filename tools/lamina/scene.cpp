@@ -60,9 +60,9 @@ void expect_utf8(const std::filesystem::path& file) {
 void run(const SceneVerbOptions& options) {
     nlohmann::json document;
     const Scene asked = load_scene(options.scene, settings_of(options.view), document);
-    for (const std::filesystem::path& file :
-         {asked.volume_file, asked.mesh_file, colormap_file_of(asked)})
-        expect_utf8(file);
+    if (const VolumeFile* const volume = asked.volume_file()) expect_utf8(volume->path);
+    if (const MeshFile* const mesh = asked.mesh_file()) expect_utf8(mesh->path);
+    expect_utf8(colormap_file_of(asked));
     expect_different_files(files_of(asked), {options.output});
     const auto output = open_named(options.output);
     PipelineOptions how;

@@ -20,9 +20,9 @@ Paths files_of(const Scene& scene) {
     Paths files{scene.file};
     const std::filesystem::path colormap = colormap_file_of(scene);
     if (!colormap.empty()) files.push_back(colormap);
-    if (!scene.volume_file.empty())
-        append(files, files_of_volume(scene.volume_file, scene.volume_selection));
-    if (!scene.mesh_file.empty()) append(files, files_of_mesh(scene.mesh_file));
+    if (const VolumeFile* const volume = scene.volume_file())
+        append(files, files_of_volume(volume->path, volume->selection));
+    if (const MeshFile* const mesh = scene.mesh_file()) append(files, files_of_mesh(mesh->path));
     return files;
 }
 

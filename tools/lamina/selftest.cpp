@@ -36,7 +36,7 @@ struct SelftestOptions {
 
 int run(const SelftestOptions& options) {
     const std::vector<selftest::SelftestCase> cases = selftest::selftest_cases(options.groups);
-    const ContextChoice choice = context_choice(options.context);
+    const Auto<ContextChoice> choice = context_choice(options.context);
     restrict_instructions_as_asked();
     const std::filesystem::path folder = options.output;
     expect_own_folder(folder, selftest_name, {report_name, table_name}, {}, options.force);

@@ -88,7 +88,7 @@ void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record
                              PictureAttributes& attributes) const {
     Progress progress("drawing views", static_cast<std::int64_t>(views.size()));
     const std::string scene_text = attributes.at("scene");
-    const Camera own = pipeline.scene().camera;
+    const Camera own = *pipeline.scene().camera;
     std::int64_t clamped = 0;
     Image image;
     for (const int view : views) {

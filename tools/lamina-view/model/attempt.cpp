@@ -6,8 +6,8 @@
 namespace lamina::view {
 namespace {
 
-std::string tree_text(const std::optional<TreeSettings>& tree) {
-    if (!tree || tree->factors.empty()) return {};
+std::string tree_text(const TreeSettings* tree) {
+    if (tree == nullptr) return {};
     std::string text = fmt::format("{}", fmt::join(tree->factors, "x"));
     if (tree->nodes != NodeArithmetic::shader) text += fmt::format(", {}", name_of(tree->nodes));
     if (tree->code != NodeCode::minimax) text += fmt::format(", {}", name_of(tree->code));
@@ -23,8 +23,8 @@ std::string target_text(const Scene& scene) {
 
 void tell_slices(const Scene& scene, Attempt& attempt) {
     attempt.classification = name_of(scene.slice.classification);
-    attempt.tree = tree_text(scene.slice.tree);
-    if (scene.slice.samples) attempt.samples = fmt::to_string(*scene.slice.samples);
+    attempt.tree = tree_text(given_tree(scene.slice.tree));
+    if (scene.slice.samples.is_given()) attempt.samples = fmt::to_string(*scene.slice.samples);
     if (scene.slice.dither) attempt.target += ", dither";
 }
 
@@ -35,7 +35,7 @@ void tell_tets(const Scene& scene, Attempt& attempt) {
         attempt.classification += fmt::format(", {}", name_of(project.interpolation));
     if (project.thickness != Thickness::exact)
         attempt.classification += fmt::format(", {}", name_of(project.thickness));
-    attempt.tree = tree_text(project.tree);
+    attempt.tree = tree_text(given_tree(project.tree));
     if (project.dither != ProjectDither::none) attempt.target += ", dither";
 }
 

@@ -14,8 +14,7 @@ namespace lamina::view {
 namespace {
 
 std::string text_without_view(Scene scene) {
-    scene.camera = {};
-    scene.automatic_camera = false;
+    scene.camera = Camera{};
     scene.width = scene.height = 1;
     return scene_text(scene);
 }

@@ -30,7 +30,7 @@ bool CameraControl::handle(const InputEvent& event, const Around& around, Docume
         dragging_ = false;
         return true;
     }
-    if (!document.is_open() || document.scene().automatic_camera) return false;
+    if (!document.is_open() || document.scene().camera.is_automatic()) return false;
     switch (event.kind) {
         case InputEvent::Kind::press:
             return press(event, around, document);
@@ -38,7 +38,7 @@ bool CameraControl::handle(const InputEvent& event, const Around& around, Docume
             return drag(event, around, document);
         case InputEvent::Kind::wheel:
             if (!around.area.contains(last_)) return false;
-            document.set_camera(zoomed(document.scene().camera,
+            document.set_camera(zoomed(*document.scene().camera,
                                        std::pow(zoom_of_wheel, event.place.y),
                                        around.area.share(last_)));
             step_until(event.seconds);
@@ -60,7 +60,7 @@ bool CameraControl::press(const InputEvent& event, const Around& around, Documen
     if (twice) {
         const glm::dvec2 pixel = around.area.pixel(event.place);
         const auto seen = around.probe ? around.probe->seen(pixel.x, pixel.y) : std::nullopt;
-        if (seen) document.set_camera(looking_at(document.scene().camera, seen->position));
+        if (seen) document.set_camera(looking_at(*document.scene().camera, seen->position));
         return true;
     }
     dragging_ = true;
@@ -75,7 +75,7 @@ bool CameraControl::drag(const InputEvent& event, const Around& around, Document
     const glm::dvec2 moved = around.area.share(event.place) - around.area.share(last_);
     last_ = event.place;
     if (!dragging_ || moved == glm::dvec2(0)) return false;
-    const Camera& camera = document.scene().camera;
+    const Camera& camera = *document.scene().camera;
     switch (way_) {
         case Way::orbit:
             document.set_camera(orbited(camera, moved));
@@ -106,7 +106,7 @@ bool CameraControl::key(const InputEvent& event, const Around& around, Document&
             fit(around, document);
             return true;
         case 'P':
-            set_projection(document, document.scene().camera.projection == Projection::perspective
+            set_projection(document, document.scene().camera->projection == Projection::perspective
                                          ? Projection::orthographic
                                          : Projection::perspective);
             return true;
@@ -137,17 +137,17 @@ bool CameraControl::fly(const InputEvent& event, const Around& around, Document&
             return false;
     }
     const double diagonal = glm::distance(around.bounds.min, around.bounds.max);
-    document.set_camera(flown(document.scene().camera, fly_share * diagonal * way));
+    document.set_camera(flown(*document.scene().camera, fly_share * diagonal * way));
     step_until(event.seconds);
     return true;
 }
 
 void CameraControl::set_projection(Document& document, Projection projection) const {
-    document.set_camera(with_projection(document.scene().camera, projection));
+    document.set_camera(with_projection(*document.scene().camera, projection));
 }
 
 void CameraControl::fit(const Around& around, Document& document) const {
-    document.set_camera(fitted(document.scene().camera, around.bounds, around.area.aspect()));
+    document.set_camera(fitted(*document.scene().camera, around.bounds, around.area.aspect()));
 }
 
 void CameraControl::see_axis(int axis, double sign, const Around& around,
@@ -155,7 +155,7 @@ void CameraControl::see_axis(int axis, double sign, const Around& around,
     glm::dvec3 from(0);
     from[axis] = sign;
     document.set_camera(
-        seen_from(document.scene().camera, from, around.bounds, around.area.aspect()));
+        seen_from(*document.scene().camera, from, around.bounds, around.area.aspect()));
 }
 
 }  // namespace lamina::view

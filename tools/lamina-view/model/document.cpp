@@ -23,7 +23,7 @@ void Document::open(Scene scene) {
 
 // Opacities are shown for the length that the scene has them for.
 void Document::take_transfer_function() {
-    transfer_.take(scene_.transfer_function);
+    if (scene_.transfer_function.is_given()) transfer_.take(*scene_.transfer_function);
     for (const DensityPoint& point : transfer_.curves().density)
         if (point.opacity_length > 0) transfer_.set_unit_length(point.opacity_length);
     curves_ = transfer_.curves();
@@ -41,13 +41,12 @@ void Document::record(const std::string& name, bool camera) {
 void Document::apply(Scene next) {
     if (is_open()) count_changes(scene_, next, revisions_);
     scene_ = std::move(next);
-    transfer_.take(scene_.transfer_function);
+    if (scene_.transfer_function.is_given()) transfer_.take(*scene_.transfer_function);
     curves_ = transfer_.curves();
 }
 
 void Document::set_camera(const Camera& camera) {
     scene_.camera = camera;
-    scene_.automatic_camera = false;
     ++revisions_.camera;
     dirty_ = true;
 }
@@ -58,10 +57,9 @@ void Document::set_transfer_function(const TransferFunction& transfer_function) 
 }
 
 void Document::transfer_edited(const std::string& name) {
-    if (transfer_.curves() == curves_ && !scene_.automatic_transfer_function) return;
+    if (transfer_.curves() == curves_ && scene_.transfer_function.is_given()) return;
     record(name);
     curves_ = transfer_.curves();
-    scene_.automatic_transfer_function = false;
     // The same function may have other points.
     if (scene_.transfer_function == transfer_.function()) return;
     scene_.transfer_function = transfer_.function();
@@ -97,7 +95,7 @@ void Document::set_setting(const std::string& path, const nlohmann::ordered_json
     record(path, path.starts_with("camera"));
     if (next.color_space != scene_.color_space) {
         transfer_.convert_colors(scene_.color_space, next.color_space);
-        next.transfer_function = transfer_.function();
+        if (next.transfer_function.is_given()) next.transfer_function = transfer_.function();
     }
     if (path == "image.width" || path == "image.height") size_follows_window = false;
     apply(std::move(next));
@@ -105,14 +103,14 @@ void Document::set_setting(const std::string& path, const nlohmann::ordered_json
 
 void Document::choose_transfer_function() {
     record("automatic transfer function");
-    scene_.automatic_transfer_function = true;
+    scene_.transfer_function = automatic;
     scene_.given_transfer.reset();
     ++revisions_.settings;
 }
 
 void Document::choose_camera() {
     record("automatic camera", true);
-    scene_.automatic_camera = true;
+    scene_.camera = automatic;
     ++revisions_.settings;
 }
 
@@ -121,10 +119,7 @@ void Document::go(std::vector<Step>& from, std::vector<Step>& to) {
     Step step = std::move(from.back());
     from.pop_back();
     to.push_back({step.name, scene_, curves_, step.camera});
-    if (!step.camera) {
-        step.scene.camera = scene_.camera;
-        step.scene.automatic_camera = scene_.automatic_camera;
-    }
+    if (!step.camera) step.scene.camera = scene_.camera;
     if (size_follows_window) {
         step.scene.width = scene_.width;
         step.scene.height = scene_.height;
@@ -146,12 +141,11 @@ void Document::redo() {
 }
 
 void Document::take_chosen(const Scene& chosen) {
-    if (scene_.automatic_camera) scene_.camera = chosen.camera;
-    if (scene_.automatic_transfer_function) {
+    if (scene_.camera.is_automatic()) scene_.camera = chosen.camera;
+    if (scene_.transfer_function.is_automatic()) {
         scene_.transfer_function = chosen.transfer_function;
         take_transfer_function();
     }
-    scene_.automatic_camera = scene_.automatic_transfer_function = false;
 }
 
 }  // namespace lamina::view

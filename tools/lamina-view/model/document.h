@@ -25,7 +25,6 @@ class Document {
     bool dirty() const { return dirty_; }  // has been edited since it was opened or saved
 
     void open(Scene scene);  // a scene of other data
-    // Ends `automatic_camera` and `automatic_transfer_function`.
     void set_camera(const Camera& camera);
     void set_transfer_function(const TransferFunction& transfer_function);
     void set_clip(const Clip& clip);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::optional<TreeSettings>& tree_of(const Scene& scene) {
+const std::optional<Auto<TreeSettings>>& tree_of(const Scene& scene) {
     return scene.method == Method::project ? scene.project.tree : scene.slice.tree;
 }
 
@@ -37,10 +37,10 @@ Json factors_json(const std::string& text) {
 }  // namespace
 
 std::string factors_text(const Scene& scene) {
-    const std::optional<TreeSettings>& tree = tree_of(scene);
+    const std::optional<Auto<TreeSettings>>& tree = tree_of(scene);
     if (!tree) return "none";
-    if (tree->automatic) return "auto";
-    return fmt::format("[{}]", fmt::join(tree->factors, ", "));
+    if (tree->is_automatic()) return "auto";
+    return fmt::format("[{}]", fmt::join((*tree)->factors, ", "));
 }
 
 Scene with_factors(const Scene& scene, const std::string& text) {
@@ -52,8 +52,8 @@ Scene with_factors(const Scene& scene, const std::string& text) {
     if (asked.empty() || asked == "none") return with_setting(scene, path, nullptr);
     if (asked == "auto") return with_setting(scene, path, asked);
     const Json factors = factors_json(asked);
-    const std::optional<TreeSettings>& tree = tree_of(scene);
-    if (tree && !tree->automatic) return with_setting(scene, path + ".factors", factors);
+    if (given_tree(tree_of(scene)) != nullptr)
+        return with_setting(scene, path + ".factors", factors);
     Json group = {{"factors", factors}};
     if (scene.method == Method::project) group["nodes"] = "fixed";  // tets have no others
     return with_setting(scene, path, group);

@@ -11,8 +11,8 @@ bool is_in(std::string_view path, std::string_view group) {
 
 std::string for_camera(const Scene& scene, std::string_view path) {
     if (path == "camera") return {};
-    if (scene.automatic_camera) return "chosen from the data: camera is auto";
-    const bool orthographic = scene.camera.projection == Projection::orthographic;
+    if (scene.camera.is_automatic()) return "chosen from the data: camera is auto";
+    const bool orthographic = scene.camera->projection == Projection::orthographic;
     if (path == "camera.fov_y" && orthographic) return "of perspective views";
     if (path == "camera.height" && !orthographic) return "of orthographic views";
     return {};
@@ -22,25 +22,25 @@ std::string for_mesh(const Scene& scene, std::string_view path) {
     if (path == "mesh") return {};
     if (!scene.has_mesh()) return "the scene has no mesh";
     if (!scene.draws_mesh()) return "the mesh is not drawn by this method";
-    if (path == "scalar" && scene.mesh_file.empty()) return "of a mesh from a file";
-    if (path == "mesh.tolerance" && scene.mesh_request && scene.mesh_request->kuhn)
+    if (path == "scalar" && scene.mesh_file() == nullptr) return "of a mesh from a file";
+    if (path == "mesh.tolerance" && scene.made_mesh() != nullptr && scene.made_mesh()->kuhn)
         return "Kuhn's split has every sample";
     return {};
 }
 
-std::string for_tree(const TreeSettings& tree, Target target, std::string_view key) {
-    if (key != "code" && key != "alpha_bits") return {};
-    if (tree.nodes == NodeArithmetic::fixed) return "of nodes computed in a shader";
+std::string for_tree(const TreeSettings* tree, const Auto<Target>& target, std::string_view key) {
+    if (tree == nullptr || (key != "code" && key != "alpha_bits")) return {};
+    if (tree->nodes == NodeArithmetic::fixed) return "of nodes computed in a shader";
     if (key == "alpha_bits" && target != Target::fixed8) return "of the target fixed8";
     return {};
 }
 
 // Where slabs are rounded to codes (docs/scene.md, "How it is drawn").
 std::string for_slice_dither(const Scene& scene) {
-    const auto& tree = scene.slice.tree;
-    if (!scene.automatic_target && !is_fixed_point(scene.target))
+    const TreeSettings* const tree = given_tree(scene.slice.tree);
+    if (scene.target.is_given() && !is_fixed_point(*scene.target))
         return "of the targets fixed8, fixed16 and emulated";
-    if (tree && !tree->automatic && tree->nodes == NodeArithmetic::shader)
+    if (tree != nullptr && tree->nodes == NodeArithmetic::shader)
         return "of blended slabs and fixed nodes: the tree's nodes are computed in a shader";
     return {};
 }
@@ -49,12 +49,12 @@ std::string for_slice(const Scene& scene, std::string_view path) {
     constexpr std::string_view tree = "render.slice.tree.";
     if (scene.method != Method::slice) return "counts with the method slice";
     if (is_in(path, "render.slice.dither")) return for_slice_dither(scene);
-    const Classification classification = scene.slice.classification;
+    const Auto<Classification>& classification = scene.slice.classification;
     if (is_in(path, "render.slice.table") &&
         (classification == Classification::post || classification == Classification::exact))
         return "of pre-integrated segments";
-    if (path.starts_with(tree) && scene.slice.tree)
-        return for_tree(*scene.slice.tree, scene.target, path.substr(tree.size()));
+    if (path.starts_with(tree))
+        return for_tree(given_tree(scene.slice.tree), scene.target, path.substr(tree.size()));
     return {};
 }
 
@@ -64,18 +64,17 @@ std::string for_project(const Scene& scene, std::string_view path) {
     const ProjectSettings& project = scene.project;
     if (path == "render.project.interpolation" && project.coloring == Coloring::vertex)
         return "the colouring vertex is linear always";
-    if (path == "render.project.dither" && !is_fixed_point(scene.target))
+    if (path == "render.project.dither" && !is_fixed_point(scene.target.value_or(Target::float32)))
         return "of fixed-point targets";
     if (is_in(path, "render.project.table") && project.coloring != Coloring::preintegrated)
         return "of the colouring preintegrated";
-    if (path.starts_with(tree) && project.tree)
-        return for_tree(*project.tree, scene.target, path.substr(tree.size()));
+    if (path.starts_with(tree))
+        return for_tree(given_tree(project.tree), scene.target, path.substr(tree.size()));
     return {};
 }
 
 std::string for_emulate(const Scene& scene, std::string_view path) {
-    if (scene.automatic_target || scene.target != Target::emulated)
-        return "counts with the target emulated";
+    if (scene.target != Target::emulated) return "counts with the target emulated";
     if (path == "render.emulate.seed" && scene.emulate.alpha != AlphaRounding::stochastic)
         return "of stochastic rounding";
     return {};

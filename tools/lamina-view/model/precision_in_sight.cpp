@@ -32,10 +32,7 @@ void PrecisionInSight::pin(const Document& document, const Shown& shown) {
 
 void PrecisionInSight::go_on_with(Document& document, Scene scene, bool keep_view) {
     const Scene& now = document.scene();
-    if (keep_view) {
-        scene.camera = now.camera;
-        scene.automatic_camera = now.automatic_camera;
-    }
+    if (keep_view) scene.camera = now.camera;
     if (keep_view || document.size_follows_window) {
         scene.width = now.width;
         scene.height = now.height;

@@ -5,9 +5,11 @@
 
 namespace lamina::view {
 
-// Whether pictures of both scenes show the same from the same place, pixel by pixel.
+// Whether pictures of both scenes show the same from the same place, pixel by pixel; false if a
+// camera is not chosen yet.
 inline bool same_view(const Scene& a, const Scene& b) {
-    const Camera &from = a.camera, &to = b.camera;
+    if (a.camera.is_automatic() || b.camera.is_automatic()) return false;
+    const Camera &from = *a.camera, &to = *b.camera;
     return a.width == b.width && a.height == b.height && from.projection == to.projection &&
            from.eye == to.eye && from.center == to.center && from.up == to.up &&
            from.fov_y == to.fov_y && from.height == to.height;

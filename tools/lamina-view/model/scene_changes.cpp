@@ -34,12 +34,14 @@ void count_changes(const Scene& before, const Scene& after, Revisions& revisions
     const Json from = settings_of(before), to = settings_of(after);
     if (!same_data(from, to)) ++revisions.data;
     if (without_counted_parts(from) != without_counted_parts(to) ||
-        before.automatic_camera != after.automatic_camera ||
-        before.automatic_transfer_function != after.automatic_transfer_function)
+        before.camera.is_automatic() != after.camera.is_automatic() ||
+        before.transfer_function.is_automatic() != after.transfer_function.is_automatic())
         ++revisions.settings;
     if (before.transfer_function != after.transfer_function) ++revisions.transfer_function;
     if (before.clip != after.clip) ++revisions.clip;
-    if (!same_camera(before.camera, after.camera)) ++revisions.camera;
+    if (before.camera.is_given() && after.camera.is_given() &&
+        !same_camera(*before.camera, *after.camera))
+        ++revisions.camera;
     if (before.width != after.width || before.height != after.height) ++revisions.size;
 }
 

@@ -71,7 +71,7 @@ void convert_colors(Scene& scene, ImageColorSpace from) {
 
 Json settings_of(const Scene& scene) {
     Scene copy = scene;
-    copy.automatic_transfer_function = true;
+    copy.transfer_function = automatic;
     copy.given_transfer.reset();
     return Json::parse(scene_text(copy));
 }
@@ -81,9 +81,7 @@ Scene with_setting(const Scene& scene, const std::string& path, const Json& valu
     set_at(settings, path, value);
     Scene changed = parse_scene(settings.dump(), scene.file);
     changed.transfer_function = scene.transfer_function;
-    changed.automatic_transfer_function = scene.automatic_transfer_function;
     changed.given_transfer = scene.given_transfer;
-    if (changed.automatic_camera) changed.camera = scene.camera;
     if (changed.color_space != scene.color_space) convert_colors(changed, scene.color_space);
     return changed;
 }

@@ -25,9 +25,9 @@ Grid::Bounds around_center(const Camera& camera) {
 }
 
 // Cuts the half in front of the data away.
-Json first_plane(const Scene& scene, const Grid::Bounds& box) {
+Json first_plane(const Camera& camera, const Grid::Bounds& box) {
     return {{"point", json_of((box.min + box.max) / 2.0)},
-            {"normal", json_of(glm::normalize(scene.camera.center - scene.camera.eye))}};
+            {"normal", json_of(glm::normalize(camera.center - camera.eye))}};
 }
 
 Json least_number(const SettingNode& node) {
@@ -79,12 +79,13 @@ bool may_be_absent(const SettingNode& node) {
 
 Json starting_value(const SettingNode& node, const std::string& path, const Scene& scene,
                     const Scene* resolved, const std::optional<Grid::Bounds>& bounds) {
-    const Grid::Bounds box = bounds.value_or(around_center(scene.camera));
+    const Camera camera = scene.camera.value_or(resolved != nullptr ? *resolved->camera : Camera{});
+    const Grid::Bounds box = bounds.value_or(around_center(camera));
     if (resolved != nullptr) {
         const Json chosen = setting_at(settings_of(*resolved), path);
         if (!chosen.is_null() && chosen != node.automatic_word) return chosen;
     }
-    if (node.path == "clip.planes[]") return first_plane(scene, box);
+    if (node.path == "clip.planes[]") return first_plane(camera, box);
     if (node.path == "clip.box") return {{"min", json_of(box.min)}, {"max", json_of(box.max)}};
     if (node.path == "lighting.lights[]") return Json::object();
     if (node.path == "render.slice.tree") return {{"factors", {32, 32}}};

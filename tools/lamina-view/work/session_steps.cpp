@@ -163,14 +163,15 @@ void SessionSteps::apply_change() {
     const Revisions& asked = request_.revisions;
     if (asked == applied_ && !holds_pinned_) return;
     const Revisions before = std::exchange(applied_, {.data = asked.data});
-    if (holds_pinned_ || asked.settings != before.settings) {
+    const bool open = scene.camera.is_automatic() || scene.transfer_function.is_automatic();
+    if (holds_pinned_ || open || asked.settings != before.settings) {
         session_->set_scene(scene);
         holds_pinned_ = false;
     } else {
-        if (asked.camera != before.camera) session_->set_camera(scene.camera);
+        if (asked.camera != before.camera) session_->set_camera(*scene.camera);
         if (asked.clip != before.clip) session_->set_clip(scene.clip);
         if (asked.transfer_function != before.transfer_function)
-            session_->set_transfer_function(scene.transfer_function);
+            session_->set_transfer_function(*scene.transfer_function);
     }
     applied_ = asked;
 }
@@ -244,7 +245,6 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
 void SessionSteps::draw_pinned(const std::stop_token& stop) {
     auto drawn = std::make_shared<PinnedPicture>(*pinned());
     drawn->scene.camera = shown_.resolved->camera;
-    drawn->scene.automatic_camera = false;
     drawn->scene.width = shown_.resolved->width;
     drawn->scene.height = shown_.resolved->height;
     holds_pinned_ = true;
@@ -340,5 +340,6 @@ void SessionSteps::take_truth(const PreciseImage& truth) {
         shown_.warnings.push_back(std::move(warning));
     shown_.activity.clear();
 }
+
 
 }  // namespace lamina::view
