@@ -210,8 +210,10 @@ std::string padding_text(const Padding& padding) {
     for (const double value : padding.values)
         text += fmt::format("{}{:.9g}", text.empty() ? "" : " and ", value);
     if (text.empty()) return text;
-    return fmt::format("{}, {:.3g} % of the field, {} padding and transparent", text,
-                       100 * padding.share, padding.values.size() > 1 ? "are" : "is");
+    const bool several = padding.values.size() > 1;
+    return fmt::format(
+        "{}, {:.3g} % of the field, {} padding, which the chosen transfer function does not show",
+        text, 100 * padding.share, several ? "are" : "is");
 }
 
 AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
+#include "facts/finite_check.h"
 #include "facts/world_unit.h"
 #include "optics/curved_pieces.h"
 #include "optics/front_weights.h"
@@ -34,20 +34,6 @@ double margin_of(const Facts& facts) {
     if (facts.type != SampleType::float32)
         largest = range.hi + (facts.type == SampleType::int16 ? 32768 : 0);
     return range_margin * (range.hi - range.lo + largest);
-}
-
-void check_finite(const Scene& scene, const Facts& facts) {
-    const VolumeFile* const file = scene.volume_file();
-    const std::string name = file == nullptr ? "volume" : file->path.string();
-    const std::int64_t samples = facts.grid.sample_count();
-    if (facts.non_finite == samples) fail("{}: all {} samples are NaN or infinite", name, samples);
-    if (facts.non_finite > 0 && scene.nan == NanPolicy::error) {
-        fail(
-            "{}: found {} NaN or infinite samples of {}, expected none; \"nan\": \"transparent\" "
-            "in the scene draws "
-            "their cells as transparent",
-            name, facts.non_finite, samples);
-    }
 }
 
 double side_ratio_of(const Grid& grid) {
@@ -284,7 +270,7 @@ Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks&
     facts.type = volume.type();
     facts.range = bricks.whole;
     facts.non_finite = bricks.non_finite;
-    check_finite(scene, facts);
+    check_finite(scene, volume.grid(), bricks);
     facts.side_ratio = side_ratio_of(facts.grid);
     const TransferFunction& transfer_function = *scene.transfer_function;
     facts.constant = transfer_function.constant(facts.range.lo, facts.range.hi);

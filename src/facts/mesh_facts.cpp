@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "facts/drawn_range.h"
 #include "facts/far_scalars.h"
+#include "facts/finite_check.h"
 #include "mesh/mesh_overlap.h"
 #include "mesh/scalar_range.h"
 #include "scene/camera.h"
@@ -64,16 +65,7 @@ MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
     const ScalarRange found = measure_range(mesh.scalar.values);
     facts.range = found.range;
     facts.non_finite = found.non_finite;
-    const std::string file = name_of_mesh(scene);
-    if (facts.range.empty())
-        fail("{}: all {} values of \"{}\" are NaN or infinite", file, facts.points, facts.scalar);
-    if (facts.non_finite > 0 && scene.nan == NanPolicy::error) {
-        fail(
-            "{}: found {} NaN or infinite values of \"{}\", expected none; \"nan\": "
-            "\"transparent\" "
-            "in the scene draws their tets as transparent",
-            file, facts.non_finite, facts.scalar);
-    }
+    check_finite(scene, mesh, found);
     facts.convexity = convexity(mesh.mesh);
     measure_edges(mesh.mesh, facts);
     const TetPieces pieces(*scene.transfer_function,

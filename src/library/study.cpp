@@ -59,7 +59,10 @@ StudyOutcome run(const std::filesystem::path& path, const study::StudyFolder& fo
 StudyOutcome run_study(const std::filesystem::path& study, const std::filesystem::path& folder,
                        bool resume, std::stop_token stop, const ProgressCallback& progress) {
     std::vector<std::string> warnings;
-    const WarningTaker taker = [&](const std::string& text) { warnings.push_back(text); };
+    // Runs of the same data say the same.
+    const WarningTaker taker = [&](const std::string& text) {
+        if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(text);
+    };
     ProgressListener listener{progress};
     const ClientScope scope({std::move(stop), &taker, &listener});
     StudyOutcome outcome = run(study, study::StudyFolder(folder), resume);

@@ -8,8 +8,10 @@
 #include "base/warning.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
+#include "facts/finite_check.h"
 #include "gl/memory.h"
 #include "gl/query.h"
+#include "mesh/scalar_range.h"
 #include "render/context_choice.h"
 #include "render/warnings.h"
 #include "scene/given_transfer.h"
@@ -221,6 +223,7 @@ std::string Pipeline::explanation() {
 void Pipeline::warn_of_plan() {
     if (scene().method == Method::trace) return warn_of_data();
     Frames& drawing = frames();
+    warn_of_all(data_.warnings(scene_));
     in_context([&] { warn_of_all(drawing.warnings()); });
 }
 
@@ -275,6 +278,7 @@ void Pipeline::draw_quietly(Image& picture) {
         Stage reading("read");
         drawing.read(picture);
         stages_ms_["read"] = reading.end();
+        warn_of_all(data_.warnings(scene_));
         warn_of_all(drawing.warnings());
     });
 }
@@ -310,12 +314,24 @@ const Pipeline::TracePlan& Pipeline::plan_of_trace() {
 }
 
 void Pipeline::warn_of_data() {
+    warn_of_all(data_.warnings(scene_));
     warn_of_all(scene_.draws_mesh() ? data_warnings(scene_, *data_.mesh(scene_))
                                     : data_warnings(*data_.volume(scene_)));
 }
 
+void Pipeline::check_data() {
+    if (scene_.draws_mesh()) {
+        const SceneMesh& mesh = *data_.mesh(scene_);
+        check_finite(scene_, mesh, measure_range(mesh.scalar.values));
+    } else {
+        const VolumeData& volume = *data_.volume(scene_);
+        check_finite(scene_, volume.volume.grid(), volume.bricks);
+    }
+}
+
 const TracedPicture& Pipeline::trace(const TileDone& tile_done) {
     load();
+    check_data();
     if (scene_.draws_mesh()) data_.open_faces(scene_);  // once, in no frame's time
     Stage frame("frame");
     frame.count("frame", frames_drawn_++);

@@ -122,6 +122,7 @@ class Pipeline {
     decltype(auto) in_context(const Work& work);
     void draw_counted();
     const TracePlan& plan_of_trace();
+    void check_data();  // as plans do
     void warn_of_data();
 
     Scene asked_, scene_;

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/stage.h"
 #include "choice/mesh_field.h"
@@ -33,6 +34,21 @@ std::map<std::string, std::int64_t> counts_of(const SceneMesh& mesh) {
     return counts;
 }
 
+// Calls work(), and keeps in `said` what it says to the client.
+template <typename Work>
+auto keep_warnings(Warnings& said, const Work& work) {
+    said.clear();
+    Client client = ClientScope::current();
+    const WarningTaker* const taker = client.warnings;
+    const WarningTaker keeper = [&](const std::string& text) {
+        said.push_back(text);
+        if (taker != nullptr && *taker) (*taker)(text);
+    };
+    client.warnings = &keeper;
+    const ClientScope scope(std::move(client));
+    return work();
+}
+
 }  // namespace
 
 SceneData::SceneData(Volume volume)
@@ -48,14 +64,17 @@ SceneData::SceneData(const Scene& scene, MeshData mesh, const std::optional<Mesh
 const std::shared_ptr<const VolumeData>& SceneData::volume(const Scene& scene) {
     if (volume_) return volume_;
     if (!scene.has_volume()) fail("no volume was given, and the scene names none");
-    Stage loading("load");
-    Volume volume = open_volume(scene);
-    volume_ms_["load"] = loading.end();
-    Stage measuring("measure");
-    Stage measuring_bricks("bricks");
-    volume_ = std::make_shared<const VolumeData>(std::move(volume));
-    measuring_bricks.end();
-    volume_ms_["measure"] = measuring.end();
+    volume_ = keep_warnings(volume_warnings_, [&] {
+        Stage loading("load");
+        Volume volume = open_volume(scene);
+        volume_ms_["load"] = loading.end();
+        Stage measuring("measure");
+        Stage measuring_bricks("bricks");
+        auto measured = std::make_shared<const VolumeData>(std::move(volume));
+        measuring_bricks.end();
+        volume_ms_["measure"] = measuring.end();
+        return measured;
+    });
     return volume_;
 }
 
@@ -64,8 +83,9 @@ const std::shared_ptr<const SceneMesh>& SceneData::mesh(const Scene& scene) {
     const bool from_kept = makes_mesh(scene) && (volume_ || keeps_volume_);
     if (from_kept) volume(scene);
     Stage loading("load");
-    mesh_ = std::make_shared<const SceneMesh>(from_kept ? scene_mesh(scene, volume_->volume)
-                                                        : load_mesh(scene));
+    mesh_ = std::make_shared<const SceneMesh>(keep_warnings(mesh_warnings_, [&] {
+        return from_kept ? scene_mesh(scene, volume_->volume) : load_mesh(scene);
+    }));
     mesh_ms_["load"] = loading.end();
     if (!volume_given_ && !keeps_volume_) volume_.reset();
     return mesh_;
@@ -104,6 +124,14 @@ void SceneData::forget_mesh() {
     open_faces_.reset();
     mesh_counts_.reset();
     mesh_ms_.clear();
+    mesh_warnings_.clear();
+}
+
+Warnings SceneData::warnings(const Scene& scene) const {
+    Warnings said;
+    if (!scene.draws_mesh() || makes_mesh(scene)) said = volume_warnings_;
+    if (scene.draws_mesh()) said.insert(said.end(), mesh_warnings_.begin(), mesh_warnings_.end());
+    return said;
 }
 
 void SceneData::add_to(const Scene& scene, FrameStatistics& statistics) {

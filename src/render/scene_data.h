@@ -13,6 +13,7 @@
 #include "lamina/mesh_data.h"
 #include "lamina/scene.h"
 #include "mesh/face_tree.h"
+#include "render/warnings.h"
 #include "scene/scene_mesh.h"
 #include "volume/volume_data.h"
 
@@ -58,6 +59,9 @@ class SceneData {
     }
     void forget_mesh();
 
+    // Returns what was said while the data that the scene draws were read, measured or made.
+    Warnings warnings(const Scene& scene) const;
+
     // Adds what loading took and what was found in the data that the scene draws.
     void add_to(const Scene& scene, FrameStatistics& statistics);
 
@@ -70,6 +74,7 @@ class SceneData {
     std::optional<ValueRange> range_;
     std::shared_ptr<const FaceTree> open_faces_;
     Stages volume_ms_, mesh_ms_;
+    Warnings volume_warnings_, mesh_warnings_;
     std::optional<std::map<std::string, std::int64_t>> mesh_counts_;
 };
 

@@ -106,7 +106,7 @@ TEST_F(SameWarnings, OfPadding) {
     scene.erase("transfer_function");
     scene.erase("camera");
     expect_both_say(scene, "-30000, ");
-    expect_both_say(traced(scene), "is padding and transparent");
+    expect_both_say(traced(scene), "is padding, which");
 }
 
 TEST_F(SameWarnings, OfCellsThatAreDrawnOtherwise) {

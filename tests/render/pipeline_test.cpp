@@ -9,10 +9,12 @@
 #include "base/atomic_file.h"
 #include "mesh_files/mesh_file.h"
 #include "scene/given_transfer.h"
+#include "support/expect_error.h"
 #include "support/heard_warnings.h"
 #include "support/scene_fixture.h"
 #include "support/split_box.h"
 #include "support/temporary_folder.h"
+#include "support/volume_of.h"
 
 namespace lamina {
 namespace {
@@ -106,6 +108,17 @@ TEST(Pipeline, SaysThatOpacityOneWasReplaced) {
     pipeline.scene();
     ASSERT_EQ(heard.texts.size(), 1u);
     EXPECT_NE(heard.texts[0].find("optical depth of 17 per unit_length"), std::string::npos);
+}
+
+// Data that cannot be drawn are not traced, whoever asks for the picture.
+TEST(Pipeline, TracesNoVolumeWithoutANumber) {
+    Scene scene = read_scene(minimal_scene(), "s");
+    scene.method = Method::trace;
+    scene.nan = NanPolicy::transparent;
+    const Volume volume = test::volume_of(test::grid_of({3, 3, 3}, Centering::node),
+                                          [](double, double, double) { return NAN; });
+    Pipeline pipeline(scene, SceneData(volume));
+    expect_error([&] { pipeline.trace(); }, {"all 27 samples are NaN or infinite"});
 }
 
 }  // namespace

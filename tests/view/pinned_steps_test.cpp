@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <set>
 
 #include "lamina/picture_file.h"
 #include "lamina/scene_text.h"
 #include "lamina/session.h"
 #include "model/precision_in_sight.h"
+#include "support/temporary_folder.h"
 #include "work/session_steps.h"
 
 namespace lamina::view {
@@ -172,6 +175,43 @@ TEST(PrecisionInSight, RowsFollowTheTracer) {
     EXPECT_EQ(rows.size(), 2u);
     drawn.document.undo();
     EXPECT_EQ(drawn.document.scene().target, Target::float32);
+}
+
+// A warning of a file that is read once belongs to all of its pictures.
+TEST(SessionSteps, ShowWarningsOnceAndAsLongAsTheyHold) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "surplus.nrrd")
+        << "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\n"
+        << std::string(64, 'a') << "behind";
+    DrawnDocument drawn;
+    Scene scene = small_scene();
+    scene.volume = VolumeFile{folder / "surplus.nrrd"};
+    drawn.document.open(scene);
+    const auto expect_one_of_the_file = [&](const std::string& picture) {
+        const std::vector<std::string>& said = drawn.shown().warnings;
+        EXPECT_EQ(drawn.shown().failure, "") << picture;
+        EXPECT_EQ(std::set<std::string>(said.begin(), said.end()).size(), said.size()) << picture;
+        EXPECT_EQ(std::ranges::count_if(
+                      said, [](const auto& text) { return text.find("6 bytes") < text.size(); }),
+                  1)
+            << picture;
+    };
+    drawn.draw();
+    expect_one_of_the_file("the first one");
+    turn(drawn.document);
+    drawn.draw();
+    expect_one_of_the_file("a turned one");
+    drawn.draw(true);
+    ASSERT_TRUE(drawn.shown().truth);
+    expect_one_of_the_file("a traced one");
+    drawn.document.edit([](Scene& changed) { changed.method = Method::trace; });
+    drawn.draw();
+    expect_one_of_the_file("one of the method trace");
+    scene = small_scene();
+    scene.method = Method::trace;
+    drawn.document.open(scene);
+    drawn.draw();
+    EXPECT_EQ(drawn.shown().warnings, std::vector<std::string>());
 }
 
 }  // namespace

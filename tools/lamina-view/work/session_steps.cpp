@@ -218,6 +218,7 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
         shown_.full.reset();
         shown_.truth.reset();
         shown_.full_screen.reset();
+        shown_.warnings.clear();
         return trace(stop);
     }
     auto picture = std::make_shared<Image>();
@@ -287,7 +288,8 @@ void SessionSteps::show(PictureKind kind, const Image& picture) {
     shown_.asked_at = request_.asked_at;
     shown_.screen = screen_of(picture, session_->scene());
     shown_.probe = session_->probe();
-    shown_.warnings = session_->take_warnings();
+    shown_.warnings.clear();
+    add_warnings();
     shown_.failure.clear();
     ++shown_.frame;
     shown_.frame_statistics = session_->statistics();
@@ -336,10 +338,14 @@ void SessionSteps::take_truth(const PreciseImage& truth) {
         shown_.probe = session_->probe();
         shown_.failure.clear();
     }
-    for (std::string& warning : session_->take_warnings())
-        shown_.warnings.push_back(std::move(warning));
+    add_warnings();
     shown_.activity.clear();
 }
 
+void SessionSteps::add_warnings() {
+    for (std::string& warning : session_->take_warnings())
+        if (std::ranges::find(shown_.warnings, warning) == shown_.warnings.end())
+            shown_.warnings.push_back(std::move(warning));
+}
 
 }  // namespace lamina::view

@@ -46,6 +46,7 @@ class SessionSteps {
     void tell_plan();
     void show_traced(const TracedPicture& traced);
     void take_truth(const PreciseImage& truth);
+    void add_warnings();  // takes the session's, and shows those that are not shown yet
     void forget_tiles();
     void forget_pictures();  // of other data
     void fail(const std::string& message);
