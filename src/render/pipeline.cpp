@@ -46,7 +46,7 @@ void Pipeline::drop_frames() {
 
 // --- data and choices
 
-Choices Pipeline::chosen() {
+Choices Pipeline::choose_now() {
     const Wishes& wishes = options_.wishes;
     if (const auto ramp = opaque_ramp(asked_)) warn(*ramp);
     Scene scene = asked_;
@@ -63,6 +63,10 @@ Choices Pipeline::chosen() {
     Choices result = choose(std::move(scene), *field, wishes);
     stages_ms_["choose"] = choosing.end();
     return result;
+}
+
+Choices Pipeline::chosen() {
+    return keep_warnings(choice_warnings_, [&] { return choose_now(); });
 }
 
 const Scene& Pipeline::scene() {
@@ -139,6 +143,7 @@ void Pipeline::set_transfer_function(const TransferFunction& transfer_function) 
     Choices next{scene_, reasons_};
     next.scene.transfer_function = transfer_function;
     take(std::move(next));
+    choice_warnings_.clear();
     if (frames_) in_context([&] { frames_->set_transfer_function(transfer_function); });
 }
 
@@ -149,8 +154,11 @@ void Pipeline::set_transfer_function_of(const Scene& like) {
     if (chooses_transfer_function(like)) return set_scene(std::move(next));
     Scene closed = like;
     if (has_open_colormap(closed)) close_colormap(closed, data_.range(scene()));
-    if (const auto ramp = opaque_ramp(closed)) warn(*ramp);
     set_transfer_function(*closed.transfer_function);
+    if (const auto ramp = opaque_ramp(closed)) {
+        warn(*ramp);
+        choice_warnings_.push_back(*ramp);
+    }
     asked_ = std::move(next);
 }
 
@@ -223,7 +231,7 @@ std::string Pipeline::explanation() {
 void Pipeline::warn_of_plan() {
     if (scene().method == Method::trace) return warn_of_data();
     Frames& drawing = frames();
-    warn_of_all(data_.warnings(scene_));
+    warn_of_scene();
     in_context([&] { warn_of_all(drawing.warnings()); });
 }
 
@@ -278,7 +286,7 @@ void Pipeline::draw_quietly(Image& picture) {
         Stage reading("read");
         drawing.read(picture);
         stages_ms_["read"] = reading.end();
-        warn_of_all(data_.warnings(scene_));
+        warn_of_scene();
         warn_of_all(drawing.warnings());
     });
 }
@@ -313,8 +321,14 @@ const Pipeline::TracePlan& Pipeline::plan_of_trace() {
     return trace_plan_.emplace(std::move(made));
 }
 
-void Pipeline::warn_of_data() {
+// Repeats what was said when it was chosen and read: it belongs to every picture.
+void Pipeline::warn_of_scene() {
+    warn_of_all(choice_warnings_);
     warn_of_all(data_.warnings(scene_));
+}
+
+void Pipeline::warn_of_data() {
+    warn_of_scene();
     warn_of_all(scene_.draws_mesh() ? data_warnings(scene_, *data_.mesh(scene_))
                                     : data_warnings(*data_.volume(scene_)));
 }

@@ -113,6 +113,7 @@ class Pipeline {
         std::string explanation;
     };
 
+    Choices choose_now();
     Choices chosen();
     bool changes_mesh(const Scene& next) const;
     void take(Choices next);
@@ -123,10 +124,12 @@ class Pipeline {
     void draw_counted();
     const TracePlan& plan_of_trace();
     void check_data();  // as plans do
+    void warn_of_scene();
     void warn_of_data();
 
     Scene asked_, scene_;
     std::vector<std::string> reasons_;  // of scene_
+    Warnings choice_warnings_;          // said while it was chosen
     bool chosen_ = false;               // scene_ is the choice for asked_
     SceneData data_;
     PipelineOptions options_;

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/stage.h"
 #include "choice/mesh_field.h"
@@ -32,21 +31,6 @@ std::map<std::string, std::int64_t> counts_of(const SceneMesh& mesh) {
     counts["merged_points"] = cells.merged_points;
     if (mesh.averaged) counts["averaged_arrays"] = 1;
     return counts;
-}
-
-// Calls work(), and keeps in `said` what it says to the client.
-template <typename Work>
-auto keep_warnings(Warnings& said, const Work& work) {
-    said.clear();
-    Client client = ClientScope::current();
-    const WarningTaker* const taker = client.warnings;
-    const WarningTaker keeper = [&](const std::string& text) {
-        said.push_back(text);
-        if (taker != nullptr && *taker) (*taker)(text);
-    };
-    client.warnings = &keeper;
-    const ClientScope scope(std::move(client));
-    return work();
 }
 
 }  // namespace

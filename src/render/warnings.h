@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/client.h"
 #include "choice/field.h"
 #include "lamina/image.h"
 #include "lamina/scene.h"
@@ -35,6 +37,21 @@ Warnings trace_warnings(std::int64_t overlapping_rays);
 
 // Says each (base/warning.h).
 void warn_of_all(const Warnings& all);
+
+// Calls work(), and keeps in `said` what it says to the client.
+template <typename Work>
+auto keep_warnings(Warnings& said, const Work& work) {
+    said.clear();
+    Client client = ClientScope::current();
+    const WarningTaker* const taker = client.warnings;
+    const WarningTaker keeper = [&](const std::string& text) {
+        said.push_back(text);
+        if (taker != nullptr && *taker) (*taker)(text);
+    };
+    client.warnings = &keeper;
+    const ClientScope scope(std::move(client));
+    return work();
+}
 
 // Warns where a picture of the scene shows nothing, and says why; where more than half of it is
 // saturated; and where a colour map's range lies outside that of the data. The scene is one with
