@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/study.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/client.h"

@@ -10,6 +10,7 @@
 #include "papers/findings.h"
 #include "papers/kraus.h"
 #include "papers/kraus_stage.h"
+#include "papers/kraus_variants.h"
 #include "papers/mesh_frame.h"
 #include "study/text_file.h"
 
