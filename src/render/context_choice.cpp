@@ -35,10 +35,9 @@ std::string context_words() {
 }
 
 Auto<ContextChoice> context_choice(const std::string& word) {
-    if (!is_context(word))
-        throw UsageError(fmt::format("--context {}: expected {}", word, context_words()));
+    if (word == "auto") return automatic;
     if (const auto found = value_of_word<ContextChoice>(word)) return *found;
-    return automatic;
+    throw UsageError(fmt::format("--context {}: expected {}", word, context_words()));
 }
 
 ContextChoice context_for_files(const Auto<ContextChoice>& choice) {

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "base/error.h"
 #include "base/stage.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
@@ -47,7 +46,6 @@ SceneData::SceneData(const Scene& scene, MeshData mesh, const std::optional<Mesh
 
 const std::shared_ptr<const VolumeData>& SceneData::volume(const Scene& scene) {
     if (volume_) return volume_;
-    if (!scene.has_volume()) fail("no volume was given, and the scene names none");
     volume_ = keep_warnings(volume_warnings_, [&] {
         Stage loading("load");
         Volume volume = open_volume(scene);

@@ -35,7 +35,7 @@ namespace lamina {
 //                       mesh is cut again
 //   settings, choose_again()   the same, and what is automatic is tried and chosen again
 //
-// What is automatic is chosen for the first picture and kept: resolved() has it written out.
+// Automatic values are chosen for the first picture and kept: resolved() has them written out.
 // (A table grows where a view has longer segments than it knows.) A picture is, bit for bit on the
 // native engine, that of a new renderer with that scene.
 class SceneRenderer : public Frames {

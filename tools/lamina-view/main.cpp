@@ -42,12 +42,14 @@ int run(int argc, char** argv) {
         ->option_text("WxH");
     app.add_option("--script", options.script, "Play this script (docs/viewer.md) and end")
         ->option_text("FILE");
-    const std::map<std::string, ContextChoice> contexts = {{"osmesa", ContextChoice::osmesa},
-                                                           {"egl", ContextChoice::egl},
-                                                           {"cpu", ContextChoice::cpu}};
+    const std::map<std::string, lamina::Auto<ContextChoice>> contexts = {
+        {"auto", lamina::automatic},
+        {"osmesa", ContextChoice::osmesa},
+        {"egl", ContextChoice::egl},
+        {"cpu", ContextChoice::cpu}};
     std::string context = "auto";
     app.add_option("--context", context, "What draws: auto, osmesa, egl or cpu")
-        ->check(CLI::IsMember({"auto", "osmesa", "egl", "cpu"}))
+        ->check(CLI::IsMember(contexts))
         ->option_text("NAME");
     try {
         app.parse(argc, argv);
@@ -59,7 +61,7 @@ int run(int argc, char** argv) {
     if (!size.empty() && !(options.picture_size = size_of(size)))
         return report(fmt::format("--size: found {}, expected WIDTHxHEIGHT, each 1 to 16384", size),
                       2);
-    if (context != "auto") options.session.context = contexts.at(context);
+    options.session.context = contexts.at(context);
     lamina::view::Window(options).run();
     return 0;
 }

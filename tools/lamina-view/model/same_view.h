@@ -5,8 +5,8 @@
 
 namespace lamina::view {
 
-// Whether pictures of both scenes show the same from the same place, pixel by pixel; false if a
-// camera is not chosen yet.
+// Tells whether pictures of both scenes show the same from the same place, pixel by pixel; they do
+// not if a camera is not chosen yet.
 inline bool same_view(const Scene& a, const Scene& b) {
     if (a.camera.is_automatic() || b.camera.is_automatic()) return false;
     const Camera &from = *a.camera, &to = *b.camera;
