@@ -6,12 +6,9 @@ include(CheckCXXSourceCompiles)
 add_library(lamina_options INTERFACE)
 target_compile_options(lamina_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
     -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
-    -ffp-contract=$<IF:$<BOOL:$<TARGET_PROPERTY:LAMINA_FUSED>>,fast,off>)
-# -ffp-contract=off: the same expression must round in the same way wherever it is compiled (but see LAMINA_FMA).
+    -ffp-contract=off)
+# -ffp-contract=off: the same expression must round in the same way wherever it is compiled.
 target_compile_definitions(lamina_options INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_SILENT_WARNINGS)
-if(LAMINA_FMA)
-    target_compile_definitions(lamina_options INTERFACE LAMINA_FMA)
-endif()
 if(LAMINA_WARNINGS_AS_ERRORS)
     target_compile_options(lamina_options INTERFACE -Werror)
 endif()
@@ -75,14 +72,10 @@ function(lamina_test name)
         PROPERTIES TIMEOUT 300)
 endfunction()
 
-# Sources of this room are compiled once for each instruction set (src/tiles/instruction_set.h). The least of them is
-# taken for granted, so that there is no version without vectors. LAMINA_FMA (x86-64, where the least set has no such
-# instruction) does not touch the reference tracer, which judges the others.
+# Sources of this room are compiled once for each instruction set (src/simd/foreach_target.h). The least of them is
+# taken for granted, so that there is no version without vectors.
 function(lamina_vector_room name)
     target_link_libraries(lamina_${name} PUBLIC hwy::hwy)
-    if(LAMINA_FMA AND NOT name STREQUAL "reference")
-        set_target_properties(lamina_${name} PROPERTIES LAMINA_FUSED ON)
-    endif()
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
         target_compile_options(lamina_${name} PUBLIC -msse4.2)
         target_compile_definitions(lamina_${name} PUBLIC HWY_DISABLE_PCLMUL_AES)

@@ -7,22 +7,17 @@
 #define LAMINA_EXECUTORS_TILE_SHALLOW_INL_H_
 #endif
 
-#include <hwy/highway.h>
+#include "simd/vectors-inl.h"
 
-#include "executors/tile_number-inl.h"
-#include "tiles/arithmetic-inl.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 // Parts of larger optical depth are split: up to here Gauss' rules below are good to .01 / 255.
 inline constexpr float largest_part_depth = 0.75f;
 
 // 1 - exp(-depth) for depths up to largest_part_depth, with a relative error of 2e-5: interpolated
 // at Chebyshev's nodes.
-HWY_INLINE Number shallow_opacity(Number depth) {
-    return depth * Number(polynomial(FloatTag(), depth.v,
-                                     {0.99998385f, -0.49930894f, 0.16195904f, -0.031068699f}));
+LAMINA_INLINE Float shallow_opacity(Float depth) {
+    return depth * polynomial(depth, {0.99998385f, -0.49930894f, 0.16195904f, -0.031068699f});
 }
 
 // Gauss' rule on 0 .. 1.
@@ -39,7 +34,6 @@ struct GaussRule<4> {
     static constexpr float weights[] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
 };
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -7,89 +7,72 @@
 #define LAMINA_EXECUTORS_TILE_TABLE_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <bit>
 
 #include "executors/tile_optics-inl.h"
+#include "simd/members-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 // A cell of the table and the position in it.
 struct TableCell {
-    Ints corner;  // front node + nodes * back node
-    Floats front, back;
+    Int corner;  // front node + nodes * back node
+    Float front, back;
 };
 
-HWY_INLINE TableCell table_cell(std::int32_t nodes, Floats front, Floats back) {
-    const FloatTag d;
-    const IntTag di;
-    const Ints last = hn::Set(di, nodes - 2);
-    const Ints column = hn::Min(hn::ConvertTo(di, front), last);
-    const Ints row = hn::Min(hn::ConvertTo(di, back), last);
-    return {hn::Add(column, hn::Mul(row, hn::Set(di, nodes))),
-            hn::Sub(front, hn::ConvertTo(d, column)), hn::Sub(back, hn::ConvertTo(d, row))};
+LAMINA_INLINE TableCell table_cell(std::int32_t nodes, Float front, Float back) {
+    const Int column = min(to_int(front), nodes - 2);
+    const Int row = min(to_int(back), nodes - 2);
+    return {column + row * nodes, front - to_float(column), back - to_float(row)};
 }
 
 // An entry of the table: mean extinction and, in coloured tables, emission.
 struct TableEntry {
-    Floats emission[3];
-    Floats extinction;
+    Float emission[3];
+    Float extinction;
 };
 // Of a lit table, with front parts of both.
 struct LitEntry : TableEntry {
-    Floats front_emission[3];
-    Floats front_extinction;
+    Float front_emission[3];
+    Float front_extinction;
 };
 template <bool lit>
 using EntryOf = std::conditional_t<lit, LitEntry, TableEntry>;
 
 // Interpolates bilinearly between the four nodes of a cell.
-HWY_INLINE Floats table_extinction(const PreintegrationTable& table, const TableCell& cell) {
-    const FloatTag d;
+LAMINA_INLINE Float table_extinction(const PreintegrationTable& table, const TableCell& cell) {
     const auto nodes = static_cast<std::int32_t>(table.nodes.size());
     const float* const entries = table.mean_extinction.data();
     const auto texel = [&](std::int32_t step)
-                           HWY_ATTR { return hn::GatherIndex(d, entries + step, cell.corner); };
-    const Floats front = mix(texel(0), texel(1), cell.front);
-    const Floats back = mix(texel(nodes), texel(nodes + 1), cell.front);
+                           LAMINA_LAMBDA { return gather(entries + step, cell.corner); };
+    const Float front = mix(texel(0), texel(1), cell.front);
+    const Float back = mix(texel(nodes), texel(nodes + 1), cell.front);
     return mix(front, back, cell.back);
 }
 
-template <class D>
-HWY_INLINE hn::Vec<D> mixed_nodes(D d, const float* texels, std::ptrdiff_t right,
-                                  std::ptrdiff_t below, float front, float back) {
-    const auto share = hn::Set(d, front);
-    const auto near = mix(hn::LoadU(d, texels), hn::LoadU(d, texels + right), share);
-    const auto far = mix(hn::LoadU(d, texels + below), hn::LoadU(d, texels + below + right), share);
-    return mix(near, far, hn::Set(d, back));
+template <class V>
+LAMINA_INLINE V mixed_nodes(const float* texels, std::ptrdiff_t right, std::ptrdiff_t below,
+                            float front, float back) {
+    const auto at = [&](std::ptrdiff_t step)
+                        LAMINA_LAMBDA { return load_unaligned<V>(texels + step); };
+    const V near = mix(at(0), at(right), V(front));
+    const V far = mix(at(below), at(below + right), V(front));
+    return mix(near, far, V(back));
 }
 
 // Interpolates between two layers of length. Their texels lie side by side, so that both are
-// interpolated at once where vectors are long enough.
-template <class D8>
-HWY_INLINE void mix_layers(D8 d8, const float* texels, std::ptrdiff_t right, std::ptrdiff_t below,
-                           float front, float back, float layer, float* entry) {
-    const hn::FixedTag<float, 4> d4;
-    const auto share = hn::Set(d4, layer);
-    if constexpr (hn::MaxLanes(d8) == 8) {
-        const auto both = mixed_nodes(d8, texels, right, below, front, back);
-        hn::Store(mix(hn::LowerHalf(d4, both), hn::UpperHalf(d4, both), share), d4, entry);
+// interpolated at once if vectors are long enough.
+template <class V8>
+LAMINA_INLINE void mix_layers(const float* texels, std::ptrdiff_t right, std::ptrdiff_t below,
+                              float front, float back, float layer, float* entry) {
+    if constexpr (V8::lanes == 8) {
+        const V8 both = mixed_nodes<V8>(texels, right, below, front, back);
+        store(mix(lower_half(both), upper_half(both), Float4(layer)), entry);
     } else {
-        const auto one = mixed_nodes(d4, texels, right, below, front, back);
-        const auto next = mixed_nodes(d4, texels + 4, right, below, front, back);
-        hn::Store(mix(one, next, share), d4, entry);
+        const Float4 one = mixed_nodes<Float4>(texels, right, below, front, back);
+        const Float4 next = mixed_nodes<Float4>(texels + 4, right, below, front, back);
+        store(mix(one, next, Float4(layer)), entry);
     }
-}
-
-// Calls body(lane) for the lanes of a mask.
-template <class Body>
-HWY_INLINE void for_each_lane(FloatMask mask, const Body& body) {
-    alignas(8) std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(FloatTag(), mask, bytes);
-    for (std::uint32_t bits = bytes[0] | std::uint32_t{bytes[1]} << 8; bits != 0; bits &= bits - 1)
-        body(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
 // The positions at which the lanes of a vector look up entries.
@@ -99,18 +82,15 @@ struct EntryPlaces {
     alignas(64) float front[most_lanes], back[most_lanes], layer[most_lanes];
 };
 
-HWY_INLINE void set_places(const TileTransfer& transfer, const TableCell& cell, Floats length,
-                           EntryPlaces& places) {
-    const FloatTag d;
-    const IntTag di;
+LAMINA_INLINE void set_places(const TileTransfer& transfer, const TableCell& cell, Float length,
+                              EntryPlaces& places) {
     const auto layers = static_cast<std::int32_t>(transfer.table->lengths.size());
-    const Floats layer = hn::Min(hn::Mul(length, hn::Set(d, transfer.layers_per_length)),
-                                 hn::Set(d, static_cast<float>(layers - 1)));
-    const Ints lower = hn::Min(hn::ConvertTo(di, layer), hn::Set(di, std::max(layers - 2, 0)));
-    hn::Store(hn::Add(hn::Mul(cell.corner, hn::Set(di, layers)), lower), di, places.first);
-    hn::Store(cell.front, d, places.front);
-    hn::Store(cell.back, d, places.back);
-    hn::Store(hn::Sub(layer, hn::ConvertTo(d, lower)), d, places.layer);
+    const Float layer = min(length * transfer.layers_per_length, static_cast<float>(layers - 1));
+    const Int lower = min(to_int(layer), std::max(layers - 2, 0));
+    store(cell.corner * layers + lower, places.first);
+    store(cell.front, places.front);
+    store(cell.back, places.back);
+    store(layer - to_float(lower), places.layer);
 }
 
 // Entries as they are looked up: four numbers a lane, and four more of lit tables.
@@ -124,72 +104,68 @@ struct EntryNumbers {
 // goes lane by lane, because the numbers of an entry lie side by side: this is several times as
 // fast as gathers of one number each.
 template <bool lit, class EntryAt>
-HWY_INLINE void set_entries(FloatMask wanted, EntryNumbers<lit>& entries, const EntryAt& entry_at) {
-    const FloatTag d;
-    if (hn::AllTrue(d, wanted)) {
-        for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) entry_at(lane);
+LAMINA_INLINE void set_entries(FloatMask wanted, EntryNumbers<lit>& entries,
+                               const EntryAt& entry_at) {
+    if (all_of(wanted)) {
+        for (std::size_t lane = 0; lane < Float::lanes; ++lane) entry_at(lane);
         return;
     }
     for (std::size_t i = 0; i < 4; ++i) {
-        hn::Store(hn::Zero(d), d, entries.whole + i * hn::Lanes(d));
-        if constexpr (lit) hn::Store(hn::Zero(d), d, entries.front + i * hn::Lanes(d));
+        store(Float(0), entries.whole + i * Float::lanes);
+        if constexpr (lit) store(Float(0), entries.front + i * Float::lanes);
     }
-    for_each_lane(wanted, entry_at);
+    for_each_lane(bits_of(wanted), entry_at);
 }
 
 template <bool lit>
-HWY_INLINE void look_up_entries(const TileTransfer& transfer, const EntryPlaces& places,
-                                FloatMask wanted, EntryNumbers<lit>& entries) {
+LAMINA_INLINE void look_up_entries(const TileTransfer& transfer, const EntryPlaces& places,
+                                   FloatMask wanted, EntryNumbers<lit>& entries) {
     constexpr std::ptrdiff_t size = lit ? 8 : 4;
     const auto nodes = static_cast<std::ptrdiff_t>(transfer.table->nodes.size());
     const auto layers = static_cast<std::ptrdiff_t>(transfer.table->lengths.size());
     const std::ptrdiff_t right = size * layers, below = right * nodes;
     const float* const texels = transfer.texels.data();
-    const auto texels_at = [&](std::size_t lane) HWY_ATTR {
+    const auto texels_at = [&](std::size_t lane) LAMINA_LAMBDA {
         return texels + size * static_cast<std::ptrdiff_t>(places.first[lane]);
     };
-    const hn::FixedTag<float, 4> d4;
-    const auto nodes_at = [&](std::size_t lane, std::ptrdiff_t step) HWY_ATTR {
-        return mixed_nodes(d4, texels_at(lane) + step, right, below, places.front[lane],
-                           places.back[lane]);
+    const auto nodes_at = [&](std::size_t lane, std::ptrdiff_t step) LAMINA_LAMBDA {
+        return mixed_nodes<Float4>(texels_at(lane) + step, right, below, places.front[lane],
+                                   places.back[lane]);
     };
     if (layers == 1) {
-        set_entries(wanted, entries, [&](std::size_t lane) HWY_ATTR {
-            hn::Store(nodes_at(lane, 0), d4, entries.whole + 4 * lane);
-            if constexpr (lit) hn::Store(nodes_at(lane, 4), d4, entries.front + 4 * lane);
+        set_entries(wanted, entries, [&](std::size_t lane) LAMINA_LAMBDA {
+            store(nodes_at(lane, 0), entries.whole + 4 * lane);
+            if constexpr (lit) store(nodes_at(lane, 4), entries.front + 4 * lane);
         });
     } else if constexpr (lit) {
-        set_entries(wanted, entries, [&](std::size_t lane) HWY_ATTR {
-            const auto share = hn::Set(d4, places.layer[lane]);
-            hn::Store(mix(nodes_at(lane, 0), nodes_at(lane, 8), share), d4,
-                      entries.whole + 4 * lane);
-            hn::Store(mix(nodes_at(lane, 4), nodes_at(lane, 12), share), d4,
-                      entries.front + 4 * lane);
+        set_entries(wanted, entries, [&](std::size_t lane) LAMINA_LAMBDA {
+            const Float4 share(places.layer[lane]);
+            store(mix(nodes_at(lane, 0), nodes_at(lane, 8), share), entries.whole + 4 * lane);
+            store(mix(nodes_at(lane, 4), nodes_at(lane, 12), share), entries.front + 4 * lane);
         });
     } else {
-        set_entries(wanted, entries, [&](std::size_t lane) HWY_ATTR {
-            mix_layers(hn::CappedTag<float, 8>(), texels_at(lane), right, below, places.front[lane],
-                       places.back[lane], places.layer[lane], entries.whole + 4 * lane);
+        set_entries(wanted, entries, [&](std::size_t lane) LAMINA_LAMBDA {
+            mix_layers<Float8>(texels_at(lane), right, below, places.front[lane], places.back[lane],
+                               places.layer[lane], entries.whole + 4 * lane);
         });
     }
 }
 
 template <bool lit>
-HWY_INLINE EntryOf<lit> load_entry(const EntryNumbers<lit>& entries) {
-    const FloatTag d;
+LAMINA_INLINE EntryOf<lit> load_entry(const EntryNumbers<lit>& entries) {
     EntryOf<lit> entry;
-    hn::LoadInterleaved4(d, entries.whole, entry.emission[0], entry.emission[1], entry.emission[2],
-                         entry.extinction);
+    load_interleaved(entries.whole, entry.emission[0], entry.emission[1], entry.emission[2],
+                     entry.extinction);
     if constexpr (lit) {
-        hn::LoadInterleaved4(d, entries.front, entry.front_emission[0], entry.front_emission[1],
-                             entry.front_emission[2], entry.front_extinction);
+        load_interleaved(entries.front, entry.front_emission[0], entry.front_emission[1],
+                         entry.front_emission[2], entry.front_extinction);
     }
     return entry;
 }
 
 template <bool lit>
-HWY_INLINE EntryOf<lit> table_entry(const TileTransfer& transfer, const TableCell& cell,
-                                    Floats length, FloatMask wanted) {
+LAMINA_INLINE EntryOf<lit> table_entry(const TileTransfer& transfer, const TableCell& cell,
+                                       Float length, FloatMask wanted) {
     EntryPlaces places;
     EntryNumbers<lit> entries;
     set_places(transfer, cell, length, places);
@@ -197,7 +173,6 @@ HWY_INLINE EntryOf<lit> table_entry(const TileTransfer& transfer, const TableCel
     return load_entry(entries);
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

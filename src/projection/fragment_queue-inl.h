@@ -8,20 +8,13 @@
 #define LAMINA_PROJECTION_FRAGMENT_QUEUE_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 
 #include "projection/tet_run-inl.h"
+#include "simd/members-inl.h"
 #include "tiles/target_pixels-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Tag = hn::CappedTag<float, TileGrid::block * TileGrid::block>;
-using Vector = hn::Vec<Tag>;
-using Inside = hn::Mask<Tag>;
+LAMINA_SIMD_BEGIN
 
 // Fragments are added as vectors of 4 x 1, 4 x 2 or 4 x 4 pixels. A cell fragment covers about half
 // of the pixels of a vector. AVX-512 packs the covered pixels of one cell fragment, so that few
@@ -29,14 +22,14 @@ using Inside = hn::Mask<Tag>;
 // step, because vectors within a step do not depend on each other.
 class FragmentQueue {
   public:
-    static constexpr std::size_t lanes = hn::MaxLanes(Tag());
+    static constexpr std::size_t lanes = Float::lanes;
 
     // The result of the first step.
     struct Found {
-        InsideSpan<Vector> span;
+        InsideSpan<Float> span;
         // The scalar's change from the record's center, at z = 1, and world length per unit of z.
         // Columns and rows from the center, of lit fragments and of those with exact runs.
-        Vector aside, slant;
+        Float aside, slant;
     };
     // A vector of pixels, by the TileGrid::place() of the first one, and the number in the
     // TileBatch of the cell fragment that covers some of them.
@@ -50,7 +43,7 @@ class FragmentQueue {
     // Adds the vectors of one cell fragment.
     class Writer {
       public:
-        HWY_INLINE Writer(FragmentQueue& queue, std::size_t part)
+        LAMINA_INLINE Writer(FragmentQueue& queue, std::size_t part)
             : queue_(queue),
               part_(static_cast<std::uint16_t>(part)),
               to_(queue.values_ + position(0, queue.end_)),
@@ -59,32 +52,32 @@ class FragmentQueue {
         // Keeps the vector where one of its pixels is `inside`. It does so without a branch, which
         // could not be predicted. The span of pixels that are not inside becomes 0, so that `aside`
         // and `slant`, which stay as they are, make no difference there.
-        HWY_INLINE void add(Tag d, std::size_t place, const Found& found, Inside inside) {
-            const std::size_t count = hn::CountTrue(d, inside), some = count > 0 ? 1 : 0;
+        LAMINA_INLINE void add(std::size_t place, const Found& found, FloatMask inside) {
+            const std::size_t count = count_of(inside), some = count > 0 ? 1 : 0;
             *place_ = {static_cast<std::uint16_t>(place), part_};
             if constexpr (packs) {
-                store(d, 0, hn::Compress(found.span.enter, inside));
-                store(d, 1, hn::Compress(found.span.leave, inside));
-                store(d, 2, hn::Compress(found.aside, inside));
-                store(d, 3, hn::Compress(found.slant, inside));
+                put(0, members_first(found.span.enter, inside));
+                put(1, members_first(found.span.leave, inside));
+                put(2, members_first(found.aside, inside));
+                put(3, members_first(found.slant, inside));
                 Packed& packed = queue_.packed_[place_ - queue_.places_];
                 packed.first = static_cast<std::uint16_t>(to_ - queue_.values_);
-                hn::StoreMaskBits(d, inside, packed.inside);
+                packed.inside = static_cast<std::uint16_t>(bits_of(inside));
                 to_ += count;
             } else {
-                store(d, 0, hn::IfThenElseZero(inside, found.span.enter));
-                store(d, 1, hn::IfThenElseZero(inside, found.span.leave));
-                store(d, 2, found.aside);
-                store(d, 3, found.slant);
+                put(0, zero_unless(inside, found.span.enter));
+                put(1, zero_unless(inside, found.span.leave));
+                put(2, found.aside);
+                put(3, found.slant);
                 to_ += some * (values * lanes);
             }
             place_ += some;
             count_ += count;
         }
         // Returns the number of fragments.
-        HWY_INLINE std::size_t finish(Tag d) {
+        LAMINA_INLINE std::size_t finish() {
             if constexpr (packs) {
-                for (std::size_t i = 0; i < values; ++i) store(d, i, hn::Zero(d));
+                for (std::size_t i = 0; i < values; ++i) put(i, 0);
             }
             const auto written = static_cast<std::size_t>(to_ - queue_.values_);
             const std::size_t end =
@@ -100,8 +93,8 @@ class FragmentQueue {
         }
 
       private:
-        HWY_INLINE void store(Tag d, std::size_t value, Vector v) {
-            hn::StoreU(v, d, to_ + position(value, 0));
+        LAMINA_INLINE void put(std::size_t value, Float v) {
+            store_unaligned(v, to_ + position(value, 0));
         }
 
         FragmentQueue& queue_;
@@ -113,48 +106,48 @@ class FragmentQueue {
 
     // Calls visit(part, i) for each vector of fragments; `i` is the number of its first fragment.
     template <class Visit>
-    HWY_INLINE void for_each_vector(const Visit& visit) const {
+    LAMINA_INLINE void for_each_vector(const Visit& visit) const {
         for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{parts_[i / lanes]}, i);
     }
     // Calls visit(Place, color) for each vector of pixels. The colour is 0 where a pixel is not
     // covered.
     template <class Visit>
-    HWY_INLINE void for_each_place(Tag d, const Visit& visit) const {
+    LAMINA_INLINE void for_each_place(const Visit& visit) const {
         for (std::size_t i = 0; i < place_count_; ++i) {
-            const auto channel = [&](std::size_t value) HWY_ATTR { return pixels(d, value, i); };
-            visit(places_[i], Fragment<Vector>{channel(0), channel(1), channel(2), channel(3)});
+            const auto channel = [&](std::size_t value) LAMINA_LAMBDA { return pixels(value, i); };
+            visit(places_[i], Fragment{channel(0), channel(1), channel(2), channel(3)});
         }
     }
 
-    HWY_INLINE Found found(Tag d, std::size_t i) const {
-        return {{load(d, 0, i), load(d, 1, i)}, load(d, 2, i), load(d, 3, i)};
+    LAMINA_INLINE Found found(std::size_t i) const {
+        return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
     }
     // A run overwrites the result of the first step, and a colour overwrites a run.
-    HWY_INLINE void set_run(Tag d, std::size_t i, const TetRun<Vector>& run) {
-        store(d, 0, i, run.front);
-        store(d, 1, i, run.back);
-        store(d, 2, i, run.world_length);
+    LAMINA_INLINE void set_run(std::size_t i, const TetRun& run) {
+        put(0, i, run.front);
+        put(1, i, run.back);
+        put(2, i, run.world_length);
     }
-    HWY_INLINE TetRun<Vector> run(Tag d, std::size_t i) const {
-        return {load(d, 0, i), load(d, 1, i), load(d, 2, i)};
+    LAMINA_INLINE TetRun run(std::size_t i) const {
+        return {value(0, i), value(1, i), value(2, i)};
     }
-    HWY_INLINE void set_color(Tag d, std::size_t i, const Fragment<Vector>& color) {
-        store(d, 0, i, color.red);
-        store(d, 1, i, color.green);
-        store(d, 2, i, color.blue);
-        store(d, 3, i, color.alpha);
+    LAMINA_INLINE void set_color(std::size_t i, const Fragment& color) {
+        put(0, i, color.red);
+        put(1, i, color.green);
+        put(2, i, color.blue);
+        put(3, i, color.alpha);
     }
 
   private:
     static_assert(TileBatch::most_chunks * TileBatch::chunk_parts <= 1 << 16,
                   "numbers of cell fragments are kept in 16 bits");
-    static constexpr bool packs = HWY_TARGET <= HWY_AVX3;
+    static constexpr bool packs = packs_quickly;
     static constexpr std::size_t values = 4, enough = 256, most = enough + TileGrid::pixels + lanes,
                                  some_parts = 16;
     // The position of a place's fragments in a queue that packs them.
     struct Packed {
         std::uint16_t first;
-        std::uint8_t inside[8];
+        std::uint16_t inside;  // a bit each
     };
 
     // Packed fragments begin anywhere, so each value has an array of its own. Else the values of a
@@ -162,30 +155,25 @@ class FragmentQueue {
     static constexpr std::size_t position(std::size_t value, std::size_t i) {
         return packs ? value * most + i : value * lanes + i * values;
     }
-    HWY_INLINE Vector pixels(Tag d, std::size_t value, std::size_t place) const {
-#if HWY_TARGET <= HWY_AVX3
+    LAMINA_INLINE Float pixels(std::size_t number, std::size_t place) const {
+        if constexpr (!packs) return value(number, place * lanes);
         const Packed& packed = packed_[place];
-        return Vector{_mm512_maskz_expandloadu_ps(hn::LoadMaskBits(d, packed.inside).raw,
-                                                  values_ + position(value, packed.first))};
-#else
-        return load(d, value, place * lanes);
-#endif
+        return expand_members(packed.inside, values_ + position(number, packed.first));
     }
-    HWY_INLINE void store(Tag d, std::size_t value, std::size_t i, Vector v) {
-        hn::Store(v, d, values_ + position(value, i));
+    LAMINA_INLINE void put(std::size_t number, std::size_t i, Float v) {
+        store(v, values_ + position(number, i));
     }
-    HWY_INLINE Vector load(Tag d, std::size_t value, std::size_t i) const {
-        return hn::Load(d, values_ + position(value, i));
+    LAMINA_INLINE Float value(std::size_t number, std::size_t i) const {
+        return load<Float>(values_ + position(number, i));
     }
 
     std::size_t end_ = 0, place_count_ = 0;
     std::uint16_t parts_[most / lanes + some_parts];  // of vectors
     Place places_[enough + TileGrid::pixels / lanes + 1];
     Packed packed_[packs ? enough + TileGrid::pixels / lanes + 1 : 1];
-    HWY_ALIGN float values_[values * most];
+    alignas(64) float values_[values * most];
 };
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -8,8 +8,6 @@
 #define LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "base/unreachable.h"
 #include "executors/tile_preintegration-inl.h"
 #include "projection/analytic_segment-inl.h"
@@ -18,90 +16,82 @@
 #include "projection/tet_drawing-inl.h"
 #include "tiles/segment_table-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
-HWY_INLINE Fragment<Vector> table_color(Tag d, const TetFragments& fragments,
-                                        const TetRun<Vector>& run) {
-    const auto entry =
-        integrate_segment(d, *fragments.table, fragments.inverse_first_length,
-                          fragments.single_color, run.front, run.back, run.world_length);
+LAMINA_INLINE Fragment table_color(const TetFragments& fragments, const TetRun& run) {
+    const SegmentEntry entry =
+        integrate_segment(*fragments.table, fragments.inverse_first_length, fragments.single_color,
+                          run.front, run.back, run.world_length);
     // A table of opacities may have an opacity above 0 at length 0.
-    const auto met = hn::Gt(run.world_length, hn::Zero(d));
-    return {hn::IfThenElseZero(met, entry.color[0]), hn::IfThenElseZero(met, entry.color[1]),
-            hn::IfThenElseZero(met, entry.color[2]), hn::IfThenElseZero(met, entry.value)};
+    const FloatMask met = run.world_length > 0;
+    return {zero_unless(met, entry.color[0]), zero_unless(met, entry.color[1]),
+            zero_unless(met, entry.color[2]), zero_unless(met, entry.value)};
 }
 
-HWY_INLINE Fragment<Vector> analytic_color(Tag d, const TetFragments& fragments,
-                                           const TetRun<Vector>& run) {
+LAMINA_INLINE Fragment analytic_color(const TetFragments& fragments, const TetRun& run) {
     const AnalyticSum sum = integrate_analytic(*fragments.transfer, fragments.colored, run.front,
                                                run.back, run.world_length);
-    const Vector opacity = opacity_from_depth(d, sum.depth);
-    if (!fragments.colored) return with_color(d, fragments.single_color, opacity);
+    const Float opacity = opacity_from_depth(sum.depth);
+    if (!fragments.colored) return with_color(fragments.single_color, opacity);
     return {sum.color[0], sum.color[1], sum.color[2], opacity};
 }
 
-HWY_INLINE Fragment<Vector> cut_table_color(Tag d, const TetFragments& fragments,
-                                            const TetRun<Vector>& run) {
+LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments, const TetRun& run) {
     constexpr Lookup kind = Lookup::gather;
     const TileTransfer& transfer = *fragments.transfer;
-    const Vector front = clamp01(d, run.front), back = clamp01(d, run.back);
+    const Float front = clamp01(run.front), back = clamp01(run.back);
     const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
-    const auto node = [&](Vector scalar)
-                          HWY_ATTR { return table_place<kind>(transfer, scalar).node; };
-    const TableCell extremes =
-        table_cell(nodes, node(hn::Min(front, back)), node(hn::Max(front, back)));
-    const auto seen = hn::And(hn::Ne(table_extinction(*transfer.table, extremes), hn::Zero(d)),
-                              hn::Gt(run.world_length, hn::Zero(d)));
-    if (hn::AllFalse(d, seen)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    const auto node = [&](Float scalar)
+                          LAMINA_LAMBDA { return table_place<kind>(transfer, scalar).node; };
+    const TableCell extremes = table_cell(nodes, node(min(front, back)), node(max(front, back)));
+    const FloatMask seen =
+        (table_extinction(*transfer.table, extremes) != 0) & (run.world_length > 0);
+    if (none_of(seen)) return {0, 0, 0, 0};
     const RunSum sum =
         integrate_run<kind>(transfer, fragments.colored, front, back, run.world_length, seen);
-    const Vector opacity = opacity_from_depth(d, sum.depth);
-    if (!fragments.colored) return with_color(d, fragments.single_color, opacity);
-    return {hn::Mul(sum.color[0], opacity), hn::Mul(sum.color[1], opacity),
-            hn::Mul(sum.color[2], opacity), opacity};
+    const Float opacity = opacity_from_depth(sum.depth);
+    if (!fragments.colored) return with_color(fragments.single_color, opacity);
+    return {sum.color[0] * opacity, sum.color[1] * opacity, sum.color[2] * opacity, opacity};
 }
 
 // The colour of segments that may leave the window: before it, within it and behind it, where the
 // transfer function is constant, one behind the other. `color`: that of segments within [0, 1].
 template <class Color>
-HWY_INLINE Fragment<Vector> windowed_color(Tag d, const TetFragments& fragments,
-                                           const TetRun<Vector>& run, const Color& color) {
-    if (!fragments.windowed) return color(d, fragments, run);
-    const Vector in = clamp01(d, run.front), out = clamp01(d, run.back);
-    const auto changes = hn::Ne(in, out);
-    const auto leaves = hn::And(changes, hn::Or(hn::Ne(in, run.front), hn::Ne(out, run.back)));
-    if (hn::AllFalse(d, leaves)) return color(d, fragments, {in, out, run.world_length});
-    const Vector per_scalar = hn::Div(run.world_length, hn::Abs(hn::Sub(run.back, run.front)));
-    const auto length = [&](Vector from, Vector to) HWY_ATTR {
-        return hn::IfThenElseZero(changes, hn::Mul(per_scalar, hn::Abs(hn::Sub(to, from))));
+LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const TetRun& run,
+                                      const Color& color) {
+    if (!fragments.windowed) return color(fragments, run);
+    const Float in = clamp01(run.front), out = clamp01(run.back);
+    const FloatMask changes = in != out;
+    const FloatMask leaves = changes & ((in != run.front) | (out != run.back));
+    if (none_of(leaves)) return color(fragments, {in, out, run.world_length});
+    const Float per_scalar = run.world_length / abs(run.back - run.front);
+    const auto length = [&](Float from, Float to) LAMINA_LAMBDA {
+        return zero_unless(changes, per_scalar * abs(to - from));
     };
     // Segments that stay within the window keep their lengths, whatever their neighbours do.
-    const Vector within = hn::IfThenElse(leaves, length(in, out), run.world_length);
-    Fragment<Vector> sum = color(d, fragments, {in, in, length(run.front, in)});
-    const auto put_behind = [&](const Fragment<Vector>& next) HWY_ATTR {
-        const Vector left = hn::Sub(hn::Set(d, 1.0f), sum.alpha);
-        sum = {mul_add(left, next.red, sum.red), mul_add(left, next.green, sum.green),
-               mul_add(left, next.blue, sum.blue), mul_add(left, next.alpha, sum.alpha)};
+    const Float within = select(leaves, length(in, out), run.world_length);
+    Fragment sum = color(fragments, {in, in, length(run.front, in)});
+    const auto put_behind = [&](const Fragment& next) LAMINA_LAMBDA {
+        const Float left = 1 - sum.alpha;
+        sum = {left * next.red + sum.red, left * next.green + sum.green,
+               left * next.blue + sum.blue, left * next.alpha + sum.alpha};
     };
-    put_behind(color(d, fragments, {in, out, within}));
-    put_behind(color(d, fragments, {out, out, length(out, run.back)}));
+    put_behind(color(fragments, {in, out, within}));
+    put_behind(color(fragments, {out, out, length(out, run.back)}));
     return sum;
 }
 
 // The colour of segments whose ends are given by their scalars.
-HWY_NOINLINE inline Fragment<Vector> segment_color(Tag d, const TetFragments& fragments,
-                                                   const TetRun<Vector>& run) {
+LAMINA_NOINLINE inline Fragment segment_color(const TetFragments& fragments, const TetRun& run) {
     switch (fragments.source) {
         case SegmentSource::constant:
-            return constant_color(d, fragments, run);
+            return constant_color(fragments, run);
         case SegmentSource::table:
-            return windowed_color(d, fragments, run, table_color);
+            return windowed_color(fragments, run, table_color);
         case SegmentSource::analytic:
-            return analytic_color(d, fragments, run);
+            return analytic_color(fragments, run);
         case SegmentSource::cut_table:
-            return windowed_color(d, fragments, run, cut_table_color);
+            return windowed_color(fragments, run, cut_table_color);
         case SegmentSource::parts:
         case SegmentSource::mean:
         case SegmentSource::vertices:
@@ -111,20 +101,19 @@ HWY_NOINLINE inline Fragment<Vector> segment_color(Tag d, const TetFragments& fr
 }
 
 // Puts the fragments of the cell fragment or tet `number` over the pixels from `place` on.
-HWY_NOINLINE inline void put_fragments(Tag d, const TetFragments& fragments, std::uint32_t number,
-                                       const Fragment<Vector>& fragment, const TetTile& tile,
-                                       std::size_t place) {
+LAMINA_NOINLINE inline void put_fragments(const TetFragments& fragments, std::uint32_t number,
+                                          const Fragment& fragment, const TetTile& tile,
+                                          std::size_t place) {
     const bool random = is_random(fragments.output, fragments.blend);
-    const auto bits = random ? random_of_fragments(d, fragments, tile.area, place, number)
-                             : hn::Zero(hn::RebindToUnsigned<Tag>());
+    const Word bits = random ? random_of_fragments(fragments, tile.area, place, number) : Word(0);
     if (fragments.opacity_only) {
         float* const plane = tile.opacity->data() + place;
-        hn::Store(put_opacity(d, fragments, fragment.alpha, bits, hn::Load(d, plane)), d, plane);
+        store(put_opacity(fragments, fragment.alpha, bits, load<Float>(plane)), plane);
         return;
     }
-    Pixels<Vector> there = load_pixels(d, *tile.pixels, place);
-    put_fragment(d, fragments, fragment, bits, there);
-    store_pixels(d, there, *tile.pixels, place);
+    Pixels there = load_pixels(*tile.pixels, place);
+    put_fragment(fragments, fragment, bits, there);
+    store_pixels(there, *tile.pixels, place);
 }
 
 struct GeneralShader {
@@ -145,20 +134,17 @@ struct GeneralShader {
         return area.depth == PartDepth::faint ? PartDepth::thin : area.depth;
     }
 
-    HWY_NOINLINE Fragment<Vector> color(Tag d, const TetFragments& fragments,
-                                        const TetRecord& record, const PartArea& area,
-                                        const TetRun<Vector>& run) const {
-        if (!cut) return segment_color(d, fragments, run);
-        return part_color(d, fragments.colored, depth_of(fragments, area), fragments, record, run);
+    LAMINA_NOINLINE Fragment color(const TetFragments& fragments, const TetRecord& record,
+                                   const PartArea& area, const TetRun& run) const {
+        if (!cut) return segment_color(fragments, run);
+        return part_color(fragments.colored, depth_of(fragments, area), fragments, record, run);
     }
-    HWY_INLINE void put(Tag d, const TetFragments& fragments, std::uint32_t number,
-                        const Fragment<Vector>& fragment, const TetTile& tile,
-                        std::size_t place) const {
-        put_fragments(d, fragments, number, fragment, tile, place);
+    LAMINA_INLINE void put(const TetFragments& fragments, std::uint32_t number,
+                           const Fragment& fragment, const TetTile& tile, std::size_t place) const {
+        put_fragments(fragments, number, fragment, tile, place);
     }
 };
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

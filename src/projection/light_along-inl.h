@@ -8,28 +8,25 @@
 #define LAMINA_PROJECTION_LIGHT_ALONG_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "executors/tile_light-inl.h"
 #include "tiles/opacity-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 // A run, or the piece of one on which the transfer function is linear.
 struct LitRun {
-    Number front_depth, back_depth;  // extinction at both ends, times the length
-    Number gradient[3], turn[3];     // at the front, and from there to the back
-    Number to_eye[3];
+    Float front_depth, back_depth;  // extinction at both ends, times the length
+    Float gradient[3], turn[3];     // at the front, and from there to the back
+    Float to_eye[3];
 };
 
 // Where the colour at the front of a run is f and that at its back b, light adds
 // f * change + (b - f) * farther + highlight. Of one channel where light is grey.
 template <std::size_t channels>
 struct LightSums {
-    Number change[channels], farther[channels], highlight[channels];
+    Float change[channels], farther[channels], highlight[channels];
 
-    HWY_INLINE Number added(std::size_t channel, Number front, Number back) const {
+    LAMINA_INLINE Float added(std::size_t channel, Float front, Float back) const {
         const std::size_t c = channels == 1 ? 0 : channel;
         return front * change[c] + (back - front) * farther[c] + highlight[c];
     }
@@ -45,24 +42,23 @@ class LightAlong {
     LightAlong(const TileLight& light, float smallest_square, const LitRun& run)
         : light_(light), smallest_square_(smallest_square), run_(run) {
         // Products of depths are numbers.
-        run_.front_depth = min(run.front_depth, Number(deepest));
-        change_ = min(run.back_depth, Number(deepest)) - run_.front_depth;
+        run_.front_depth = min(run.front_depth, deepest);
+        change_ = min(run.back_depth, deepest) - run_.front_depth;
         find_kinks();
     }
 
     // `in_front`: transmittance in front of the runs. Lanes outside `wanted` get 0.
-    HWY_INLINE LightSums<channels> sum(Number in_front, FloatMask wanted) {
-        const FloatTag d;
+    LAMINA_INLINE LightSums<channels> sum(Float in_front, FloatMask wanted) {
         for (std::size_t c = 0; c < channels; ++c)
-            sums_.change[c] = sums_.farther[c] = sums_.highlight[c] = Number(0);
-        at_ = Number(0);
-        longest_ = Number(1);
+            sums_.change[c] = sums_.farther[c] = sums_.highlight[c] = Float(0);
+        at_ = Float(0);
+        longest_ = Float(1);
         in_front_ = in_front;
-        FloatMask left = hn::And(wanted, run_.front_depth + change_ + run_.front_depth > Number(0));
+        FloatMask left = wanted & (run_.front_depth + change_ + run_.front_depth > 0);
         while (true) {
-            left = hn::And(left, at_ < Number(1));
-            left = hn::And(left, in_front_ > Number(least_transmittance));
-            if (hn::AllFalse(d, left)) return sums_;
+            left = left & (at_ < 1);
+            left = left & (in_front_ > least_transmittance);
+            if (none_of(left)) return sums_;
             add_piece(left);
         }
     }
@@ -75,115 +71,113 @@ class LightAlong {
     static constexpr float shortest = 1e-6f;
 
     // Where the gradient is perpendicular to a light; beyond the run where it is nowhere.
-    HWY_INLINE void find_kinks() {
+    LAMINA_INLINE void find_kinks() {
         for (std::size_t i = 0; i < light_.directions.size(); ++i) {
             const TileLight::Direction& direction = light_.directions[i];
-            Number from(0), change(0);
+            Float from(0), change(0);
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const Number to_light =
-                    direction.to_eye ? run_.to_eye[axis] : Number(direction.to_light[axis]);
-                from = from + run_.gradient[axis] * to_light;
-                change = change + run_.turn[axis] * to_light;
+                const Float to_light =
+                    direction.to_eye ? run_.to_eye[axis] : Float(direction.to_light[axis]);
+                from += run_.gradient[axis] * to_light;
+                change += run_.turn[axis] * to_light;
             }
-            const FloatMask within =
-                hn::And(from * (from + change) < Number(0), Number(hn::Abs(change.v)) > Number(0));
-            kinks_[i] = select(within, (Number(0) - from) / change, Number(2));
+            const FloatMask within = (from * (from + change) < 0) & (abs(change) > 0);
+            kinks_[i] = select(within, (0 - from) / change, 2);
         }
     }
 
     struct Piece {
-        Number extent;
+        Float extent;
         FloatMask last;
-        Number front, depth, opacity;  // front: extinction there times the run's length
+        Float front, depth, opacity;  // front: extinction there times the run's length
     };
 
-    HWY_INLINE Piece next_piece() const {
+    LAMINA_INLINE Piece next_piece() const {
         Piece piece;
-        const Number rest = Number(1) - at_;
-        piece.front = max(run_.front_depth + change_ * at_, Number(0));
+        const Float rest = 1 - at_;
+        piece.front = max(run_.front_depth + change_ * at_, 0);
         piece.extent = min(longest_, rest);
         for (std::size_t i = 0; i < light_.directions.size(); ++i) {
-            const Number to_kink = kinks_[i] - at_;
-            const FloatMask ahead = hn::And(to_kink > Number(shortest), to_kink < piece.extent);
+            const Float to_kink = kinks_[i] - at_;
+            const FloatMask ahead = (to_kink > shortest) & (to_kink < piece.extent);
             piece.extent = select(ahead, to_kink, piece.extent);
         }
-        const auto depth_to = [&](Number extent) HWY_ATTR {
-            return max(extent * (piece.front + Number(0.5f) * change_ * extent), Number(0));
+        const auto depth_to = [&](Float extent) LAMINA_LAMBDA {
+            return max(extent * (piece.front + 0.5f * change_ * extent), 0);
         };
         // To the depth of a shallow piece: a quadratic equation, in the form without cancellation.
-        const FloatMask deep = depth_to(piece.extent) > Number(largest_part_depth);
-        const Number goal(0.7f), square = piece.front * piece.front + Number(2) * goal * change_;
-        const Number root = hn::Sqrt(max(square, Number(0)).v);
-        const Number shallow = Number(2) * goal / max(piece.front + root, Number(1e-30f));
-        piece.extent = select(deep, min(max(shallow, Number(shortest)), rest), piece.extent);
+        const FloatMask deep = depth_to(piece.extent) > largest_part_depth;
+        const Float goal(0.7f), square = piece.front * piece.front + 2 * goal * change_;
+        const Float root = sqrt(max(square, 0));
+        const Float shallow = 2 * goal / max(piece.front + root, 1e-30f);
+        piece.extent = select(deep, clamp(shallow, shortest, rest), piece.extent);
         piece.last = piece.extent >= rest;
         piece.depth = depth_to(piece.extent);
-        piece.opacity = opacity_from_depth(FloatTag(), piece.depth.v);
+        piece.opacity = opacity_from_depth(piece.depth);
         return piece;
     }
 
     // Adds the next piece of each run, or shortens it where its light bends too much for one rule.
-    HWY_INLINE void add_piece(FloatMask left) {
+    LAMINA_INLINE void add_piece(FloatMask left) {
         const Piece piece = next_piece();
-        const FloatMask deep = piece.depth > Number(largest_part_depth);
+        const FloatMask deep = piece.depth > largest_part_depth;
         LitNodes<channels> nodes;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Number along = Number(GaussRule<3>::nodes[i]) * piece.extent, place = at_ + along;
-            const Number before = along * (piece.front + Number(0.5f) * change_ * along);
-            const Number extinction = max(piece.front + change_ * along, Number(0));
+            const Float along = GaussRule<3>::nodes[i] * piece.extent, place = at_ + along;
+            const Float before = along * (piece.front + 0.5f * change_ * along);
+            const Float extinction = max(piece.front + change_ * along, 0);
             nodes.add(i, effect_at(place), extinction, before, deep, place);
         }
         advance(piece, nodes, left);
     }
 
-    HWY_INLINE void advance(const Piece& piece, const LitNodes<channels>& nodes, FloatMask left) {
-        const Number bend = max(hidden_bend(piece.extent), nodes.largest_bend());
-        const Number weight = in_front_ * piece.opacity;
-        const FloatMask again =
-            hn::And(piece.extent > Number(shortest_lit_piece), bends(light_, bend, weight));
-        const FloatMask done = hn::AndNot(again, left);
-        const Number scale = zero_unless(done, weight / nodes.total);
+    LAMINA_INLINE void advance(const Piece& piece, const LitNodes<channels>& nodes,
+                               FloatMask left) {
+        const Float bend = max(hidden_bend(piece.extent), nodes.largest_bend());
+        const Float weight = in_front_ * piece.opacity;
+        const FloatMask again = (piece.extent > shortest_lit_piece) & bends(light_, bend, weight);
+        const FloatMask done = without(left, again);
+        const Float scale = zero_unless(done, weight / nodes.total);
         for (std::size_t c = 0; c < channels; ++c) {
-            sums_.change[c] = sums_.change[c] + scale * nodes.change[c];
-            sums_.farther[c] = sums_.farther[c] + scale * nodes.shared[c];
-            sums_.highlight[c] = sums_.highlight[c] + scale * nodes.highlight[c];
+            sums_.change[c] += scale * nodes.change[c];
+            sums_.farther[c] += scale * nodes.shared[c];
+            sums_.highlight[c] += scale * nodes.highlight[c];
         }
-        in_front_ = in_front_ - zero_unless(done, weight);
-        at_ = select(done, select(piece.last, Number(1), at_ + piece.extent), at_);
-        const Number shorter = piece.extent * min(longest_piece(light_, bend), Number(0.5f));
-        longest_ = select(again, shorter, max(longest_, Number(2) * piece.extent));
+        in_front_ -= zero_unless(done, weight);
+        at_ = select(done, select(piece.last, Float(1), at_ + piece.extent), at_);
+        const Float shorter = piece.extent * min(longest_piece(light_, bend), 0.5f);
+        longest_ = select(again, shorter, max(longest_, 2 * piece.extent));
     }
 
-    HWY_INLINE EffectLanes<channels> effect_at(Number place) const {
-        const Number there[3] = {run_.gradient[0] + place * run_.turn[0],
-                                 run_.gradient[1] + place * run_.turn[1],
-                                 run_.gradient[2] + place * run_.turn[2]};
+    LAMINA_INLINE EffectLanes<channels> effect_at(Float place) const {
+        const Float there[3] = {run_.gradient[0] + place * run_.turn[0],
+                                run_.gradient[1] + place * run_.turn[1],
+                                run_.gradient[2] + place * run_.turn[2]};
         return effect_of<channels>(light_, there, smallest_square_, run_.to_eye);
     }
 
     // Returns what the nodes of the next piece may not see.
-    HWY_INLINE Number hidden_bend(Number extent) const {
-        const Number half = Number(0.5f) * extent, middle = at_ + half;
-        Number square(0), reach(0);
+    LAMINA_INLINE Float hidden_bend(Float extent) const {
+        const Float half = 0.5f * extent, middle = at_ + half;
+        Float square(0), reach(0);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Number center = run_.gradient[axis] + middle * run_.turn[axis];
-            const Number most = half * run_.turn[axis];
-            square = square + center * center;
-            reach = reach + most * most;
+            const Float center = run_.gradient[axis] + middle * run_.turn[axis];
+            const Float most = half * run_.turn[axis];
+            square += center * center;
+            reach += most * most;
         }
         return hidden_effect(light_, square, reach, smallest_square_);
     }
 
     const TileLight& light_;
-    Number smallest_square_;
+    Float smallest_square_;
     LitRun run_;
-    Number change_;  // of extinction from front to back, times the length
+    Float change_;  // of extinction from front to back, times the length
     LightSums<channels> sums_;
-    Number at_, longest_, in_front_;
-    Number kinks_[Lighting::most_lights];
+    Float at_, longest_, in_front_;
+    Float kinks_[Lighting::most_lights];
 };
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

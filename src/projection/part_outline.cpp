@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/part_outline.h"
 
-#include <hwy/highway.h>
-
 #include <cmath>
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina {
-namespace {
+#include "simd/vectors-inl.h"
 
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
+namespace {
 
 // The front face and the back face of each pair of one of either kind, by the number of front
 // faces.
@@ -29,49 +26,45 @@ constexpr float oblique = 1e-4f;
 
 // The largest difference of depth at a corner of the square X columns and Y rows from the area's
 // first pixel is most + c X - r Y. There is a lane for each line.
-PartOutline outline_of(const TetRecord& record, const PixelArea& area, int image_rows) {
+PartOutline find_outline(const TetRecord& record, const PixelArea& area, int image_rows) {
     constexpr float middle = 0.5f * (TileGrid::block - 1);
     const float columns = static_cast<float>(area.last_column - area.first_column),
                 rows = static_cast<float>(area.last_row - area.first_row);
     const float column = static_cast<float>(area.first_column) + 0.5f - record.center[0] + middle,
                 row = static_cast<float>(image_rows - area.first_row) - 0.5f - record.center[1] -
                       middle;
-    const hn::FixedTag<float, 4> d;
-    const hn::RebindToSigned<decltype(d)> di;
     const std::uint32_t fronts = record.fronts & 3u;
-    const auto front = hn::IndicesFromVec(d, hn::Load(di, front_of[fronts])),
-               back = hn::IndicesFromVec(d, hn::Load(di, back_of[fronts]));
-    const auto depth = hn::Load(d, record.depth.high.data()),
-               per_column = hn::Load(d, record.depth_per_column.high.data()),
-               per_row = hn::Load(d, record.depth_per_row.high.data());
-    const auto difference = [&](auto v) HWY_ATTR {
-        return hn::Sub(hn::TableLookupLanes(v, back), hn::TableLookupLanes(v, front));
-    };
-    const auto times = [&](auto v, float factor)
-                           HWY_ATTR { return hn::Mul(v, hn::Set(d, factor)); };
+    const Int4 front = load<Int4>(front_of[fronts]), back = load<Int4>(back_of[fronts]);
+    const Float4 depth = load<Float4>(record.depth.high.data()),
+                 per_column = load<Float4>(record.depth_per_column.high.data()),
+                 per_row = load<Float4>(record.depth_per_row.high.data());
+    const auto difference = [&](Float4 v)
+                                LAMINA_LAMBDA { return permute(v, back) - permute(v, front); };
     const float slack =
         least_slack + rounding * (std::abs(column) + std::abs(row) + columns + rows + 64);
-    const auto slack_of_face = hn::Add(times(hn::Add(hn::Abs(per_column), hn::Abs(per_row)), slack),
-                                       times(hn::Abs(depth), rounding));
-    const auto c = difference(per_column), r = difference(per_row);
-    const auto abs_c = hn::Abs(c), abs_r = hn::Abs(r);
-    const auto at_middle = hn::Add(hn::Add(difference(depth), times(c, column)), times(r, row));
-    const auto to_corner =
-        hn::Add(times(abs_c, middle), times(abs_r, middle + oblique * (columns + 8)));
-    const auto most =
-        hn::Add(hn::Add(at_middle, to_corner), hn::Add(hn::TableLookupLanes(slack_of_face, back),
-                                                       hn::TableLookupLanes(slack_of_face, front)));
-    const auto steepness = hn::Max(hn::Max(abs_c, times(abs_r, oblique)), hn::Set(d, 1e-30f));
-    const auto is_least = hn::Ge(c, hn::Zero(d));
-    const auto divisor = hn::IfThenElse(is_least, steepness, hn::Neg(steepness));
+    const Float4 slack_of_face = (abs(per_column) + abs(per_row)) * slack + abs(depth) * rounding;
+    const Float4 c = difference(per_column), r = difference(per_row);
+    const Float4 abs_c = abs(c), abs_r = abs(r);
+    const Float4 at_middle = difference(depth) + c * column + r * row;
+    const Float4 to_corner = abs_c * middle + abs_r * (middle + oblique * (columns + 8));
+    const Float4 most =
+        at_middle + to_corner + (permute(slack_of_face, back) + permute(slack_of_face, front));
+    const Float4 steepness = max(max(abs_c, abs_r * oblique), 1e-30f);
+    const auto is_least = c >= 0;
+    const Float4 divisor = select(is_least, steepness, -steepness);
     PartOutline outline;
-    hn::StoreU(hn::Div(hn::Neg(most), divisor), d, outline.at_first.data());
-    hn::StoreU(hn::Div(r, divisor), d, outline.per_row.data());
-    std::uint8_t bits[8];
-    hn::StoreMaskBits(d, is_least, bits);
-    outline.least = bits[0];
+    store_unaligned(-most / divisor, outline.at_first.data());
+    store_unaligned(r / divisor, outline.per_row.data());
+    outline.least = static_cast<std::uint8_t>(bits_of(is_least));
     return outline;
 }
 
+LAMINA_SIMD_END
+
+namespace lamina {
+
+PartOutline outline_of(const TetRecord& record, const PixelArea& area, int image_rows) {
+    return LAMINA_LEAST(find_outline)(record, area, image_rows);
+}
+
 }  // namespace lamina
-HWY_AFTER_NAMESPACE();

@@ -8,15 +8,10 @@
 #define LAMINA_PROJECTION_TET_RUN_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "projection/tile_fragments.h"
-#include "tiles/arithmetic-inl.h"
-#include "tiles/doubles-inl.h"
+#include "simd/float64-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
 template <class V>
 struct InsideSpan {
@@ -25,67 +20,61 @@ struct InsideSpan {
 
 // The run of a ray through a cell fragment. Scalars are normalised as the record says. A ray that
 // misses the cell fragment has equal scalars and length 0.
-template <class V>
 struct TetRun {
-    V front, back, world_length;
+    Float front, back, world_length;
 };
 
 // A linear function of the pixel: its value at a column, counted from the record's center, and its
 // change from row to row. It is rounded as in the shader.
-template <class D>
-HWY_INLINE hn::Vec<D> at_column(D d, float at_center, float per_column, hn::Vec<D> column) {
-    return hn::Add(hn::Set(d, at_center), hn::Mul(hn::Set(d, per_column), column));
+LAMINA_INLINE Float at_column(float at_center, float per_column, Float column) {
+    return at_center + per_column * column;
 }
-template <class D>
-HWY_INLINE hn::Vec<D> at_row(D d, hn::Vec<D> value, float per_row, hn::Vec<D> row) {
-    return hn::Add(value, hn::Mul(hn::Set(d, per_row), row));
+LAMINA_INLINE Float at_row(Float value, float per_row, Float row) {
+    return value + per_row * row;
 }
 
 // The entry is the largest depth on front faces, which come first; the exit is the least depth on
 // the other faces.
 template <class V>
-HWY_INLINE InsideSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2, V d3) {
+LAMINA_INLINE InsideSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2, V d3) {
     switch (fronts) {
         case 1:
-            return {d0, hn::Min(hn::Min(d1, d2), d3)};
+            return {d0, min(min(d1, d2), d3)};
         case 2:
-            return {hn::Max(d0, d1), hn::Min(d2, d3)};
+            return {max(d0, d1), min(d2, d3)};
         default:
-            return {hn::Max(hn::Max(d0, d1), d2), d3};
+            return {max(max(d0, d1), d2), d3};
     }
 }
 
 template <class V>
-HWY_INLINE InsideSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V d0, V d1, V d2,
-                                           V d3) {
-    if (fronts == 0) return {nearest, hn::Min(hn::Min(d0, d1), hn::Min(d2, d3))};
+LAMINA_INLINE InsideSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V d0, V d1, V d2,
+                                              V d3) {
+    if (fronts == 0) return {nearest, min(min(d0, d1), min(d2, d3))};
     const InsideSpan<V> span = order_depths(fronts, d0, d1, d2, d3);
-    return {hn::Max(nearest, span.enter), span.leave};
+    return {max(nearest, span.enter), span.leave};
 }
 
 // Depths on faces in float32.
-template <class D>
 class PlainDepths {
   public:
-    using V = hn::Vec<D>;
-    HWY_INLINE PlainDepths(D, const TetFragments&, const TetRecord& record)
+    LAMINA_INLINE PlainDepths(const TetFragments&, const TetRecord& record)
         : record_(record), fronts_(record.fronts & 7u) {}
 
     struct AtColumns {
-        V d0, d1, d2, d3;
+        Float d0, d1, d2, d3;
     };
-    HWY_INLINE AtColumns at_columns(D d, V column) const {
-        const auto start = [&](std::size_t face) HWY_ATTR {
-            return at_column(d, record_.depth.high[face], record_.depth_per_column.high[face],
-                             column);
+    LAMINA_INLINE AtColumns at_columns(Float column) const {
+        const auto start = [&](std::size_t face) LAMINA_LAMBDA {
+            return at_column(record_.depth.high[face], record_.depth_per_column.high[face], column);
         };
         return {start(0), start(1), start(2), start(3)};
     }
-    HWY_INLINE InsideSpan<V> at(D d, const AtColumns& start, V row) const {
+    LAMINA_INLINE InsideSpan<Float> at(const AtColumns& start, Float row) const {
         const auto& per_row = record_.depth_per_row.high;
-        return order_depths(
-            fronts_, at_row(d, start.d0, per_row[0], row), at_row(d, start.d1, per_row[1], row),
-            at_row(d, start.d2, per_row[2], row), at_row(d, start.d3, per_row[3], row));
+        return order_depths(fronts_, at_row(start.d0, per_row[0], row),
+                            at_row(start.d1, per_row[1], row), at_row(start.d2, per_row[2], row),
+                            at_row(start.d3, per_row[3], row));
     }
 
   private:
@@ -95,100 +84,75 @@ class PlainDepths {
 
 // The same in double precision, for faces that are seen nearly edge-on, for the near plane, and
 // where the eye is inside.
-template <class D>
 class CarefulDepths {
   public:
-    using V = hn::Vec<D>;
-    HWY_INLINE CarefulDepths(D, const TetFragments& fragments, const TetRecord& record)
+    LAMINA_INLINE CarefulDepths(const TetFragments& fragments, const TetRecord& record)
         : fragments_(fragments), record_(record) {}
 
-    using AtColumns = Doubles<D>;
-    HWY_INLINE AtColumns at_columns(D d, V column) const {
-        const typename Doubles<D>::Tag dd;
-        const auto moved = [&](auto place) HWY_ATTR {
-            // The ray perturbation moves the ray in space. Its component along the ray does not
-            // count.
-            return move(dd, place, record_.center[0], fragments_.image_middle.x,
-                        fragments_.ray_perturbation.x);
-        };
-        return each_half(moved, to_doubles(d, column));
-    }
-    HWY_INLINE InsideSpan<V> at(D d, const AtColumns& columns, V row) const {
-        const typename Doubles<D>::Tag dd;
-        const auto moved = [&](auto place) HWY_ATTR {
-            return move(dd, place, record_.center[1], fragments_.image_middle.y,
-                        fragments_.ray_perturbation.y);
-        };
-        const Doubles<D> rows = each_half(moved, to_doubles(d, row));
-        const auto depth = [&](std::size_t face) HWY_ATTR {
-            return to_floats(d, Doubles<D>{plane(dd, face, columns.low, rows.low),
-                                           plane(dd, face, columns.high, rows.high)});
-        };
-        const auto nearest = hn::Set(d, fragments_.near_depth - record_.center_depth);
+    using AtColumns = Float64;
+    LAMINA_INLINE AtColumns at_columns(Float column) const { return moved_column(Float64(column)); }
+    LAMINA_INLINE InsideSpan<Float> at(const AtColumns& columns, Float row) const {
+        const Float64 rows = moved_row(Float64(row));
+        const auto depth = [&](std::size_t face)
+                               LAMINA_LAMBDA { return to_float(plane(face, columns, rows)); };
+        const Float nearest(fragments_.near_depth - record_.center_depth);
         return order_depths_from(record_.fronts & 7u, nearest, depth(0), depth(1), depth(2),
                                  depth(3));
     }
 
-    // A double for each of half of the lanes: where rays are inside, and the scalar's ends there,
-    // not clamped. `column`, `row`: from the record's center.
-    template <class VD>
+    // Where rays are inside, and the scalar's ends there, not clamped.
     struct ExactSpan {
-        VD length;  // along z
-        VD front, back;
+        Float64 length;  // along z
+        Float64 front, back;
     };
-    template <class VD>
-    HWY_INLINE ExactSpan<VD> exact_at(bool perspective, VD column, VD row) const {
-        const typename Doubles<D>::Tag dd;
-        const VD x = move(dd, column, record_.center[0], fragments_.image_middle.x,
-                          fragments_.ray_perturbation.x),
-                 y = move(dd, row, record_.center[1], fragments_.image_middle.y,
-                          fragments_.ray_perturbation.y);
-        const auto set = [&](float value) { return hn::Set(dd, static_cast<double>(value)); };
-        const InsideSpan<VD> span = order_depths_from(
-            record_.fronts & 7u, set(fragments_.near_depth - record_.center_depth),
-            plane(dd, 0, x, y), plane(dd, 1, x, y), plane(dd, 2, x, y), plane(dd, 3, x, y));
+    // `column`, `row`: from the record's center.
+    LAMINA_INLINE ExactSpan exact_at(bool perspective, Float column, Float row) const {
+        const Float64 x = moved_column(Float64(column)), y = moved_row(Float64(row));
+        const Float64 nearest = double{fragments_.near_depth - record_.center_depth};
+        const InsideSpan<Float64> span =
+            order_depths_from(record_.fronts & 7u, nearest, plane(0, x, y), plane(1, x, y),
+                              plane(2, x, y), plane(3, x, y));
         const auto exact = [&](std::size_t i, float rounded) {
-            return hn::Set(dd, static_cast<double>(rounded) + static_cast<double>(record_.low[i]));
+            return double{rounded} + double{record_.low[i]};
         };
-        const VD origin = exact(0, record_.scalar), per_z = exact(1, record_.scalar_per_z);
-        const VD aside = hn::Add(hn::Mul(exact(2, record_.scalar_per_column), x),
-                                 hn::Mul(exact(3, record_.scalar_per_row), y));
-        const VD one = hn::Set(dd, 1.0), center = set(record_.center_depth);
-        const auto z_of = [&](VD depth) HWY_ATTR {
-            const VD most = hn::Set(dd, -1e-30);
-            return hn::Div(hn::Set(dd, -1.0), hn::Min(hn::Add(center, depth), most));
+        const double origin = exact(0, record_.scalar), per_z = exact(1, record_.scalar_per_z);
+        const Float64 aside =
+            exact(2, record_.scalar_per_column) * x + exact(3, record_.scalar_per_row) * y;
+        const auto z_of = [&](Float64 depth) LAMINA_LAMBDA {
+            if (!perspective) return Float64(1);
+            return -1 / min(double{record_.center_depth} + depth, -1e-30);
         };
-        const VD z_front = perspective ? z_of(span.enter) : one,
-                 z_back = perspective ? z_of(span.leave) : one;
-        const VD z_center = perspective ? z_of(hn::Zero(dd)) : one;
-        const auto scalar = [&](VD depth, VD z) HWY_ATTR {
-            const VD from_center = hn::Mul(hn::Mul(depth, z), z_center);
-            return hn::Add(hn::Add(origin, hn::Mul(from_center, per_z)), hn::Mul(z, aside));
+        const Float64 z_front = z_of(span.enter), z_back = z_of(span.leave), z_center = z_of(0);
+        const auto scalar = [&](Float64 depth, Float64 z) LAMINA_LAMBDA {
+            return origin + depth * z * z_center * per_z + z * aside;
         };
-        const VD length = hn::Mul(hn::Mul(hn::Sub(span.leave, span.enter), z_front), z_back);
+        const Float64 length = (span.leave - span.enter) * z_front * z_back;
         return {length, scalar(span.enter, z_front), scalar(span.leave, z_back)};
     }
 
   private:
     // The depth of a face, from the record's center.
-    template <class DD, class VD>
-    HWY_INLINE VD plane(DD dd, std::size_t face, VD x, VD y) const {
+    LAMINA_INLINE Float64 plane(std::size_t face, Float64 x, Float64 y) const {
         const auto sum = [&](const TetRecord::Pairs& pairs) {
-            return hn::Set(
-                dd, static_cast<double>(pairs.high[face]) + static_cast<double>(pairs.low[face]));
+            return double{pairs.high[face]} + double{pairs.low[face]};
         };
-        return hn::Add(hn::Add(sum(record_.depth), hn::Mul(sum(record_.depth_per_column), x)),
-                       hn::Mul(sum(record_.depth_per_row), y));
+        return sum(record_.depth) + sum(record_.depth_per_column) * x +
+               sum(record_.depth_per_row) * y;
     }
 
-    template <class DD, class VD>
-    HWY_INLINE VD move(DD dd, VD place, float center, float middle, double shift) const {
-        const auto from_middle =
-            hn::Add(place, hn::Set(dd, static_cast<double>(center) - static_cast<double>(middle)));
-        const double per_pixel =
-            fragments_.ray_perturbation.z * static_cast<double>(fragments_.pixel_size);
-        return hn::Sub(hn::Add(place, hn::Set(dd, shift)),
-                       hn::Mul(from_middle, hn::Set(dd, per_pixel)));
+    // The ray perturbation moves the ray in space. Its component along the ray does not count.
+    LAMINA_INLINE Float64 moved_column(Float64 column) const {
+        return moved(column, record_.center[0], fragments_.image_middle.x,
+                     fragments_.ray_perturbation.x);
+    }
+    LAMINA_INLINE Float64 moved_row(Float64 row) const {
+        return moved(row, record_.center[1], fragments_.image_middle.y,
+                     fragments_.ray_perturbation.y);
+    }
+    LAMINA_INLINE Float64 moved(Float64 place, float center, float middle, double shift) const {
+        const Float64 from_middle = place + (double{center} - double{middle});
+        const double per_pixel = fragments_.ray_perturbation.z * double{fragments_.pixel_size};
+        return place + shift - from_middle * per_pixel;
     }
 
     const TetFragments& fragments_;
@@ -207,16 +171,15 @@ class PartCuts {
           upper_is_front_((record.fronts & TetRecord::upper_cut_is_front) != 0) {}
 
     // Shortens a ray's run to the stretch between the two planes.
-    template <class D>
-    HWY_INLINE void shorten(D d, const TetRecord& record, hn::Vec<D> column, hn::Vec<D> row,
-                            InsideSpan<hn::Vec<D>>& span) const {
+    LAMINA_INLINE void shorten(const TetRecord& record, Float column, Float row,
+                               InsideSpan<Float>& span) const {
         const auto cut = [&](bool front, float at_center, float per_column,
-                             float per_row) HWY_ATTR {
-            const auto depth = at_row(d, at_column(d, at_center, per_column, column), per_row, row);
+                             float per_row) LAMINA_LAMBDA {
+            const Float depth = at_row(at_column(at_center, per_column, column), per_row, row);
             if (front) {
-                span.enter = hn::Max(span.enter, depth);
+                span.enter = max(span.enter, depth);
             } else {
-                span.leave = hn::Min(span.leave, depth);
+                span.leave = min(span.leave, depth);
             }
         };
         if (lower_)
@@ -230,82 +193,72 @@ class PartCuts {
 
 // Where a ray enters or leaves: its z (1 in orthographic views), and how far along z that is behind
 // the record's center.
-template <class V>
 struct TetSpanEnd {
-    V z, from_center;
+    Float z, from_center;
 };
-template <class V>
 struct TetSpan {
-    TetSpanEnd<V> front, back;
-    V world_length;
+    TetSpanEnd front, back;
+    Float world_length;
 };
 
 // `slant`: world length per unit of z. Rays that miss the cell fragment get a span of 0. `Shader`:
 // see projection/tet_drawing-inl.h.
-template <class D, class Shader>
-HWY_INLINE TetSpan<hn::Vec<D>> find_ends(D d, const Shader& shader, const TetFragments& fragments,
-                                         const TetRecord& record,
-                                         const InsideSpan<hn::Vec<D>>& span, hn::Vec<D> slant) {
-    using V = hn::Vec<D>;
-    V length = hn::Sub(span.leave, span.enter);
-    V z_front = hn::Set(d, 1.0f), z_back = z_front, front = span.enter, back = span.leave;
+template <class Shader>
+LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragments,
+                                const TetRecord& record, const InsideSpan<Float>& span,
+                                Float slant) {
+    Float length = span.leave - span.enter;
+    Float z_front(1), z_back(1), front = span.enter, back = span.leave;
     if (shader.perspective) {
         // Differences of z are computed from differences of depth, so that a distant eye costs no
         // digits.
-        const V center = hn::Set(d, record.center_depth);
-        const V depth_front = hn::Add(center, span.enter), depth_back = hn::Add(center, span.leave);
+        const Float depth_front = record.center_depth + span.enter;
+        const Float depth_back = record.center_depth + span.leave;
         if (fragments.one_division) {
             // All depths in front of the eye are negative; near the horizon rounding may give 0.
-            const V most = hn::Set(d, -1e-18f);
-            const V near = hn::Min(depth_front, most), far = hn::Min(depth_back, most);
-            const V product = hn::Div(hn::Set(d, -1.0f), hn::Mul(near, far));
-            z_front = hn::Mul(far, product);
-            z_back = hn::Mul(near, product);
+            const Float near = min(depth_front, -1e-18f), far = min(depth_back, -1e-18f);
+            const Float product = -1 / (near * far);
+            z_front = far * product;
+            z_back = near * product;
         } else {
-            const V minus_one = hn::Set(d, -1.0f), most = hn::Set(d, -1e-30f);
-            z_front = hn::Div(minus_one, hn::Min(depth_front, most));
-            z_back = hn::Div(minus_one, hn::Min(depth_back, most));
+            z_front = -1 / min(depth_front, -1e-30f);
+            z_back = -1 / min(depth_back, -1e-30f);
         }
-        length = hn::Mul(hn::Mul(hn::Mul(length, z_front), z_back), slant);
-        const V z_center = hn::Set(d, record.center_z);
-        front = hn::Mul(hn::Mul(front, z_front), z_center);
-        back = hn::Mul(hn::Mul(back, z_back), z_center);
+        length = length * z_front * z_back * slant;
+        front = front * z_front * record.center_z;
+        back = back * z_back * record.center_z;
     }
-    if (shader.opacity_only) length = hn::Mul(length, hn::Set(d, fragments.depth_scale));
+    if (shader.opacity_only) length *= fragments.depth_scale;
     return {{z_front, front}, {z_back, back}, length};
 }
 
 // `aside`: the scalar's change from the record's center, at z = 1.
-template <class D, class Shader>
-HWY_INLINE TetRun<hn::Vec<D>> run_between(D d, const Shader& shader, const TetRecord& record,
-                                          const TetSpan<hn::Vec<D>>& ends, hn::Vec<D> aside) {
-    using V = hn::Vec<D>;
-    TetRun<V> run{hn::Zero(d), hn::Zero(d), ends.world_length};
+template <class Shader>
+LAMINA_INLINE TetRun run_between(const Shader& shader, const TetRecord& record, const TetSpan& ends,
+                                 Float aside) {
+    TetRun run{0, 0, ends.world_length};
     if (!shader.scalars) return run;
-    const V least = hn::Set(d, shader.cut ? 0.0f : record.limits[0]),
-            largest = hn::Set(d, shader.cut ? 1.0f : record.limits[1]);
-    const V origin = hn::Set(d, record.scalar), per_z = hn::Set(d, record.scalar_per_z);
-    const auto scalar = [&](const TetSpanEnd<V>& end) HWY_ATTR {
-        const V sum =
-            hn::Add(hn::Add(origin, hn::Mul(end.from_center, per_z)), hn::Mul(end.z, aside));
-        return hn::Min(hn::Max(sum, least), largest);
+    const float least = shader.cut ? 0.0f : record.limits[0];
+    const float largest = shader.cut ? 1.0f : record.limits[1];
+    const auto scalar = [&](const TetSpanEnd& end) LAMINA_LAMBDA {
+        const Float sum = record.scalar + end.from_center * record.scalar_per_z + end.z * aside;
+        return clamp(sum, least, largest);
     };
     run.front = scalar(ends.front);
     run.back = scalar(ends.back);
     return run;
 }
 
-template <class D, class Shader>
-HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragments& fragments,
-                                       const TetRecord& record, const InsideSpan<hn::Vec<D>>& span,
-                                       hn::Vec<D> aside, hn::Vec<D> slant) {
-    return run_between(d, shader, record, find_ends(d, shader, fragments, record, span, slant),
-                       aside);
+template <class Shader>
+LAMINA_INLINE TetRun find_run(const Shader& shader, const TetFragments& fragments,
+                              const TetRecord& record, const InsideSpan<Float>& span, Float aside,
+                              Float slant) {
+    return run_between(shader, record, find_ends(shader, fragments, record, span, slant), aside);
 }
 
 // Tells whether lengths and scalars of the tet's runs are computed in double precision: of careful
 // tets that are not cut into parts.
-HWY_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea& area) {
+LAMINA_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea& area) {
     return area.careful && fragments.source != SegmentSource::parts;
 }
 
@@ -313,39 +266,28 @@ HWY_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea& ar
 // small difference of large numbers, and so would be a scalar within the window of a tet that runs
 // far outside it (facts/far_scalars.h). `slanted`: lengths along rays are longer than differences
 // of z.
-template <class D, class Shader>
-HWY_INLINE TetRun<hn::Vec<D>> find_exact_run(D d, const Shader& shader,
-                                             const TetFragments& fragments, const TetRecord& record,
-                                             const InsideSpan<hn::Vec<D>>& span, hn::Vec<D> column,
-                                             hn::Vec<D> row, bool slanted) {
-    using V = hn::Vec<D>;
-    const CarefulDepths<D> depths(d, fragments, record);
-    const Doubles<D> columns = to_doubles(d, column), rows = to_doubles(d, row);
-    const auto low = depths.exact_at(shader.perspective, columns.low, rows.low),
-               high = depths.exact_at(shader.perspective, columns.high, rows.high);
-    V length = to_floats(d, Doubles<D>{low.length, high.length});
+template <class Shader>
+LAMINA_INLINE TetRun find_exact_run(const Shader& shader, const TetFragments& fragments,
+                                    const TetRecord& record, const InsideSpan<Float>& span,
+                                    Float column, Float row, bool slanted) {
+    const auto [exact_length, front, back] =
+        CarefulDepths(fragments, record).exact_at(shader.perspective, column, row);
+    Float length = to_float(exact_length);
     if (slanted) {
-        const V pixel = hn::Set(d, fragments.pixel_size);
-        const auto from_middle = [&](V place, float center, float middle) HWY_ATTR {
-            return hn::Mul(hn::Add(place, hn::Set(d, center - middle)), pixel);
+        const auto from_middle = [&](Float place, float center, float middle) LAMINA_LAMBDA {
+            return (place + (center - middle)) * fragments.pixel_size;
         };
-        const V x = from_middle(column, record.center[0], fragments.image_middle.x),
-                y = from_middle(row, record.center[1], fragments.image_middle.y);
-        const V square = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-        length = hn::Mul(length, hn::Sqrt(hn::Add(hn::Set(d, 1.0f), square)));
+        const Float x = from_middle(column, record.center[0], fragments.image_middle.x);
+        const Float y = from_middle(row, record.center[1], fragments.image_middle.y);
+        length *= sqrt(1 + (x * x + y * y));
     }
-    if (shader.opacity_only) length = hn::Mul(length, hn::Set(d, fragments.depth_scale));
-    const V least = hn::Set(d, record.limits[0]), largest = hn::Set(d, record.limits[1]);
-    const auto scalar = [&](const auto& of_low, const auto& of_high) HWY_ATTR {
-        const V found = to_floats(d, Doubles<D>{of_low, of_high});
-        return hn::Min(hn::Max(found, least), largest);
+    if (shader.opacity_only) length *= fragments.depth_scale;
+    const auto within = [&](Float64 scalar) LAMINA_LAMBDA {
+        return clamp(to_float(scalar), record.limits[0], record.limits[1]);
     };
-    const auto met = hn::Gt(span.leave, span.enter);
-    return {scalar(low.front, high.front), scalar(low.back, high.back),
-            hn::IfThenElseZero(met, length)};
+    return {within(front), within(back), zero_unless(span.leave > span.enter, length)};
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

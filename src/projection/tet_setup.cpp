@@ -1,47 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/tet_setup.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "projection/tet_setup.cpp"
-#include <hwy/cache_control.h>
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "projection/tet_setup.cpp"
+#include "simd/foreach_target.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "optics/front_weights.h"
 #include "projection/tet_setup-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 // Writes a group of four numbers to some records, from `offset` bytes after the start of each. They
 // are copied as bytes: some are integers.
 template <std::size_t offset, typename Record>
-HWY_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t count,
-                            Record* records) {
+LAMINA_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t count,
+                               Record* records) {
     static_assert(offset % 16 == 0 && sizeof(Record) % 16 == 0);
     constexpr std::size_t together = 4;
-    const hn::FixedTag<float, together> d;
-    const hn::FixedTag<std::uint8_t, 16> bytes;
     for (std::size_t first = 0; first < count; first += together) {
-        const auto row = [&](std::size_t i)
-                             HWY_ATTR { return hn::Load(d, rows[i].data() + first); };
-        const auto low02 = hn::InterleaveLower(d, row(0), row(2));
-        const auto low13 = hn::InterleaveLower(d, row(1), row(3));
-        const auto high02 = hn::InterleaveUpper(d, row(0), row(2));
-        const auto high13 = hn::InterleaveUpper(d, row(1), row(3));
-        const decltype(hn::Zero(d)) of_records[together] = {
-            hn::InterleaveLower(d, low02, low13), hn::InterleaveUpper(d, low02, low13),
-            hn::InterleaveLower(d, high02, high13), hn::InterleaveUpper(d, high02, high13)};
+        Float4 columns[together];
+        for (std::size_t i = 0; i < together; ++i)
+            columns[i] = load<Float4>(rows[i].data() + first);
+        transpose(columns);
         for (std::size_t i = 0; i < std::min(together, count - first); ++i) {
-            auto* const record = reinterpret_cast<std::uint8_t*>(records + first + i);
-            hn::Store(hn::BitCast(bytes, of_records[i]), bytes, record + offset);
+            alignas(16) float group[together];
+            store(columns[i], group);
+            auto* const record = reinterpret_cast<std::byte*>(records + first + i);
+            std::memcpy(record + offset, group, sizeof(group));
         }
     }
 }
@@ -55,8 +48,8 @@ static_assert(offsetof(TetRecord, fronts) == offsetof(TetRecord, limits) + 8);
 static_assert(offsetof(TetRecord, number) == offsetof(TetRecord, limits) + 12);
 static_assert(offsetof(TetRecord, upper_cut) == offsetof(TetRecord, lower_cut) + 12);
 
-HWY_INLINE void write_records(const TetSetup::Lanes& lanes, bool parts, std::size_t count,
-                              TetRecord* records) {
+LAMINA_INLINE void write_records(const TetSetup::Lanes& lanes, bool parts, std::size_t count,
+                                 TetRecord* records) {
     write_group<offsetof(TetRecord, depth)>(lanes.depth, count, records);
     write_group<offsetof(TetRecord, depth_per_column)>(lanes.per_column, count, records);
     write_group<offsetof(TetRecord, depth_per_row)>(lanes.per_row, count, records);
@@ -69,8 +62,8 @@ HWY_INLINE void write_records(const TetSetup::Lanes& lanes, bool parts, std::siz
     write_group<offsetof(TetRecord, high)>(lanes.high, count, records);
 }
 
-HWY_INLINE void write_gradients(const TetSetup::Lanes& lanes, std::size_t count,
-                                GradientRecord* lit) {
+LAMINA_INLINE void write_gradients(const TetSetup::Lanes& lanes, std::size_t count,
+                                   GradientRecord* lit) {
     constexpr std::size_t component = sizeof(GradientRecord::Component);
     write_group<0>(lanes.lit[0], count, lit);
     write_group<component>(lanes.lit[1], count, lit);
@@ -81,20 +74,19 @@ HWY_INLINE void write_gradients(const TetSetup::Lanes& lanes, std::size_t count,
 // not null, and the pixels of areas.
 void set_up_vectors(const SetupView& view, bool parts, TetSetup::Lanes& lanes, std::size_t count,
                     TetRecord* records, GradientRecord* lit, PartArea* areas) {
-    for (std::size_t first = 0; first < TetSetup::most_parts; first += hn::Lanes(DD()))
+    for (std::size_t first = 0; first < TetSetup::most_parts; first += Double::lanes)
         TetVectors(view, lanes, first).set_up(parts, lit != nullptr);
     write_records(lanes, parts, count, records);
     if (lit != nullptr) write_gradients(lanes, count, lit);
     write_group<0>(lanes.pixels, count, areas);
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
-#if HWY_ONCE
+#if LAMINA_ONCE
 namespace lamina {
 
-HWY_EXPORT(set_up_vectors);
+LAMINA_EXPORT(set_up_vectors);
 
 namespace {
 
@@ -122,12 +114,12 @@ std::array<std::size_t, 4> sorted_corners(const Tet& tet) {
 void TetSetup::prefetch(std::span<const TetPart> next) const {
     for (std::size_t i = 0; i < std::min(next.size(), most_parts); ++i) {
         for (const std::int32_t corner : tets_[static_cast<std::size_t>(next[i].tet)]) {
-            hwy::Prefetch(&points_[static_cast<std::size_t>(corner)]);
-            hwy::Prefetch(&scalar_[static_cast<std::size_t>(corner)]);
+            __builtin_prefetch(&points_[static_cast<std::size_t>(corner)]);
+            __builtin_prefetch(&scalar_[static_cast<std::size_t>(corner)]);
         }
     }
     for (std::size_t i = most_parts; i < std::min(next.size(), 2 * most_parts); ++i)
-        hwy::Prefetch(&tets_[static_cast<std::size_t>(next[i].tet)]);
+        __builtin_prefetch(&tets_[static_cast<std::size_t>(next[i].tet)]);
 }
 
 void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> next,
@@ -138,7 +130,7 @@ void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> n
     if (lit != nullptr) load_gradients(parts, lanes);
     const bool pieces = parts[0].piece != TetPart::whole;
     const SetupView view{window_.view(), window_.perspective(), near_depth_, margin_, range_};
-    HWY_DYNAMIC_DISPATCH(set_up_vectors)
+    LAMINA_DISPATCH(set_up_vectors)
     (view, pieces, lanes, parts.size(), records, lit, result.areas.data());
     store(parts, lanes, records, result);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <hwy/base.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +13,7 @@
 #include "projection/tet_part.h"
 #include "projection/tet_record.h"
 #include "projection/window_view.h"
+#include "simd/attributes.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -55,7 +54,7 @@ class TetSetup {
     struct Lanes;  // memory of the vectors (projection/tet_setup_lanes.h)
 
   private:
-    HWY_INLINE void prefetch(std::span<const TetPart> next) const;
+    LAMINA_INLINE void prefetch(std::span<const TetPart> next) const;
     void load(std::span<const TetPart> parts, Lanes& lanes) const;
     void store(std::span<const TetPart> parts, const Lanes& lanes, const TetRecord* records,
                Parts& result) const;

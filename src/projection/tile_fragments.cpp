@@ -1,32 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/tile_fragments.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "projection/tile_fragments.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "projection/tile_fragments.cpp"
+#include "simd/foreach_target.h"
 
 #include "projection/tet_color-inl.h"
 #include "projection/tet_drawing-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
 // Draws coloured parts in perspective over a float32 target.
 struct PartShader {
     static constexpr bool lit = false, cut = true, scalars = true, perspective = true,
                           opacity_only = false;
 
-    HWY_INLINE Fragment<Vector> color(Tag d, const TetFragments& fragments, const TetRecord& record,
-                                      const PartArea& area, const TetRun<Vector>& run) const {
-        return part_color(d, true, area.depth, fragments, record, run);
+    LAMINA_INLINE Fragment color(const TetFragments& fragments, const TetRecord& record,
+                                 const PartArea& area, const TetRun& run) const {
+        return part_color(true, area.depth, fragments, record, run);
     }
-    HWY_INLINE void put(Tag d, const TetFragments&, std::uint32_t, const Fragment<Vector>& fragment,
-                        const TetTile& tile, std::size_t place) const {
-        Pixels<Vector> there = load_pixels(d, *tile.pixels, place);
-        blend(d, TargetBlend{}, fragment, there);
-        store_pixels(d, there, *tile.pixels, place);
+    LAMINA_INLINE void put(const TetFragments&, std::uint32_t, const Fragment& fragment,
+                           const TetTile& tile, std::size_t place) const {
+        Pixels there = load_pixels(*tile.pixels, place);
+        blend(TargetBlend{}, fragment, there);
+        store_pixels(there, *tile.pixels, place);
     }
 };
 
@@ -37,13 +34,12 @@ std::int64_t draw_colored_parts(const TetFragments& fragments, const TileBatch& 
     return drawing.fragments();
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
-#if HWY_ONCE
+#if LAMINA_ONCE
 namespace lamina {
 
-HWY_EXPORT(draw_colored_parts);
+LAMINA_EXPORT(draw_colored_parts);
 
 std::int64_t draw_tets(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
     if (batch.is_lit()) return draw_lit_tets(fragments, batch, tile);
@@ -52,7 +48,7 @@ std::int64_t draw_tets(const TetFragments& fragments, const TileBatch& batch, co
                        fragments.blend.target == Target::float32 && !fragments.opacity_only &&
                        !batch.has_triangles();
     if (!known) return draw_general_tets(fragments, batch, tile);
-    return HWY_DYNAMIC_DISPATCH(draw_colored_parts)(fragments, batch, tile);
+    return LAMINA_DISPATCH(draw_colored_parts)(fragments, batch, tile);
 }
 
 }  // namespace lamina

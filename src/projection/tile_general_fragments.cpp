@@ -1,133 +1,116 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/tile_fragments.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "projection/tile_general_fragments.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "projection/tile_general_fragments.cpp"
+#include "simd/foreach_target.h"
 
 #include "projection/general_shading-inl.h"
 #include "projection/triangle_coverage-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
 // Draws pixels of the paper's triangles, as shaders/projection/fan.glsl does.
 class TriangleDrawing {
   public:
     TriangleDrawing(const TetFragments& fragments, const TetTile& tile)
         : fragments_(fragments), tile_(tile) {
-        const Vector number = hn::Iota(d_, 0.0f),
-                     width = hn::Set(d_, static_cast<float>(TileGrid::block));
-        lane_rows_ = hn::Floor(hn::Div(number, width));
-        lane_columns_ = hn::Sub(number, hn::Mul(lane_rows_, width));
+        constexpr float width = TileGrid::block;
+        const Float number = iota<Float>(0);
+        lane_rows_ = floor(number / width);
+        lane_columns_ = number - lane_rows_ * width;
     }
 
     void draw(const TriangleRecord& triangle, const PartArea& area) {
-        const int rows_a_vector = static_cast<int>(hn::Lanes(d_)) / TileGrid::block;
-        const auto center = [&](int pixel)
-                                HWY_ATTR { return hn::Set(d_, static_cast<float>(pixel) + 0.5f); };
+        const int rows_a_vector = static_cast<int>(Float::lanes) / TileGrid::block;
+        const auto center = [](int pixel) { return static_cast<float>(pixel) + 0.5f; };
         const Centers pixels{center(area.first_column), center(area.last_column),
                              center(fragments_.image_rows - 1 - area.last_row),
                              center(fragments_.image_rows - 1 - area.first_row)};
-        for_each_block(blocks_of(area, tile_.area), [&](int column, int row_of_block) HWY_ATTR {
-            const Vector columns = hn::Add(
-                lane_columns_, hn::Set(d_, static_cast<float>(tile_.area.column + column) + 0.5f));
-            for (int step = 0; step < TileGrid::block; step += rows_a_vector) {
-                const int row = row_of_block + step;
-                const float first =
-                    static_cast<float>(fragments_.image_rows - tile_.area.row - row) - 0.5f;
-                const Vector rows = hn::Sub(hn::Set(d_, first), lane_rows_);
-                draw_at(triangle, pixels, columns, rows,
-                        static_cast<std::size_t>(TileGrid::place(column, row)));
-            }
-        });
+        for_each_block(
+            blocks_of(area, tile_.area), [&](int column, int row_of_block) LAMINA_LAMBDA {
+                const Float columns = lane_columns_ + center(tile_.area.column + column);
+                for (int step = 0; step < TileGrid::block; step += rows_a_vector) {
+                    const int row = row_of_block + step;
+                    const float first =
+                        static_cast<float>(fragments_.image_rows - tile_.area.row - row) - 0.5f;
+                    const Float rows = first - lane_rows_;
+                    draw_at(triangle, pixels, columns, rows,
+                            static_cast<std::size_t>(TileGrid::place(column, row)));
+                }
+            });
     }
     std::int64_t fragments() const { return count_; }
 
   private:
     // Window coordinates of the first and last pixel centres of an area.
     struct Centers {
-        Vector left, right, lowest, highest;
+        float left, right, lowest, highest;
     };
-    HWY_INLINE void draw_at(const TriangleRecord& triangle, const Centers& pixels, Vector columns,
-                            Vector rows, std::size_t place) {
-        const auto weights = corner_weights_at(d_, triangle, columns, rows);
+    LAMINA_INLINE void draw_at(const TriangleRecord& triangle, const Centers& pixels, Float columns,
+                               Float rows, std::size_t place) {
+        const CornerWeights weights = corner_weights_at(triangle, columns, rows);
         if (!weights.any) return;
-        const auto sum = hn::Add(weights.corner[0], hn::Add(weights.corner[1], weights.corner[2]));
-        const auto in_columns =
-            hn::And(hn::Ge(columns, pixels.left), hn::Le(columns, pixels.right));
-        const auto in_rows = hn::And(hn::Ge(rows, pixels.lowest), hn::Le(rows, pixels.highest));
-        const auto covered = hn::And(hn::Gt(sum, hn::Zero(d_)), hn::And(in_columns, in_rows));
-        count_ += static_cast<std::int64_t>(hn::CountTrue(d_, covered));
-        const Fragment<Vector> color = color_of(triangle, weights, place);
-        const Fragment<Vector> seen{
-            hn::IfThenElseZero(covered, color.red), hn::IfThenElseZero(covered, color.green),
-            hn::IfThenElseZero(covered, color.blue), hn::IfThenElseZero(covered, color.alpha)};
-        put_fragments(d_, fragments_, triangle.number, seen, tile_, place);
+        const Float sum = weights.corner[0] + (weights.corner[1] + weights.corner[2]);
+        const FloatMask in_columns = (columns >= pixels.left) & (columns <= pixels.right);
+        const FloatMask in_rows = (rows >= pixels.lowest) & (rows <= pixels.highest);
+        const FloatMask covered = (sum > 0) & (in_columns & in_rows);
+        count_ += static_cast<std::int64_t>(count_of(covered));
+        const Fragment color = color_of(triangle, weights, place);
+        const Fragment seen{zero_unless(covered, color.red), zero_unless(covered, color.green),
+                            zero_unless(covered, color.blue), zero_unless(covered, color.alpha)};
+        put_fragments(fragments_, triangle.number, seen, tile_, place);
     }
 
-    HWY_INLINE Fragment<Vector> color_of(const TriangleRecord& triangle,
-                                         const CornerWeights<Vector>& weights,
-                                         std::size_t place) const {
+    LAMINA_INLINE Fragment color_of(const TriangleRecord& triangle, const CornerWeights& weights,
+                                    std::size_t place) const {
         const auto& [a, b, c] = triangle.corners;
-        const auto front = [&](int channel) HWY_ATTR {
-            return interpolate(d_, weights, a.front[channel], b.front[channel], c.front[channel]);
+        const auto front = [&](int channel) LAMINA_LAMBDA {
+            return interpolate(weights, a.front[channel], b.front[channel], c.front[channel]);
         };
-        const auto back = [&](int channel) HWY_ATTR {
-            return interpolate(d_, weights, a.back[channel], b.back[channel], c.back[channel]);
+        const auto back = [&](int channel) LAMINA_LAMBDA {
+            return interpolate(weights, a.back[channel], b.back[channel], c.back[channel]);
         };
         if (fragments_.source == SegmentSource::vertices)
             return vertex_color(front(0), front(1), front(2), front(3));
-        Vector z_front = hn::Set(d_, 1.0f), z_back = z_front;
-        Vector length =
-            hn::Max(interpolate(d_, weights, a.inverse.z, b.inverse.z, c.inverse.z), hn::Zero(d_));
+        Float z_front(1), z_back(1);
+        Float length = max(interpolate(weights, a.inverse.z, b.inverse.z, c.inverse.z), 0);
         if (fragments_.divided) {
-            const Vector one = hn::Set(d_, 1.0f);
-            z_front = hn::Div(one, interpolate(d_, weights, a.inverse.x, b.inverse.x, c.inverse.x));
-            z_back = hn::Div(one, interpolate(d_, weights, a.inverse.y, b.inverse.y, c.inverse.y));
-            length = hn::Max(hn::Mul(hn::Mul(length, z_front), z_back), hn::Zero(d_));
-            if (tile_.slants != nullptr)
-                length = hn::Mul(length, hn::Load(d_, tile_.slants + place));
+            z_front = 1 / interpolate(weights, a.inverse.x, b.inverse.x, c.inverse.x);
+            z_back = 1 / interpolate(weights, a.inverse.y, b.inverse.y, c.inverse.y);
+            length = max(length * z_front * z_back, 0);
+            if (tile_.slants != nullptr) length *= load<Float>(tile_.slants + place);
         }
-        if (fragments_.opacity_only) length = hn::Mul(length, hn::Set(d_, fragments_.depth_scale));
+        if (fragments_.opacity_only) length *= fragments_.depth_scale;
         if (fragments_.source != SegmentSource::mean) {
-            const auto within = [&](Vector scalar) HWY_ATTR {
-                return hn::Clamp(scalar, hn::Set(d_, triangle.scalars.x),
-                                 hn::Set(d_, triangle.scalars.y));
+            const auto within = [&](Float scalar) LAMINA_LAMBDA {
+                return min(max(triangle.scalars.x, scalar), triangle.scalars.y);
             };
-            return segment_color(
-                d_, fragments_,
-                {within(hn::Mul(front(0), z_front)), within(hn::Mul(back(0), z_back)), length});
+            return segment_color(fragments_,
+                                 {within(front(0) * z_front), within(back(0) * z_back), length});
         }
-        const auto mean = [&](int channel) HWY_ATTR {
-            return hn::Mul(hn::Set(d_, 0.5f), hn::Add(hn::Mul(front(channel), z_front),
-                                                      hn::Mul(back(channel), z_back)));
+        const auto mean = [&](int channel) LAMINA_LAMBDA {
+            return 0.5f * (front(channel) * z_front + back(channel) * z_back);
         };
-        const Vector opacity = opacity_from_depth(d_, hn::Mul(mean(3), length));
-        return {hn::Mul(mean(0), opacity), hn::Mul(mean(1), opacity), hn::Mul(mean(2), opacity),
-                opacity};
+        const Float opacity = opacity_from_depth(mean(3) * length);
+        return {mean(0) * opacity, mean(1) * opacity, mean(2) * opacity, opacity};
     }
 
-    HWY_INLINE Fragment<Vector> vertex_color(Vector red, Vector green, Vector blue,
-                                             Vector opacity) const {
-        const Vector alpha = clamp01(d_, opacity);
-        return {hn::Mul(clamp01(d_, red), alpha), hn::Mul(clamp01(d_, green), alpha),
-                hn::Mul(clamp01(d_, blue), alpha), alpha};
+    LAMINA_INLINE Fragment vertex_color(Float red, Float green, Float blue, Float opacity) const {
+        const Float alpha = clamp01(opacity);
+        return {clamp01(red) * alpha, clamp01(green) * alpha, clamp01(blue) * alpha, alpha};
     }
 
     const TetFragments& fragments_;
     const TetTile& tile_;
-    Tag d_;
-    Vector lane_columns_, lane_rows_;
+    Float lane_columns_, lane_rows_;
     std::int64_t count_ = 0;
 };
 
 std::int64_t draw_fans(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
     TriangleDrawing drawing(fragments, tile);
-    batch.for_each_word(tile.number, [&](std::size_t first, std::uint64_t parts) HWY_ATTR {
-        for_each_member(first, parts, [&](std::size_t part) HWY_ATTR {
+    batch.for_each_word(tile.number, [&](std::size_t first, std::uint64_t parts) LAMINA_LAMBDA {
+        for_each_member(first, parts, [&](std::size_t part) LAMINA_LAMBDA {
             drawing.draw(batch.triangle(part), batch.area(part));
         });
     });
@@ -141,17 +124,16 @@ std::int64_t draw_any(const TetFragments& fragments, const TileBatch& batch, con
     return drawing.fragments();
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
-#if HWY_ONCE
+#if LAMINA_ONCE
 namespace lamina {
 
-HWY_EXPORT(draw_any);
+LAMINA_EXPORT(draw_any);
 
 std::int64_t draw_general_tets(const TetFragments& fragments, const TileBatch& batch,
                                const TetTile& tile) {
-    return HWY_DYNAMIC_DISPATCH(draw_any)(fragments, batch, tile);
+    return LAMINA_DISPATCH(draw_any)(fragments, batch, tile);
 }
 
 }  // namespace lamina

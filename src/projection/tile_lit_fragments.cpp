@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/tile_fragments.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "projection/tile_lit_fragments.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "projection/tile_lit_fragments.cpp"
+#include "simd/foreach_target.h"
 
 #include "projection/lit_shading-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 std::int64_t draw_lit(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
     TetDrawing drawing(fragments, batch, tile);
@@ -17,17 +15,16 @@ std::int64_t draw_lit(const TetFragments& fragments, const TileBatch& batch, con
     return drawing.fragments();
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
-#if HWY_ONCE
+#if LAMINA_ONCE
 namespace lamina {
 
-HWY_EXPORT(draw_lit);
+LAMINA_EXPORT(draw_lit);
 
 std::int64_t draw_lit_tets(const TetFragments& fragments, const TileBatch& batch,
                            const TetTile& tile) {
-    return HWY_DYNAMIC_DISPATCH(draw_lit)(fragments, batch, tile);
+    return LAMINA_DISPATCH(draw_lit)(fragments, batch, tile);
 }
 
 }  // namespace lamina

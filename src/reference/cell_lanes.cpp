@@ -3,162 +3,144 @@
 
 #include "reference/axis_start.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "reference/cell_lanes.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "reference/cell_lanes.cpp"
+#include "simd/foreach_target.h"
 
-// After highway.h, which it needs for each target.
 #include "reference/interval_search-inl.h"
+#include "simd/members-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 namespace reference {
 
 constexpr auto block_edge = static_cast<double>(VisibleCells::edge);
 
 // Returns the bits at places of words, 64 a word.
-HWY_INLINE Mask bits_at(const std::uint64_t* words, Numbers place) {
-    const hn::RebindToUnsigned<NumberLanes> u;
-    const auto bits = hn::BitCast(u, place);  // shifts of unsigned numbers are quicker
-    const auto word =
-        hn::GatherIndex(u, words, hn::BitCast(NumberLanes(), hn::ShiftRight<6>(bits)));
-    const auto shift = hn::And(bits, hn::Set(u, 63));
-    const auto bit = hn::And(hn::Shr(word, shift), hn::Set(u, 1));
-    return hn::RebindMask(Lanes(), hn::Eq(bit, hn::Set(u, 1)));
+LAMINA_INLINE DoubleMask bits_at(const std::uint64_t* words, Long place) {
+    const Word64 bits = bits_as<Word64>(place);  // shifts of unsigned numbers are quicker
+    const Word64 word = gather(words, bits_as<Long>(shift_right<6>(bits)));
+    return (shift_right(word, bits & 63u) & 1u) == 1u;
 }
 
-HWY_INLINE Numbers integer(Doubles whole) {
-    return hn::ConvertTo(NumberLanes(), whole);
-}
-
-HWY_INLINE Mask mask_of(LaneSet set, std::size_t first) {
-    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(set >> first)};
-    return hn::LoadMaskBits(Lanes(), bits);
+LAMINA_INLINE DoubleMask mask_of(LaneSet set, std::size_t first) {
+    return mask_of_bits<DoubleMask>(set >> first);
 }
 
 // One axis of a vector of chords.
 class AxisLanes {
   public:
-    HWY_INLINE AxisLanes(const CellLanes::Axis& axis, std::size_t i)
-        : entry_(hn::Load(Lanes(), axis.entry.data() + i)),
-          direction_(hn::Load(Lanes(), axis.direction.data() + i)),
-          inverse_(hn::Load(Lanes(), axis.inverse.data() + i)),
-          last_cell_(hn::Load(Lanes(), axis.last_cell.data() + i)),
-          cell_(hn::Load(Lanes(), axis.cell.data() + i)),
-          crossing_(hn::Load(Lanes(), axis.crossing.data() + i)),
-          falls_(hn::Lt(inverse_, hn::Zero(Lanes()))),
-          step_(hn::IfThenElse(falls_, number(-1), number(1))),
-          ahead_(hn::IfThenElse(falls_, hn::Zero(Lanes()), number(1))),
+    LAMINA_INLINE AxisLanes(const CellLanes::Axis& axis, std::size_t i)
+        : entry_(load<Double>(axis.entry.data() + i)),
+          direction_(load<Double>(axis.direction.data() + i)),
+          inverse_(load<Double>(axis.inverse.data() + i)),
+          last_cell_(load<Double>(axis.last_cell.data() + i)),
+          cell_(load<Double>(axis.cell.data() + i)),
+          crossing_(load<Double>(axis.crossing.data() + i)),
+          falls_(inverse_ < 0),
+          step_(select(falls_, Double(-1), 1)),
+          ahead_(select(falls_, Double(0), 1)),
           block_(block_of(cell_)),
           next_block_cell_(next_block_cell()) {}
 
-    HWY_INLINE void store(CellLanes::Axis& axis, std::size_t i) const {
-        hn::Store(cell_, Lanes(), axis.cell.data() + i);
-        hn::Store(crossing_, Lanes(), axis.crossing.data() + i);
+    LAMINA_INLINE void put(CellLanes::Axis& axis, std::size_t i) const {
+        store(cell_, axis.cell.data() + i);
+        store(crossing_, axis.crossing.data() + i);
     }
 
-    HWY_INLINE Doubles cell() const { return cell_; }
-    HWY_INLINE Doubles crossing() const { return crossing_; }
-    HWY_INLINE Doubles block() const { return block_; }
-    HWY_INLINE Doubles leaving() const { return leaving_; }
+    LAMINA_INLINE Double cell() const { return cell_; }
+    LAMINA_INLINE Double crossing() const { return crossing_; }
+    LAMINA_INLINE Double block() const { return block_; }
+    LAMINA_INLINE Double leaving() const { return leaving_; }
     // The cell's place in its block, 0 to edge - 1.
-    HWY_INLINE Doubles place_in_block() const { return hn::Sub(cell_, first_cell()); }
+    LAMINA_INLINE Double place_in_block() const { return cell_ - first_cell(); }
     // How far the next cell's place lies from a cell's, if the place of its upper neighbour lies
     // `above` places from it.
-    HWY_INLINE Numbers stride(std::int64_t above) const {
-        return where(falls_, hn::Set(NumberLanes(), -above), hn::Set(NumberLanes(), above));
+    LAMINA_INLINE Long stride(std::int64_t above) const {
+        return select(falls_, Long(-above), above);
     }
 
     // Some lanes go on to the next cell. Returns those that leave their block.
-    HWY_INLINE Mask next_cell(Mask lanes) {
-        cell_ = hn::IfThenElse(lanes, hn::Add(cell_, step_), cell_);
-        crossing_ = hn::IfThenElse(lanes, next_crossing(), crossing_);
-        return hn::And(lanes, hn::Eq(cell_, next_block_cell_));
+    LAMINA_INLINE DoubleMask next_cell(DoubleMask lanes) {
+        cell_ = select(lanes, cell_ + step_, cell_);
+        crossing_ = select(lanes, next_crossing(), crossing_);
+        return lanes & (cell_ == next_block_cell_);
     }
 
     // Lanes that have left their block begin with the one of their cell.
-    HWY_INLINE void begin_blocks() {
+    LAMINA_INLINE void begin_blocks() {
         block_ = block_of(cell_);
         leaving_ = next_leaving();
     }
-    HWY_INLINE void next_block(Mask lanes) {
-        block_ = hn::IfThenElse(lanes, hn::Add(block_, step_), block_);
-        leaving_ = hn::IfThenElse(lanes, next_leaving(), leaving_);
+    LAMINA_INLINE void next_block(DoubleMask lanes) {
+        block_ = select(lanes, block_ + step_, block_);
+        leaving_ = select(lanes, next_leaving(), leaving_);
     }
 
     // Some lanes go on from the cell that they had to the one that the chord has at `from`, in
     // their block.
-    HWY_INLINE void find_cell(Mask lanes, Doubles from) {
-        const Doubles first = first_cell(), last = hn::Add(first, number(block_edge - 1));
-        const Doubles lo = hn::Max(first, hn::IfThenElse(falls_, last_cell_, cell_));
-        const Doubles hi = hn::Min(last, hn::IfThenElse(falls_, cell_, last_cell_));
-        const Doubles nearest = hn::IfThenElse(falls_, hi, lo);
+    LAMINA_INLINE void find_cell(DoubleMask lanes, Double from) {
+        const Double first = first_cell(), last = first + (block_edge - 1);
+        const Double lo = max(first, select(falls_, last_cell_, cell_));
+        const Double hi = min(last, select(falls_, cell_, last_cell_));
+        const Double nearest = select(falls_, hi, lo);
         // A rounded place may lie in the cell before the right one: pass_cells() steps over that,
         // because the chord's part in it has no length. It must not lie in a later one, so cells
         // are told apart by the crossings of their planes, as CellWalk does.
-        const Doubles place = hn::Floor(hn::MulAdd(from, direction_, entry_));
-        Doubles cell = hn::Min(hn::Max(place, lo), hi);
+        const Double place = floor(fma(from, direction_, entry_));
+        Double cell = clamp(place, lo, hi);
         while (true) {
-            const Doubles into = crossing_of(hn::Sub(hn::Add(cell, number(1)), ahead_));
-            const Mask later = hn::And(lanes, hn::And(hn::Ne(cell, nearest), hn::Gt(into, from)));
-            if (hn::AllFalse(Lanes(), later)) break;
-            cell = hn::IfThenElse(later, hn::Sub(cell, step_), cell);
+            const Double into = crossing_of(cell + 1 - ahead_);
+            const DoubleMask later = lanes & ((cell != nearest) & (into > from));
+            if (none_of(later)) break;
+            cell = select(later, cell - step_, cell);
         }
-        cell_ = hn::IfThenElse(lanes, cell, cell_);
-        crossing_ = hn::IfThenElse(lanes, next_crossing(), crossing_);
+        cell_ = select(lanes, cell, cell_);
+        crossing_ = select(lanes, next_crossing(), crossing_);
         next_block_cell_ = next_block_cell();
     }
 
   private:
-    HWY_INLINE static Doubles block_of(Doubles cell) {
-        return hn::Floor(hn::Mul(hn::Add(cell, number(1)), number(1 / block_edge)));
+    LAMINA_INLINE static Double block_of(Double cell) {
+        return floor((cell + 1) * (1 / block_edge));
     }
-    HWY_INLINE Doubles first_cell() const {
-        return hn::MulSub(block_, number(block_edge), number(1));
+    LAMINA_INLINE Double first_cell() const { return fms(block_, block_edge, 1); }
+    LAMINA_INLINE Double next_block_cell() const {
+        const Double first = first_cell();
+        return select(falls_, first - 1, first + block_edge);
     }
-    HWY_INLINE Doubles next_block_cell() const {
-        const Doubles first = first_cell();
-        return hn::IfThenElse(falls_, hn::Sub(first, number(1)),
-                              hn::Add(first, number(block_edge)));
+    LAMINA_INLINE Double crossing_of(Double plane) const { return (plane - entry_) * inverse_; }
+    LAMINA_INLINE Double next_crossing() const {
+        return select(cell_ == last_cell_, Double(INFINITY), crossing_of(cell_ + ahead_));
     }
-    HWY_INLINE Doubles crossing_of(Doubles plane) const {
-        return hn::Mul(hn::Sub(plane, entry_), inverse_);
-    }
-    HWY_INLINE Doubles next_crossing() const {
-        return hn::IfThenElse(hn::Eq(cell_, last_cell_), hn::Inf(Lanes()),
-                              crossing_of(hn::Add(cell_, ahead_)));
-    }
-    HWY_INLINE Doubles next_leaving() const {
-        const Doubles plane = hn::MulSub(hn::Add(block_, ahead_), number(block_edge), number(1));
-        return hn::IfThenElse(hn::Eq(block_, block_of(last_cell_)), hn::Inf(Lanes()),
-                              crossing_of(plane));
+    LAMINA_INLINE Double next_leaving() const {
+        const Double plane = fms(block_ + ahead_, block_edge, 1);
+        return select(block_ == block_of(last_cell_), Double(INFINITY), crossing_of(plane));
     }
 
-    Doubles entry_, direction_, inverse_, last_cell_;
-    Doubles cell_, crossing_;
-    Mask falls_;
-    Doubles step_, ahead_;
-    Doubles block_, next_block_cell_;
-    Doubles leaving_ = hn::Zero(Lanes());  // where the chord leaves the block along this axis
+    Double entry_, direction_, inverse_, last_cell_;
+    Double cell_, crossing_;
+    DoubleMask falls_;
+    Double step_, ahead_;
+    Double block_, next_block_cell_;
+    Double leaving_ = 0;  // where the chord leaves the block along this axis
 };
 
 // The lanes that go on along x, y and z: those whose crossings there are the least of the three.
 struct AxisMasks {
-    Mask x, y, z;
+    DoubleMask x, y, z;
 
-    HWY_INLINE AxisMasks(Doubles at_x, Doubles at_y, Doubles least, Mask lanes) {
-        x = hn::And(lanes, hn::Eq(at_x, least));
-        y = hn::AndNot(x, hn::And(lanes, hn::Eq(at_y, least)));
-        z = hn::AndNot(hn::Or(x, y), lanes);
+    LAMINA_INLINE AxisMasks(Double at_x, Double at_y, Double least, DoubleMask lanes) {
+        x = lanes & (at_x == least);
+        y = without(lanes & (at_y == least), x);
+        z = without(lanes, x | y);
     }
 };
 
 // A vector of chords, from lane `first` on.
 class ChordWalk {
   public:
-    HWY_INLINE ChordWalk(CellLanes& lanes, std::size_t first, const VisibleCells& visible,
-                         CellBatch* const* batches)
+    LAMINA_INLINE ChordWalk(CellLanes& lanes, std::size_t first, const VisibleCells& visible,
+                            CellBatch* const* batches)
         : lanes_(lanes),
           first_(first),
           visible_(visible),
@@ -166,103 +148,102 @@ class ChordWalk {
           x_(lanes.axes[0], first),
           y_(lanes.axes[1], first),
           z_(lanes.axes[2], first),
-          from_(hn::Load(Lanes(), lanes.from.data() + first)),
-          length_(hn::Load(Lanes(), lanes.length.data() + first)),
+          from_(load<Double>(lanes.from.data() + first)),
+          length_(load<Double>(lanes.length.data() + first)),
           walking_(mask_of(lanes.walking, first)),
-          in_block_(hn::And(walking_, mask_of(lanes.in_block, first))),
+          in_block_(walking_ & mask_of(lanes.in_block, first)),
           place_(place_of_cell()) {}
 
-    HWY_INLINE LaneSet run() {
-        const LaneSet begun = set_of(walking_) << first_;
-        const Numbers stride_x = x_.stride(1), stride_y = y_.stride(VisibleCells::edge);
-        const Numbers stride_z = z_.stride(VisibleCells::edge * VisibleCells::edge);
+    LAMINA_INLINE LaneSet run() {
+        const LaneSet begun = bits_of(walking_) << first_;
+        const Long stride_x = x_.stride(1), stride_y = y_.stride(VisibleCells::edge);
+        const Long stride_z = z_.stride(VisibleCells::edge * VisibleCells::edge);
         LaneSet complete = 0;
         while (true) {
             find_blocks();
-            if (hn::AllFalse(Lanes(), in_block_)) break;
+            if (none_of(in_block_)) break;
             do {
                 complete = pass_cells(stride_x, stride_y, stride_z);
             } while (complete == 0 && most_are_in_blocks());
-            if (complete != 0 || set_of(walking_) << first_ != begun) break;
+            if (complete != 0 || bits_of(walking_) << first_ != begun) break;
         }
-        x_.store(lanes_.axes[0], first_);
-        y_.store(lanes_.axes[1], first_);
-        z_.store(lanes_.axes[2], first_);
-        hn::Store(from_, Lanes(), lanes_.from.data() + first_);
-        const LaneSet walking = set_of(walking_) << first_;
+        x_.put(lanes_.axes[0], first_);
+        y_.put(lanes_.axes[1], first_);
+        z_.put(lanes_.axes[2], first_);
+        store(from_, lanes_.from.data() + first_);
+        const LaneSet walking = bits_of(walking_) << first_;
         lanes_.walking = (lanes_.walking & ~begun) | walking;
-        lanes_.in_block = (lanes_.in_block & ~begun) | set_of(in_block_) << first_;
+        lanes_.in_block = (lanes_.in_block & ~begun) | bits_of(in_block_) << first_;
         return (begun & ~walking) | complete << first_;
     }
 
   private:
     // With fewer it is quicker to look for blocks of the others.
-    HWY_INLINE bool most_are_in_blocks() const {
-        return 4 * hn::CountTrue(Lanes(), in_block_) > hn::CountTrue(Lanes(), walking_);
+    LAMINA_INLINE bool most_are_in_blocks() const {
+        return 4 * count_of(in_block_) > count_of(walking_);
     }
 
     // Lanes that are in no block go over hidden ones to the next.
-    HWY_INLINE void find_blocks() {
-        Mask outside = hn::AndNot(in_block_, walking_);
-        if (hn::AllFalse(Lanes(), outside)) return;
-        const Mask inside = in_block_;
+    LAMINA_INLINE void find_blocks() {
+        DoubleMask outside = without(walking_, in_block_);
+        if (none_of(outside)) return;
+        const DoubleMask inside = in_block_;
         x_.begin_blocks();
         y_.begin_blocks();
         z_.begin_blocks();
         while (true) {
-            const Mask shown = bits_at(visible_.blocks(), block_bit());
-            in_block_ = hn::Or(in_block_, hn::And(outside, shown));
-            outside = hn::AndNot(shown, outside);
-            if (hn::AllFalse(Lanes(), outside)) break;
-            const Doubles to = hn::Min(x_.leaving(), hn::Min(y_.leaving(), z_.leaving()));
-            const Mask goes_on = hn::And(outside, hn::Lt(to, length_));
-            walking_ = hn::AndNot(hn::AndNot(goes_on, outside), walking_);
+            const DoubleMask shown = bits_at(visible_.blocks(), block_bit());
+            in_block_ = in_block_ | (outside & shown);
+            outside = without(outside, shown);
+            if (none_of(outside)) break;
+            const Double to = min(x_.leaving(), min(y_.leaving(), z_.leaving()));
+            const DoubleMask goes_on = outside & (to < length_);
+            walking_ = without(walking_, without(outside, goes_on));
             outside = goes_on;
-            from_ = hn::IfThenElse(outside, hn::Max(from_, to), from_);
+            from_ = select(outside, max(from_, to), from_);
             const AxisMasks along(x_.leaving(), y_.leaving(), to, outside);
             x_.next_block(along.x);
             y_.next_block(along.y);
             z_.next_block(along.z);
         }
-        const Mask found = hn::AndNot(inside, in_block_);
+        const DoubleMask found = without(in_block_, inside);
         x_.find_cell(found, from_);
         y_.find_cell(found, from_);
         z_.find_cell(found, from_);
-        place_ = where(found, place_of_cell(), place_);
+        place_ = select(found, place_of_cell(), place_);
     }
 
     // Appends the cells of those that are in a block, and goes on to the next ones. Returns the
     // lanes whose batches are complete.
-    HWY_INLINE LaneSet pass_cells(Numbers stride_x, Numbers stride_y, Numbers stride_z) {
-        const Doubles least = hn::Min(x_.crossing(), hn::Min(y_.crossing(), z_.crossing()));
-        const Doubles to = hn::Min(least, length_);
-        const Mask shown =
-            hn::And(bits_at(visible_.cells(), place_), hn::And(in_block_, hn::Lt(from_, to)));
+    LAMINA_INLINE LaneSet pass_cells(Long stride_x, Long stride_y, Long stride_z) {
+        const Double least = min(x_.crossing(), min(y_.crossing(), z_.crossing()));
+        const Double to = min(least, length_);
+        const DoubleMask shown = bits_at(visible_.cells(), place_) & (in_block_ & (from_ < to));
         const LaneSet complete = append(shown, to);
-        const Mask goes_on = hn::And(in_block_, hn::Lt(least, length_));
-        walking_ = hn::AndNot(hn::AndNot(goes_on, in_block_), walking_);
-        from_ = hn::IfThenElse(goes_on, hn::Max(from_, to), from_);
+        const DoubleMask goes_on = in_block_ & (least < length_);
+        walking_ = without(walking_, without(in_block_, goes_on));
+        from_ = select(goes_on, max(from_, to), from_);
         const AxisMasks along(x_.crossing(), y_.crossing(), least, goes_on);
-        const Mask leave_x = x_.next_cell(along.x), leave_y = y_.next_cell(along.y);
-        const Mask leave_z = z_.next_cell(along.z);
-        in_block_ = hn::AndNot(hn::Or(leave_x, hn::Or(leave_y, leave_z)), goes_on);
-        const Numbers stride = where(along.x, stride_x, where(along.y, stride_y, stride_z));
-        place_ = where(in_block_, hn::Add(place_, stride), place_);
+        const DoubleMask leave_x = x_.next_cell(along.x), leave_y = y_.next_cell(along.y);
+        const DoubleMask leave_z = z_.next_cell(along.z);
+        in_block_ = without(goes_on, leave_x | (leave_y | leave_z));
+        const Long stride = select(along.x, stride_x, select(along.y, stride_y, stride_z));
+        place_ = select(in_block_, place_ + stride, place_);
         return complete;
     }
 
-    HWY_INLINE LaneSet append(Mask lanes, Doubles to) const {
-        const LaneSet shown = set_of(lanes);
+    LAMINA_INLINE LaneSet append(DoubleMask lanes, Double to) const {
+        const LaneSet shown = bits_of(lanes);
         if (shown == 0) return 0;
         alignas(64) double begins[longest_vector], ends[longest_vector];
         alignas(64) std::int64_t cells[3][longest_vector];
-        hn::Store(from_, Lanes(), begins);
-        hn::Store(to, Lanes(), ends);
-        hn::Store(integer(x_.cell()), NumberLanes(), cells[0]);
-        hn::Store(integer(y_.cell()), NumberLanes(), cells[1]);
-        hn::Store(integer(z_.cell()), NumberLanes(), cells[2]);
+        store(from_, begins);
+        store(to, ends);
+        store(to_long(x_.cell()), cells[0]);
+        store(to_long(y_.cell()), cells[1]);
+        store(to_long(z_.cell()), cells[2]);
         LaneSet complete = 0;
-        for_each_lane(shown, [&](std::size_t lane) HWY_ATTR {
+        for_each_lane(shown, [&](std::size_t lane) LAMINA_LAMBDA {
             CellBatch& batch = *batches_[lane];
             batch.add({cells[0][lane], cells[1][lane], cells[2][lane]}, begins[lane], ends[lane]);
             if (batch.complete()) complete |= lane_bit(lane);
@@ -271,20 +252,19 @@ class ChordWalk {
     }
 
     // The block's place in VisibleCells::blocks().
-    HWY_INLINE Numbers block_bit() const {
-        return integer(hn::MulAdd(line_of_block(),
-                                  number(static_cast<double>(visible_.line_bits())), x_.block()));
+    LAMINA_INLINE Long block_bit() const {
+        return to_long(fma(line_of_block(), static_cast<double>(visible_.line_bits()), x_.block()));
     }
     // The cell's place in VisibleCells::cells().
-    HWY_INLINE Numbers place_of_cell() const {
-        const Doubles block = hn::MulAdd(
-            line_of_block(), number(static_cast<double>(visible_.count()[0])), x_.block());
-        const Doubles slice = hn::MulAdd(block, number(block_edge), z_.place_in_block());
-        const Doubles row = hn::MulAdd(slice, number(block_edge), y_.place_in_block());
-        return integer(hn::MulAdd(row, number(block_edge), x_.place_in_block()));
+    LAMINA_INLINE Long place_of_cell() const {
+        const Double block =
+            fma(line_of_block(), static_cast<double>(visible_.count()[0]), x_.block());
+        const Double slice = fma(block, block_edge, z_.place_in_block());
+        const Double row = fma(slice, block_edge, y_.place_in_block());
+        return to_long(fma(row, block_edge, x_.place_in_block()));
     }
-    HWY_INLINE Doubles line_of_block() const {
-        return hn::MulAdd(z_.block(), number(static_cast<double>(visible_.count()[1])), y_.block());
+    LAMINA_INLINE Double line_of_block() const {
+        return fma(z_.block(), static_cast<double>(visible_.count()[1]), y_.block());
     }
 
     CellLanes& lanes_;
@@ -292,30 +272,29 @@ class ChordWalk {
     const VisibleCells& visible_;
     CellBatch* const* batches_;
     AxisLanes x_, y_, z_;
-    Doubles from_, length_;
-    Mask walking_, in_block_;
-    Numbers place_;  // the cell's, in VisibleCells::cells()
+    Double from_, length_;
+    DoubleMask walking_, in_block_;
+    Long place_;  // the cell's, in VisibleCells::cells()
 };
 
 }  // namespace reference
 
-// HWY_EXPORT takes functions of this namespace alone.
+// LAMINA_EXPORT takes functions of this namespace alone.
 inline LaneSet walk_lanes_of(CellLanes& lanes, const VisibleCells& visible,
                              CellBatch* const* batches) {
     using namespace reference;
     LaneSet done = 0;
-    for (std::size_t i = 0; i < CellLanes::width; i += hn::Lanes(Lanes()))
+    for (std::size_t i = 0; i < CellLanes::width; i += Double::lanes)
         done |= ChordWalk(lanes, i, visible, batches).run();
     return done;
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
-#if HWY_ONCE
+#if LAMINA_ONCE
 namespace lamina {
 
-HWY_EXPORT(walk_lanes_of);
+LAMINA_EXPORT(walk_lanes_of);
 
 void enter_cells(CellLanes& lanes, std::size_t lane, const GridAxes& grid, const Chord& chord) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -336,7 +315,7 @@ void enter_cells(CellLanes& lanes, std::size_t lane, const GridAxes& grid, const
 
 LaneSet walk_cells(CellLanes& lanes, const VisibleCells& visible,
                    const std::array<CellBatch*, CellLanes::width>& batches) {
-    return HWY_DYNAMIC_DISPATCH(walk_lanes_of)(lanes, visible, batches.data());
+    return LAMINA_DISPATCH(walk_lanes_of)(lanes, visible, batches.data());
 }
 
 }  // namespace lamina

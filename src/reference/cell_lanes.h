@@ -9,9 +9,8 @@
 #include "reference/chord.h"
 #include "reference/grid_axes.h"
 #include "reference/lane_row.h"
-#include "reference/lane_set.h"
-#include "reference/longest_vector.h"
 #include "reference/visible_cells.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "reference/longest_vector.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
 
@@ -14,7 +14,7 @@ struct CutRound {
     alignas(64) double to[longest_vector];
     alignas(64) double start[longest_vector];
     alignas(64) double end[longest_vector];
-    std::uint8_t kept[8];
+    std::uint8_t kept;  // a bit each
 };
 
 }  // namespace lamina

@@ -7,13 +7,9 @@
 #define LAMINA_REFERENCE_DEPTH_LANES_INL_H_
 #endif
 
-#include <hwy/contrib/math/math-inl.h>
-#include <hwy/highway.h>
+#include "simd/math-inl.h"
 
-#include "reference/cubic_lanes-inl.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 namespace reference {
 
 // With so many terms, Taylor's series of (exp(-depth) - 1) / depth is good up to this depth: the
@@ -25,33 +21,30 @@ inline constexpr double series_limit = terms == 6   ? 0.016
 
 // (exp(-depth) - 1) / depth.
 template <std::size_t terms>
-HWY_INLINE Doubles short_expm1_share(Doubles depth) {
+LAMINA_INLINE Double short_expm1_share(Double depth) {
     static_assert(terms == 6 || terms == 8 || terms == 10, "series_limit");
     constexpr double inverse_factorials[] = {1. / 2,       1. / 6,       1. / 24,    1. / 120,
                                              1. / 720,     1. / 5040,    1. / 40320, 1. / 362880,
                                              1. / 3628800, 1. / 39916800};
-    Doubles sum = number(inverse_factorials[terms - 1]);
-    for (std::size_t i = terms - 1; i-- > 0;)
-        sum = hn::NegMulAdd(depth, sum, number(inverse_factorials[i]));
-    return hn::MulSub(depth, sum, number(1));
+    Double sum = inverse_factorials[terms - 1];
+    for (std::size_t i = terms - 1; i-- > 0;) sum = fnma(depth, sum, inverse_factorials[i]);
+    return fms(depth, sum, 1);
 }
 
-// exp(-depth) and 1 - exp(-depth) of any depths.
+// Transmittance exp(-depth) and opacity 1 - exp(-depth) of any depths.
 struct AnyDepth {
-    HWY_INLINE Doubles exp(Doubles depth) const { return hn::Exp(Lanes(), hn::Neg(depth)); }
-    HWY_INLINE Doubles opacity(Doubles depth) const {
-        return hn::Neg(hn::Expm1(Lanes(), hn::Neg(depth)));
-    }
+    LAMINA_INLINE Double transmittance(Double depth) const { return exp(-depth); }
+    LAMINA_INLINE Double opacity(Double depth) const { return -expm1(-depth); }
 };
 
 // The same of depths up to series_limit<terms>.
 template <std::size_t terms>
 struct ShortDepth {
-    HWY_INLINE Doubles exp(Doubles depth) const {
-        return hn::MulAdd(depth, short_expm1_share<terms>(depth), number(1));
+    LAMINA_INLINE Double transmittance(Double depth) const {
+        return fma(depth, short_expm1_share<terms>(depth), 1);
     }
-    HWY_INLINE Doubles opacity(Doubles depth) const {
-        return hn::Neg(hn::Mul(depth, short_expm1_share<terms>(depth)));
+    LAMINA_INLINE Double opacity(Double depth) const {
+        return -(depth * short_expm1_share<terms>(depth));
     }
 };
 
@@ -61,19 +54,18 @@ constexpr double short_depth = series_limit<most_terms>;
 
 // The same of short depths in some lanes: each lane's result does not depend on the other lanes.
 struct MixedDepth {
-    Mask is_short;
+    DoubleMask is_short;
 
-    HWY_INLINE Doubles exp(Doubles depth) const {
-        return hn::IfThenElse(is_short, ShortDepth<most_terms>().exp(depth), AnyDepth().exp(depth));
+    LAMINA_INLINE Double transmittance(Double depth) const {
+        return select(is_short, ShortDepth<most_terms>().transmittance(depth),
+                      AnyDepth().transmittance(depth));
     }
-    HWY_INLINE Doubles opacity(Doubles depth) const {
-        return hn::IfThenElse(is_short, ShortDepth<most_terms>().opacity(depth),
-                              AnyDepth().opacity(depth));
+    LAMINA_INLINE Double opacity(Double depth) const {
+        return select(is_short, ShortDepth<most_terms>().opacity(depth), AnyDepth().opacity(depth));
     }
 };
 
 }  // namespace reference
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

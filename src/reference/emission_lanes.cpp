@@ -3,131 +3,125 @@
 // are left to the scalar form.
 #include "reference/piece_batch.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "reference/emission_lanes.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "reference/emission_lanes.cpp"
+#include "simd/foreach_target.h"
 
-// After highway.h, which it needs for each target.
 #include "reference/cubic_lanes-inl.h"
 #include "reference/depth_lanes-inl.h"
 #include "reference/patterson_rules.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 namespace reference {
 
-HWY_INLINE Cubics load_cubics(const PieceBatch::Column (&from)[4], std::size_t i) {
+LAMINA_INLINE Cubics load_cubics(const PieceBatch::Column (&from)[4], std::size_t i) {
     Cubics cubics;
     for (std::size_t power = 0; power < 4; ++power)
-        cubics.c[power] = hn::LoadU(Lanes(), from[power].data() + i);
+        cubics.c[power] = load_unaligned<Double>(from[power].data() + i);
     return cubics;
 }
 
 // Sums of the rules so far: of w = extinction exp(-depth), and of x w.
 struct RuleSum {
-    Doubles w, xw;
+    Double w, xw;
 
-    HWY_INLINE void add(double weight, Doubles node_w, Doubles node_xw) {
-        w = hn::MulAdd(number(weight), node_w, w);
-        xw = hn::MulAdd(number(weight), node_xw, xw);
+    LAMINA_INLINE void add(double weight, Double node_w, Double node_xw) {
+        w = fma(weight, node_w, w);
+        xw = fma(weight, node_xw, xw);
     }
 };
 
-HWY_INLINE RuleSum no_sum() {
-    return {hn::Zero(Lanes()), hn::Zero(Lanes())};
+LAMINA_INLINE RuleSum no_sum() {
+    return {0, 0};
 }
 
 template <typename Depth>
 class PieceLanes {
   public:
-    HWY_INLINE PieceLanes(const PieceBatch& batch, std::size_t i, const Depth& depth)
+    LAMINA_INLINE PieceLanes(const PieceBatch& batch, std::size_t i, const Depth& depth)
         : depth_(depth),
           position_(load_cubics(batch.position, i)),
           extinction_(load_cubics(batch.extinction, i)),
           mean_depth_(extinction_) {
         for (std::size_t power = 1; power < 4; ++power)
-            mean_depth_.c[power] =
-                hn::Div(extinction_.c[power], number(static_cast<double>(power + 1)));
+            mean_depth_.c[power] = extinction_.c[power] / static_cast<double>(power + 1);
     }
 
     // Sets w and x w to their sums over a pair of nodes.
-    HWY_INLINE void evaluate(int pair, Doubles& w, Doubles& xw) const {
+    LAMINA_INLINE void evaluate(int pair, Double& w, Double& xw) const {
         const double distance = patterson::node[pair];
         w = weight_at(0.5 - distance);
-        xw = hn::Mul(position_.at(number(0.5 - distance)), w);
+        xw = position_.at(0.5 - distance) * w;
         if (pair == 0) return;
-        const Doubles right = weight_at(0.5 + distance);
-        w = hn::Add(w, right);
-        xw = hn::MulAdd(position_.at(number(0.5 + distance)), right, xw);
+        const Double right = weight_at(0.5 + distance);
+        w += right;
+        xw = fma(position_.at(0.5 + distance), right, xw);
     }
 
-    HWY_INLINE Doubles middle() const { return position_.at(number(0.5)); }
+    LAMINA_INLINE Double middle() const { return position_.at(0.5); }
 
   private:
-    HWY_INLINE Doubles weight_at(double place) const {
-        const Doubles t = number(place);
-        const Doubles depth = hn::Mul(t, mean_depth_.at(t));
-        return hn::Mul(extinction_.at(t), depth_.exp(depth));
+    LAMINA_INLINE Double weight_at(double place) const {
+        const Double t(place);
+        const Double depth = t * mean_depth_.at(t);
+        return extinction_.at(t) * depth_.transmittance(depth);
     }
 
     Depth depth_;
     Cubics position_, extinction_, mean_depth_;  // mean_depth_ t is the depth up to t
 };
 
-HWY_INLINE Doubles difference(const RuleSum& fine, const RuleSum& coarse, Doubles opacity) {
-    return hn::Max(hn::Abs(hn::Sub(fine.xw, coarse.xw)), hn::Abs(hn::Sub(fine.w, opacity)));
+LAMINA_INLINE Double difference(const RuleSum& fine, const RuleSum& coarse, Double opacity) {
+    return max(abs(fine.xw - coarse.xw), abs(fine.w - opacity));
 }
 
-HWY_INLINE Mask given(const PieceBatch& batch, std::size_t i) {
-    return hn::FirstN(Lanes(), batch.count - i);
+LAMINA_INLINE DoubleMask given(const PieceBatch& batch, std::size_t i) {
+    return first_lanes<DoubleMask>(batch.count - i);
 }
 
 // Returns the lanes that a rule has integrated.
 template <typename Depth>
-HWY_INLINE Mask integrate_lanes(PieceBatch& batch, std::size_t i, const Depth& kind) {
+LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const Depth& kind) {
     using namespace patterson;
-    const Lanes d;
     const PieceLanes<Depth> pieces(batch, i, kind);
-    const Doubles depth = hn::LoadU(d, batch.depth.data() + i);
-    const Doubles opacity = kind.opacity(depth);
-    const Doubles transmittance = hn::Exp(d, hn::Neg(hn::LoadU(d, batch.before.data() + i)));
-    const Doubles span = hn::LoadU(d, batch.color_span.data() + i);
-    const Doubles allowed =
-        hn::Div(hn::MulAdd(number(batch.error_of_opacity), hn::Mul(opacity, transmittance),
-                           hn::LoadU(d, batch.error_of_length.data() + i)),
-                hn::Mul(transmittance, span));
-    const Doubles enough = hn::Max(allowed, hn::Mul(number(emission_rounding), depth));
+    const Double depth = load_unaligned<Double>(batch.depth.data() + i);
+    const Double opacity = kind.opacity(depth);
+    const Double transmittance = exp(-load_unaligned<Double>(batch.before.data() + i));
+    const Double span = load_unaligned<Double>(batch.color_span.data() + i);
+    const Double allowed = fma(batch.error_of_opacity, opacity * transmittance,
+                               load_unaligned<Double>(batch.error_of_length.data() + i)) /
+                           (transmittance * span);
+    const Double enough = max(allowed, emission_rounding * depth);
 
-    Doubles w[8], xw[8];
+    Double w[8], xw[8];
     RuleSum three = no_sum(), seven = no_sum(), fifteen = no_sum();
     for (int pair = 0; pair < 4; ++pair) {
         pieces.evaluate(pair, w[pair], xw[pair]);
         if (pair < 2) three.add(weight3[pair], w[pair], xw[pair]);
         seven.add(weight7[pair], w[pair], xw[pair]);
     }
-    Doubles value = seven.xw, error = difference(seven, three, opacity);
-    const Mask beyond = hn::Not(given(batch, i));
-    Mask done = hn::Or(hn::Le(error, enough), beyond);
-    if (!hn::AllTrue(d, done)) {
+    Double value = seven.xw, error = difference(seven, three, opacity);
+    const DoubleMask beyond = !given(batch, i);
+    DoubleMask done = (error <= enough) | beyond;
+    if (!all_of(done)) {
         for (int pair = 0; pair < 8; ++pair) {
             if (pair >= 4) pieces.evaluate(pair, w[pair], xw[pair]);
             fifteen.add(weight15[pair], w[pair], xw[pair]);
         }
-        value = hn::IfThenElse(done, value, fifteen.xw);
-        error = hn::IfThenElse(done, error, difference(fifteen, seven, opacity));
-        done = hn::Le(error, enough);
+        value = select(done, value, fifteen.xw);
+        error = select(done, error, difference(fifteen, seven, opacity));
+        done = error <= enough;
     }
-    done = hn::And(done, hn::Lt(depth, number(resolvable_depth)));
+    done = done & (depth < resolvable_depth);
     // x is somewhere in [0, 1], so any of its values is within `opacity` of the integral.
-    const Mask faint = hn::Le(opacity, hn::Mul(number(negligible_opacity), allowed));
-    value = hn::IfThenElse(faint, hn::Mul(pieces.middle(), opacity), value);
-    error = hn::IfThenElse(faint, opacity, error);
-    hn::StoreU(transmittance, d, batch.transmittance.data() + i);
-    hn::StoreU(opacity, d, batch.opacity.data() + i);
-    hn::StoreU(value, d, batch.value.data() + i);
-    hn::StoreU(error, d, batch.error.data() + i);
-    return hn::Or(hn::Or(done, faint), beyond);
+    const DoubleMask faint = opacity <= negligible_opacity * allowed;
+    value = select(faint, pieces.middle() * opacity, value);
+    error = select(faint, opacity, error);
+    store_unaligned(transmittance, batch.transmittance.data() + i);
+    store_unaligned(opacity, batch.opacity.data() + i);
+    store_unaligned(value, batch.value.data() + i);
+    store_unaligned(error, batch.error.data() + i);
+    return done | faint | beyond;
 }
 
 // A piece that the rules on the whole of it do not integrate.
@@ -143,32 +137,31 @@ inline void integrate_bisected(PieceBatch& batch, std::size_t i) {
 
 }  // namespace reference
 
-// HWY_EXPORT takes functions of this namespace alone.
+// LAMINA_EXPORT takes functions of this namespace alone.
 inline void integrate_batch(PieceBatch& batch) {
     using namespace reference;
-    const std::size_t lanes = hn::Lanes(Lanes());
+    const std::size_t lanes = Double::lanes;
     for (std::size_t i = 0; i < batch.count; i += lanes) {
-        const Doubles depth = hn::LoadU(Lanes(), batch.depth.data() + i);
-        const Mask is_short = hn::Le(depth, number(short_depth));
+        const Double depth = load_unaligned<Double>(batch.depth.data() + i);
+        const DoubleMask is_short = depth <= short_depth;
         // Lanes behind the last piece hold anything.
-        const bool all_short = hn::AllTrue(Lanes(), hn::Or(is_short, hn::Not(given(batch, i))));
-        const Mask done = all_short ? integrate_lanes(batch, i, ShortDepth<most_terms>())
-                                    : integrate_lanes(batch, i, MixedDepth{is_short});
-        if (hn::AllTrue(Lanes(), done)) continue;
-        for_each_lane(set_of(hn::Not(done)),
+        const bool all_short = all_of(is_short | !given(batch, i));
+        const DoubleMask done = all_short ? integrate_lanes(batch, i, ShortDepth<most_terms>())
+                                          : integrate_lanes(batch, i, MixedDepth{is_short});
+        if (all_of(done)) continue;
+        for_each_lane(bits_of(!done),
                       [&](std::size_t lane) { integrate_bisected(batch, i + lane); });
     }
 }
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
-#if HWY_ONCE
+#if LAMINA_ONCE
 namespace lamina {
 
-HWY_EXPORT(integrate_batch);
+LAMINA_EXPORT(integrate_batch);
 
 void integrate_emission(PieceBatch& batch) {
-    HWY_DYNAMIC_DISPATCH(integrate_batch)(batch);
+    LAMINA_DISPATCH(integrate_batch)(batch);
 }
 
 }  // namespace lamina

@@ -7,108 +7,95 @@
 #define LAMINA_REFERENCE_INTERVAL_SEARCH_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <bit>
 #include <cstdint>
 #include <vector>
 
-#include "reference/cubic_lanes-inl.h"
 #include "reference/interval_columns.h"
+#include "simd/vectors-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 namespace reference {
-
-HWY_INLINE Numbers where(Mask mask, Numbers yes, Numbers no) {
-    return hn::IfThenElse(hn::RebindMask(NumberLanes(), mask), yes, no);
-}
 
 // Counts those of `count` ascending values for which is_passed(value) holds: the first ones. Behind
 // them lies padding, at least up to a power of two.
 template <typename Passed>
-HWY_INLINE Numbers count_first(const double* values, std::size_t count, const Passed& is_passed) {
+LAMINA_INLINE Long count_first(const double* values, std::size_t count, const Passed& is_passed) {
     // Up to this count a look at each value is quicker than the gathers of a binary search.
     constexpr std::size_t most_compared = 24;
-    const NumberLanes n;
-    Numbers passed = hn::Zero(n);
+    Long passed(0);
     if (count <= most_compared) {
         for (std::size_t i = 0; i < count; ++i) {
-            const Mask one = is_passed(number(values[i]));
-            passed = hn::Sub(passed, hn::VecFromMask(n, hn::RebindMask(n, one)));
+            passed -= minus_one_in(is_passed(Double(values[i])));
         }
         return passed;
     }
-    const Numbers one = hn::Set(n, 1), most = hn::Set(n, static_cast<std::int64_t>(count));
     for (auto step = static_cast<std::int64_t>(std::bit_ceil(count + 1) / 2); step > 0; step /= 2) {
-        const Numbers next = hn::Add(passed, hn::Set(n, step));
-        const Doubles last = hn::GatherIndex(Lanes(), values, hn::Sub(next, one));
-        passed = where(is_passed(last), next, passed);
+        const Long next = passed + step;
+        const Double last = gather(values, next - 1);
+        passed = select(is_passed(last), next, passed);
     }
-    return hn::Min(passed, most);  // an infinite value passes padding, too
+    return min(passed, static_cast<std::int64_t>(count));  // an infinite value passes padding, too
 }
 
 // Finds the intervals of values, and what columns have of intervals.
 class IntervalSearch {
   public:
-    HWY_INLINE explicit IntervalSearch(const IntervalColumns& columns)
+    LAMINA_INLINE explicit IntervalSearch(const IntervalColumns& columns)
         : columns_(columns),
           bounds_(columns.bounds.data()),
-          in_a_vector_(columns.knot_count + 1 <= hn::Lanes(Lanes())) {}
+          in_a_vector_(columns.knot_count + 1 <= Double::lanes) {}
 
-    HWY_INLINE Doubles of(const std::vector<double>& column, Numbers interval) const {
+    LAMINA_INLINE Double of(const std::vector<double>& column, Long interval) const {
         return look_up(column.data(), interval);
     }
-    HWY_INLINE Doubles lower(Numbers interval) const { return look_up(bounds_, interval); }
-    HWY_INLINE Doubles upper(Numbers interval) const { return look_up(bounds_ + 1, interval); }
-    HWY_INLINE Mask shows(Numbers interval) const {
-        return hn::Eq(of(columns_.transparent, interval), hn::Zero(Lanes()));
+    LAMINA_INLINE Double lower(Long interval) const { return look_up(bounds_, interval); }
+    LAMINA_INLINE Double upper(Long interval) const { return look_up(bounds_ + 1, interval); }
+    LAMINA_INLINE DoubleMask shows(Long interval) const {
+        return of(columns_.transparent, interval) == 0;
     }
     // The knot at which a scalar that rises, or falls, leaves the interval.
-    HWY_INLINE Doubles knot_ahead(Numbers interval, Mask rises) const {
-        return hn::IfThenElse(rises, upper(interval), lower(interval));
+    LAMINA_INLINE Double knot_ahead(Long interval, DoubleMask rises) const {
+        return select(rises, upper(interval), lower(interval));
     }
     // The interval behind that knot.
-    HWY_INLINE Numbers beyond(Numbers interval, Mask rises) const {
-        const Numbers one = hn::Set(NumberLanes(), 1);
-        return where(rises, hn::Add(interval, one), hn::Sub(interval, one));
+    LAMINA_INLINE Long beyond(Long interval, DoubleMask rises) const {
+        return select(rises, interval + 1, interval - 1);
     }
     // The interval for values at and above each value.
-    HWY_INLINE Numbers above(Doubles value) const {
-        return count_passed([&](Doubles knot) HWY_ATTR { return hn::Le(knot, value); });
+    LAMINA_INLINE Long above(Double value) const {
+        return count_passed([&](Double knot) LAMINA_LAMBDA { return knot <= value; });
     }
 
     // The interval for values at and above each value where the scalar rises from there; where it
     // falls, the one for values at and below.
-    HWY_INLINE Numbers ahead(Doubles value, Mask rises) const {
-        return count_passed([&](Doubles knot) HWY_ATTR { return passed(knot, value, rises); });
+    LAMINA_INLINE Long ahead(Double value, DoubleMask rises) const {
+        return count_passed([&](Double knot) LAMINA_LAMBDA { return passed(knot, value, rises); });
     }
 
     // The same, from an interval on that does not lie above it.
-    HWY_INLINE Numbers onwards(Numbers interval, Doubles value, Mask rises) const {
+    LAMINA_INLINE Long onwards(Long interval, Double value, DoubleMask rises) const {
         while (true) {
-            const Mask further = passed(upper(interval), value, rises);
-            if (hn::AllFalse(Lanes(), further)) return interval;
-            interval = where(further, hn::Add(interval, hn::Set(NumberLanes(), 1)), interval);
+            const DoubleMask further = passed(upper(interval), value, rises);
+            if (none_of(further)) return interval;
+            interval = select(further, interval + 1, interval);
         }
     }
 
   private:
     // A column that fits into a vector is looked up there, which is quicker than a gather.
-    HWY_INLINE Doubles look_up(const double* column, Numbers interval) const {
-        if (in_a_vector_)
-            return hn::TableLookupLanes(hn::LoadU(Lanes(), column),
-                                        hn::IndicesFromVec(Lanes(), interval));
-        return hn::GatherIndex(Lanes(), column, interval);
+    LAMINA_INLINE Double look_up(const double* column, Long interval) const {
+        if (in_a_vector_) return permute(load_unaligned<Double>(column), interval);
+        return gather(column, interval);
     }
 
     template <typename Passed>
-    HWY_INLINE Numbers count_passed(const Passed& is_passed) const {
+    LAMINA_INLINE Long count_passed(const Passed& is_passed) const {
         return count_first(bounds_ + 1, columns_.knot_count, is_passed);
     }
 
-    HWY_INLINE static Mask passed(Doubles knot, Doubles value, Mask rises) {
-        return hn::Or(hn::Lt(knot, value), hn::And(rises, hn::Eq(knot, value)));
+    LAMINA_INLINE static DoubleMask passed(Double knot, Double value, DoubleMask rises) {
+        return (knot < value) | (rises & (knot == value));
     }
 
     const IntervalColumns& columns_;
@@ -117,7 +104,6 @@ class IntervalSearch {
 };
 
 }  // namespace reference
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "reference/longest_vector.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
 

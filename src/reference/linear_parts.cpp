@@ -7,19 +7,17 @@
 #include "optics/gauss_rules.h"
 #include "optics/segment_integral.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "reference/linear_parts.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "reference/linear_parts.cpp"
+#include "simd/foreach_target.h"
 
-// After highway.h, which it needs for each target.
 #include "reference/cubic_lanes-inl.h"
 #include "reference/depth_lanes-inl.h"
 #include "reference/interval_search-inl.h"
 #include "reference/rounds-inl.h"
+#include "simd/members-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 namespace reference {
 
 // Optical depths of a part are limited to this, so that sums of them stay finite.
@@ -29,154 +27,139 @@ constexpr double largest_scalar = std::numeric_limits<double>::max() / 4;
 // A vector of segments on their way from front to back. `at` is the scalar where they are.
 class LinearLanes {
   public:
-    HWY_INLINE LinearLanes(const LinearBatch& segments, std::size_t first,
-                           const IntervalColumns& columns)
+    LAMINA_INLINE LinearLanes(const LinearBatch& segments, std::size_t first,
+                              const IntervalColumns& columns)
         : search_(columns),
-          active_(hn::FirstN(Lanes(), segments.count - first)),
-          front_(load(segments.front + first)),
-          back_(load(segments.back + first)),
+          active_(first_lanes<DoubleMask>(segments.count - first)),
+          front_(finite(segments.front + first)),
+          back_(finite(segments.back + first)),
           at_(front_),
-          rises_(hn::Le(front_, back_)),
-          constant_(hn::Eq(front_, back_)),
+          rises_(front_ <= back_),
+          constant_(front_ == back_),
           interval_(search_.ahead(front_, rises_)) {}
 
-    HWY_INLINE bool active() const { return !hn::AllFalse(Lanes(), active_); }
+    LAMINA_INLINE bool active() const { return any_of(active_); }
 
     // Goes on to the next knots or ends. The round gets the parts up to there.
-    HWY_INLINE void advance(LinearRound& round) {
-        const Lanes d;
-        const Doubles knot = search_.knot_ahead(interval_, rises_);
-        const Doubles to = hn::IfThenElse(rises_, hn::Min(knot, back_), hn::Max(knot, back_));
+    LAMINA_INLINE void advance(LinearRound& round) {
+        const Double knot = search_.knot_ahead(interval_, rises_);
+        const Double to = select(rises_, min(knot, back_), max(knot, back_));
         // Both differences are of the given doubles, so the share is accurate however close front
         // and back are.
-        const Doubles share = hn::Div(hn::Sub(to, at_), hn::Sub(back_, front_));
-        const Mask has_length = hn::Or(constant_, hn::Ne(to, at_));
-        const Mask kept = hn::And(hn::And(active_, search_.shows(interval_)), has_length);
-        hn::StoreMaskBits(d, kept, round.kept);
-        hn::Store(interval_, NumberLanes(), round.interval);
-        hn::Store(at_, d, round.from);
-        hn::Store(hn::IfThenElse(constant_, back_, to), d, round.to);
-        hn::Store(hn::IfThenElse(constant_, number(1), share), d, round.share);
+        const Double share = (to - at_) / (back_ - front_);
+        const DoubleMask has_length = constant_ | (to != at_);
+        const DoubleMask kept = active_ & search_.shows(interval_) & has_length;
+        round.kept = static_cast<std::uint8_t>(bits_of(kept));
+        store(interval_, round.interval);
+        store(at_, round.from);
+        store(select(constant_, back_, to), round.to);
+        store(select(constant_, 1, share), round.share);
         at_ = to;
-        active_ = hn::AndNot(hn::Or(constant_, hn::Eq(at_, back_)), active_);
-        interval_ = where(active_, search_.beyond(interval_, rises_), interval_);
+        active_ = without(active_, constant_ | (at_ == back_));
+        interval_ = select(active_, search_.beyond(interval_, rises_), interval_);
     }
 
   private:
     // Differences of larger scalars might overflow.
-    HWY_INLINE Doubles load(const double* from) const {
-        const Doubles limit = number(largest_scalar);
-        const Doubles values = hn::MaskedLoad(active_, Lanes(), from);
-        return hn::Min(hn::Max(values, hn::Neg(limit)), limit);
+    LAMINA_INLINE Double finite(const double* from) const {
+        return clamp(load_masked<Double>(active_, from), -largest_scalar, largest_scalar);
     }
 
     IntervalSearch search_;
-    Mask active_;
-    Doubles front_, back_, at_;
-    Mask rises_, constant_;
-    Numbers interval_;
+    DoubleMask active_;
+    Double front_, back_, at_;
+    DoubleMask rises_, constant_;
+    Long interval_;
 };
 
 // Appends a single round: most vectors of segments have no more.
-HWY_INLINE void append_round(const LinearRound& round, std::size_t first_segment,
-                             LinearParts& parts) {
-    const Lanes d;
-    const NumberLanes n;
-    const KeptLanes kept(hn::LoadMaskBits(d, round.kept));
+LAMINA_INLINE void append_round(const LinearRound& round, std::size_t first_segment,
+                                LinearParts& parts) {
+    const KeptLanes kept(mask_of_bits<DoubleMask>(round.kept));
     const std::size_t end = parts.count;
-    parts.make_room(end + hn::Lanes(d));
-    kept.store(hn::Iota(n, static_cast<std::int64_t>(first_segment)), parts.segment.data() + end);
-    kept.store(hn::Load(n, round.interval), parts.interval.data() + end);
-    kept.store(hn::Load(d, round.from), parts.from.data() + end);
-    kept.store(hn::Load(d, round.to), parts.to.data() + end);
-    kept.store(hn::Load(d, round.share), parts.depth.data() + end);  // until set_depths()
+    parts.make_room(end + Double::lanes);
+    kept.store(iota<Long>(static_cast<std::int64_t>(first_segment)), parts.segment.data() + end);
+    kept.store(load<Long>(round.interval), parts.interval.data() + end);
+    kept.store(load<Double>(round.from), parts.from.data() + end);
+    kept.store(load<Double>(round.to), parts.to.data() + end);
+    kept.store(load<Double>(round.share), parts.depth.data() + end);  // until set_depths()
     parts.count += kept.count();
 }
 
 // The share of the way from an interval's lower knot to its upper one, and what is left of it.
 struct PlaceLanes {
-    Doubles from_lo, from_hi;
+    Double from_lo, from_hi;
 
-    HWY_INLINE PlaceLanes(Doubles value, Doubles lo, Doubles hi) {
-        const auto share = [&](Doubles part) HWY_ATTR {
-            return hn::Min(hn::Max(hn::Div(part, hn::Sub(hi, lo)), hn::Zero(Lanes())), number(1));
-        };
-        from_lo = share(hn::Sub(value, lo));
-        from_hi = share(hn::Sub(hi, value));
+    LAMINA_INLINE PlaceLanes(Double value, Double lo, Double hi) {
+        const auto share = [&](Double part) LAMINA_LAMBDA { return clamp(part / (hi - lo), 0, 1); };
+        from_lo = share(value - lo);
+        from_hi = share(hi - value);
     }
 };
 
 // Sets places, p, q and depth of a vector of parts, which have scalars in `from` and `to`, and
 // their shares of the segments' lengths in `depth`.
-HWY_INLINE void set_depths(const LinearBatch& segments, const IntervalColumns& columns,
-                           std::size_t i, LinearParts& parts) {
-    const Lanes d;
-    const NumberLanes n;
+LAMINA_INLINE void set_depths(const LinearBatch& segments, const IntervalColumns& columns,
+                              std::size_t i, LinearParts& parts) {
     const IntervalSearch search(columns);
-    const Numbers interval = hn::LoadU(n, parts.interval.data() + i);
-    const Doubles length =
-        hn::Mul(hn::GatherIndex(d, segments.length, hn::LoadU(n, parts.segment.data() + i)),
-                hn::LoadU(d, parts.depth.data() + i));
-    const Doubles lo = search.of(columns.lo, interval), hi = search.of(columns.hi, interval);
-    const Doubles at_lo = search.of(columns.extinction, interval);
-    const Doubles at_hi = search.of(columns.extinction_end, interval);
+    const Long interval = load_unaligned<Long>(parts.interval.data() + i);
+    const Double length = gather(segments.length, load_unaligned<Long>(parts.segment.data() + i)) *
+                          load_unaligned<Double>(parts.depth.data() + i);
+    const Double lo = search.of(columns.lo, interval), hi = search.of(columns.hi, interval);
+    const Double at_lo = search.of(columns.extinction, interval);
+    const Double at_hi = search.of(columns.extinction_end, interval);
     // No term is negative, so nothing cancels.
-    const auto depth = [&](const PlaceLanes& place) HWY_ATTR {
-        const Doubles mixed = hn::MulAdd(at_lo, place.from_hi, hn::Mul(at_hi, place.from_lo));
-        const Doubles extinction = hn::IfThenElse(hn::Eq(at_lo, at_hi), at_lo, mixed);
-        return hn::Min(hn::Mul(extinction, length), number(largest_part_depth));
+    const auto depth = [&](const PlaceLanes& place) LAMINA_LAMBDA {
+        const Double mixed = fma(at_lo, place.from_hi, at_hi * place.from_lo);
+        const Double extinction = select(at_lo == at_hi, at_lo, mixed);
+        return min(extinction * length, largest_part_depth);
     };
-    const PlaceLanes from(hn::LoadU(d, parts.from.data() + i), lo, hi);
-    const PlaceLanes to(hn::LoadU(d, parts.to.data() + i), lo, hi);
-    const Doubles p = depth(from), q = depth(to);
-    hn::StoreU(from.from_lo, d, parts.from.data() + i);
-    hn::StoreU(to.from_lo, d, parts.to.data() + i);
-    hn::StoreU(p, d, parts.p.data() + i);
-    hn::StoreU(q, d, parts.q.data() + i);
-    hn::StoreU(hn::MulAdd(number(0.5), p, hn::Mul(number(0.5), q)), d, parts.depth.data() + i);
+    const PlaceLanes from(load_unaligned<Double>(parts.from.data() + i), lo, hi);
+    const PlaceLanes to(load_unaligned<Double>(parts.to.data() + i), lo, hi);
+    const Double p = depth(from), q = depth(to);
+    store_unaligned(from.from_lo, parts.from.data() + i);
+    store_unaligned(to.from_lo, parts.to.data() + i);
+    store_unaligned(p, parts.p.data() + i);
+    store_unaligned(q, parts.q.data() + i);
+    store_unaligned(fma(0.5, p, 0.5 * q), parts.depth.data() + i);
 }
 
 struct WeightLanes {
-    Doubles front, back;
+    Double front, back;
 };
 
 // Vector form of the sums in optics/segment_integral.cpp, which says why they are written so.
 template <typename Depth>
-HWY_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Doubles p, Doubles q,
-                                       const Depth& kind) {
-    const Lanes d;
-    WeightLanes sum{hn::Zero(d), hn::Zero(d)};
+LAMINA_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Double p, Double q,
+                                          const Depth& kind) {
+    WeightLanes sum{0, 0};
     for (std::size_t i = 0; i < rule.points; ++i) {
         const double x = rule.x[i], rest = 1 - x;
-        const Doubles before =
-            hn::MulAdd(number(x * (1 - x / 2)), p, hn::Mul(number(x * x / 2), q));
-        const Doubles behind =
-            hn::MulAdd(number(rest * rest / 2), p, hn::Mul(number(rest * (1 + x) / 2), q));
-        const Doubles absorbed = kind.opacity(before), weight = number(rule.weight[i]);
-        sum.front = hn::MulAdd(weight, absorbed, sum.front);
-        sum.back = hn::MulAdd(hn::Mul(weight, hn::Sub(number(1), absorbed)), kind.opacity(behind),
-                              sum.back);
+        const Double before = fma(x * (1 - x / 2), p, x * x / 2 * q);
+        const Double behind = fma(rest * rest / 2, p, rest * (1 + x) / 2 * q);
+        const Double absorbed = kind.opacity(before), weight(rule.weight[i]);
+        sum.front = fma(weight, absorbed, sum.front);
+        sum.back = fma(weight * (1 - absorbed), kind.opacity(behind), sum.back);
     }
     return sum;
 }
 
-HWY_INLINE WeightLanes closed_weights(Doubles p, Doubles q) {
-    const Lanes d;
+LAMINA_INLINE WeightLanes closed_weights(Double p, Double q) {
     alignas(64) double ps[longest_vector], qs[longest_vector], fronts[longest_vector],
         backs[longest_vector];
-    hn::Store(p, d, ps);
-    hn::Store(q, d, qs);
-    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    store(p, ps);
+    store(q, qs);
+    for (std::size_t lane = 0; lane < Double::lanes; ++lane) {
         const PieceWeights weights = piece_weights(ps[lane], qs[lane]);
         fronts[lane] = weights.front;
         backs[lane] = weights.back;
     }
-    return {hn::Load(d, fronts), hn::Load(d, backs)};
+    return {load<Double>(fronts), load<Double>(backs)};
 }
 
 // As piece_weights().
-HWY_INLINE WeightLanes weights_of(Doubles p, Doubles q, Doubles depth) {
-    const double most = hn::GetLane(hn::MaxOfLanes(Lanes(), depth));
+LAMINA_INLINE WeightLanes weights_of(Double p, Double q, Double depth) {
+    const double most = largest_of(depth);
     if (!(most < largest_gauss_depth)) return closed_weights(p, q);
     const GaussRule& rule = gauss_rule(most);
     if (most <= series_limit<6>) return weights_by_rule(rule, p, q, ShortDepth<6>());
@@ -185,29 +168,28 @@ HWY_INLINE WeightLanes weights_of(Doubles p, Doubles q, Doubles depth) {
     return weights_by_rule(rule, p, q, AnyDepth());
 }
 
-HWY_INLINE void weigh(LinearParts& parts, std::size_t i) {
-    const Lanes d;
+LAMINA_INLINE void weigh(LinearParts& parts, std::size_t i) {
     // Lanes behind the last part hold anything.
-    const Mask given = hn::FirstN(d, parts.count - i);
-    const auto load = [&](const LinearParts::Column& column)
-                          HWY_ATTR { return hn::LoadU(d, column.data() + i); };
-    const Doubles depth = hn::IfThenElseZero(given, load(parts.depth));
-    const WeightLanes weights = weights_of(hn::IfThenElseZero(given, load(parts.p)),
-                                           hn::IfThenElseZero(given, load(parts.q)), depth);
-    hn::StoreU(hn::Exp(d, hn::Neg(load(parts.before))), d, parts.transmittance.data() + i);
-    hn::StoreU(hn::Add(weights.front, weights.back), d, parts.opacity.data() + i);
-    hn::StoreU(hn::MulAdd(weights.front, load(parts.from), hn::Mul(weights.back, load(parts.to))),
-               d, parts.change.data() + i);
+    const DoubleMask given = first_lanes<DoubleMask>(parts.count - i);
+    const auto row = [&](const LinearParts::Column& column)
+                         LAMINA_LAMBDA { return load_unaligned<Double>(column.data() + i); };
+    const Double depth = zero_unless(given, row(parts.depth));
+    const WeightLanes weights =
+        weights_of(zero_unless(given, row(parts.p)), zero_unless(given, row(parts.q)), depth);
+    store_unaligned(exp(-row(parts.before)), parts.transmittance.data() + i);
+    store_unaligned(weights.front + weights.back, parts.opacity.data() + i);
+    store_unaligned(fma(weights.front, row(parts.from), weights.back * row(parts.to)),
+                    parts.change.data() + i);
 }
 
 }  // namespace reference
 
-// HWY_EXPORT takes functions of this namespace alone.
+// LAMINA_EXPORT takes functions of this namespace alone.
 inline void append_parts_of(const LinearBatch& segments, const IntervalColumns& columns,
                             LinearParts& parts) {
     using namespace reference;
-    const std::size_t lanes = hn::Lanes(Lanes()), first = parts.count;
-    const auto store = [&](std::size_t i, const LinearRound& round, std::size_t lane) HWY_ATTR {
+    const std::size_t lanes = Double::lanes, first = parts.count;
+    const auto put = [&](std::size_t i, const LinearRound& round, std::size_t lane) {
         parts.interval[i] = round.interval[lane];
         parts.from[i] = round.from[lane];
         parts.to[i] = round.to[lane];
@@ -219,7 +201,7 @@ inline void append_parts_of(const LinearBatch& segments, const IntervalColumns& 
         if (rounds == 1) {
             append_round(parts.rounds[0], i, parts);
         } else {
-            append_rounds(rounds, i, parts, store);
+            append_rounds(rounds, i, parts, put);
         }
     }
     for (std::size_t i = first; i < parts.count; i += lanes)
@@ -228,25 +210,24 @@ inline void append_parts_of(const LinearBatch& segments, const IntervalColumns& 
 
 inline void weigh_parts_of(LinearParts& parts) {
     using namespace reference;
-    for (std::size_t i = 0; i < parts.count; i += hn::Lanes(Lanes())) weigh(parts, i);
+    for (std::size_t i = 0; i < parts.count; i += Double::lanes) weigh(parts, i);
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
-#if HWY_ONCE
+#if LAMINA_ONCE
 namespace lamina {
 
-HWY_EXPORT(append_parts_of);
-HWY_EXPORT(weigh_parts_of);
+LAMINA_EXPORT(append_parts_of);
+LAMINA_EXPORT(weigh_parts_of);
 
 void append_parts(const LinearBatch& segments, const IntervalColumns& intervals,
                   LinearParts& parts) {
-    HWY_DYNAMIC_DISPATCH(append_parts_of)(segments, intervals, parts);
+    LAMINA_DISPATCH(append_parts_of)(segments, intervals, parts);
 }
 
 void weigh_parts(LinearParts& parts) {
-    HWY_DYNAMIC_DISPATCH(weigh_parts_of)(parts);
+    LAMINA_DISPATCH(weigh_parts_of)(parts);
 }
 
 }  // namespace lamina

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "reference/longest_vector.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
 
@@ -13,7 +13,7 @@ struct LinearRound {
     alignas(64) double from[longest_vector];
     alignas(64) double to[longest_vector];
     alignas(64) double share[longest_vector];
-    std::uint8_t kept[8];
+    std::uint8_t kept;  // a bit each
 };
 
 }  // namespace lamina

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "mesh/ray_walk.h"
-#include "reference/lane_set.h"
 #include "reference/walk_lanes.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
 

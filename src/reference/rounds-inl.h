@@ -7,20 +7,17 @@
 #define LAMINA_REFERENCE_ROUNDS_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <cstddef>
 #include <cstdint>
 
-#include "reference/cubic_lanes-inl.h"
+#include "simd/vectors-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 namespace reference {
 
 // Takes a vector of segments to their ends. Returns the number of rounds.
 template <typename Segments, typename Rounds>
-HWY_INLINE std::size_t take_rounds(Segments& segments, Rounds& rounds) {
+LAMINA_INLINE std::size_t take_rounds(Segments& segments, Rounds& rounds) {
     std::size_t count = 0;
     while (segments.active()) {
         if (count == rounds.size()) rounds.resize(2 * count + 8);
@@ -32,10 +29,10 @@ HWY_INLINE std::size_t take_rounds(Segments& segments, Rounds& rounds) {
 // Appends the pieces of some rounds, one segment after the other. store(i, round, lane) stores a
 // piece at place i.
 template <typename Pieces, typename Store>
-HWY_INLINE void append_rounds(std::size_t count, std::size_t first_segment, Pieces& pieces,
-                              const Store& store) {
+LAMINA_INLINE void append_rounds(std::size_t count, std::size_t first_segment, Pieces& pieces,
+                                 const Store& store) {
     auto& rounds = pieces.rounds;
-    const std::size_t lanes = hn::Lanes(Lanes());
+    const std::size_t lanes = Double::lanes;
     pieces.make_room(pieces.count + lanes * count);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         for (std::size_t number = 0; number < count; ++number) {
@@ -43,13 +40,12 @@ HWY_INLINE void append_rounds(std::size_t count, std::size_t first_segment, Piec
             const auto& round = rounds[number];
             pieces.segment[pieces.count] = static_cast<std::int64_t>(first_segment + lane);
             store(pieces.count, round, lane);
-            pieces.count += round.kept[0] >> lane & 1;
+            pieces.count += round.kept >> lane & 1;
         }
     }
 }
 
 }  // namespace reference
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -8,8 +8,8 @@
 
 #include "reference/interval_columns.h"
 #include "reference/lane_row.h"
-#include "reference/lane_set.h"
 #include "reference/walk_lanes.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/transfer_intervals.h"
+#include "simd/lane_set.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,8 +8,6 @@
 #include <cstddef>
 #include <glm/common.hpp>
 #include <limits>
-
-#include "reference/longest_vector.h"
 
 namespace lamina {
 namespace {

@@ -7,28 +7,25 @@
 #define LAMINA_REFERENCE_VISIBLE_RANGES_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "reference/interval_columns.h"
 #include "reference/interval_search-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 namespace reference {
 
 class VisibleRanges {
   public:
-    HWY_INLINE explicit VisibleRanges(const IntervalColumns& columns)
+    LAMINA_INLINE explicit VisibleRanges(const IntervalColumns& columns)
         : lo_(columns.visible_lo.data()),
           hi_(columns.visible_hi.data()),
           count_(columns.visible_count) {}
 
-    HWY_INLINE Mask meet(Doubles lo, Doubles hi) const {
+    LAMINA_INLINE DoubleMask meet(Double lo, Double hi) const {
         // Most functions have one.
-        if (count_ <= 1) return hn::And(hn::Le(number(lo_[0]), hi), hn::Le(lo, number(hi_[0])));
-        const Numbers below =
-            count_first(hi_, count_, [&](Doubles end) HWY_ATTR { return hn::Lt(end, lo); });
-        return hn::Le(hn::GatherIndex(Lanes(), lo_, below), hi);
+        if (count_ <= 1) return (lo_[0] <= hi) & (lo <= hi_[0]);
+        const Long below =
+            count_first(hi_, count_, [&](Double end) LAMINA_LAMBDA { return end < lo; });
+        return gather(lo_, below) <= hi;
     }
 
   private:
@@ -37,7 +34,6 @@ class VisibleRanges {
 };
 
 }  // namespace reference
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -12,7 +12,6 @@
 #include "lamina/image.h"
 #include "reference/cell_lanes.h"
 #include "reference/chord.h"
-#include "reference/lane_set.h"
 #include "reference/pixels_in_turn.h"
 #include "reference/seen_pixels.h"
 #include "reference/trace_tiles.h"
@@ -21,6 +20,7 @@
 #include "reference/volume_ray.h"
 #include "reference/volume_totals.h"
 #include "scene/camera.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
 

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "base/unreachable.h"
-#include "tiles/instruction_set.h"
+#include "simd/instruction_set.h"
 
 namespace lamina {
 

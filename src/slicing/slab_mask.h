@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <hwy/base.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,6 +9,7 @@
 #include <cstdint>
 
 #include "lamina/scene.h"
+#include "simd/attributes.h"
 #include "slicing/tile_slabs.h"
 
 namespace lamina {
@@ -28,7 +27,7 @@ inline BlockMask block_mask(int first, int end) {
 // Calls body(first, end) for each run of bits; the first function begins with the lowest run, the
 // second with the highest.
 template <class Body>
-HWY_INLINE void for_each_run(BlockMask mask, const Body& body) {
+LAMINA_INLINE void for_each_run(BlockMask mask, const Body& body) {
     while (mask != 0) {
         const int first = std::countr_zero(mask);
         const int end = first + std::countr_one(mask >> first);
@@ -38,7 +37,7 @@ HWY_INLINE void for_each_run(BlockMask mask, const Body& body) {
 }
 
 template <class Body>
-HWY_INLINE void for_each_run_backwards(BlockMask mask, const Body& body) {
+LAMINA_INLINE void for_each_run_backwards(BlockMask mask, const Body& body) {
     while (mask != 0) {
         const int end = tile_block_slabs - std::countl_zero(mask);
         const int first = end - std::countl_one(mask << (tile_block_slabs - end));

@@ -3,10 +3,9 @@
 
 #include "slicing/tile_march.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "slicing/tile_blend.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "slicing/tile_blend.cpp"
+#include "simd/foreach_target.h"
 
 #include "base/interrupt.h"
 #include "slicing/tile_exact-inl.h"
@@ -15,10 +14,7 @@
 #include "tiles/lane_pixels-inl.h"
 #include "tiles/target_pixels-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-
-using Pixel = Pixels<Floats>;
+LAMINA_SIMD_BEGIN
 
 // Composites slabs onto a vector of pixels, twin of shaders/slicing/slab.frag.
 class SlabBlender {
@@ -34,17 +30,15 @@ class SlabBlender {
           behind_(target.order == Order::front_to_back),
           as_codes_(plan_.emulation || plan_.dither),
           cells_(slabs, !plan_.single_color && !opacity_only) {
-        const FloatTag d;
         if (!plan_.single_color || opacity_only_) return;
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            const Floats color = hn::Set(d, slabs.single_color[channel]);
-            for (int i = 0; i < tile_block_slabs; ++i)
-                hn::Store(color, d, block_.colors[channel] + at(i));
+            const Float color(slabs.single_color[channel]);
+            for (int i = 0; i < tile_block_slabs; ++i) store(color, block_.colors[channel] + at(i));
         }
     }
 
     // `pixels`: of the group's packets; opacity_only: their alpha.
-    void composite(const TileGrid::Tile& area, std::size_t group, Pixel* pixels) {
+    void composite(const TileGrid::Tile& area, std::size_t group, Pixels* pixels) {
         for (const TileBrickView& brick : slabs_.bricks) {
             rays_.set_pixels(slabs_.rays, brick, area, group);
             rays_.set_slabs(slabs_, span_.first, span_.end());
@@ -70,8 +64,8 @@ class SlabBlender {
     std::int64_t segments() const { return segments_; }
 
   private:
-    HWY_INLINE void composite_packet(const TileBrickView& brick, const PacketRays& rays,
-                                     Pixel& pixel) {
+    LAMINA_INLINE void composite_packet(const TileBrickView& brick, const PacketRays& rays,
+                                        Pixels& pixel) {
         const bool colored = !plan_.single_color && !opacity_only_;
         if (plan_.integrates_cells()) {
             segments_ += set_exact_segments(brick, rays, colored, cells_, block_);
@@ -84,57 +78,56 @@ class SlabBlender {
     }
 
     // Works on a copy, which stays in registers.
-    void composite_block(Pixel& pixel) const {
-        Pixel there = pixel;
+    void composite_block(Pixels& pixel) const {
+        Pixels there = pixel;
         if (as_codes_) {
-            for_each_slab([&](int i) HWY_ATTR { blend_code(i, there); });
+            for_each_slab([&](int i) LAMINA_LAMBDA { blend_code(i, there); });
         } else if (opacity_only_) {
-            for_each_slab([&](int i) HWY_ATTR { blend_opacity_alone(i, there); });
+            for_each_slab([&](int i) LAMINA_LAMBDA { blend_opacity_alone(i, there); });
         } else if (target_.target != Target::float32) {
-            for_each_slab([&](int i) HWY_ATTR {
-                blend(FloatTag(), target_, fragment(i, opacity_of(i)), there);
-            });
+            for_each_slab([&](int i)
+                              LAMINA_LAMBDA { blend(target_, fragment(i, opacity_of(i)), there); });
         } else if (behind_) {
-            for_each_slab([&](int i) HWY_ATTR { blend_float<true>(i, there); });
+            for_each_slab([&](int i) LAMINA_LAMBDA { blend_float<true>(i, there); });
         } else {
-            for_each_slab([&](int i) HWY_ATTR { blend_float<false>(i, there); });
+            for_each_slab([&](int i) LAMINA_LAMBDA { blend_float<false>(i, there); });
         }
         pixel = there;
     }
 
     template <class Body>
-    HWY_INLINE void for_each_slab(const Body& body) const {
+    LAMINA_INLINE void for_each_slab(const Body& body) const {
         if (behind_) {
-            for_each_run(block_.wanted, [&](int first, int end) HWY_ATTR {
+            for_each_run(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
                 for (int i = first; i < end; ++i) body(i);
             });
         } else {
-            for_each_run_backwards(block_.wanted, [&](int first, int end) HWY_ATTR {
+            for_each_run_backwards(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
                 for (int i = end; i-- > first;) body(i);
             });
         }
     }
 
-    HWY_INLINE Floats opacity_of(int slab) const {
-        return opacity_from_depth(FloatTag(), hn::Load(FloatTag(), block_.depths + at(slab)));
+    LAMINA_INLINE Float opacity_of(int slab) const {
+        return opacity_from_depth(load<Float>(block_.depths + at(slab)));
     }
 
-    HWY_INLINE Floats color_of(int slab, std::size_t channel) const {
-        return hn::Load(FloatTag(), block_.colors[channel] + at(slab));
+    LAMINA_INLINE Float color_of(int slab, std::size_t channel) const {
+        return load<Float>(block_.colors[channel] + at(slab));
     }
 
-    HWY_INLINE Fragment<Floats> fragment(int slab, Floats opacity) const {
-        return {hn::Mul(color_of(slab, 0), opacity), hn::Mul(color_of(slab, 1), opacity),
-                hn::Mul(color_of(slab, 2), opacity), opacity};
+    LAMINA_INLINE Fragment fragment(int slab, Float opacity) const {
+        return {color_of(slab, 0) * opacity, color_of(slab, 1) * opacity,
+                color_of(slab, 2) * opacity, opacity};
     }
 
     // blend() of tiles/target_pixels-inl.h with what it would ask known.
     template <bool behind>
-    HWY_INLINE void blend_float(int slab, Pixel& there) const {
-        const Fragment<Floats> source = fragment(slab, opacity_of(slab));
-        const Floats kept = hn::Sub(hn::Set(FloatTag(), 1.0f), behind ? there.alpha : source.alpha);
-        const auto put = [&](Floats color, Floats& pixel) HWY_ATTR {
-            pixel = behind ? mul_add(color, kept, pixel) : mul_add(pixel, kept, color);
+    LAMINA_INLINE void blend_float(int slab, Pixels& there) const {
+        const Fragment source = fragment(slab, opacity_of(slab));
+        const Float kept = 1.0f - (behind ? there.alpha : source.alpha);
+        const auto put = [&](Float color, Float& pixel) LAMINA_LAMBDA {
+            pixel = behind ? color * kept + pixel : pixel * kept + color;
         };
         put(source.red, there.red);
         put(source.green, there.green);
@@ -142,68 +135,57 @@ class SlabBlender {
         put(source.alpha, there.alpha);
     }
 
-    HWY_INLINE void blend_opacity_alone(int slab, Pixel& there) const {
-        const FloatTag d;
-        const Floats depth = hn::Mul(hn::Load(d, block_.depths + at(slab)),
-                                     hn::Set(d, static_cast<float>(depth_scale_)));
-        blend_opacity(d, target_, opacity_from_depth(d, depth), there.alpha);
+    LAMINA_INLINE void blend_opacity_alone(int slab, Pixels& there) const {
+        const Float depth =
+            load<Float>(block_.depths + at(slab)) * static_cast<float>(depth_scale_);
+        blend_opacity(target_, opacity_from_depth(depth), there.alpha);
     }
 
-    void blend_code(int slab, Pixel& there) const {
-        const FloatTag d;
-        const Floats alpha = code_of_alpha(slab);
+    void blend_code(int slab, Pixels& there) const {
+        const Float alpha = code_of_alpha(slab);
         if (plan_.emulation && opacity_only_) {
-            composite_opacity(d, target_, alpha, there.alpha);
+            composite_opacity(target_, alpha, there.alpha);
         } else if (plan_.emulation) {
             composite_codes(
-                d, target_,
+                target_,
                 {code_of_color(slab, 0), code_of_color(slab, 1), code_of_color(slab, 2), alpha},
                 there);
         } else if (opacity_only_) {
-            blend_opacity(d, target_, hn::Div(alpha, hn::Set(d, target_.largest)), there.alpha);
+            blend_opacity(target_, alpha / target_.largest, there.alpha);
         } else {
-            const Floats largest = hn::Set(d, target_.largest);
-            const Floats rounded = hn::Div(alpha, largest);
-            const auto associated = [&](std::size_t channel) HWY_ATTR {
-                const Floats color = plan_.dither->color
-                                         ? hn::Div(code_of_color(slab, channel), largest)
-                                         : color_of(slab, channel);
-                return hn::Mul(color, rounded);
+            const float largest = target_.largest;
+            const Float rounded = alpha / largest;
+            const auto associated = [&](std::size_t channel) LAMINA_LAMBDA {
+                const Float color = plan_.dither->color ? code_of_color(slab, channel) / largest
+                                                        : color_of(slab, channel);
+                return color * rounded;
             };
-            blend(d, target_, {associated(0), associated(1), associated(2), rounded}, there);
+            blend(target_, {associated(0), associated(1), associated(2), rounded}, there);
         }
     }
 
-    Floats code_of_alpha(int slab) const {
-        const FloatTag d;
-        const DoubleTag dd;
-        const auto scale = hn::Set(dd, depth_scale_);
-        const auto opacity_of_depth = [&](HalfDoubles depth) HWY_ATTR {
-            return opacity_from_depth(dd, hn::Mul(depth, scale));
-        };
-        const TwoDoubles opacity =
-            each_half<FloatTag>(opacity_of_depth, load_doubles(block_.precise_depths + at(slab)));
+    Float code_of_alpha(int slab) const {
+        const Float64 opacity =
+            opacity_from_depth(load_float64(block_.precise_depths + at(slab)) * depth_scale_);
         const int number = block_.first_slab + slab;
         if (plan_.dither) {
             const int place = number % plan_.dither->period;
-            return dithered_code(d, target_, opacity, *plan_.dither,
+            return dithered_code(target_, opacity, *plan_.dither,
                                  slabs_.alpha_ranks[static_cast<std::size_t>(place)]);
         }
-        return alpha_code(d, target_, opacity, random_of(number));
+        return alpha_code(target_, opacity, random_of(number));
     }
 
-    Words random_of(int number) const {
-        const WordTag d;
-        if (target_.alpha_rounding != AlphaRounding::stochastic) return hn::Zero(d);
-        return random_of_pixels(d, column_, row_, static_cast<std::uint32_t>(number), target_.seed);
+    Word random_of(int number) const {
+        if (target_.alpha_rounding != AlphaRounding::stochastic) return Word(0);
+        return random_of_pixels(column_, row_, static_cast<std::uint32_t>(number), target_.seed);
     }
 
-    Floats code_of_color(int slab, std::size_t channel) const {
-        const FloatTag d;
-        const Floats color = color_of(slab, channel);
-        if (!plan_.dither || !plan_.dither->color) return color_code(d, target_, color);
+    Float code_of_color(int slab, std::size_t channel) const {
+        const Float color = color_of(slab, channel);
+        if (!plan_.dither || !plan_.dither->color) return color_code(target_, color);
         const int place = (block_.first_slab + slab) % plan_.dither->period;
-        return dithered_code(d, target_, to_doubles(d, clamp01(d, color)), *plan_.dither,
+        return dithered_code(target_, Float64(clamp01(color)), *plan_.dither,
                              slabs_.color_ranks[static_cast<std::size_t>(place)]);
     }
 
@@ -222,19 +204,18 @@ class SlabBlender {
 
 std::int64_t blend_pixels(const TileSlabs& slabs, const TargetBlend& target,
                           const TileGrid::Tile& area, TilePixels& pixels) {
-    const FloatTag d;
     SlabBlender blender(slabs, target, {0, slabs.plan->slabs}, 1, false);
     for (std::size_t group = 0; group < tile_groups; ++group) {
         check_interrupt();
-        Pixel there[group_packets];
-        for (Pixel& pixel : there) pixel = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        Pixels there[group_packets];
+        for (Pixels& pixel : there) pixel = {Float(0), Float(0), Float(0), Float(0)};
         blender.composite(area, group, there);
         for (std::size_t p = 0; p < group_packets; ++p) {
             const std::size_t place = packet_place(group, p);
-            hn::Store(there[p].red, d, pixels.red.data() + place);
-            hn::Store(there[p].green, d, pixels.green.data() + place);
-            hn::Store(there[p].blue, d, pixels.blue.data() + place);
-            hn::Store(there[p].alpha, d, pixels.alpha.data() + place);
+            store(there[p].red, pixels.red.data() + place);
+            store(there[p].green, pixels.green.data() + place);
+            store(there[p].blue, pixels.blue.data() + place);
+            store(there[p].alpha, pixels.alpha.data() + place);
         }
     }
     return blender.segments();
@@ -243,37 +224,35 @@ std::int64_t blend_pixels(const TileSlabs& slabs, const TargetBlend& target,
 std::int64_t blend_opacities(const TileSlabs& slabs, const TargetBlend& target,
                              const TileGrid::Tile& area, const SampleSpan& span, double depth_scale,
                              TilePixels::Plane& opacity) {
-    const FloatTag d;
     SlabBlender blender(slabs, target, span, depth_scale, true);
     for (std::size_t group = 0; group < tile_groups; ++group) {
-        Pixel there[group_packets];
+        Pixels there[group_packets];
         for (std::size_t p = 0; p < group_packets; ++p)
-            there[p].alpha = hn::Load(d, opacity.data() + packet_place(group, p));
+            there[p].alpha = load<Float>(opacity.data() + packet_place(group, p));
         blender.composite(area, group, there);
         for (std::size_t p = 0; p < group_packets; ++p)
-            hn::Store(there[p].alpha, d, opacity.data() + packet_place(group, p));
+            store(there[p].alpha, opacity.data() + packet_place(group, p));
     }
     return blender.segments();
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
-#if HWY_ONCE
+#if LAMINA_ONCE
 namespace lamina {
 
-HWY_EXPORT(blend_pixels);
-HWY_EXPORT(blend_opacities);
+LAMINA_EXPORT(blend_pixels);
+LAMINA_EXPORT(blend_opacities);
 
 std::int64_t blend_tile(const TileSlabs& slabs, const TargetBlend& blend,
                         const TileGrid::Tile& area, TilePixels& pixels) {
-    return HWY_DYNAMIC_DISPATCH(blend_pixels)(slabs, blend, area, pixels);
+    return LAMINA_DISPATCH(blend_pixels)(slabs, blend, area, pixels);
 }
 
 std::int64_t blend_tile_opacity(const TileSlabs& slabs, const TargetBlend& blend,
                                 const TileGrid::Tile& area, const SampleSpan& span,
                                 double depth_scale, TilePixels::Plane& opacity) {
-    return HWY_DYNAMIC_DISPATCH(blend_opacities)(slabs, blend, area, span, depth_scale, opacity);
+    return LAMINA_DISPATCH(blend_opacities)(slabs, blend, area, span, depth_scale, opacity);
 }
 
 }  // namespace lamina

@@ -7,12 +7,9 @@
 #define LAMINA_SLICING_TILE_BLOCK_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "slicing/tile_rays-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 // The values of a block, one vector for each slab. Slab i of a block is slab first_slab + i of the
 // view. The slabs that are `wanted` are computed run by run; a run is from .. end - 1.
@@ -39,7 +36,6 @@ constexpr std::size_t at(int slab) {
     return static_cast<std::size_t>(slab) * most_lanes;
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -8,8 +8,6 @@
 #define LAMINA_SLICING_TILE_CELL_OPTICS_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <cstring>
 
 #include "executors/tile_optics-inl.h"
@@ -17,31 +15,30 @@
 #include "slicing/tile_cubic-inl.h"
 #include "tiles/opacity-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 // The bends of an interval (TileTransfer::bend).
 template <bool curved>
 struct IntervalBend {};
 template <>
 struct IntervalBend<true> {
-    Number bend[2];
+    Float bend[2];
 };
 
 // One interval of the transfer function for each lane. Colour is linear in the share, which is 0 at
 // the left end and 1 at the right. Extinction is, too, or a curve.
 template <bool curved>
 struct IntervalLanes : IntervalBend<curved> {
-    Number left_end, right_end;  // the right end of the last interval lies beyond all scalars
-    Number inverse_width;
-    Number left[4], change[4];  // colour and extinction
+    Float left_end, right_end;  // the right end of the last interval lies beyond all scalars
+    Float inverse_width;
+    Float left[4], change[4];  // colour and extinction
 
     // A colour at a share, both times `opacity`.
-    HWY_INLINE Number color(std::size_t channel, Number opacity, Number share) const {
+    LAMINA_INLINE Float color(std::size_t channel, Float opacity, Float share) const {
         return left[channel] * opacity + change[channel] * share;
     }
     // The share as a cubic, for scalars of this interval.
-    HWY_INLINE CubicLanes share_along(const CubicLanes& scalar) const {
+    LAMINA_INLINE CubicLanes share_along(const CubicLanes& scalar) const {
         return {{(scalar.c[0] - left_end) * inverse_width, scalar.c[1] * inverse_width,
                  scalar.c[2] * inverse_width, scalar.c[3] * inverse_width}};
     }
@@ -49,13 +46,12 @@ struct IntervalLanes : IntervalBend<curved> {
 
 // Records are fetched one by one and transposed, which is faster than a gather for each number.
 template <bool curved>
-HWY_INLINE IntervalLanes<curved> fetched_intervals(const TileTransfer& transfer, Ints number) {
-    const FloatTag d;
+LAMINA_INLINE IntervalLanes<curved> fetched_intervals(const TileTransfer& transfer, Int number) {
     constexpr std::size_t parts = curved ? 4 : 3, size = 4;
     alignas(64) std::int32_t numbers[most_lanes];
     alignas(64) float records[parts][size * most_lanes];
-    hn::Store(number, IntTag(), numbers);
-    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    store(number, numbers);
+    for (std::size_t lane = 0; lane < Float::lanes; ++lane) {
         const float* const from =
             transfer.records.data() +
             TileTransfer::record_size * static_cast<std::size_t>(numbers[lane]);
@@ -63,23 +59,20 @@ HWY_INLINE IntervalLanes<curved> fetched_intervals(const TileTransfer& transfer,
             std::memcpy(records[part] + size * lane, from + size * part, size * sizeof(float));
     }
     IntervalLanes<curved> lanes;
-    Floats unused;
-    hn::LoadInterleaved4(d, records[0], lanes.left[3].v, lanes.change[3].v, lanes.left_end.v,
-                         lanes.right_end.v);
-    hn::LoadInterleaved4(d, records[1], lanes.inverse_width.v, lanes.left[0].v, lanes.left[1].v,
-                         lanes.left[2].v);
-    Number bend[2];
-    hn::LoadInterleaved4(d, records[2], lanes.change[0].v, lanes.change[1].v, lanes.change[2].v,
-                         bend[0].v);
+    Float unused;
+    load_interleaved(records[0], lanes.left[3], lanes.change[3], lanes.left_end, lanes.right_end);
+    load_interleaved(records[1], lanes.inverse_width, lanes.left[0], lanes.left[1], lanes.left[2]);
+    Float bend[2];
+    load_interleaved(records[2], lanes.change[0], lanes.change[1], lanes.change[2], bend[0]);
     if constexpr (curved) {
-        hn::LoadInterleaved4(d, records[3], bend[1].v, unused, unused, unused);
+        load_interleaved(records[3], bend[1], unused, unused, unused);
         for (std::size_t i = 0; i < 2; ++i) lanes.bend[i] = bend[i];
     }
     return lanes;
 }
 
 template <Lookup kind, bool curved>
-HWY_INLINE IntervalLanes<curved> interval_lanes(const TileTransfer& transfer, Ints number) {
+LAMINA_INLINE IntervalLanes<curved> interval_lanes(const TileTransfer& transfer, Int number) {
     if constexpr (kind == Lookup::gather) return fetched_intervals<curved>(transfer, number);
     IntervalLanes<curved> lanes;
     lanes.left_end = look_up<kind>(transfer.end, number);
@@ -103,30 +96,29 @@ struct RayPart;
 template <>
 struct RayPart<false> {
     CubicLanes share;
-    Number extinction, change;
+    Float extinction, change;
 
     RayPart() = default;
-    HWY_INLINE RayPart(const IntervalLanes<false>& interval, const CubicLanes& part_share,
-                       Number length)
+    LAMINA_INLINE RayPart(const IntervalLanes<false>& interval, const CubicLanes& part_share,
+                          Float length)
         : share(part_share),
           extinction(interval.left[3] * length),
           change(interval.change[3] * length) {}
 
     // Exact: the extinction is a cubic. In an interval whose extinction changes, the share is one;
     // beside samples far outside the range it may be less exact than that.
-    HWY_INLINE Number depth() const {
-        const Number mean = min(max(share.mean(), Number(0)), Number(1));
-        return max(extinction + change * mean, Number(0));
+    LAMINA_INLINE Float depth() const {
+        const Float mean = clamp01(share.mean());
+        return max(extinction + change * mean, 0);
     }
     // The optical depth up to t is t times this at t.
-    HWY_INLINE CubicLanes mean_depth() const {
-        return {{extinction + change * share.c[0], change * (Number(1 / 2.0f) * share.c[1]),
-                 change * (Number(1 / 3.0f) * share.c[2]),
-                 change * (Number(1 / 4.0f) * share.c[3])}};
+    LAMINA_INLINE CubicLanes mean_depth() const {
+        return {{extinction + change * share.c[0], change * ((1 / 2.0f) * share.c[1]),
+                 change * ((1 / 3.0f) * share.c[2]), change * ((1 / 4.0f) * share.c[3])}};
     }
     // Where the share is `there`.
-    HWY_INLINE Number extinction_at(Number, Number there) const {
-        return max(extinction + change * there, Number(0));
+    LAMINA_INLINE Float extinction_at(Float, Float there) const {
+        return max(extinction + change * there, 0);
     }
 };
 
@@ -138,31 +130,26 @@ struct RayPart<true> {
     CubicLanes extinction;
 
     RayPart() = default;
-    HWY_INLINE RayPart(const IntervalLanes<true>& interval, const CubicLanes& part_share,
-                       Number length)
+    LAMINA_INLINE RayPart(const IntervalLanes<true>& interval, const CubicLanes& part_share,
+                          Float length)
         : share(part_share) {
-        for (Number& c : extinction.c) c = Number(0);
+        for (Float& c : extinction.c) c = Float(0);
         for (std::size_t i = 0; i < 4; ++i) {
-            const Number u =
-                min(max(share.at(Number(GaussRule<4>::nodes[i])), Number(0)), Number(1));
-            const Number bend = interval.bend[0] + u * interval.bend[1];
-            const Number there =
-                interval.left[3] + u * (interval.change[3] + (Number(1) - u) * bend);
-            const Number amount = max(there, Number(0)) * length;
+            const Float u = clamp01(share.at(GaussRule<4>::nodes[i]));
+            const Float bend = interval.bend[0] + u * interval.bend[1];
+            const Float there = interval.left[3] + u * (interval.change[3] + (1 - u) * bend);
+            const Float amount = max(there, 0) * length;
             for (std::size_t power = 0; power < 4; ++power)
-                extinction.c[power] =
-                    extinction.c[power] + Number(through_nodes[power][i]) * amount;
+                extinction.c[power] += through_nodes[power][i] * amount;
         }
     }
 
-    HWY_INLINE Number depth() const { return max(extinction.mean(), Number(0)); }
-    HWY_INLINE CubicLanes mean_depth() const {
-        return {{extinction.c[0], Number(1 / 2.0f) * extinction.c[1],
-                 Number(1 / 3.0f) * extinction.c[2], Number(1 / 4.0f) * extinction.c[3]}};
+    LAMINA_INLINE Float depth() const { return max(extinction.mean(), 0); }
+    LAMINA_INLINE CubicLanes mean_depth() const {
+        return {{extinction.c[0], (1 / 2.0f) * extinction.c[1], (1 / 3.0f) * extinction.c[2],
+                 (1 / 4.0f) * extinction.c[3]}};
     }
-    HWY_INLINE Number extinction_at(Number t, Number) const {
-        return max(extinction.at(t), Number(0));
-    }
+    LAMINA_INLINE Float extinction_at(Float t, Float) const { return max(extinction.at(t), 0); }
 
   private:
     // The coefficients of the cubic that is 1 at one node of GaussRule<4> and 0 at the others.
@@ -178,26 +165,24 @@ struct RayPart<true> {
 // the share's slope is left for Gauss' rule (docs/numerics.md, section 9), and a constant share is
 // exact.
 template <std::size_t points, bool curved>
-HWY_INLINE Number seen_share(const RayPart<curved>& part, Number depth, Number opacity) {
+LAMINA_INLINE Float seen_share(const RayPart<curved>& part, Float depth, Float opacity) {
     using Rule = GaussRule<points>;
     const CubicLanes& share = part.share;
     const CubicLanes mean_depth = part.mean_depth();
-    const Number all = shallow_opacity(depth);
-    Number sum = opacity * share.c[0];
+    const Float all = shallow_opacity(depth);
+    Float sum = opacity * share.c[0];
     for (std::size_t i = 0; i < points; ++i) {
         constexpr auto& nodes = Rule::nodes;
-        const Number t(nodes[i]);
-        const Number before = t * mean_depth.at(t);
+        const Float t(nodes[i]);
+        const Float before = t * mean_depth.at(t);
         const float weight = Rule::weights[i];
-        const Number slope = Number(weight) * share.c[1] +
-                             Number(2 * weight * nodes[i]) * share.c[2] +
-                             Number(3 * weight * nodes[i] * nodes[i]) * share.c[3];
-        sum = sum + slope * (all - shallow_opacity(before));
+        const Float slope = weight * share.c[1] + (2 * weight * nodes[i]) * share.c[2] +
+                            (3 * weight * nodes[i] * nodes[i]) * share.c[3];
+        sum += slope * (all - shallow_opacity(before));
     }
-    return min(max(sum, Number(0)), opacity);
+    return clamp(sum, 0, opacity);
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

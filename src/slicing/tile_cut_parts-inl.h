@@ -9,15 +9,12 @@
 #define LAMINA_SLICING_TILE_CUT_PARTS_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "slicing/tile_cell_optics-inl.h"
 #include "slicing/tile_cell_parts-inl.h"
 #include "slicing/tile_gradient_queue-inl.h"
 #include "slicing/tile_light-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 class CutParts {
   public:
@@ -26,11 +23,10 @@ class CutParts {
 
     // Adds the `members` of a vector of parts, of which `first` is the number of the first.
     // `longest`: share of the part that a piece may have; of lit parts alone.
-    HWY_INLINE void add(FloatMask members, const CubicLanes& cubic, Number length, Number longest,
-                        std::size_t first, const GradientLanes* gradient) {
-        if (gradient != nullptr) gradients_.store(*gradient, members, count_);
-        append(members, cubic, length, longest,
-               hn::Iota(IntTag(), static_cast<std::int32_t>(first)));
+    LAMINA_INLINE void add(FloatMask members, const CubicLanes& cubic, Float length, Float longest,
+                           std::size_t first, const GradientLanes* gradient) {
+        if (gradient != nullptr) gradients_.keep(*gradient, members, count_);
+        append(members, cubic, length, longest, iota<Int>(static_cast<std::int32_t>(first)));
     }
 
     // Sets colour, opacity and depth of the parts that were added. `light`: null where nothing is
@@ -53,13 +49,13 @@ class CutParts {
     // The parts of a vector of lanes, and what is composited of them.
     struct Lanes {
         CubicLanes cubic;
-        Number length, longest;
-        Number turns[2];  // where the cubic turns
+        Float length, longest;
+        Float turns[2];  // where the cubic turns
         // How far it is done: place, scalar, interval.
-        Number at, scalar;
-        Ints interval;
-        Number color[3], opacity, depth, transmittance;
-        Ints part;
+        Float at, scalar;
+        Int interval;
+        Float color[3], opacity, depth, transmittance;
+        Int part;
         GradientLanes gradient;  // of lit parts alone
     };
 
@@ -67,127 +63,118 @@ class CutParts {
     template <bool curved>
     struct Stretch {
         IntervalLanes<curved> interval;
-        Number end, at_end, knot;
+        Float end, at_end, knot;
         FloatMask rising, crosses;
         RootLanes root;
     };
 
-    HWY_INLINE void append(FloatMask members, const CubicLanes& cubic, Number length,
-                           Number longest, Ints part) {
-        for (std::size_t i = 0; i < 4; ++i)
-            store_members(cubic.c[i].v, members, cubic_[i] + count_);
-        store_members(length.v, members, length_ + count_);
-        store_members(longest.v, members, longest_ + count_);
+    LAMINA_INLINE void append(FloatMask members, const CubicLanes& cubic, Float length,
+                              Float longest, Int part) {
+        for (std::size_t i = 0; i < 4; ++i) store_members(cubic.c[i], members, cubic_[i] + count_);
+        store_members(length, members, length_ + count_);
+        store_members(longest, members, longest_ + count_);
         store_members(part, members, part_ + count_);
-        count_ += hn::CountTrue(FloatTag(), members);
+        count_ += count_of(members);
     }
 
     // Composites the next piece of each part.
     template <Lookup kind, bool curved, bool first>
     void run_round(const TileTransfer& transfer, bool colored, CellParts& parts) {
-        const FloatTag d;
-        const std::size_t count = count_, step = hn::Lanes(d);
+        const std::size_t count = count_, step = Float::lanes;
         count_ = 0;
         for (std::size_t from = 0; from < count; from += vectors * step) {
             const std::size_t used = from + step < count ? vectors : 1;
             Lanes lanes[vectors];
             for (std::size_t i = 0; i < used; ++i) {
                 const std::size_t place = from + i * step;
-                const FloatMask members = hn::FirstN(d, count - place);
-                lanes[i] = first ? begin<kind>(transfer, place, members) : load(place, members);
+                const FloatMask members = first_lanes<FloatMask>(count - place);
+                lanes[i] = first ? begin<kind>(transfer, place, members) : resume(place, members);
             }
             FloatMask done[vectors];
             add_pieces<kind, curved>(transfer, colored, used, lanes, done);
             for (std::size_t i = 0; i < used; ++i) {
-                const FloatMask members = hn::FirstN(d, count - from - i * step);
-                finish(lanes[i], hn::And(members, done[i]), parts);
-                keep(lanes[i], hn::AndNot(done[i], members));
+                const FloatMask members = first_lanes<FloatMask>(count - from - i * step);
+                finish(lanes[i], members & done[i], parts);
+                keep(lanes[i], without(members, done[i]));
             }
         }
     }
 
     // The lanes outside `members` have any values; what is computed of them is not used.
-    HWY_INLINE Lanes load_parts(std::size_t from, FloatMask members) const {
+    LAMINA_INLINE Lanes load_parts(std::size_t from, FloatMask members) const {
         Lanes lanes;
         for (std::size_t i = 0; i < 4; ++i)
-            lanes.cubic.c[i] = zero_unless(members, hn::LoadU(FloatTag(), cubic_[i] + from));
-        lanes.length = zero_unless(members, hn::LoadU(FloatTag(), length_ + from));
-        lanes.longest = hn::LoadU(FloatTag(), longest_ + from);
-        if (light_ != nullptr) lanes.gradient = gradients_.load(from);
+            lanes.cubic.c[i] = zero_unless(members, load_unaligned<Float>(cubic_[i] + from));
+        lanes.length = zero_unless(members, load_unaligned<Float>(length_ + from));
+        lanes.longest = load_unaligned<Float>(longest_ + from);
+        if (light_ != nullptr) lanes.gradient = gradients_.kept(from);
         // Those outside `members` are places, too.
-        lanes.part = hn::IfThenElseZero(hn::RebindMask(IntTag(), members),
-                                        hn::LoadU(IntTag(), part_ + from));
+        lanes.part = zero_unless(members, load_unaligned<Int>(part_ + from));
         return lanes;
     }
 
     // Where the parts turn, and in which interval they begin. At an end of an interval they begin
     // on the side to which they go.
     template <Lookup kind>
-    HWY_INLINE Lanes begin(const TileTransfer& transfer, std::size_t from,
-                           FloatMask members) const {
-        const FloatTag d;
-        const IntTag di;
+    LAMINA_INLINE Lanes begin(const TileTransfer& transfer, std::size_t from,
+                              FloatMask members) const {
         Lanes lanes = load_parts(from, members);
         const Turns turns = turns_of(lanes.cubic);
         lanes.turns[0] = turns.first;
         lanes.turns[1] = turns.second;
-        const Number start = lanes.cubic.c[0];
+        const Float start = lanes.cubic.c[0];
         const FloatMask falling = lanes.cubic.at(turns.first) < start;
-        const Ints interval = find_interval<kind>(transfer, clamp01(d, start.v));
-        const FloatMask at_end = look_up<kind>(transfer.end, interval) == start.v;
-        const auto below =
-            hn::And(hn::RebindMask(di, hn::And(falling, at_end)), hn::Gt(interval, hn::Zero(di)));
-        lanes.interval = hn::Sub(interval, hn::IfThenElseZero(below, hn::Set(di, 1)));
-        lanes.at = lanes.opacity = lanes.depth = Number(0);
+        const Int interval = find_interval<kind>(transfer, clamp01(start));
+        const FloatMask at_end = look_up<kind>(transfer.end, interval) == start;
+        const FloatMask below = falling & at_end & (interval > 0);
+        lanes.interval = interval - zero_unless(below, Int(1));
+        lanes.at = lanes.opacity = lanes.depth = Float(0);
         lanes.scalar = start;
-        for (Number& channel : lanes.color) channel = Number(0);
-        lanes.transmittance = Number(1);
+        for (Float& channel : lanes.color) channel = Float(0);
+        lanes.transmittance = Float(1);
         return lanes;
     }
 
-    HWY_INLINE Lanes load(std::size_t from, FloatMask members) const {
-        const FloatTag d;
-        const IntTag di;
+    LAMINA_INLINE Lanes resume(std::size_t from, FloatMask members) const {
         Lanes lanes = load_parts(from, members);
-        lanes.turns[0] = hn::LoadU(d, turns_[0] + from);
-        lanes.turns[1] = hn::LoadU(d, turns_[1] + from);
-        lanes.at = hn::LoadU(d, at_ + from);
-        lanes.scalar = hn::LoadU(d, scalar_ + from);
-        lanes.interval =
-            hn::IfThenElseZero(hn::RebindMask(di, members), hn::LoadU(di, interval_ + from));
-        for (std::size_t i = 0; i < 3; ++i) lanes.color[i] = hn::LoadU(d, color_[i] + from);
-        lanes.opacity = hn::LoadU(d, opacity_ + from);
-        lanes.depth = hn::LoadU(d, depth_ + from);
-        lanes.transmittance = hn::LoadU(d, transmittance_ + from);
+        lanes.turns[0] = load_unaligned<Float>(turns_[0] + from);
+        lanes.turns[1] = load_unaligned<Float>(turns_[1] + from);
+        lanes.at = load_unaligned<Float>(at_ + from);
+        lanes.scalar = load_unaligned<Float>(scalar_ + from);
+        lanes.interval = zero_unless(members, load_unaligned<Int>(interval_ + from));
+        for (std::size_t i = 0; i < 3; ++i)
+            lanes.color[i] = load_unaligned<Float>(color_[i] + from);
+        lanes.opacity = load_unaligned<Float>(opacity_ + from);
+        lanes.depth = load_unaligned<Float>(depth_ + from);
+        lanes.transmittance = load_unaligned<Float>(transmittance_ + from);
         return lanes;
     }
 
     // Keeps the `members` for the next round, behind those that were kept before: never beyond what
     // was loaded.
-    HWY_INLINE void keep(const Lanes& lanes, FloatMask members) {
-        if (hn::AllFalse(FloatTag(), members)) return;
+    LAMINA_INLINE void keep(const Lanes& lanes, FloatMask members) {
+        if (none_of(members)) return;
         const std::size_t to = count_;
-        if (light_ != nullptr) gradients_.store(lanes.gradient, members, count_);
+        if (light_ != nullptr) gradients_.keep(lanes.gradient, members, count_);
         append(members, lanes.cubic, lanes.length, lanes.longest, lanes.part);
-        store_members(lanes.turns[0].v, members, turns_[0] + to);
-        store_members(lanes.turns[1].v, members, turns_[1] + to);
-        store_members(lanes.at.v, members, at_ + to);
-        store_members(lanes.scalar.v, members, scalar_ + to);
+        store_members(lanes.turns[0], members, turns_[0] + to);
+        store_members(lanes.turns[1], members, turns_[1] + to);
+        store_members(lanes.at, members, at_ + to);
+        store_members(lanes.scalar, members, scalar_ + to);
         store_members(lanes.interval, members, interval_ + to);
-        for (std::size_t i = 0; i < 3; ++i)
-            store_members(lanes.color[i].v, members, color_[i] + to);
-        store_members(lanes.opacity.v, members, opacity_ + to);
-        store_members(lanes.depth.v, members, depth_ + to);
-        store_members(lanes.transmittance.v, members, transmittance_ + to);
+        for (std::size_t i = 0; i < 3; ++i) store_members(lanes.color[i], members, color_[i] + to);
+        store_members(lanes.opacity, members, opacity_ + to);
+        store_members(lanes.depth, members, depth_ + to);
+        store_members(lanes.transmittance, members, transmittance_ + to);
     }
 
     static void finish(const Lanes& lanes, FloatMask members, CellParts& parts) {
         alignas(64) float color[3][most_lanes], opacity[most_lanes], depth[most_lanes];
         alignas(64) std::int32_t part[most_lanes];
-        for (std::size_t i = 0; i < 3; ++i) store_number(lanes.color[i], color[i]);
-        store_number(lanes.opacity, opacity);
-        store_number(lanes.depth, depth);
-        hn::Store(lanes.part, IntTag(), part);
+        for (std::size_t i = 0; i < 3; ++i) store(lanes.color[i], color[i]);
+        store(lanes.opacity, opacity);
+        store(lanes.depth, depth);
+        store(lanes.part, part);
         for_each_lane(bits_of(members), [&](std::size_t lane) {
             const auto to = static_cast<std::size_t>(part[lane]);
             for (std::size_t i = 0; i < 3; ++i) parts.color[i][to] = color[i][lane];
@@ -198,14 +185,14 @@ class CutParts {
 
     // Finds the lanes that have reached the end.
     template <Lookup kind, bool curved>
-    HWY_INLINE void add_pieces(const TileTransfer& transfer, bool colored, std::size_t used,
-                               Lanes (&lanes)[vectors], FloatMask (&done)[vectors]) {
+    LAMINA_INLINE void add_pieces(const TileTransfer& transfer, bool colored, std::size_t used,
+                                  Lanes (&lanes)[vectors], FloatMask (&done)[vectors]) {
         constexpr int usual_steps = 2, most_steps = 30;
         static_assert(vectors == 2);
         Stretch<curved> stretches[vectors];
         for (std::size_t i = 0; i < used; ++i)
             stretches[i] = next_stretch<kind, curved>(transfer, lanes[i]);
-        const auto found = [&] HWY_ATTR {
+        const auto found = [&] LAMINA_LAMBDA {
             return stretches[0].root.found() && (used == 1 || stretches[1].root.found());
         };
         for (int i = 0; i < usual_steps || (i < most_steps && !found()); ++i) {
@@ -215,34 +202,31 @@ class CutParts {
     }
 
     template <Lookup kind, bool curved>
-    static HWY_INLINE Stretch<curved> next_stretch(const TileTransfer& transfer,
-                                                   const Lanes& lanes) {
-        const FloatTag d;
-        const IntTag di;
+    static LAMINA_INLINE Stretch<curved> next_stretch(const TileTransfer& transfer,
+                                                      const Lanes& lanes) {
         Stretch<curved> next;
         next.end = select(lanes.at < lanes.turns[0], lanes.turns[0],
-                          select(lanes.at < lanes.turns[1], lanes.turns[1], Number(1)));
+                          select(lanes.at < lanes.turns[1], lanes.turns[1], 1));
         next.at_end = lanes.cubic.at(next.end);
         next.rising = next.at_end >= lanes.scalar;
         next.interval = interval_lanes<kind, curved>(transfer, lanes.interval);
-        const FloatMask lowest = hn::RebindMask(d, hn::Eq(lanes.interval, hn::Zero(di)));
-        const Number left_end = select(lowest, Number(-3e38f), next.interval.left_end);
+        const FloatMask lowest = lanes.interval == 0;
+        const Float left_end = select(lowest, Float(-3e38f), next.interval.left_end);
         next.knot = select(next.rising, next.interval.right_end, left_end);
-        next.crosses = hn::Or(hn::And(next.rising, next.knot < next.at_end),
-                              hn::AndNot(next.rising, next.knot > next.at_end));
+        next.crosses = (next.rising & (next.knot < next.at_end)) |
+                       without(next.knot > next.at_end, next.rising);
         next.root.begin(next.knot, lanes.at, next.end, lanes.scalar, next.at_end, next.crosses);
         return next;
     }
 
     // Returns the lanes that have reached the end.
     template <bool curved>
-    HWY_INLINE FloatMask add_piece(bool colored, const Stretch<curved>& stretch,
-                                   Lanes& lanes) const {
-        const IntTag di;
-        const Number to = select(stretch.crosses, stretch.root.t, stretch.end);
-        const Number at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
-        Number extent = max(to - lanes.at, Number(0)), at_back = at_to;
-        FloatMask whole = hn::FirstN(FloatTag(), hn::Lanes(FloatTag()));
+    LAMINA_INLINE FloatMask add_piece(bool colored, const Stretch<curved>& stretch,
+                                      Lanes& lanes) const {
+        const Float to = select(stretch.crosses, stretch.root.t, stretch.end);
+        const Float at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
+        Float extent = max(to - lanes.at, 0), at_back = at_to;
+        FloatMask whole(true);
         if (light_ != nullptr) {
             whole = extent <= lanes.longest;
             extent = min(extent, lanes.longest);
@@ -251,38 +235,35 @@ class CutParts {
         RayPart<curved> part(stretch.interval,
                              share_of_piece(stretch.interval, lanes, extent, at_back),
                              lanes.length * extent);
-        whole = hn::And(whole, shorten(stretch.interval, lanes.length, part, extent));
+        whole = whole & shorten(stretch.interval, lanes.length, part, extent);
         if (light_ == nullptr || !colored) {
             composite(stretch.interval, part, colored, lanes);
         } else {
             const FloatMask again = composite_lit(stretch.interval, part, extent, lanes);
-            lanes.longest =
-                select(again, extent * Number(0.5f), max(lanes.longest, extent * Number(2)));
+            lanes.longest = select(again, 0.5f * extent, max(lanes.longest, 2 * extent));
             // These stay where they are.
-            whole = hn::AndNot(again, whole);
-            extent = zero_unless(hn::Not(again), extent);
+            whole = without(whole, again);
+            extent = zero_unless(!again, extent);
         }
 
-        const Number shortened = max(lanes.at + extent, lanes.at + Number(6e-8f));
+        const Float shortened = max(lanes.at + extent, lanes.at + 6e-8f);
         lanes.at = select(whole, to, shortened);
         lanes.scalar = select(whole, at_to, lanes.cubic.at(lanes.at));
-        const Ints number = lanes.interval, one = hn::Set(di, 1);
-        const Ints next = hn::IfThenElse(hn::RebindMask(di, stretch.rising), hn::Add(number, one),
-                                         hn::Sub(number, one));
-        const auto leaves = hn::RebindMask(di, hn::And(whole, stretch.crosses));
-        lanes.interval = hn::IfThenElse(leaves, next, number);
-        return hn::Or(lanes.at >= Number(1), lanes.transmittance < Number(least_transmittance));
+        const Int number = lanes.interval;
+        const Int next = select(stretch.rising, number + 1, number - 1);
+        lanes.interval = select(whole & stretch.crosses, next, number);
+        return (lanes.at >= 1) | (lanes.transmittance < least_transmittance);
     }
 
     // The share along the piece of `extent` from where the parts are, up to where the scalar is
     // `at_to`.
     template <bool curved>
-    static HWY_INLINE CubicLanes share_of_piece(const IntervalLanes<curved>& interval,
-                                                const Lanes& lanes, Number extent, Number at_to) {
+    static LAMINA_INLINE CubicLanes share_of_piece(const IntervalLanes<curved>& interval,
+                                                   const Lanes& lanes, Float extent, Float at_to) {
         const CubicLanes& cubic = lanes.cubic;
         CubicLanes piece;
         piece.c[0] = lanes.scalar;
-        piece.c[2] = (cubic.c[2] + Number(3) * cubic.c[3] * lanes.at) * extent * extent;
+        piece.c[2] = (cubic.c[2] + 3 * cubic.c[3] * lanes.at) * extent * extent;
         piece.c[3] = cubic.c[3] * extent * extent * extent;
         piece.c[1] = (at_to - lanes.scalar) - (piece.c[2] + piece.c[3]);
         return interval.share_along(piece);
@@ -290,77 +271,72 @@ class CutParts {
 
     // Shortens pieces that are too deep, from their backs. Returns the lanes that stay whole.
     template <bool curved>
-    static HWY_INLINE FloatMask shorten(const IntervalLanes<curved>& interval, Number length,
-                                        RayPart<curved>& part, Number& extent) {
-        const FloatTag d;
-        FloatMask whole = hn::FirstN(d, hn::Lanes(d));
+    static LAMINA_INLINE FloatMask shorten(const IntervalLanes<curved>& interval, Float length,
+                                           RayPart<curved>& part, Float& extent) {
+        FloatMask whole(true);
         while (true) {
-            const Number depth = part.depth();
-            const FloatMask deep =
-                hn::And(depth > Number(largest_part_depth), extent > Number(shortest));
-            if (hn::AllFalse(d, deep)) return whole;
-            whole = hn::AndNot(deep, whole);
+            const Float depth = part.depth();
+            const FloatMask deep = (depth > largest_part_depth) & (extent > shortest);
+            if (none_of(deep)) return whole;
+            whole = without(whole, deep);
             // Optical depth grows at least with the first power of the extent from where it is 0;
             // a root does not overshoot where it grows with the second.
-            const Number least = Number(shortest) / max(extent, Number(shortest));
-            Number share =
-                min(hn::Sqrt((Number(0.7f) / max(depth, Number(1e-3f))).v), Number(0.5f));
-            share = select(deep, max(share, min(least, Number(0.5f))), Number(1));
-            extent = extent * share;
-            Number power = share;
+            const Float least = shortest / max(extent, shortest);
+            Float share = min(sqrt(0.7f / max(depth, 1e-3f)), 0.5f);
+            share = select(deep, max(share, min(least, 0.5f)), 1);
+            extent *= share;
+            Float power = share;
             for (std::size_t i = 1; i < 4; ++i) {
-                part.share.c[i] = part.share.c[i] * power;
-                power = power * share;
+                part.share.c[i] *= power;
+                power *= share;
             }
             part = RayPart<curved>(interval, part.share, length * extent);
         }
     }
 
     template <bool curved>
-    static HWY_INLINE void composite(const IntervalLanes<curved>& interval,
-                                     const RayPart<curved>& part, bool colored, Lanes& lanes) {
-        const Number depth = part.depth();
-        const Number opacity = opacity_from_depth(FloatTag(), depth.v);
-        const Number transmittance = lanes.transmittance, weight = transmittance * opacity;
-        lanes.depth = lanes.depth + depth;
+    static LAMINA_INLINE void composite(const IntervalLanes<curved>& interval,
+                                        const RayPart<curved>& part, bool colored, Lanes& lanes) {
+        const Float depth = part.depth();
+        const Float opacity = opacity_from_depth(depth);
+        const Float transmittance = lanes.transmittance, weight = transmittance * opacity;
+        lanes.depth += depth;
         lanes.transmittance = transmittance - weight;
         // Summed up by itself, so that parts of small opacity keep their digits.
-        lanes.opacity = lanes.opacity + weight;
+        lanes.opacity += weight;
         if (!colored) return;
         // A piece of the least extent may be too deep even so: its colour hardly changes.
-        const FloatMask deep = depth > Number(largest_part_depth);
-        const Number share = transmittance * select(deep, opacity * part.share.c[0],
-                                                    seen_share<4>(part, depth, opacity));
+        const FloatMask deep = depth > largest_part_depth;
+        const Float share = transmittance * select(deep, opacity * part.share.c[0],
+                                                   seen_share<4>(part, depth, opacity));
         for (std::size_t channel = 0; channel < 3; ++channel)
-            lanes.color[channel] = lanes.color[channel] + interval.color(channel, weight, share);
+            lanes.color[channel] += interval.color(channel, weight, share);
     }
 
     // The same of pieces that are lit. Returns those that are not composited, because their light
     // bends too much for one rule.
     template <bool curved>
-    HWY_INLINE FloatMask composite_lit(const IntervalLanes<curved>& interval,
-                                       const RayPart<curved>& part, Number extent,
-                                       Lanes& lanes) const {
-        const Number depth = part.depth();
-        const Number opacity = opacity_from_depth(FloatTag(), depth.v);
-        const FloatMask deep = depth > Number(largest_part_depth);
-        const Number share =
+    LAMINA_INLINE FloatMask composite_lit(const IntervalLanes<curved>& interval,
+                                          const RayPart<curved>& part, Float extent,
+                                          Lanes& lanes) const {
+        const Float depth = part.depth();
+        const Float opacity = opacity_from_depth(depth);
+        const FloatMask deep = depth > largest_part_depth;
+        const Float share =
             select(deep, opacity * part.share.c[0], seen_share<4>(part, depth, opacity));
-        Number color[3];
+        Float color[3];
         for (std::size_t channel = 0; channel < 3; ++channel)
             color[channel] = interval.color(channel, opacity, share);
-        const Number bend =
+        const Float bend =
             add_light(*light_, lanes.gradient,
                       LitPart<curved>{part, interval, lanes.at, extent, depth, opacity}, color);
-        const Number transmittance = lanes.transmittance, weight = transmittance * opacity;
-        const FloatMask again =
-            hn::And(extent > Number(shortest_lit_piece), bends(*light_, bend, weight));
-        lanes.depth = lanes.depth + zero_unless(hn::Not(again), depth);
-        lanes.transmittance = transmittance - zero_unless(hn::Not(again), weight);
-        lanes.opacity = lanes.opacity + zero_unless(hn::Not(again), weight);
+        const Float transmittance = lanes.transmittance, weight = transmittance * opacity;
+        const FloatMask again = (extent > shortest_lit_piece) & bends(*light_, bend, weight);
+        lanes.depth += zero_unless(!again, depth);
+        lanes.transmittance = transmittance - zero_unless(!again, weight);
+        lanes.opacity += zero_unless(!again, weight);
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            lanes.color[channel] =
-                lanes.color[channel] + zero_unless(hn::Not(again), transmittance * color[channel]);
+            lanes.color[channel] += zero_unless(!again, transmittance * color[channel]);
         }
         return again;
     }
@@ -385,7 +361,6 @@ class CutParts {
     alignas(64) float transmittance_[capacity];
 };
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

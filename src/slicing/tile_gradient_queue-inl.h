@@ -7,35 +7,32 @@
 #define LAMINA_SLICING_TILE_GRADIENT_QUEUE_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
+#include "simd/members-inl.h"
 #include "slicing/tile_cell_parts-inl.h"
 #include "slicing/tile_light-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 class GradientQueue {
   public:
     // Stores the members of a vector one after the other from `to` on. It writes whole vectors.
-    HWY_INLINE void store(const GradientLanes& lanes, FloatMask members, std::size_t to) {
+    LAMINA_INLINE void keep(const GradientLanes& lanes, FloatMask members, std::size_t to) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (std::size_t power = 0; power < 4; ++power)
-                store_members(lanes.along[axis].c[power].v, members, along_[axis][power] + to);
-            store_members(lanes.to_eye[axis].v, members, to_eye_[axis] + to);
+                store_members(lanes.along[axis].c[power], members, along_[axis][power] + to);
+            store_members(lanes.to_eye[axis], members, to_eye_[axis] + to);
         }
-        store_members(lanes.smallest_square.v, members, smallest_square_ + to);
+        store_members(lanes.smallest_square, members, smallest_square_ + to);
     }
 
-    HWY_INLINE GradientLanes load(std::size_t from) const {
-        const FloatTag d;
+    LAMINA_INLINE GradientLanes kept(std::size_t from) const {
         GradientLanes lanes;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (std::size_t power = 0; power < 4; ++power)
-                lanes.along[axis].c[power] = hn::LoadU(d, along_[axis][power] + from);
-            lanes.to_eye[axis] = hn::LoadU(d, to_eye_[axis] + from);
+                lanes.along[axis].c[power] = load_unaligned<Float>(along_[axis][power] + from);
+            lanes.to_eye[axis] = load_unaligned<Float>(to_eye_[axis] + from);
         }
-        lanes.smallest_square = hn::LoadU(d, smallest_square_ + from);
+        lanes.smallest_square = load_unaligned<Float>(smallest_square_ + from);
         return lanes;
     }
 
@@ -45,7 +42,6 @@ class GradientQueue {
     alignas(64) float smallest_square_[CellParts::capacity];
 };
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -7,25 +7,22 @@
 #define LAMINA_SLICING_TILE_GRADIENTS_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <cstring>
 
 #include "executors/tile_light.h"
-#include "executors/tile_number-inl.h"
+#include "simd/members-inl.h"
 #include "slicing/tile_cell_parts-inl.h"
 #include "slicing/tile_scalars-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 // Two words of 32 bits for each lane, of the lower and the upper of two neighbours along x, and for
 // each of a cell's four rows along x, in the order of Corners.
 using GradientRows = std::uint32_t[4][4 * most_lanes];
 
 // The same as fetch_gradients() for cells in pages, whose samples always have a neighbour along x.
-inline HWY_NOINLINE void fetch_paged_gradients(const TilePages& pages, const std::int32_t* index,
-                                               std::uint32_t lanes, GradientRows& rows) {
+inline LAMINA_NOINLINE void fetch_paged_gradients(const TilePages& pages, const std::int32_t* index,
+                                                  std::uint32_t lanes, GradientRows& rows) {
     constexpr std::size_t steps[4] = {0, BrickCache::row, BrickCache::slice,
                                       BrickCache::slice + BrickCache::row};
     constexpr std::size_t size = sizeof(StoredGradient);
@@ -44,8 +41,8 @@ inline HWY_NOINLINE void fetch_paged_gradients(const TilePages& pages, const std
 
 // Loads pairs one by one, which is faster than gathers, for a set of lanes; the others keep what
 // they have. Where samples have no neighbour along x, they are their own.
-inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int32_t* index,
-                                         std::uint32_t lanes, GradientRows& rows) {
+inline LAMINA_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int32_t* index,
+                                            std::uint32_t lanes, GradientRows& rows) {
     const std::size_t steps[4] = {0, static_cast<std::size_t>(brick.row),
                                   static_cast<std::size_t>(brick.slice),
                                   static_cast<std::size_t>(brick.row + brick.slice)};
@@ -68,16 +65,16 @@ inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int3
 
 // Stored gradients (slicing/gradient_map.h): x below y, and z below the exponent.
 struct GradientWords {
-    Ints xy, z;
-    HWY_INLINE Ints exponent() const { return hn::ShiftRight<16>(z); }
+    Int xy, z;
+    LAMINA_INLINE Int exponent() const { return shift_right<16>(z); }
 };
 
 // 2^16 times a component.
-HWY_INLINE Floats low_component(Ints words) {
-    return hn::ConvertTo(FloatTag(), hn::ShiftLeft<16>(words));
+LAMINA_INLINE Float low_component(Int words) {
+    return to_float(shift_left<16>(words));
 }
-HWY_INLINE Floats high_component(Ints words) {
-    return hn::ConvertTo(FloatTag(), hn::AndNot(hn::Set(IntTag(), 0xffff), words));
+LAMINA_INLINE Float high_component(Int words) {
+    return to_float(without(words, Int(0xffff)));
 }
 
 // The gradients of a cell's corners, `lower` and `upper` on x, have the unit 2^(largest -
@@ -86,47 +83,44 @@ HWY_INLINE Floats high_component(Ints words) {
 constexpr int unit_octaves = 32;
 
 // 2^(exponent - 127), 0 where that is too small.
-HWY_INLINE Floats power_of_biased(Ints exponent) {
-    const IntTag di;
-    return hn::BitCast(FloatTag(), hn::ShiftLeft<23>(hn::Max(exponent, hn::Zero(di))));
+LAMINA_INLINE Float power_of_biased(Int exponent) {
+    return bits_as<Float>(shift_left<23>(max(exponent, 0)));
 }
 
 // The square of the smallest gradient, in the unit of gradients with this largest exponent. It is
 // kept to what float32 can square: outside, all or nothing is lit.
-HWY_INLINE Number smallest_square_of(const TileLight& light, Ints largest) {
+LAMINA_INLINE Float smallest_square_of(const TileLight& light, Int largest) {
     constexpr int most = 62;
-    const IntTag di;
-    const Ints exponent = hn::Sub(hn::Set(di, light.smallest.exponent + unit_octaves), largest);
-    const Ints kept = hn::Min(hn::Max(exponent, hn::Set(di, -most)), hn::Set(di, most));
-    const Number power(power_of_biased(hn::Add(kept, hn::Set(di, 127))));
-    const Number smallest = Number(light.smallest.mantissa) * power;
+    const Int exponent = light.smallest.exponent + unit_octaves - largest;
+    const Int kept = clamp(exponent, -most, most);
+    const Float smallest = light.smallest.mantissa * power_of_biased(kept + 127);
     return smallest * smallest;
 }
 
 // `unit`: the exponent of 2^-16 in that of the cell.
-HWY_INLINE void set_corner(const GradientWords& words, Ints unit, std::size_t row, bool upper,
-                           Corners (&corners)[3]) {
-    const Floats scale = power_of_biased(hn::Add(words.exponent(), unit));
-    const Floats components[3] = {low_component(words.xy), high_component(words.xy),
-                                  low_component(words.z)};
+LAMINA_INLINE void set_corner(const GradientWords& words, Int unit, std::size_t row, bool upper,
+                              Corners (&corners)[3]) {
+    const Float scale = power_of_biased(words.exponent() + unit);
+    const Float components[3] = {low_component(words.xy), high_component(words.xy),
+                                 low_component(words.z)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        Floats& to = upper ? corners[axis].upper[row] : corners[axis].lower[row];
-        to = hn::Mul(components[axis], scale);
+        Float& to = upper ? corners[axis].upper[row] : corners[axis].lower[row];
+        to = components[axis] * scale;
     }
 }
 
 // Returns the largest exponent.
-HWY_INLINE Ints unpack_gradients(const GradientRows& rows, Corners (&corners)[3]) {
+LAMINA_INLINE Int unpack_gradients(const GradientRows& rows, Corners (&corners)[3]) {
     GradientWords lower[4], upper[4];
-    Ints largest = hn::Set(IntTag(), StoredGradient::no_exponent);
+    Int largest(StoredGradient::no_exponent);
     for (std::size_t row = 0; row < 4; ++row) {
-        Words words[4];
-        hn::LoadInterleaved4(WordTag(), rows[row], words[0], words[1], words[2], words[3]);
-        lower[row] = {hn::BitCast(IntTag(), words[0]), hn::BitCast(IntTag(), words[1])};
-        upper[row] = {hn::BitCast(IntTag(), words[2]), hn::BitCast(IntTag(), words[3])};
-        largest = hn::Max(largest, hn::Max(lower[row].exponent(), upper[row].exponent()));
+        Word words[4];
+        load_interleaved(rows[row], words[0], words[1], words[2], words[3]);
+        lower[row] = {bits_as<Int>(words[0]), bits_as<Int>(words[1])};
+        upper[row] = {bits_as<Int>(words[2]), bits_as<Int>(words[3])};
+        largest = max(largest, max(lower[row].exponent(), upper[row].exponent()));
     }
-    const Ints unit = hn::Sub(hn::Set(IntTag(), 127 - 16 + unit_octaves), largest);
+    const Int unit = 127 - 16 + unit_octaves - largest;
     for (std::size_t row = 0; row < 4; ++row) {
         set_corner(lower[row], unit, row, false, corners);
         set_corner(upper[row], unit, row, true, corners);
@@ -135,9 +129,9 @@ HWY_INLINE Ints unpack_gradients(const GradientRows& rows, Corners (&corners)[3]
 }
 
 // Replaces the lower corners on an axis by the upper ones.
-HWY_INLINE void take_upper(std::size_t axis, FloatMask lanes, Corners& corners) {
-    const auto take = [&](Floats& lower, Floats upper)
-                          HWY_ATTR { lower = hn::IfThenElse(lanes, upper, lower); };
+LAMINA_INLINE void take_upper(std::size_t axis, FloatMask lanes, Corners& corners) {
+    const auto take = [&](Float& lower, Float upper)
+                          LAMINA_LAMBDA { lower = select(lanes, upper, lower); };
     const std::size_t rows[2][4] = {{0, 2, 1, 3},
                                     {0, 1, 2, 3}};  // of y and z: two lower, two upper
     for (std::size_t i = 0; axis == 0 && i < 4; ++i) take(corners.lower[i], corners.upper[i]);
@@ -150,35 +144,35 @@ HWY_INLINE void take_upper(std::size_t axis, FloatMask lanes, Corners& corners) 
 
 // Where rays run beyond the last samples (`cell` axes), or along a face, only the upper corners
 // count: the lower ones may be too long to be subtracted again.
-HWY_INLINE void leave_out_lower(const Number (&place)[3], const Number (&change)[3],
-                                Corners (&corners)[3]) {
+LAMINA_INLINE void leave_out_lower(const Float (&place)[3], const Float (&change)[3],
+                                   Corners (&corners)[3]) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const FloatMask beyond = hn::And(place[axis] >= Number(1), change[axis] == Number(0));
-        if (hn::AllFalse(FloatTag(), beyond)) continue;
+        const FloatMask beyond = (place[axis] >= 1) & (change[axis] == 0);
+        if (none_of(beyond)) continue;
         for (Corners& component : corners) take_upper(axis, beyond, component);
     }
 }
 
 // Sets the gradients at the corners of cells in a set of lanes; `index`: of each cell's lowest
 // corner. Returns the largest exponent. `rows`: memory, in which the other lanes stay as they are.
-HWY_INLINE Ints gradient_corners(const TileBrick& brick, const std::int32_t* index,
-                                 std::uint32_t lanes, GradientRows& rows, Corners (&corners)[3]) {
+LAMINA_INLINE Int gradient_corners(const TileBrick& brick, const std::int32_t* index,
+                                   std::uint32_t lanes, GradientRows& rows, Corners (&corners)[3]) {
     fetch_gradients(brick, index, lanes, rows);
     return unpack_gradients(rows, corners);
 }
 
 // The gradient at a point of a cell, and the square of the smallest gradient in the same unit.
 struct PointGradient {
-    Number along[3];
-    Number smallest_square;
+    Float along[3];
+    Float smallest_square;
 };
-HWY_INLINE PointGradient gradient_at(const TileBrick& brick, const TileLight& light,
-                                     const std::int32_t* index, const Floats (&share)[3]) {
+LAMINA_INLINE PointGradient gradient_at(const TileBrick& brick, const TileLight& light,
+                                        const std::int32_t* index, const Float (&share)[3]) {
     Corners corners[3];
     alignas(64) GradientRows rows;
-    const std::uint32_t all_lanes = (1u << hn::Lanes(FloatTag())) - 1;
-    const Ints largest = gradient_corners(brick, index, all_lanes, rows, corners);
-    leave_out_lower({share[0], share[1], share[2]}, {Number(0), Number(0), Number(0)}, corners);
+    const std::uint32_t all_lanes = (1u << Float::lanes) - 1;
+    const Int largest = gradient_corners(brick, index, all_lanes, rows, corners);
+    leave_out_lower({share[0], share[1], share[2]}, {Float(0), Float(0), Float(0)}, corners);
     PointGradient gradient;
     for (std::size_t axis = 0; axis < 3; ++axis)
         gradient.along[axis] = interpolate(corners[axis], share[0], share[1], share[2]);
@@ -186,7 +180,6 @@ HWY_INLINE PointGradient gradient_at(const TileBrick& brick, const TileLight& li
     return gradient;
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

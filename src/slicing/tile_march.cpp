@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slicing/tile_march.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "slicing/tile_march.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "slicing/tile_march.cpp"
+#include "simd/foreach_target.h"
 
 #include "base/interrupt.h"
 #include "slicing/tile_exact-inl.h"
@@ -12,13 +11,12 @@
 #include "tiles/node_code-inl.h"
 #include "tiles/target_pixels-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 // Associated colour and optical depth of a part of a ray.
 struct NodeSum {
-    Floats color[3];
-    Floats depth;
+    Float color[3];
+    Float depth;
 };
 
 // Takes a group of packets through the tree.
@@ -48,11 +46,10 @@ class Marcher {
             march(node, sums);
             return;
         }
-        const FloatTag d;
-        Floats transmittance[group_packets];
+        Float transmittance[group_packets];
         for (std::size_t p = 0; p < group_packets; ++p) {
-            sums[p] = {{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
-            transmittance[p] = hn::Set(d, 1.0f);
+            sums[p] = {{Float(0), Float(0), Float(0)}, Float(0)};
+            transmittance[p] = Float(1.0f);
         }
         const int children = shape_.factor(level);
         for (int i = 0; i < children; ++i) {
@@ -65,46 +62,42 @@ class Marcher {
         }
     }
 
-    HWY_INLINE void put_behind(const NodeSum& image, NodeSum& sum, Floats& transmittance) const {
-        const FloatTag d;
-        sum.depth = hn::Add(sum.depth, image.depth);
-        const Floats weight = hn::Mul(transmittance, opacity_from_depth(d, image.depth));
-        transmittance = hn::Sub(transmittance, weight);
+    LAMINA_INLINE void put_behind(const NodeSum& image, NodeSum& sum, Float& transmittance) const {
+        sum.depth += image.depth;
+        const Float weight = transmittance * opacity_from_depth(image.depth);
+        transmittance -= weight;
         if (single_color_) return;
         for (int channel = 0; channel < 3; ++channel)
-            sum.color[channel] = mul_add(weight, image.color[channel], sum.color[channel]);
+            sum.color[channel] += weight * image.color[channel];
     }
 
     // A child as its node reads it: colour not associated, rounded to the image's format.
     NodeSum stored(const NodeSum& child, int samples) const {
-        const FloatTag d;
         const TreePlan& tree = *plan_.tree;
         const float share = static_cast<float>(samples) / static_cast<float>(shape_.samples());
         const bool fine_alpha = plan_.target == Target::fixed8 && tree.alpha_bits == 16;
-        const Floats code = encode_depth(d, tree.code, child.depth, share);
+        const Float code = encode_depth(tree.code, child.depth, share);
         NodeSum image;
         image.depth = decode_depth(
-            d, tree.code, in_format(fine_alpha ? Target::fixed16 : plan_.target, code), share);
+            tree.code, in_format(fine_alpha ? Target::fixed16 : plan_.target, code), share);
         if (single_color_) return image;
-        const Floats opacity = opacity_from_depth(d, child.depth);
-        const Floats largest = hn::Set(d, static_cast<float>(tree.largest_color));
-        const auto some = hn::Gt(opacity, hn::Zero(d));
+        const Float opacity = opacity_from_depth(child.depth);
+        const auto largest = static_cast<float>(tree.largest_color);
+        const FloatMask some = opacity > 0;
         for (int channel = 0; channel < 3; ++channel) {
-            const Floats color =
-                hn::IfThenElseZero(some, hn::Div(child.color[channel], hn::Mul(opacity, largest)));
-            image.color[channel] = hn::Mul(largest, in_format(plan_.target, color));
+            const Float color = zero_unless(some, child.color[channel] / (opacity * largest));
+            image.color[channel] = largest * in_format(plan_.target, color);
         }
         return image;
     }
 
-    static Floats in_format(Target target, Floats value) {
-        const FloatTag d;
+    static Float in_format(Target target, Float value) {
         float largest = 255;
         switch (target) {
             case Target::float32:
                 return value;
             case Target::float16:
-                return truncate_to_half(d, value);
+                return truncate_to_half(value);
             case Target::fixed16:
                 largest = 65535;
                 break;
@@ -112,20 +105,20 @@ class Marcher {
             case Target::emulated:
                 break;
         }
-        return hn::Div(native_code(d, largest, value), hn::Set(d, largest));
+        return native_code(largest, value) / largest;
     }
 
     // Sums of thousands of small terms: of a block in float, in which nothing is lost as opacity
     // begins at 0, of blocks in double.
     struct LeafSum {
-        TwoDoubles color[3], depth, transmittance;
+        Float64 color[3], depth, transmittance;
     };
 
     // All slabs of a leaf. Blocks begin at its first slab, whatever part of them is wanted:
     // pictures must not depend on that.
     void march(const SampleSpan& leaf, NodeSum* sums) {
         LeafSum leaves[group_packets];
-        for (LeafSum& sum : leaves) sum = {{all(0), all(0), all(0)}, all(0), all(1)};
+        for (LeafSum& sum : leaves) sum = {{0, 0, 0}, 0, 1};
         bool opaque[group_packets] = {};
         for (const TileBrickView& brick : slabs_.bricks) {
             if (slabs_.bricks.size() > 1) rays_.set_pixels(slabs_.rays, brick, area_, group_);
@@ -151,9 +144,9 @@ class Marcher {
             }
         }
         for (std::size_t p = 0; p < group_packets; ++p) {
-            sums[p].depth = to_floats(FloatTag(), leaves[p].depth);
+            sums[p].depth = to_float(leaves[p].depth);
             for (int channel = 0; channel < 3; ++channel)
-                sums[p].color[channel] = to_floats(FloatTag(), leaves[p].color[channel]);
+                sums[p].color[channel] = to_float(leaves[p].color[channel]);
         }
     }
 
@@ -195,76 +188,52 @@ class Marcher {
 
     // Takes back what a block added to rays that were opaque before: each pixel ends by itself,
     // whatever its neighbours do. Whether all are opaque now.
-    HWY_INLINE bool end_rays(const LeafSum& before, LeafSum& leaf) const {
-        const DoubleTag d;
-        const auto opaque = hn::Set(d, plan_.opaque_depth);
-        const auto keep = [&](HalfDoubles depth, HalfDoubles then, HalfDoubles now)
-                              HWY_ATTR { return hn::IfThenElse(hn::Ge(depth, opaque), then, now); };
-        const auto keep_both = [&](const TwoDoubles& then, TwoDoubles& now) HWY_ATTR {
-            now = each_half<FloatTag>(keep, before.depth, then, now);
-        };
+    LAMINA_INLINE bool end_rays(const LeafSum& before, LeafSum& leaf) const {
+        const double opaque = plan_.opaque_depth;
+        const Float64Mask ended = before.depth >= opaque;
         for (int channel = 0; channel < 3; ++channel)
-            keep_both(before.color[channel], leaf.color[channel]);
-        keep_both(before.transmittance, leaf.transmittance);
-        keep_both(before.depth, leaf.depth);
-        return hn::AllTrue(d, hn::Ge(leaf.depth.low, opaque)) &&
-               hn::AllTrue(d, hn::Ge(leaf.depth.high, opaque));
+            leaf.color[channel] = select(ended, before.color[channel], leaf.color[channel]);
+        leaf.transmittance = select(ended, before.transmittance, leaf.transmittance);
+        leaf.depth = select(ended, before.depth, leaf.depth);
+        return all_of(leaf.depth >= opaque);
     }
 
-    static HWY_INLINE void add(TwoDoubles& sum, Floats v) {
-        const auto plus = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Add(a, b); };
-        sum = each_half<FloatTag>(plus, sum, to_doubles(FloatTag(), v));
-    }
-
-    Floats block_depth() const {
-        const FloatTag d;
-        Floats depth = hn::Zero(d);
-        for_each_run(block_.wanted, [&](int first, int end) HWY_ATTR {
-            for (int i = first; i < end; ++i)
-                depth = hn::Add(depth, hn::Load(d, block_.depths + at(i)));
+    Float block_depth() const {
+        Float depth(0);
+        for_each_run(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
+            for (int i = first; i < end; ++i) depth += load<Float>(block_.depths + at(i));
         });
         return depth;
     }
 
-    HWY_INLINE void add_block(LeafSum& leaf) const {
+    LAMINA_INLINE void add_block(LeafSum& leaf) const {
         if (single_color_) {
-            add(leaf.depth, block_depth());
+            leaf.depth += Float64(block_depth());
             return;
         }
-        const FloatTag d;
         PartSum sum = no_part();
-        const auto put_slab_behind = [&](int i) HWY_ATTR {
-            const Floats depth = hn::Load(d, block_.depths + at(i));
-            const Floats kept = hn::Sub(hn::Set(d, 1.0f), sum.opacity);
-            const Floats weight = hn::Mul(kept, opacity_from_depth(d, depth));
+        const auto put_slab_behind = [&](int i) LAMINA_LAMBDA {
+            const Float depth = load<Float>(block_.depths + at(i));
+            const Float kept = 1.0f - sum.opacity;
+            const Float weight = kept * opacity_from_depth(depth);
             for (int channel = 0; channel < 3; ++channel)
-                sum.color[channel] = mul_add(weight, hn::Load(d, block_.colors[channel] + at(i)),
-                                             sum.color[channel]);
-            sum.opacity = hn::Add(sum.opacity, weight);
-            sum.depth = hn::Add(sum.depth, depth);
+                sum.color[channel] += weight * load<Float>(block_.colors[channel] + at(i));
+            sum.opacity += weight;
+            sum.depth += depth;
         };
-        for_each_run(block_.wanted, [&](int first, int end) HWY_ATTR {
+        for_each_run(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
             for (int i = first; i < end; ++i) put_slab_behind(i);
         });
         put_behind(sum, leaf);
     }
 
-    HWY_INLINE void put_behind(const PartSum& part, LeafSum& leaf) const {
-        const FloatTag d;
-        add(leaf.depth, part.depth);
+    LAMINA_INLINE void put_behind(const PartSum& part, LeafSum& leaf) const {
+        leaf.depth += Float64(part.depth);
         if (single_color_) return;
-        const auto behind = [](HalfDoubles transmittance, HalfDoubles color, HalfDoubles there)
-                                HWY_ATTR { return mul_add(transmittance, color, there); };
         for (int channel = 0; channel < 3; ++channel) {
-            leaf.color[channel] =
-                each_half<FloatTag>(behind, leaf.transmittance, to_doubles(d, part.color[channel]),
-                                    leaf.color[channel]);
+            leaf.color[channel] += leaf.transmittance * Float64(part.color[channel]);
         }
-        const auto attenuate = [](HalfDoubles transmittance, HalfDoubles hidden) HWY_ATTR {
-            return hn::Mul(transmittance, hn::Sub(hn::Set(DoubleTag(), 1.0), hidden));
-        };
-        leaf.transmittance =
-            each_half<FloatTag>(attenuate, leaf.transmittance, to_doubles(d, part.opacity));
+        leaf.transmittance *= 1 - Float64(part.opacity);
     }
 
     const TileSlabs& slabs_;
@@ -281,15 +250,14 @@ class Marcher {
 
 std::int64_t march_pixels(const TileSlabs& slabs, const TreeShape& shape,
                           const TileGrid::Tile& area, TilePixels& pixels) {
-    const FloatTag d;
     const Target target = slabs.plan->target;
     const bool codes = is_fixed_point(target);
     const float largest = codes ? static_cast<float>(largest_code(slabs.plan->code_bits())) : 1.0f;
     const bool single = slabs.plan->single_color;
-    const auto store = [&](Floats value, TilePixels::Plane& plane, std::size_t place) HWY_ATTR {
-        if (codes) value = native_code(d, largest, value);
-        if (target == Target::float16) value = truncate_to_half(d, value);
-        hn::Store(value, d, plane.data() + place);
+    const auto put = [&](Float value, TilePixels::Plane& plane, std::size_t place) LAMINA_LAMBDA {
+        if (codes) value = native_code(largest, value);
+        if (target == Target::float16) value = truncate_to_half(value);
+        store(value, plane.data() + place);
     };
     Marcher marcher(slabs, shape, area);
     for (std::size_t group = 0; group < tile_groups; ++group) {
@@ -298,31 +266,29 @@ std::int64_t march_pixels(const TileSlabs& slabs, const TreeShape& shape,
         marcher.evaluate(group, sums);
         for (std::size_t p = 0; p < group_packets; ++p) {
             const std::size_t place = packet_place(group, p);
-            const Floats opacity = opacity_from_depth(d, sums[p].depth);
-            const auto color = [&](std::size_t channel) HWY_ATTR {
-                return single ? hn::Mul(hn::Set(d, slabs.single_color[channel]), opacity)
-                              : sums[p].color[channel];
+            const Float opacity = opacity_from_depth(sums[p].depth);
+            const auto color = [&](std::size_t channel) LAMINA_LAMBDA {
+                return single ? slabs.single_color[channel] * opacity : sums[p].color[channel];
             };
-            store(color(0), pixels.red, place);
-            store(color(1), pixels.green, place);
-            store(color(2), pixels.blue, place);
-            store(opacity, pixels.alpha, place);
+            put(color(0), pixels.red, place);
+            put(color(1), pixels.green, place);
+            put(color(2), pixels.blue, place);
+            put(opacity, pixels.alpha, place);
         }
     }
     return marcher.segments();
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
-#if HWY_ONCE
+#if LAMINA_ONCE
 namespace lamina {
 
-HWY_EXPORT(march_pixels);
+LAMINA_EXPORT(march_pixels);
 
 std::int64_t march_tile(const TileSlabs& slabs, const TreeShape& shape, const TileGrid::Tile& area,
                         TilePixels& pixels) {
-    return HWY_DYNAMIC_DISPATCH(march_pixels)(slabs, shape, area, pixels);
+    return LAMINA_DISPATCH(march_pixels)(slabs, shape, area, pixels);
 }
 
 }  // namespace lamina

@@ -8,46 +8,39 @@
 #define LAMINA_SLICING_TILE_PAGES_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <cstring>
 
-#include "executors/tile_number-inl.h"
+#include "simd/vectors-inl.h"
 #include "slicing/tile_volume.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
-HWY_INLINE Ints page_index(const TilePages& pages, Ints x, Ints y, Ints z) {
+LAMINA_INLINE Int page_index(const TilePages& pages, Int x, Int y, Int z) {
     constexpr int bits = TilePages::place_bits;
-    const IntTag di;
-    const Ints within = hn::Set(di, TilePages::places);
-    x = hn::Add(x, hn::Set(di, pages.offset[0]));
-    y = hn::Add(y, hn::Set(di, pages.offset[1]));
-    z = hn::Add(z, hn::Set(di, pages.offset[2]));
-    const Ints page = hn::Add(hn::ShiftRight<bits>(x),
-                              hn::Add(hn::Mul(hn::ShiftRight<bits>(y), hn::Set(di, pages.row)),
-                                      hn::Mul(hn::ShiftRight<bits>(z), hn::Set(di, pages.slice))));
-    const Ints place =
-        hn::Or(hn::And(x, within), hn::Or(hn::ShiftLeft<bits>(hn::And(y, within)),
-                                          hn::ShiftLeft<2 * bits>(hn::And(z, within))));
-    return hn::Or(hn::ShiftLeft<TilePages::page_bits>(page), place);
+    const Int within(TilePages::places);
+    x += pages.offset[0];
+    y += pages.offset[1];
+    z += pages.offset[2];
+    const Int page = shift_right<bits>(x) +
+                     (shift_right<bits>(y) * pages.row + shift_right<bits>(z) * pages.slice);
+    const Int place =
+        (x & within) | (shift_left<bits>(y & within) | shift_left<2 * bits>(z & within));
+    return shift_left<TilePages::page_bits>(page) | place;
 }
 
 // The index by which a cell's samples are fetched; x, y, z: its lowest corner.
-HWY_INLINE Ints cell_index(const TileBrick& brick, Ints x, Ints y, Ints z) {
-    const IntTag di;
-    if (HWY_UNLIKELY(brick.pages != nullptr)) return page_index(*brick.pages, x, y, z);
-    return hn::Add(
-        x, hn::Add(hn::Mul(y, hn::Set(di, brick.row)), hn::Mul(z, hn::Set(di, brick.slice))));
+LAMINA_INLINE Int cell_index(const TileBrick& brick, Int x, Int y, Int z) {
+    if (brick.pages != nullptr) [[unlikely]]
+        return page_index(*brick.pages, x, y, z);
+    return x + (y * brick.row + z * brick.slice);
 }
 
 // Calls visit(i, begin of the page, place in it) for cells 0 .. count - 1, with their pages in
 // memory.
 template <class Visit>
-HWY_INLINE void visit_pages(const TilePages& pages, const std::int32_t* indices, std::size_t count,
-                            const Visit& visit) {
+LAMINA_INLINE void visit_pages(const TilePages& pages, const std::int32_t* indices,
+                               std::size_t count, const Visit& visit) {
     for (std::size_t from = 0; from < count; from += BrickCache::most_held) {
         const std::size_t end = std::min(count, from + BrickCache::most_held);
         const auto held = pages.cache->hold(
@@ -59,8 +52,8 @@ HWY_INLINE void visit_pages(const TilePages& pages, const std::int32_t* indices,
 
 // The four pairs of neighbours along x of each cell, as fetch_pairs() has them.
 template <class Pair, std::size_t size>
-inline HWY_NOINLINE void fetch_paged_pairs(const TilePages& pages, const std::int32_t* indices,
-                                           std::size_t count, Pair (&pairs)[4][size]) {
+inline LAMINA_NOINLINE void fetch_paged_pairs(const TilePages& pages, const std::int32_t* indices,
+                                              std::size_t count, Pair (&pairs)[4][size]) {
     constexpr std::size_t bytes = sizeof(Pair) / 2;
     constexpr std::size_t row = bytes * static_cast<std::size_t>(BrickCache::row);
     constexpr std::size_t slice = bytes * static_cast<std::size_t>(BrickCache::slice);
@@ -74,7 +67,6 @@ inline HWY_NOINLINE void fetch_paged_pairs(const TilePages& pages, const std::in
                 });
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -8,38 +8,35 @@
 #define LAMINA_SLICING_TILE_SCALARS_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <cstring>
 
 #include "base/unreachable.h"
 #include "slicing/tile_pages-inl.h"
 #include "slicing/tile_rays-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
+LAMINA_SIMD_BEGIN
 
 struct Points {
-    Floats x, y, z;
+    Float x, y, z;
 };
 
 // The samples at the corners of a cell, at its lower and its upper x. In each array the order is
 // (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1).
 struct Corners {
-    Floats lower[4], upper[4];
+    Float lower[4], upper[4];
 };
 
-HWY_INLINE Floats low_byte(Words v) {
-    return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), hn::And(v, hn::Set(WordTag(), 0xffu))));
+LAMINA_INLINE Float low_byte(Word v) {
+    return to_float(bits_as<Int>(v & 0xffu));
 }
 
-HWY_INLINE Floats to_float(Words v) {
-    return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), v));
+LAMINA_INLINE Float to_float(Word v) {
+    return to_float(bits_as<Int>(v));
 }
 
 // Fetches the corners by gathers, also where samples have no neighbour along x.
 template <TileLayout layout>
-HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
+LAMINA_INLINE Corners fetch_corners(const TileBrick& brick, Int index) {
     Corners corners;
     if constexpr (layout == TileLayout::floats) {
         const auto* const floats = static_cast<const float*>(brick.samples);
@@ -47,8 +44,8 @@ HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
         for (int i = 0; i < 4; ++i) {
             const float* const from =
                 floats + ((i & 1) != 0 ? brick.row : 0) + ((i & 2) != 0 ? brick.slice : 0);
-            corners.lower[i] = hn::GatherIndex(FloatTag(), from, index);
-            corners.upper[i] = hn::GatherIndex(FloatTag(), from + next, index);
+            corners.lower[i] = gather(from, index);
+            corners.upper[i] = gather(from + next, index);
         }
     } else {
         // A word of 32 bits holds a sample and the next one along x. Words that would reach beyond
@@ -58,18 +55,18 @@ HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
         for (int i = 0; i < 4; ++i) {
             const std::int32_t step =
                 ((i & 1) != 0 ? brick.row : 0) + ((i & 2) != 0 ? brick.slice : 0);
-            Ints offset = hn::Add(index, hn::Set(IntTag(), step));
-            if constexpr (size == 2) offset = hn::ShiftLeft<1>(offset);
-            const Ints inside = hn::Min(offset, hn::Set(IntTag(), brick.last_word));
-            const Words shift = hn::BitCast(WordTag(), hn::ShiftLeft<3>(hn::Sub(offset, inside)));
-            Words pair = hn::Shr(hn::GatherOffset(WordTag(), words, inside), shift);
+            Int offset = index + step;
+            if constexpr (size == 2) offset = shift_left<1>(offset);
+            const Int inside = min(offset, brick.last_word);
+            const Word shift = bits_as<Word>(shift_left<3>(offset - inside));
+            Word pair = shift_right(gather_at_bytes(words, inside), shift);
             if constexpr (size == 1) {
                 corners.lower[i] = low_byte(pair);
-                corners.upper[i] = low_byte(hn::ShiftRight<8>(pair));
+                corners.upper[i] = low_byte(shift_right<8>(pair));
             } else {
-                pair = hn::Xor(pair, hn::Set(WordTag(), brick.flip));
-                corners.lower[i] = to_float(hn::And(pair, hn::Set(WordTag(), 0xffffu)));
-                corners.upper[i] = to_float(hn::ShiftRight<16>(pair));
+                pair = pair ^ brick.flip;
+                corners.lower[i] = to_float(pair & 0xffffu);
+                corners.upper[i] = to_float(shift_right<16>(pair));
             }
         }
     }
@@ -93,8 +90,8 @@ struct PairOf<TileLayout::words> {
 // Fetches the four pairs of each cell, in the order of Corners, one by one: that is faster than
 // gathers of the instruction set. Volumes have a second sample along x.
 template <class Pair, std::size_t size>
-inline HWY_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32_t* indices,
-                                     std::size_t count, Pair (&pairs)[4][size]) {
+inline LAMINA_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32_t* indices,
+                                        std::size_t count, Pair (&pairs)[4][size]) {
     if (brick.pages != nullptr) return fetch_paged_pairs(*brick.pages, indices, count, pairs);
     const auto* const samples = static_cast<const std::byte*>(brick.samples);
     constexpr std::size_t bytes = sizeof(Pair) / 2;
@@ -111,36 +108,34 @@ inline HWY_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32_t*
 
 // The corners of a vector of cells from the i-th on.
 template <TileLayout layout, class Pair, std::size_t size>
-HWY_INLINE Corners unpack_pairs(const TileBrick& brick, const Pair (&pairs)[4][size],
-                                std::size_t i) {
+LAMINA_INLINE Corners unpack_pairs(const TileBrick& brick, const Pair (&pairs)[4][size],
+                                   std::size_t i) {
     Corners corners;
     for (int corner = 0; corner < 4; ++corner) {
         const Pair* const from = pairs[corner] + i;
         if constexpr (layout == TileLayout::floats) {
-            hn::LoadInterleaved2(FloatTag(), reinterpret_cast<const float*>(from),
-                                 corners.lower[corner], corners.upper[corner]);
+            load_interleaved(reinterpret_cast<const float*>(from), corners.lower[corner],
+                             corners.upper[corner]);
         } else if constexpr (layout == TileLayout::words) {
-            const Words pair = hn::Xor(hn::LoadU(WordTag(), from), hn::Set(WordTag(), brick.flip));
-            corners.lower[corner] = to_float(hn::And(pair, hn::Set(WordTag(), 0xffffu)));
-            corners.upper[corner] = to_float(hn::ShiftRight<16>(pair));
+            const Word pair = load_unaligned<Word>(from) ^ brick.flip;
+            corners.lower[corner] = to_float(pair & 0xffffu);
+            corners.upper[corner] = to_float(shift_right<16>(pair));
         } else {
-            const hn::Rebind<std::uint16_t, WordTag> halves;
-            const Words pair = hn::PromoteTo(WordTag(), hn::LoadU(halves, from));
+            const Word pair = load_halves(from);
             corners.lower[corner] = low_byte(pair);
-            corners.upper[corner] = to_float(hn::ShiftRight<8>(pair));
+            corners.upper[corner] = to_float(shift_right<8>(pair));
         }
     }
     return corners;
 }
 
 // An interpolation weight rounded to 8 bits, as in texture units (docs/numerics.md, section 2).
-HWY_INLINE Floats hardware_weight(Floats share) {
-    const FloatTag d;
-    return hn::Mul(hn::Round(hn::Mul(share, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256));
+LAMINA_INLINE Float hardware_weight(Float share) {
+    return round(share * 256.0f) * (1.0f / 256);
 }
 
-HWY_INLINE Floats interpolate(const Corners& corners, Floats x, Floats y, Floats z) {
-    Floats along_x[4];
+LAMINA_INLINE Float interpolate(const Corners& corners, Float x, Float y, Float z) {
+    Float along_x[4];
     for (int i = 0; i < 4; ++i) along_x[i] = mix(corners.lower[i], corners.upper[i], x);
     return mix(mix(along_x[0], along_x[1], y), mix(along_x[2], along_x[3], y), z);
 }
@@ -151,57 +146,54 @@ HWY_INLINE Floats interpolate(const Corners& corners, Floats x, Floats y, Floats
 enum class PointKind { inside, anywhere, exact };
 
 struct Cell {
-    Ints index;  // index of its lowest corner
-    Floats share[3];
+    Int index;  // index of its lowest corner
+    Float share[3];
 };
 
 template <PointKind kind>
-HWY_INLINE Cell cell_at(const TileBrick& brick, const Points& points) {
-    const FloatTag d;
-    const IntTag di;
+LAMINA_INLINE Cell cell_at(const TileBrick& brick, const Points& points) {
     Cell cell;
-    const auto lower_along = [&](std::size_t axis, Floats p) HWY_ATTR {
-        Floats least = p;
+    const auto lower_along = [&](std::size_t axis, Float p) LAMINA_LAMBDA {
+        Float least = p;
         if constexpr (kind != PointKind::inside) {
             const float last = brick.last_sample[axis];
-            p = hn::Min(hn::Max(p, hn::Zero(d)), hn::Set(d, last));
-            least = hn::Min(p, hn::Set(d, std::max(last - 1.0f, 0.0f)));
+            p = clamp(p, 0, last);
+            least = min(p, std::max(last - 1.0f, 0.0f));
         }
-        const Ints lower = hn::ConvertTo(di, least);
-        cell.share[axis] = hn::Sub(p, hn::ConvertTo(d, lower));
+        const Int lower = to_int(least);
+        cell.share[axis] = p - to_float(lower);
         return lower;
     };
-    const Ints x = lower_along(0, points.x), y = lower_along(1, points.y),
-               z = lower_along(2, points.z);
+    const Int x = lower_along(0, points.x), y = lower_along(1, points.y),
+              z = lower_along(2, points.z);
     cell.index = cell_index(brick, x, y, z);
     return cell;
 }
 
 template <TileLayout layout, PointKind kind>
-HWY_INLINE Floats scalar_in(const TileBrick& brick, Corners corners, const Floats* share) {
-    const FloatTag d;
+LAMINA_INLINE Float scalar_in(const TileBrick& brick, Corners corners, const Float* share) {
     float scale = brick.scale;
     if constexpr (kind == PointKind::exact && layout != TileLayout::floats) {
         for (int i = 0; i < 4; ++i) {
-            corners.lower[i] = hn::Mul(corners.lower[i], hn::Set(d, brick.unit));
-            corners.upper[i] = hn::Mul(corners.upper[i], hn::Set(d, brick.unit));
+            corners.lower[i] *= brick.unit;
+            corners.upper[i] *= brick.unit;
         }
         scale = brick.unit_scale;
     }
-    const Floats raw = interpolate(corners, share[0], share[1], share[2]);
+    const Float raw = interpolate(corners, share[0], share[1], share[2]);
     if constexpr (layout == TileLayout::floats) return raw;
-    return hn::Add(hn::Mul(raw, hn::Set(d, scale)), hn::Set(d, brick.offset));
+    return raw * scale + brick.offset;
 }
 
 // One pixel in each row and column is fetched ahead; what its neighbours need mostly lies beside
 // it.
 template <TileLayout layout>
-HWY_INLINE void prefetch_cells(const TileBrick& brick, const std::int32_t* indices) {
+LAMINA_INLINE void prefetch_cells(const TileBrick& brick, const std::int32_t* indices) {
     if (brick.pages != nullptr) return;
     constexpr std::size_t bytes = bytes_of_sample(layout);
     const auto* const samples = static_cast<const std::byte*>(brick.samples);
     const std::size_t slice = bytes * static_cast<std::size_t>(brick.slice);
-    for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); lane += TileGrid::block + 1) {
+    for (std::size_t lane = 0; lane < Float::lanes; lane += TileGrid::block + 1) {
         const std::byte* const at = samples + bytes * static_cast<std::size_t>(indices[lane]);
         __builtin_prefetch(at);
         __builtin_prefetch(at + slice);
@@ -210,11 +202,10 @@ HWY_INLINE void prefetch_cells(const TileBrick& brick, const std::int32_t* indic
 
 // Samples in three stages of half a block: find cells, fetch their samples, interpolate.
 template <TileLayout layout, PointKind kind, class PointAt>
-HWY_INLINE void sample_in_stages(const TileBrick& brick, bool hardware, int first, int end,
-                                 const PointAt& point_at, float* scalars) {
-    const FloatTag d;
+LAMINA_INLINE void sample_in_stages(const TileBrick& brick, bool hardware, int first, int end,
+                                    const PointAt& point_at, float* scalars) {
     constexpr int stage = tile_block_slabs / 2 + 1;  // edges are one more than slabs
-    const std::size_t lanes = hn::Lanes(d);
+    constexpr std::size_t lanes = Float::lanes;
     alignas(64) std::int32_t indices[stage * most_lanes];
     alignas(64) float shares[3][stage * most_lanes];
     typename PairOf<layout>::Type pairs[4][stage * most_lanes];
@@ -223,49 +214,49 @@ HWY_INLINE void sample_in_stages(const TileBrick& brick, bool hardware, int firs
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t place = i * lanes;
             const Cell cell = cell_at<kind>(brick, point_at(begin + static_cast<int>(i)));
-            hn::Store(cell.index, IntTag(), indices + place);
+            store(cell.index, indices + place);
             prefetch_cells<layout>(brick, indices + place);
             for (std::size_t axis = 0; axis < 3; ++axis)
-                hn::Store(cell.share[axis], d, shares[axis] + place);
+                store(cell.share[axis], shares[axis] + place);
         }
         fetch_pairs(brick, indices, count * lanes, pairs);
         if (hardware) {
             for (float* const axis : shares) {
                 for (std::size_t i = 0; i < count * lanes; i += lanes)
-                    hn::Store(hardware_weight(hn::Load(d, axis + i)), d, axis + i);
+                    store(hardware_weight(load<Float>(axis + i)), axis + i);
             }
         }
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t place = i * lanes;
-            const Floats share[3] = {hn::Load(d, shares[0] + place), hn::Load(d, shares[1] + place),
-                                     hn::Load(d, shares[2] + place)};
+            const Float share[3] = {load<Float>(shares[0] + place), load<Float>(shares[1] + place),
+                                    load<Float>(shares[2] + place)};
             const Corners corners = unpack_pairs<layout>(brick, pairs, place);
-            hn::Store(scalar_in<layout, kind>(brick, corners, share), d,
-                      scalars + (static_cast<std::size_t>(begin) + i) * most_lanes);
+            store(scalar_in<layout, kind>(brick, corners, share),
+                  scalars + (static_cast<std::size_t>(begin) + i) * most_lanes);
         }
     }
 }
 
 // Where samples have no neighbour along x.
 template <TileLayout layout, PointKind kind, class PointAt>
-HWY_INLINE void sample_by_gathers(const TileBrick& brick, bool hardware, int first, int end,
-                                  const PointAt& point_at, float* scalars) {
+LAMINA_INLINE void sample_by_gathers(const TileBrick& brick, bool hardware, int first, int end,
+                                     const PointAt& point_at, float* scalars) {
     for (int i = first; i < end; ++i) {
         Cell cell = cell_at<kind>(brick, point_at(i));
         if (hardware) {
-            for (Floats& share : cell.share) share = hardware_weight(share);
+            for (Float& share : cell.share) share = hardware_weight(share);
         }
         const Corners corners = fetch_corners<layout>(brick, cell.index);
-        hn::Store(scalar_in<layout, kind>(brick, corners, cell.share), FloatTag(),
-                  scalars + static_cast<std::size_t>(i) * most_lanes);
+        store(scalar_in<layout, kind>(brick, corners, cell.share),
+              scalars + static_cast<std::size_t>(i) * most_lanes);
     }
 }
 
 // Computes the scalars at point_at(i) for i = first .. end - 1, a vector each.
 template <PointKind kind, class PointAt>
-HWY_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, int end,
-                              const PointAt& point_at, float* scalars) {
-    const auto sample = [&](auto kind_of_layout) HWY_ATTR {
+LAMINA_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, int end,
+                                 const PointAt& point_at, float* scalars) {
+    const auto sample = [&](auto kind_of_layout) LAMINA_LAMBDA {
         constexpr TileLayout layout = decltype(kind_of_layout)::value;
         if (brick.last_sample[0] > 0 || brick.pages != nullptr)
             return sample_in_stages<layout, kind>(brick, hardware, first, end, point_at, scalars);
@@ -282,7 +273,6 @@ HWY_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, 
     unreachable_enum();
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -7,55 +7,48 @@
 #define LAMINA_TILES_CODES_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "base/unreachable.h"
 #include "compositing/codes.h"
+#include "simd/vectors-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
 template <class V>
 struct ScaledValues {
     V whole, rest;
 };
 
-template <class D>
-HWY_INLINE ScaledValues<hn::Vec<D>> split_scaled(D d, hn::Vec<D> scaled) {
-    const auto whole = hn::Floor(hn::Add(scaled, hn::Set(d, code_noise)));
-    return {whole, hn::Max(hn::Sub(scaled, whole), hn::Zero(d))};
+template <class V>
+LAMINA_INLINE ScaledValues<V> split_scaled(V scaled) {
+    const V whole = floor(scaled + code_noise);
+    return {whole, max(scaled - whole, 0)};
 }
 
-template <class D>
-HWY_INLINE hn::Vec<D> code_nearest(D d, hn::Vec<D> scaled) {
-    return hn::Floor(hn::Add(scaled, hn::Set(d, 0.5)));
+template <class V>
+LAMINA_INLINE V code_nearest(V scaled) {
+    return floor(scaled + 0.5);
 }
 
 // `code`, or the next code where `up`.
-template <class D>
-HWY_INLINE hn::Vec<D> step_up(D d, hn::Vec<D> code, hn::Mask<D> up) {
-    return hn::Add(code, hn::IfThenElseZero(up, hn::Set(d, 1.0)));
+template <class V>
+LAMINA_INLINE V step_up(V code, typename V::Mask up) {
+    return code + zero_unless(up, V(1.0));
 }
 
 // `random`: 32 random bits as a number, for stochastic rounding only.
-template <class D>
-HWY_INLINE hn::Vec<D> round_alpha(D d, AlphaRounding rounding,
-                                  const ScaledValues<hn::Vec<D>>& scaled, hn::Vec<D> random) {
+template <class V>
+LAMINA_INLINE V round_alpha(AlphaRounding rounding, const ScaledValues<V>& scaled, V random) {
     switch (rounding) {
         case AlphaRounding::truncate:
             return scaled.whole;
         case AlphaRounding::nearest:
-            return step_up(d, scaled.whole,
-                           hn::Ge(hn::Add(scaled.rest, hn::Set(d, code_noise)), hn::Set(d, 0.5)));
+            return step_up(scaled.whole, scaled.rest + code_noise >= 0.5);
         case AlphaRounding::stochastic:
-            return step_up(d, scaled.whole,
-                           hn::Lt(random, hn::Mul(scaled.rest, hn::Set(d, 0x1p32))));
+            return step_up(scaled.whole, random < scaled.rest * 0x1p32);
     }
     unreachable_enum();
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -7,29 +7,20 @@
 #define LAMINA_TILES_DITHER_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "compositing/dither.h"
 #include "tiles/codes-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
-template <class D>
-HWY_INLINE hn::Vec<D> dither_code(D d, hn::Vec<D> scaled, double rank, int period, int increment,
-                                  double largest) {
-    const auto step = hn::Set(d, static_cast<double>(increment));
-    const auto top = hn::Set(d, largest);
-    const ScaledValues<hn::Vec<D>> value = split_scaled(d, hn::Div(scaled, step));
-    const auto terms = hn::Floor(hn::Add(
-        hn::Mul(hn::Set(d, static_cast<double>(period)), value.rest), hn::Set(d, code_noise)));
-    const auto steps = step_up(d, value.whole, hn::Lt(hn::Set(d, rank), terms));
-    const auto opaque = hn::Ge(scaled, hn::Set(d, largest - code_noise));
-    return hn::IfThenElse(opaque, top, hn::Min(hn::Mul(steps, step), top));
+template <class V>
+LAMINA_INLINE V dither_code(V scaled, double rank, int period, int increment, double largest) {
+    const double step = increment;
+    const ScaledValues<V> value = split_scaled(scaled / step);
+    const V terms = floor(static_cast<double>(period) * value.rest + code_noise);
+    const V steps = step_up(value.whole, rank < terms);
+    return select(scaled >= largest - code_noise, largest, min(steps * step, largest));
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -7,40 +7,29 @@
 #define LAMINA_TILES_LANE_PIXELS_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <cstdint>
 
 #include "tiles/random_bits-inl.h"
 #include "tiles/tile_grid.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
 static_assert(TileGrid::block == 4);
 
 // The distance from the first pixel to each pixel, as whole numbers.
-template <class DU>
-HWY_INLINE hn::Vec<DU> lane_columns(DU d) {
-    return hn::And(hn::Iota(d, 0), hn::Set(d, 3u));
+LAMINA_INLINE Word lane_columns() {
+    return iota<Word>(0) & 3u;
 }
-template <class DU>
-HWY_INLINE hn::Vec<DU> lane_rows(DU d) {
-    return hn::ShiftRight<2>(hn::Iota(d, 0));
+LAMINA_INLINE Word lane_rows() {
+    return shift_right<2>(iota<Word>(0));
 }
 
 // The pixels of a vector whose first pixel is (column, row) of the picture, rows from the top.
-template <class DU>
-HWY_INLINE hn::Vec<DU> random_of_pixels(DU d, int column, int row, std::uint32_t sample,
-                                        std::uint32_t seed) {
-    const auto from = [d](int pixel)
-                          HWY_ATTR { return hn::Set(d, static_cast<std::uint32_t>(pixel)); };
-    return random_bits(d, hn::Add(from(column), lane_columns(d)), hn::Add(from(row), lane_rows(d)),
-                       hn::Set(d, sample), hn::Set(d, seed));
+LAMINA_INLINE Word random_of_pixels(int column, int row, std::uint32_t sample, std::uint32_t seed) {
+    return random_bits(static_cast<std::uint32_t>(column) + lane_columns(),
+                       static_cast<std::uint32_t>(row) + lane_rows(), Word(sample), Word(seed));
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -8,13 +8,10 @@
 #define LAMINA_TILES_OVER_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "compositing/over.h"
+#include "simd/vectors-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
 // The rounded sum, up to M^2 + M / 2, is exact in the 24 bits of a float for M < 2^12. Its quotient
 // by M is below 2^12 and so rounded by less than 2^-12. It cannot reach the next whole number,
@@ -24,34 +21,32 @@ inline constexpr int max_float_over_bits = 12;
 inline constexpr int max_float_under_bits = 8;
 
 // x / n to the nearest whole number; n is odd.
-template <class D>
-HWY_INLINE hn::Vec<D> divide_nearest(D d, hn::Vec<D> x, hn::TFromD<D> n) {
-    return hn::Floor(hn::Div(hn::Add(x, hn::Set(d, (n - 1) / 2)), hn::Set(d, n)));
+template <class V>
+LAMINA_INLINE V divide_nearest(V x, typename V::Scalar n) {
+    return floor((x + (n - 1) / 2) / n);
 }
 
-template <class D>
-HWY_INLINE hn::Vec<D> over(D d, OverRounding rounding, hn::Vec<D> color, hn::Vec<D> alpha,
-                           hn::Vec<D> below, hn::TFromD<D> largest) {
-    const auto source = hn::Mul(color, alpha);
-    const auto kept = hn::Mul(below, hn::Sub(hn::Set(d, largest), alpha));
+template <class V>
+LAMINA_INLINE V over(OverRounding rounding, V color, V alpha, V below, typename V::Scalar largest) {
+    const V source = color * alpha;
+    const V kept = below * (largest - alpha);
     return rounding == OverRounding::fused
-               ? divide_nearest(d, hn::Add(source, kept), largest)
-               : hn::Add(divide_nearest(d, source, largest), divide_nearest(d, kept, largest));
+               ? divide_nearest(source + kept, largest)
+               : divide_nearest(source, largest) + divide_nearest(kept, largest);
 }
 
-template <class D>
-HWY_INLINE hn::Vec<D> under(D d, OverRounding rounding, hn::Vec<D> color, hn::Vec<D> alpha,
-                            hn::Vec<D> above, hn::Vec<D> above_alpha, hn::TFromD<D> largest) {
-    const auto left = hn::Sub(hn::Set(d, largest), above_alpha);
-    const auto product = hn::Mul(color, alpha);
+template <class V>
+LAMINA_INLINE V under(OverRounding rounding, V color, V alpha, V above, V above_alpha,
+                      typename V::Scalar largest) {
+    const V left = largest - above_alpha;
+    const V product = color * alpha;
     if (rounding == OverRounding::separate) {
-        const auto source = divide_nearest(d, product, largest);
-        return hn::Add(above, divide_nearest(d, hn::Mul(source, left), largest));
+        const V source = divide_nearest(product, largest);
+        return above + divide_nearest(source * left, largest);
     }
-    return hn::Add(above, divide_nearest(d, hn::Mul(product, left), largest * largest));
+    return above + divide_nearest(product * left, largest * largest);
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -7,35 +7,28 @@
 #define LAMINA_TILES_RANDOM_BITS_INL_H_
 #endif
 
-#include <hwy/highway.h>
+#include "simd/vectors-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
-template <class DU>
-HWY_INLINE hn::Vec<DU> random_bits(DU d, hn::Vec<DU> column, hn::Vec<DU> row, hn::Vec<DU> sample,
-                                   hn::Vec<DU> seed) {
-    const auto spread = [d](hn::Vec<DU> v) {
-        return hn::Add(hn::Mul(v, hn::Set(d, 1664525u)), hn::Set(d, 1013904223u));
-    };
-    auto x = spread(column), y = spread(row), z = spread(sample), w = spread(seed);
-    const auto mix_all = [&] {
-        x = hn::Add(x, hn::Mul(y, w));
-        y = hn::Add(y, hn::Mul(z, x));
-        z = hn::Add(z, hn::Mul(x, y));
-        w = hn::Add(w, hn::Mul(y, z));
+LAMINA_INLINE Word random_bits(Word column, Word row, Word sample, Word seed) {
+    const auto spread = [](Word v) LAMINA_LAMBDA { return v * 1664525u + 1013904223u; };
+    Word x = spread(column), y = spread(row), z = spread(sample), w = spread(seed);
+    const auto mix_all = [&] LAMINA_LAMBDA {
+        x += y * w;
+        y += z * x;
+        z += x * y;
+        w += y * z;
     };
     mix_all();
-    x = hn::Xor(x, hn::ShiftRight<16>(x));
-    y = hn::Xor(y, hn::ShiftRight<16>(y));
-    z = hn::Xor(z, hn::ShiftRight<16>(z));
-    w = hn::Xor(w, hn::ShiftRight<16>(w));
+    x = x ^ shift_right<16>(x);
+    y = y ^ shift_right<16>(y);
+    z = z ^ shift_right<16>(z);
+    w = w ^ shift_right<16>(w);
     mix_all();
     return w;
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

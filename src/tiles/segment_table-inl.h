@@ -7,162 +7,137 @@
 #define LAMINA_TILES_SEGMENT_TABLE_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <glm/vec3.hpp>
 
 #include "optics/segment_table.h"
-#include "tiles/arithmetic-inl.h"
+#include "simd/math-inl.h"
 #include "tiles/opacity-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
 // The layer coordinate of a length that is given in units of layer 1's length. Whole numbers are
 // layers. It is not clamped to the last layer.
-template <class D>
-HWY_INLINE hn::Vec<D> length_layer(D d, const SegmentTable& table, hn::Vec<D> v) {
-    const hn::RebindToSigned<D> di;
-    const auto one = hn::Set(d, 1.0f);
+LAMINA_INLINE Float length_layer(const SegmentTable& table, Float v) {
     if (table.layers == 2 || table.request.mapping == LengthMapping::linear) return v;
     if (table.request.mapping == LengthMapping::log2) {
-        const auto octaves = hn::Mul(log_of(d, hn::Max(v, one)), hn::Set(d, 1.44269504f));
-        return hn::Add(octaves, hn::Min(v, one));  // Kraus 2004, Equation 1
+        const Float octaves = log_of(max(v, 1)) * 1.44269504f;
+        return octaves + min(v, 1);  // Kraus 2004, Equation 1
     }
     // The bits of a float are linear within each octave: see the shader.
-    const auto from_half = hn::Sub(hn::BitCast(di, v), hn::Set(di, 0x3f000000));
-    const auto octaves = hn::Mul(hn::ConvertTo(d, from_half), hn::Set(d, 1.0f / 8388608));
-    return hn::Max(octaves, hn::Min(v, one));
+    const Int from_half = bits_as<Int>(v) - 0x3f000000;
+    const Float octaves = to_float(from_half) * (1.0f / 8388608);
+    return max(octaves, min(v, 1));
 }
 
 // The table's entries for some segments, before they are multiplied by its scale. `color` is used
 // for coloured tables.
-template <class V>
 struct SegmentEntry {
-    V color[3];
-    V value;  // mean extinction or opacity
+    Float color[3];
+    Float value;  // mean extinction or opacity
 };
 
 // The positions of segments in the table: the number of the texel at the lower front node, back
 // node and layer, and the distances beyond them.
-template <class D>
 struct SegmentPlace {
-    hn::Vec<hn::RebindToSigned<D>> texel;
-    hn::Vec<D> front, back, layer;
+    Int texel;
+    Float front, back, layer;
 };
 
 // Scalars must be normalised so that the table covers [0, 1].
-template <class D>
-HWY_INLINE SegmentPlace<D> segment_place(D d, const SegmentTable& table, float inverse_first_length,
-                                         hn::Vec<D> front, hn::Vec<D> back,
-                                         hn::Vec<D> world_length) {
-    const hn::RebindToSigned<D> di;
+LAMINA_INLINE SegmentPlace segment_place(const SegmentTable& table, float inverse_first_length,
+                                         Float front, Float back, Float world_length) {
     const int nodes = table.request.scalar_nodes;
-    const auto last = hn::Set(d, static_cast<float>(nodes - 1));
-    const auto most = hn::Set(di, nodes - 2);
-    const auto x = hn::Mul(clamp01(d, front), last), y = hn::Mul(clamp01(d, back), last);
-    const auto column = hn::Min(hn::ConvertTo(di, x), most),
-               row = hn::Min(hn::ConvertTo(di, y), most);
-    auto number = row;
-    auto beyond = hn::Zero(d);
+    const auto last = static_cast<float>(nodes - 1);
+    const Float x = clamp01(front) * last, y = clamp01(back) * last;
+    const Int column = min(to_int(x), nodes - 2), row = min(to_int(y), nodes - 2);
+    Int number = row;
+    Float beyond(0);
     if (table.layers > 1) {
-        const auto v = hn::Mul(world_length, hn::Set(d, inverse_first_length));
-        const auto layer =
-            hn::Min(length_layer(d, table, v), hn::Set(d, static_cast<float>(table.layers - 1)));
-        const auto below = hn::Min(hn::ConvertTo(di, layer), hn::Set(di, table.layers - 2));
-        beyond = hn::Sub(layer, hn::ConvertTo(d, below));
-        number = hn::Add(number, hn::Mul(below, hn::Set(di, nodes)));
+        const Float v = world_length * inverse_first_length;
+        const Float layer = min(length_layer(table, v), static_cast<float>(table.layers - 1));
+        const Int below = min(to_int(layer), table.layers - 2);
+        beyond = layer - to_float(below);
+        number += below * nodes;
     }
-    return {hn::Add(column, hn::Mul(number, hn::Set(di, nodes))),
-            hn::Sub(x, hn::ConvertTo(d, column)), hn::Sub(y, hn::ConvertTo(d, row)), beyond};
+    return {column + number * nodes, x - to_float(column), y - to_float(row), beyond};
 }
 
 // For tables with one number a texel.
-template <class D>
-HWY_INLINE hn::Vec<D> plain_entry(D d, const SegmentTable& table, const SegmentPlace<D>& place) {
+LAMINA_INLINE Float plain_entry(const SegmentTable& table, const SegmentPlace& place) {
     const std::ptrdiff_t nodes = table.request.scalar_nodes;
-    const auto layer_from = [&](const float* texels) HWY_ATTR {
+    const auto layer_from = [&](const float* texels) LAMINA_LAMBDA {
         const auto texel = [&](std::ptrdiff_t step)
-                               HWY_ATTR { return hn::GatherIndex(d, texels + step, place.texel); };
+                               LAMINA_LAMBDA { return gather(texels + step, place.texel); };
         return mix(mix(texel(0), texel(1), place.front),
                    mix(texel(nodes), texel(nodes + 1), place.front), place.back);
     };
-    const auto below = layer_from(table.texels.data());
+    const Float below = layer_from(table.texels.data());
     if (table.layers == 1) return below;
     return mix(below, layer_from(table.texels.data() + nodes * nodes), place.layer);
 }
 
 // For tables with four numbers a texel. It goes lane by lane, because these lie side by side.
-template <class D>
-HWY_INLINE SegmentEntry<hn::Vec<D>> colored_entry(D d, const SegmentTable& table,
-                                                  const SegmentPlace<D>& place) {
-    const hn::FixedTag<float, 4> d4;
-    const hn::RebindToSigned<D> di;
-    constexpr std::size_t lanes = hn::MaxLanes(d);
-    HWY_ALIGN std::int32_t numbers[lanes];
-    HWY_ALIGN float fronts[lanes], backs[lanes], layers[lanes], entries[4 * lanes];
-    hn::Store(place.texel, di, numbers);
-    hn::Store(place.front, d, fronts);
-    hn::Store(place.back, d, backs);
-    hn::Store(place.layer, d, layers);
+LAMINA_INLINE SegmentEntry colored_entry(const SegmentTable& table, const SegmentPlace& place) {
+    constexpr std::size_t lanes = Float::lanes;
+    alignas(64) std::int32_t numbers[lanes];
+    alignas(64) float fronts[lanes], backs[lanes], layers[lanes], entries[4 * lanes];
+    store(place.texel, numbers);
+    store(place.front, fronts);
+    store(place.back, backs);
+    store(place.layer, layers);
     const std::ptrdiff_t row = std::ptrdiff_t{4} * table.request.scalar_nodes;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const auto front = hn::Set(d4, fronts[lane]), back = hn::Set(d4, backs[lane]);
-        const auto layer_from = [&](const float* texels) HWY_ATTR {
-            return mix(mix(hn::LoadU(d4, texels), hn::LoadU(d4, texels + 4), front),
-                       mix(hn::LoadU(d4, texels + row), hn::LoadU(d4, texels + row + 4), front),
-                       back);
+        const Float4 front(fronts[lane]), back(backs[lane]);
+        const auto layer_from = [&](const float* texels) LAMINA_LAMBDA {
+            return mix(
+                mix(load_unaligned<Float4>(texels), load_unaligned<Float4>(texels + 4), front),
+                mix(load_unaligned<Float4>(texels + row), load_unaligned<Float4>(texels + row + 4),
+                    front),
+                back);
         };
         const float* const texels =
             table.texels.data() + std::ptrdiff_t{4} * static_cast<std::ptrdiff_t>(numbers[lane]);
-        auto entry = layer_from(texels);
+        Float4 entry = layer_from(texels);
         if (table.layers > 1) {
             entry = mix(entry, layer_from(texels + row * table.request.scalar_nodes),
-                        hn::Set(d4, layers[lane]));
+                        Float4(layers[lane]));
         }
-        hn::Store(entry, d4, entries + 4 * lane);
+        store(entry, entries + 4 * lane);
     }
-    SegmentEntry<hn::Vec<D>> entry;
-    hn::LoadInterleaved4(d, entries, entry.color[0], entry.color[1], entry.color[2], entry.value);
+    SegmentEntry entry;
+    load_interleaved(entries, entry.color[0], entry.color[1], entry.color[2], entry.value);
     return entry;
 }
 
 // Associated colour and opacity of segments on which the scalar is linear from `front` to `back`.
 // `single_color`: the colour for tables without colour.
-template <class D>
-HWY_INLINE SegmentEntry<hn::Vec<D>> integrate_segment(D d, const SegmentTable& table,
-                                                      float inverse_first_length,
-                                                      const glm::vec3& single_color,
-                                                      hn::Vec<D> front, hn::Vec<D> back,
-                                                      hn::Vec<D> world_length) {
-    using V = hn::Vec<D>;
-    const SegmentPlace<D> place =
-        segment_place(d, table, inverse_first_length, front, back, world_length);
-    const V scale = hn::Set(d, table.scale);
+LAMINA_INLINE SegmentEntry integrate_segment(const SegmentTable& table, float inverse_first_length,
+                                             const glm::vec3& single_color, Float front, Float back,
+                                             Float world_length) {
+    const SegmentPlace place =
+        segment_place(table, inverse_first_length, front, back, world_length);
+    const Float scale(table.scale);
     const bool opacities = table.request.store == TableStore::opacity;
     const bool colored = table.channels == 4;
-    SegmentEntry<V> entry;
+    SegmentEntry entry;
     if (colored) {
-        entry = colored_entry(d, table, place);
+        entry = colored_entry(table, place);
     } else {
-        entry.value = plain_entry(d, table, place);
+        entry.value = plain_entry(table, place);
     }
-    const V opacity =
-        opacities ? hn::Mul(entry.value, scale)
-                  : opacity_from_depth(d, hn::Mul(entry.value, hn::Mul(scale, world_length)));
+    const Float opacity =
+        opacities ? entry.value * scale : opacity_from_depth(entry.value * (scale * world_length));
     // Where the optical depth is 0, so is the emission. The scale cancels.
-    const V weight = opacities ? scale : hn::Div(opacity, hn::Max(entry.value, hn::Set(d, 1e-37f)));
+    const Float weight = opacities ? scale : opacity / max(entry.value, 1e-37f);
     for (int channel = 0; channel < 3; ++channel) {
-        entry.color[channel] = colored ? hn::Mul(entry.color[channel], weight)
-                                       : hn::Mul(hn::Set(d, single_color[channel]), opacity);
+        entry.color[channel] =
+            colored ? entry.color[channel] * weight : single_color[channel] * opacity;
     }
     entry.value = opacity;
     return entry;
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

@@ -7,26 +7,17 @@
 #define LAMINA_TILES_STOCHASTIC_OVER_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include "tiles/codes-inl.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace lamina::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+LAMINA_SIMD_BEGIN
 
 // `random`: 32 random bits as a number.
-template <class D>
-HWY_INLINE hn::Vec<D> over_stochastic(D d, hn::Vec<D> source, hn::Vec<D> alpha, hn::Vec<D> below,
-                                      hn::Vec<D> random, double largest) {
-    const auto top = hn::Set(d, largest);
-    const auto kept = hn::Mul(below, hn::Sub(hn::Set(d, 1.0), alpha));
-    const ScaledValues<hn::Vec<D>> value = split_scaled(d, hn::Add(hn::Mul(top, source), kept));
-    const auto up = hn::Lt(random, hn::Mul(value.rest, hn::Set(d, 0x1p32)));
-    return hn::Min(step_up(d, value.whole, up), top);
+template <class V>
+LAMINA_INLINE V over_stochastic(V source, V alpha, V below, V random, double largest) {
+    const ScaledValues<V> value = split_scaled(largest * source + below * (1.0 - alpha));
+    return min(step_up(value.whole, random < value.rest * 0x1p32), largest);
 }
 
-}  // namespace lamina::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
+LAMINA_SIMD_END
 
 #endif

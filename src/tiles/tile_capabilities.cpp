@@ -9,19 +9,14 @@
 #include <cstdint>
 #include <limits>
 
-#include "tiles/instruction_set.h"
+#include "simd/instruction_set.h"
 
 namespace lamina {
 
 Capabilities tile_capabilities() {
     constexpr int largest_edge = 32768;  // pixel coordinates are exact in floats
     Capabilities capabilities;
-#ifdef LAMINA_FMA
-    constexpr const char* fused = ", fused";
-#else
-    constexpr const char* fused = "";
-#endif
-    capabilities.renderer = fmt::format("cpu: {}{}", instruction_set(), fused);
+    capabilities.renderer = fmt::format("cpu: {}", instruction_set());
     const auto allowed =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     capabilities.threads =

@@ -7,8 +7,8 @@
 #include "cli/blobs_scene.h"
 #include "cli/run_program.h"
 #include "image/exr.h"
+#include "simd/instruction_set.h"
 #include "support/temporary_folder.h"
-#include "tiles/instruction_set.h"
 
 namespace lamina {
 namespace {

@@ -5,11 +5,11 @@
 #include "projection_fixture.h"
 #include "reference/lit_fixtures.h"
 #include "scene/clipped_mesh.h"
+#include "simd/instruction_set.h"
 #include "support/clips.h"
 #include "support/delaunay_mesh.h"
 #include "support/expect_error.h"
 #include "support/split_box.h"
-#include "tiles/instruction_set.h"
 
 namespace lamina {
 namespace {
@@ -184,9 +184,6 @@ TEST_P(LitProjection, OtherTargetsAreLit) {
 INSTANTIATE_TEST_SUITE_P(BothEngines, LitProjection, both_engines, engine_name);
 
 TEST(LitTets, EveryInstructionSetGivesTheSameBits) {
-#ifdef LAMINA_FMA
-    GTEST_SKIP() << "built with LAMINA_FMA";
-#endif
     const SceneMesh mesh = scene_mesh(test::split_box(11, 500, 1e-2, waves));
     const std::vector<std::string> names = instruction_sets();
     for (const Lighting& lighting : lightings()) {

@@ -3,9 +3,9 @@
 #include <tbb/global_control.h>
 
 #include "projection_fixture.h"
+#include "simd/instruction_set.h"
 #include "support/allocation_count.h"
 #include "support/split_box.h"
-#include "tiles/instruction_set.h"
 
 namespace lamina {
 namespace {
@@ -66,9 +66,6 @@ Image draw(const SceneMesh& mesh, const Scene& scene) {
 }
 
 TEST(TetTileFrames, EveryInstructionSetGivesTheSameBits) {
-#ifdef LAMINA_FMA
-    GTEST_SKIP() << "built with LAMINA_FMA";
-#endif
     const SceneMesh mesh = mesh_of(1500);
     const std::vector<std::string> names = instruction_sets();
     for (const Case& each : cases()) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random patterns of NaN: transparent are the cells with such a corner, and no others.
+#include "simd/instruction_set.h"
 #include "support/volume_of.h"
 #include "tile_fixture.h"
-#include "tiles/instruction_set.h"
 
 namespace lamina {
 namespace {
@@ -93,9 +93,6 @@ TEST(TileNanTest, EveryPatternIsTheTracers) {
 }
 
 TEST(TileNanTest, EveryInstructionSetGivesTheSameBits) {
-#ifdef LAMINA_FMA
-    GTEST_SKIP() << "built with LAMINA_FMA";
-#endif
     std::mt19937 random(6);
     for (int pattern = 0; pattern < 4; ++pattern) {
         const Volume volume = with_gaps(random);

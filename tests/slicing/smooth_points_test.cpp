@@ -7,8 +7,8 @@
 
 #include "exact_fixture.h"
 #include "optics/curved_pieces.h"
+#include "simd/instruction_set.h"
 #include "tile_fixture.h"
-#include "tiles/instruction_set.h"
 
 namespace lamina {
 namespace {

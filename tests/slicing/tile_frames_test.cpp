@@ -5,10 +5,10 @@
 #include <random>
 
 #include "reference/lit_fixtures.h"
+#include "simd/instruction_set.h"
 #include "support/allocation_count.h"
 #include "support/volume_of.h"
 #include "tile_fixture.h"
-#include "tiles/instruction_set.h"
 
 namespace lamina {
 namespace {
@@ -64,9 +64,6 @@ std::vector<Case> cases(const TransferFunction& colored = smooth_transfer_functi
 }
 
 TEST(TileFramesTest, EveryInstructionSetGivesTheSameBits) {
-#ifdef LAMINA_FMA
-    GTEST_SKIP() << "built with LAMINA_FMA";
-#endif
     const Volume volume = gaussians(30);
     const std::vector<std::string> names = instruction_sets();
     for (const Case& each : cases()) {

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tiles/instruction_set.h"
-
+#include "simd/instruction_set.h"
 namespace lamina::test {
 
 // Calls action(name) with each instruction set that this machine has, and goes back to the best.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tiles/instruction_set.h"
+#include "simd/instruction_set.h"
 #include "tiles/vector_functions.h"
 
 namespace lamina {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "version_text.h"
+#include "simd/instruction_set.h"
 
 #include <fmt/ranges.h>
 
 #include "base/find_program.h"
 #include "git_commit.h"
 #include "mesh_files/mesh_file.h"
-#include "tiles/instruction_set.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {

@@ -18,7 +18,7 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "measure_cpu/kernels.h"
-#include "tiles/instruction_set.h"
+#include "simd/instruction_set.h"
 #include "tiles/tile_capabilities.h"
 
 namespace lamina {

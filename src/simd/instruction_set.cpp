@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tiles/instruction_set.h"
+#include "simd/instruction_set.h"
 
 #include <fmt/ranges.h>
 #include <hwy/highway.h>

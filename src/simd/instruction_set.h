@@ -7,8 +7,8 @@
 namespace lamina {
 
 // The vector instructions that the native engine uses: SSE4, AVX2, AVX3 (AVX-512), NEON. Its
-// pictures do not depend on them: products and sums are rounded one by one (no fused multiply-add,
-// unless it is built with LAMINA_FMA), and there are no approximate reciprocals.
+// pictures do not depend on them: products and sums are rounded one by one (no fused multiply-add),
+// and there are no approximate reciprocals.
 std::string instruction_set();                // in use
 std::vector<std::string> instruction_sets();  // those that this machine has, the best first
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace lamina {
+
+// Some lanes of a vector or of a packet of rays: a bit each, the first lane lowest.
+using LaneSet = std::uint32_t;
+
+// The most doubles that a vector of any instruction set has: AVX-512. Bits of lanes fill a byte.
+inline constexpr std::size_t longest_vector = 8;
+
+constexpr LaneSet lane_bit(std::size_t lane) {
+    return LaneSet{1} << lane;
+}
+
+template <typename Visit>
+void for_each_lane(LaneSet lanes, const Visit& visit) {
+    for (LaneSet left = lanes; left != 0; left &= left - 1)
+        visit(static_cast<std::size_t>(std::countr_zero(left)));
+}
+
+// For each set of eight lanes its members, a byte each, the first lowest. (Highway 1.0.3 copies
+// its own such tables to the stack at every Compress() of vectors of doubles, or of eight floats.)
+inline constexpr std::array<std::uint64_t, 256> members_of = [] {
+    std::array<std::uint64_t, 256> table{};
+    for (unsigned set = 0; set < 256; ++set) {
+        unsigned count = 0;
+        for (unsigned lane = 0; lane < 8; ++lane)
+            if ((set >> lane & 1) != 0) table[set] |= std::uint64_t{lane} << (8 * count++);
+    }
+    return table;
+}();
+
+// For each set of eight lanes the number of its members before each lane, a byte each.
+inline constexpr std::array<std::uint64_t, 256> members_before = [] {
+    std::array<std::uint64_t, 256> table{};
+    for (unsigned set = 0; set < 256; ++set) {
+        for (unsigned lane = 0; lane < 8; ++lane) {
+            const auto before = static_cast<unsigned>(std::popcount(set & ((1u << lane) - 1)));
+            table[set] |= std::uint64_t{before} << (8 * lane);
+        }
+    }
+    return table;
+}();
+
+}  // namespace lamina

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Some lanes of vectors stored side by side: lanes that are left when others have ended are packed
+// anew.
+#if defined(LAMINA_SIMD_MEMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SIMD_MEMBERS_INL_H_
+#undef LAMINA_SIMD_MEMBERS_INL_H_
+#else
+#define LAMINA_SIMD_MEMBERS_INL_H_
+#endif
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "simd/lane_set.h"
+#include "simd/vectors-inl.h"
+
+LAMINA_SIMD_BEGIN
+
+static_assert(Double::lanes <= longest_vector);
+
+// Calls body(lane) for each lane of a set.
+template <class Body>
+LAMINA_INLINE void for_each_lane(LaneSet set, const Body& body) {
+    for (; set != 0; set &= set - 1) body(static_cast<std::size_t>(std::countr_zero(set)));
+}
+
+// The members of a set in its first lanes. Up to eight lanes this is hn::Compress() with the table
+// of simd/lane_set.h, which gives the reason.
+LAMINA_INLINE Float members_first(Float v, FloatMask members) {
+    if constexpr (Float::lanes > 8) {
+        return hn::Compress(v.v, members.m);
+    } else {
+        const auto* const from =
+            reinterpret_cast<const std::uint8_t*>(&members_of[bits_of(members)]);
+        return permute(v, load_bytes(from));
+    }
+}
+
+// Stores the members of a vector one after the other from `to` on. It writes a whole vector.
+LAMINA_INLINE void store_members(Float v, FloatMask members, float* to) {
+    store_unaligned(members_first(v, members), to);
+}
+LAMINA_INLINE void store_members(Int v, FloatMask members, std::int32_t* to) {
+    store_unaligned(bits_as<Int>(members_first(bits_as<Float>(v), members)), to);
+}
+
+// A set of lanes, and where its members are stored. Lanes outside the set have any place.
+struct StoredLanes {
+    LaneSet set;
+    std::uint8_t places[most_lanes];
+};
+
+LAMINA_INLINE StoredLanes stored_lanes(FloatMask members) {
+    StoredLanes lanes{bits_of(members), {}};
+    const LaneSet first = lanes.set & 255;
+    const std::uint64_t low = members_before[first], high = members_before[lanes.set >> 8];
+    const auto in_low = static_cast<std::uint64_t>(std::popcount(first));
+    const std::uint64_t shifted = high + in_low * 0x0101010101010101u;
+    std::memcpy(lanes.places, &low, 8);
+    std::memcpy(lanes.places + 8, &shifted, 8);
+    return lanes;
+}
+
+// Takes what store_members() stored back to its lanes; the others become 0.
+LAMINA_INLINE Float load_members(const float* from, const StoredLanes& lanes) {
+    const Float moved = permute(load_unaligned<Float>(from), load_bytes(lanes.places));
+    return zero_unless(mask_of_bits<FloatMask>(lanes.set), moved);
+}
+
+// Tells whether members are packed and unpacked at once.
+inline constexpr bool packs_quickly = HWY_TARGET <= HWY_AVX3;
+
+// As load_members(), from a set of lanes alone.
+LAMINA_INLINE Float expand_members(LaneSet set, const float* from) {
+#if HWY_TARGET <= HWY_AVX3
+    return hn::Vec<Float::Tag>{_mm512_maskz_expandloadu_ps(static_cast<__mmask16>(set), from)};
+#else
+    return load_members(from, stored_lanes(mask_of_bits<FloatMask>(set)));
+#endif
+}
+
+// As store_members(), for several vectors of doubles with the same members.
+class KeptLanes {
+  public:
+    LAMINA_INLINE explicit KeptLanes(DoubleMask kept)
+        : kept_(places(kept)), count_(count_of(kept)) {}
+
+    LAMINA_INLINE std::size_t count() const { return count_; }
+    LAMINA_INLINE void store(Double values, double* to) const {
+        store_unaligned(permute(values, kept_), to);
+    }
+    LAMINA_INLINE void store(Long values, std::int64_t* to) const {
+        store_unaligned(bits_as<Long>(permute(bits_as<Double>(values), kept_)), to);
+    }
+
+  private:
+    static LAMINA_INLINE Long places(DoubleMask kept) {
+        const hn::RebindToUnsigned<Long::Tag> d;
+        const auto shift = hn::ShiftLeft<3>(hn::Iota(d, 0));
+        const auto bytes = hn::Shr(hn::Set(d, members_of[bits_of(kept)]), shift);
+        return hn::BitCast(Long::Tag(), hn::And(bytes, hn::Set(d, 7)));
+    }
+
+    Long kept_;
+    std::size_t count_;
+};
+
+LAMINA_SIMD_END
+
+#endif
