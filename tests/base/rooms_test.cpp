@@ -100,7 +100,7 @@ std::vector<std::string> wrong_citations(const std::string& text) {
     if (text.find("docs/") == std::string::npos) return wrong;
     static const std::regex between_literals(R"("\s*\n\s*")"), line_end(R"(\s*\n\s*(//|#)?\s*)");
     static const std::regex citation(
-        R"re(\bdocs/([\w/.-]*\w\.md)(?:, (?:sections? (\d+)(?: and (\d+))?|"([^"]+)"))?)re");
+        R"re(\bdocs/([\w/.-]*\w\.md)(?:, (?:sections? (\d+(?:\.\d+)?)(?: and (\d+(?:\.\d+)?))?|equations? \((\d+\.\d+)\)|"([^"]+)"))?)re");
     const std::string joined =
         std::regex_replace(std::regex_replace(text, between_literals, ""), line_end, " ");
     for (std::sregex_iterator m(joined.begin(), joined.end(), citation), end; m != end; ++m) {
@@ -112,10 +112,15 @@ std::vector<std::string> wrong_citations(const std::string& text) {
         const std::string page = read_bytes_of(source / name);
         for (const std::size_t group : {2u, 3u}) {
             const std::string section = (*m)[group];
-            if (!section.empty() && page.find("\n## " + section + ". ") == std::string::npos)
+            const bool part = section.find('.') != std::string::npos;
+            const std::string heading = part ? "\n### " + section + " " : "\n## " + section + ". ";
+            if (!section.empty() && page.find(heading) == std::string::npos)
                 wrong.push_back(name + ", section " + section);
         }
-        const std::string title = (*m)[4];
+        const std::string equation = (*m)[4];
+        if (!equation.empty() && page.find(" (" + equation + ")\n") == std::string::npos)
+            wrong.push_back(name + ", equation " + equation);
+        const std::string title = (*m)[5];
         if (!title.empty() && page.find("# " + title + "\n") == std::string::npos)
             wrong.push_back(name + ", \"" + title + "\"");
     }
@@ -164,6 +169,38 @@ TEST(Rooms, IncludeOnlyThemselvesAndLowerRooms) {
         }
     }
     EXPECT_GT(seen, 20);
+}
+
+// What a text has of Highway that only the module simd may name. HWY_TARGET_TOGGLE guards headers
+// that are included once for each instruction set.
+std::vector<std::string> highway_words(const std::string& text) {
+    std::vector<std::string> words = all_matches(text, R"((<hwy/[^>]*>))");
+    for (const char* pattern : {R"(\b(hn::\w*))", R"(\b(hwy::\w*))", R"(\b(HWY_\w+))"}) {
+        for (const std::string& word : all_matches(text, pattern))
+            if (word != "HWY_TARGET_TOGGLE") words.push_back(word);
+    }
+    return words;
+}
+
+TEST(Simd, TheCheckItselfSeesViolations) {
+    using Words = std::vector<std::string>;
+    EXPECT_EQ(highway_words("#include <hwy/highway.h>\n"), Words{"<hwy/highway.h>"});
+    EXPECT_EQ(highway_words("a = hn::Add(b, c);"), Words{"hn::Add"});
+    EXPECT_EQ(highway_words("hwy::Prefetch(p);"), Words{"hwy::Prefetch"});
+    EXPECT_EQ(highway_words("HWY_INLINE void f();"), Words{"HWY_INLINE"});
+    EXPECT_EQ(highway_words("#if defined(X) == defined(HWY_TARGET_TOGGLE)"), Words{});
+}
+
+TEST(Simd, IsTheOnlyModuleThatNamesHighway) {
+    for (const fs::path& file : files_under({"include", "src", "python", "tools", "tests"})) {
+        const std::string name = fs::relative(file, source).generic_string();
+        if (name.starts_with("src/simd/") || name.starts_with("tools/measure_cpu/") ||
+            name == "tests/base/rooms_test.cpp" ||
+            !(name.ends_with(".h") || name.ends_with(".cpp")))
+            continue;
+        for (const std::string& word : highway_words(read_bytes_of(file)))
+            ADD_FAILURE() << name << " names " << word << ", which is for src/simd";
+    }
 }
 
 // Whoever uses the library needs GLM and nothing else.
@@ -217,6 +254,13 @@ TEST(Citations, TheCheckItselfSeesViolations) {
               Wrong{docs + "numerics.md, section 99"});
     EXPECT_EQ(wrong_citations(docs + "numerics.md, sections 2 and 99"),
               Wrong{docs + "numerics.md, section 99"});
+    EXPECT_EQ(
+        wrong_citations(docs + "numerics.md, section 9.2, " + docs + "numerics.md, equation (9.2)"),
+        Wrong{});
+    EXPECT_EQ(wrong_citations(docs + "numerics.md, section 9.99"),
+              Wrong{docs + "numerics.md, section 9.99"});
+    EXPECT_EQ(wrong_citations(docs + "numerics.md, equation (9.99)"),
+              Wrong{docs + "numerics.md, equation 9.99"});
     EXPECT_EQ(wrong_citations(docs + "scene.md, \"Nothing\""),
               Wrong{docs + "scene.md, \"Nothing\""});
     const std::string outside[] = {std::string("NUMERI") + "CS", std::string("DESI") + "GN",
