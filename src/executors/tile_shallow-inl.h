@@ -12,9 +12,9 @@
 LAMINA_SIMD_BEGIN
 
 // Parts of larger optical depth are split: up to here Gauss' rules below are good to .01 / 255.
-inline constexpr float largest_part_depth = 0.75f;
+inline constexpr float largest_piece_depth = 0.75f;
 
-// 1 - exp(-depth) for depths up to largest_part_depth, with a relative error of 2e-5: interpolated
+// 1 - exp(-depth) for depths up to largest_piece_depth, with a relative error of 2e-5: interpolated
 // at Chebyshev's nodes.
 LAMINA_INLINE Float shallow_opacity(Float depth) {
     return depth * polynomial(depth, {0.99998385f, -0.49930894f, 0.16195904f, -0.031068699f});

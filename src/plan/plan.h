@@ -93,7 +93,7 @@ struct SlicePlan : CompositingPlan {
     // faces. Slabs are drawn whole by the renderer in whose share the middle of the segment lies.
     std::optional<IndexBox> share;
     std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient
-    // Parts of rays along which light bends by more are cut (slicing/tile_light-inl.h).
+    // Parts of rays along which light bends by more are cut (slicing/cpu_light-inl.h).
     double most_bend = 0;
     double light_error = 0;  // that this leaves, in 1/255
     // Exact segments follow curves where points of the transfer function are smooth, if > 0; it is

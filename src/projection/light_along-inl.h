@@ -106,7 +106,7 @@ class LightAlong {
             return max(extent * (piece.front + 0.5f * change_ * extent), 0);
         };
         // To the depth of a shallow piece: a quadratic equation, in the form without cancellation.
-        const FloatMask deep = depth_to(piece.extent) > largest_part_depth;
+        const FloatMask deep = depth_to(piece.extent) > largest_piece_depth;
         const Float goal(0.7f), square = piece.front * piece.front + 2 * goal * change_;
         const Float root = sqrt(max(square, 0));
         const Float shallow = 2 * goal / max(piece.front + root, 1e-30f);
@@ -120,7 +120,7 @@ class LightAlong {
     // Adds the next piece of each run, or shortens it where its light bends too much for one rule.
     LAMINA_INLINE void add_piece(FloatMask left) {
         const Piece piece = next_piece();
-        const FloatMask deep = piece.depth > largest_part_depth;
+        const FloatMask deep = piece.depth > largest_piece_depth;
         LitNodes<channels> nodes;
         for (std::size_t i = 0; i < 3; ++i) {
             const Float along = GaussRule<3>::nodes[i] * piece.extent, place = at_ + along;

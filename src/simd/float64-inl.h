@@ -120,8 +120,12 @@ LAMINA_INLINE Int to_int(const Float64& whole) {
 LAMINA_INLINE Float64 load_float64(const double* from) {
     return {load<Double>(from), load<Double>(from + Double::lanes)};
 }
+// The same lanes.
 LAMINA_INLINE FloatMask to_float_mask(const Float64Mask& a) {
     return to_float(zero_unless(a, Float64(1.0))) > Float(0);
+}
+LAMINA_INLINE FloatMask to_float_mask(FloatMask a) {
+    return a;
 }
 
 LAMINA_SIMD_END

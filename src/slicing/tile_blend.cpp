@@ -8,7 +8,7 @@
 #include "simd/foreach_target.h"
 
 #include "base/interrupt.h"
-#include "slicing/tile_exact-inl.h"
+#include "slicing/cpu_cells-inl.h"
 #include "slicing/tile_precise-inl.h"
 #include "slicing/tile_segments-inl.h"
 #include "tiles/lane_pixels-inl.h"
@@ -29,7 +29,8 @@ class SlabBlender {
           opacity_only_(opacity_only),
           behind_(target.order == Order::front_to_back),
           as_codes_(plan_.emulation || plan_.dither),
-          cells_(slabs, !plan_.single_color && !opacity_only) {
+          colored_(!plan_.single_color && !opacity_only),
+          cells_(cell_integrator(slabs, colored_)) {
         if (!plan_.single_color || opacity_only_) return;
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const Float color(slabs.single_color[channel]);
@@ -66,13 +67,16 @@ class SlabBlender {
   private:
     LAMINA_INLINE void composite_packet(const TileBrickView& brick, const PacketRays& rays,
                                         Pixels& pixel) {
-        const bool colored = !plan_.single_color && !opacity_only_;
         if (plan_.integrates_cells()) {
-            segments_ += set_exact_segments(brick, rays, colored, cells_, block_);
+            std::visit(
+                [&](auto& cells) LAMINA_LAMBDA {
+                    segments_ += set_exact_segments(brick, rays, colored_, cells, block_);
+                },
+                cells_);
             if (as_codes_) set_precise_depths(block_);
         } else {
-            segments_ += as_codes_ ? set_precise_segments(slabs_, brick, rays, colored, block_)
-                                   : set_segments(slabs_, brick, rays, colored, block_);
+            segments_ += as_codes_ ? set_precise_segments(slabs_, brick, rays, colored_, block_)
+                                   : set_segments(slabs_, brick, rays, colored_, block_);
         }
         composite_block(pixel);
     }
@@ -194,12 +198,12 @@ class SlabBlender {
     const TargetBlend& target_;
     SampleSpan span_;
     double depth_scale_;
-    bool opacity_only_, behind_, as_codes_;
+    bool opacity_only_, behind_, as_codes_, colored_;
     int column_ = 0, row_ = 0;
     std::int64_t segments_ = 0;
     GroupRays rays_;
     SlabBlock block_;
-    CellIntegrator cells_;
+    AnyCellIntegrator cells_;
 };
 
 std::int64_t blend_pixels(const TileSlabs& slabs, const TargetBlend& target,

@@ -7,7 +7,7 @@
 #define LAMINA_SLICING_TILE_BLOCK_INL_H_
 #endif
 
-#include "slicing/tile_rays-inl.h"
+#include "slicing/cpu_rays-inl.h"
 
 LAMINA_SIMD_BEGIN
 

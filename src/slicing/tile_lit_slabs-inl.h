@@ -9,8 +9,8 @@
 #endif
 
 #include "slicing/tile_block-inl.h"
-#include "slicing/tile_light-inl.h"
-#include "slicing/tile_scalars-inl.h"
+#include "slicing/cpu_light-inl.h"
+#include "slicing/cpu_fetch-inl.h"
 
 LAMINA_SIMD_BEGIN
 

@@ -6,7 +6,7 @@
 #include "simd/foreach_target.h"
 
 #include "base/interrupt.h"
-#include "slicing/tile_exact-inl.h"
+#include "slicing/cpu_cells-inl.h"
 #include "slicing/tile_segments-inl.h"
 #include "tiles/node_code-inl.h"
 #include "tiles/target_pixels-inl.h"
@@ -28,7 +28,7 @@ class Marcher {
           shape_(shape),
           single_color_(plan_.single_color),
           area_(area),
-          cells_(slabs, !plan_.single_color) {}
+          cells_(cell_integrator(slabs, !plan_.single_color)) {}
 
     // The root of the tree for each packet, before it is written.
     void evaluate(std::size_t group, NodeSum* sums) {
@@ -38,7 +38,7 @@ class Marcher {
         evaluate(0, shape_.root(), sums);
     }
 
-    std::int64_t segments() const { return segments_ + cells_.parts(); }
+    std::int64_t segments() const { return segments_; }
 
   private:
     void evaluate(int level, const SampleSpan& node, NodeSum* sums) {
@@ -124,7 +124,9 @@ class Marcher {
             if (slabs_.bricks.size() > 1) rays_.set_pixels(slabs_.rays, brick, area_, group_);
             rays_.set_slabs(slabs_, leaf.first, leaf.end());
             if (plan_.integrates_cells()) {
-                march_cells(brick, leaf, leaves);
+                std::visit([&](auto& cells)
+                               LAMINA_LAMBDA { march_cells(brick, leaf, cells, leaves); },
+                           cells_);
                 continue;
             }
             const int blocks_end =
@@ -152,25 +154,27 @@ class Marcher {
 
     // The leaf's part of each ray, cell by cell. A ray that became opaque ends with the cells that
     // are integrated together.
-    void march_cells(const TileBrickView& brick, const SampleSpan& leaf, LeafSum* leaves) {
-        constexpr std::size_t together = CellIntegrator::most_packets;
+    template <bool lit>
+    void march_cells(const TileBrickView& brick, const SampleSpan& leaf, CellIntegrator<lit>& cells,
+                     LeafSum* leaves) {
+        constexpr std::size_t together = CellIntegrator<lit>::most_packets;
         static_assert(group_packets % together == 0);
+        const std::int64_t before = cells.segments();
+        const auto end_opaque = [&](const LeafSum* sums) LAMINA_LAMBDA {
+            for (std::size_t i = 0; plan_.ends_early() && i < together; ++i)
+                cells.end_where(i, sums[i].depth, plan_.opaque_depth);
+        };
         for (std::size_t p = 0; p < group_packets; p += together) {
-            cells_.begin(brick, rays_.packets + p, together, leaf.first);
+            cells.begin(brick, rays_.packets + p, together, leaf.first);
             end_opaque(leaves + p);
-            while (!cells_.done()) {
-                PartSum sums[together];
-                cells_.next(sums);
+            while (!cells.done()) {
+                RaySum sums[together];
+                cells.next(sums);
                 for (std::size_t i = 0; i < together; ++i) put_behind(sums[i], leaves[p + i]);
                 end_opaque(leaves + p);
             }
         }
-    }
-
-    void end_opaque(const LeafSum* leaves) {
-        if (!plan_.ends_early()) return;
-        for (std::size_t i = 0; i < CellIntegrator::most_packets; ++i)
-            cells_.end_where(i, leaves[i].depth, plan_.opaque_depth);
+        segments_ += cells.segments() - before;
     }
 
     void set_block(const TileBrickView& brick, std::size_t packet, int number) {
@@ -211,7 +215,7 @@ class Marcher {
             leaf.depth += Float64(block_depth());
             return;
         }
-        PartSum sum = no_part();
+        RaySum sum = empty_sum();
         const auto put_slab_behind = [&](int i) LAMINA_LAMBDA {
             const Float depth = load<Float>(block_.depths + at(i));
             const Float kept = 1.0f - sum.opacity;
@@ -227,13 +231,13 @@ class Marcher {
         put_behind(sum, leaf);
     }
 
-    LAMINA_INLINE void put_behind(const PartSum& part, LeafSum& leaf) const {
-        leaf.depth += Float64(part.depth);
+    LAMINA_INLINE void put_behind(const RaySum& next, LeafSum& leaf) const {
+        leaf.depth += Float64(next.depth);
         if (single_color_) return;
         for (int channel = 0; channel < 3; ++channel) {
-            leaf.color[channel] += leaf.transmittance * Float64(part.color[channel]);
+            leaf.color[channel] += leaf.transmittance * Float64(next.color[channel]);
         }
-        leaf.transmittance *= 1 - Float64(part.opacity);
+        leaf.transmittance *= 1 - Float64(next.opacity);
     }
 
     const TileSlabs& slabs_;
@@ -245,7 +249,7 @@ class Marcher {
     std::int64_t segments_ = 0;
     GroupRays rays_;
     SlabBlock block_;
-    CellIntegrator cells_;
+    AnyCellIntegrator cells_;
 };
 
 std::int64_t march_pixels(const TileSlabs& slabs, const TreeShape& shape,

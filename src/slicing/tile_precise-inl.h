@@ -11,7 +11,7 @@
 #include "executors/tile_optics-inl.h"
 #include "slicing/tile_lit_slabs-inl.h"
 #include "slicing/tile_runs-inl.h"
-#include "slicing/tile_scalars-inl.h"
+#include "slicing/cpu_fetch-inl.h"
 
 LAMINA_SIMD_BEGIN
 

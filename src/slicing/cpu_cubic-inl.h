@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar along a part of a ray inside one cell: a cubic, as a trilinear field is along every
-// straight line (docs/numerics.md, section 9).
-#if defined(LAMINA_SLICING_TILE_CUBIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LAMINA_SLICING_TILE_CUBIC_INL_H_
-#undef LAMINA_SLICING_TILE_CUBIC_INL_H_
+// The scalar along a segment: a cubic (docs/numerics.md, section 9.1).
+//
+//   c0 .. c3 = the field's value and derivatives at the entry, along the ray         (9.1)
+//   range    = least and largest of its four Bernstein coefficients                  (9.5)
+//   turns    = roots of s'(t) in 0 .. 1
+//   root     = the place between two turns at which s is k                           (9.6)
+#if defined(LAMINA_SLICING_CPU_CUBIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_CPU_CUBIC_INL_H_
+#undef LAMINA_SLICING_CPU_CUBIC_INL_H_
 #else
-#define LAMINA_SLICING_TILE_CUBIC_INL_H_
+#define LAMINA_SLICING_CPU_CUBIC_INL_H_
 #endif
 
 #include "simd/vectors-inl.h"
-#include "slicing/tile_scalars-inl.h"
+#include "slicing/cpu_fetch-inl.h"
 
 LAMINA_SIMD_BEGIN
 

@@ -1,26 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells along the rays of a packet, front to back (Amanatides and Woo 1987), with steps over
-// bricks that show nothing. Every crossing of a plane is computed from the plane itself, so that
-// errors do not accumulate: in floats that begin anew every few cells from double precision, and of
-// what is lit in double precision throughout.
-#if defined(LAMINA_SLICING_TILE_CELL_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LAMINA_SLICING_TILE_CELL_WALK_INL_H_
-#undef LAMINA_SLICING_TILE_CELL_WALK_INL_H_
+// The cells along the rays of a packet, front to back (Amanatides and Woo 1987; docs/numerics.md,
+// section 9.4).
+//
+//   cell = the one in which the ray enters the box
+//   while depth < end:
+//       plane[a] = the cell's far plane on axis a; of a brick that shows nothing, or has one colour
+//                  and one extinction: the far plane of the largest cube of such bricks around it
+//       to = the least depth (9.7) at which the ray meets one of them, at most the end
+//       if the cell shows something: store the segment (cell, depth .. to)
+//       cell[a] = the one behind plane[a] on each axis whose plane is met at `to`
+//       depth = to
+//
+// Every crossing is computed from the plane itself, so errors do not add up. Depths are floats
+// from a beginning in double precision, which is renewed every few cells. Lit rays are walked in
+// double precision throughout: whether light that bends is cut changes the picture by more than a
+// rounding does, and so must not depend on where the walk began.
+#if defined(LAMINA_SLICING_CPU_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_CPU_WALK_INL_H_
+#undef LAMINA_SLICING_CPU_WALK_INL_H_
 #else
-#define LAMINA_SLICING_TILE_CELL_WALK_INL_H_
+#define LAMINA_SLICING_CPU_WALK_INL_H_
 #endif
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "simd/members-inl.h"
 #include "slicing/cell_map.h"
-#include "slicing/tile_cell_parts-inl.h"
-#include "slicing/tile_pages-inl.h"
-#include "slicing/tile_rays-inl.h"
+#include "slicing/cpu_fetch-inl.h"
+#include "slicing/cpu_rays-inl.h"
 
 LAMINA_SIMD_BEGIN
 
+// The segments of some steps of the rays of a few packets, and what is computed of them. In each
+// step a ray crosses one cell, or several that show nothing or are constant.
+struct CellSegments {
+    // Packets side by side: each waits for its own results.
+    static constexpr std::size_t most_packets = 2;
+    static constexpr int most_steps = 32;
+    static constexpr std::size_t capacity = (most_steps * most_packets + 1) * most_lanes;
+
+    // Where the ray enters the cell, from 0 to 1, and how far it goes in it.
+    alignas(64) float place[3][capacity];
+    alignas(64) float change[3][capacity];
+    alignas(64) float length[capacity];        // world units
+    alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner
+    // The normalised scalar from entry to exit (9.1).
+    alignas(64) float cubic[4][capacity];
+    // Of lit segments: the direction to the eye.
+    alignas(64) float to_eye[3][capacity];
+    // Associated colour, opacity and optical depth that the segment adds to its ray.
+    alignas(64) float color[3][capacity];
+    alignas(64) float opacity[capacity];
+    alignas(64) float depth[capacity];
+
+    StoredLanes lanes[most_steps][most_packets];  // rays that have a segment in this step
+    int steps;
+    std::size_t count;
+
+    void clear() {
+        steps = 0;
+        count = 0;
+    }
+};
+
+// `Depth`: Float, or Float64 for lit rays.
+template <class Depth>
 class CellWalk {
   public:
-    // The rays between the depths of `span`, inside the box of a brick.
-    // `light`: null where nothing is lit.
+    static constexpr bool lit = std::is_same_v<Depth, Float64>;
+
+    // The rays between the depths of `span`, inside the box of a brick. `light`: of lit rays alone.
     void begin(const CellMap& map, const TileBrickView& view, const PacketRays& rays,
                const DepthSpan& span, const TileLight* light) {
         map_ = map.kinds.empty() ? nullptr : &map;
@@ -32,18 +84,16 @@ class CellWalk {
             const auto i = static_cast<std::size_t>(axis);
             direction_[i] = crossing_direction(rays.direction[axis]);
             slope_[i] = to_float(direction_[i]);
-            precise_inverse_[i] = 1.0 / direction_[i];
-            inverse_[i] = to_float(precise_inverse_[i]);
+            inverse_[i] = in_steps(1.0 / direction_[i]);
             forward_[i] = slope_[i] > 0;
             last_[i] = static_cast<std::int32_t>(view.brick.last_sample[i]);
             first_[i] = static_cast<std::int32_t>(view.first[axis]);
             cell_[i] = first_cell(axis);
         }
-        lit_ = light != nullptr;
-        if (lit_) eye_ = eye_of(*light, rays);
+        if constexpr (lit) eye_ = eye_of(*light, rays);
     }
 
-    // Where the walk ends; not in front of where it is.
+    // Sets where the walk ends; not in front of where it is.
     void set_end(const Float64& depth) { end_ = depth; }
 
     // Ends the rays of which `depths`, of anything, has reached a limit.
@@ -53,31 +103,29 @@ class CellWalk {
 
     bool done() const { return none_of(depth_ < end_); }
 
-    // Within a run of a few steps depths and places are floats relative to its beginning. A ray's
-    // steps do not depend on the rays beside it. A run of a lit walk is one step: whether light
-    // that bends is cut changes the picture by more than a rounding does, and so must not depend on
-    // where the walk began.
-    LAMINA_INLINE void begin_run() {
+    // Steps are taken between begin_steps() and end_steps(), relative to where the rays are then. A
+    // ray's steps do not depend on the rays beside it.
+    LAMINA_INLINE void begin_steps() {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Float64 there = rays_->origin[static_cast<int>(axis)] + depth_ * direction_[axis];
             start_[axis] = there - Float64(cell_[axis]);
-            place_[axis] = to_float(start_[axis]);
-            passed_[axis] = Float(0);
+            place_[axis] = in_steps(start_[axis]);
+            passed_[axis] = 0;
         }
-        at_ = Float(0);
-        run_end_ = to_float(end_ - depth_);
+        at_ = 0;
+        steps_end_ = in_steps(end_ - depth_);
     }
 
-    LAMINA_INLINE bool run_done() const { return none_of(at_ < run_end_); }
+    LAMINA_INLINE bool steps_done() const { return none_of(at_ < steps_end_); }
 
-    LAMINA_INLINE void end_run() {
-        const Float64 way(at_), whole(run_end_);
+    LAMINA_INLINE void end_steps() {
+        const Float64 way(at_), whole(steps_end_);
         depth_ = select(way >= whole, max(depth_, end_), depth_ + way);
         for (std::size_t axis = 0; axis < 3; ++axis) cell_[axis] = cell_at(axis);
     }
 
-    // Takes a step, and stores the rays' parts; returns which rays have one.
-    LAMINA_INLINE StoredLanes step(CellParts& parts) {
+    // Takes a step, and stores the rays' segments; returns which rays have one.
+    LAMINA_INLINE StoredLanes step(CellSegments& segments) {
         const Int cells[3] = {cell_at(0), cell_at(1), cell_at(2)};
         Float planes[3];
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -94,12 +142,15 @@ class CellWalk {
             }
         }
         FloatMask passes[3];
-        const Float to = lit_ ? precise_end(planes, passes) : end_of_step(planes, passes);
-        const StoredLanes lanes = keep(cells, leaps, to - at_, parts);
+        const Depth to = end_of_step(planes, passes);
+        const StoredLanes lanes = keep(cells, leaps, in_float(to) - in_float(at_), segments);
         for (std::size_t axis = 0; axis < 3; ++axis)
             advance(axis, leaps, planes[axis], passes[axis], to);
         at_ = to;
-        if (lit_) begin_next_run();
+        if constexpr (lit) {
+            end_steps();
+            begin_steps();
+        }
         return lanes;
     }
 
@@ -111,6 +162,20 @@ class CellWalk {
         FloatMask empty;  // over bricks that show nothing
         Int reach;
     };
+
+    // Numbers of the precision of steps.
+    static LAMINA_INLINE Depth in_steps(const Float64& v) {
+        if constexpr (lit)
+            return v;
+        else
+            return to_float(v);
+    }
+    static LAMINA_INLINE Float in_float(const Depth& v) {
+        if constexpr (lit)
+            return to_float(v);
+        else
+            return v;
+    }
 
     // The cell in which the rays begin. On a plane between two cells a ray belongs to the cell that
     // it enters.
@@ -142,11 +207,10 @@ class CellWalk {
     LAMINA_INLINE Int brick_of(std::size_t axis, Int cell) const {
         static_assert(MinMaxBricks::edge == 4);
         const auto last = static_cast<std::int32_t>(map_->count[axis]) - 1;
-        const Int brick = shift_right<2>(cell + first_[axis]);
-        return clamp(brick, 0, last);
+        return clamp(shift_right<2>(cell + first_[axis]), 0, last);
     }
 
-    // The plane at which a leap ends on one axis, counted from the run's first cell. Cubes at the
+    // The plane at which a leap ends on one axis, counted from the steps' first cell. Cubes at the
     // volume's border go on beyond it.
     LAMINA_INLINE Float leap_plane(std::size_t axis, Int brick, Int reach) const {
         const auto count = static_cast<std::int32_t>(map_->count[axis]);
@@ -159,12 +223,24 @@ class CellWalk {
         return to_float(side - (cell_[axis] + first_[axis]));
     }
 
+    // Finds how far the next step goes from where the steps began, and which planes it reaches.
+    LAMINA_INLINE Depth end_of_step(const Float (&planes)[3], FloatMask (&passes)[3]) const {
+        Depth crossings[3];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            crossings[axis] = (Depth(planes[axis]) - place_[axis]) * inverse_[axis];
+        const Depth to =
+            max(min(min(crossings[0], crossings[1]), min(crossings[2], steps_end_)), at_);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            passes[axis] = to_float_mask(crossings[axis] <= to);
+        return to;
+    }
+
     LAMINA_INLINE StoredLanes keep(const Int (&cells)[3], const Leaps& leaps, Float thickness,
-                                   CellParts& parts) const {
+                                   CellSegments& segments) const {
         const FloatMask shown = without(thickness > 0, leaps.empty);
         const StoredLanes lanes = stored_lanes(shown);
         if (lanes.set == 0) return lanes;
-        const std::size_t at = parts.count;
+        const std::size_t at = segments.count;
         Int samples[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
             // Beyond the first and the last sample the border value repeats.
@@ -173,87 +249,56 @@ class CellWalk {
             const FloatMask between = (cell > -1) & (cell < last_[axis]);
             const Float largest(last_[axis] > 0 ? 1.0f : 0.0f);
             const Float share = place_in_cell(axis, sample - cell_[axis]);
-            store_members(clamp(share, 0, largest), shown, parts.place[axis] + at);
+            store_members(clamp(share, 0, largest), shown, segments.place[axis] + at);
             const FloatMask moves = without(between, leaps.lanes);
             store_members(zero_unless(moves, thickness * slope_[axis]), shown,
-                          parts.change[axis] + at);
+                          segments.change[axis] + at);
+            if constexpr (lit) store_members(eye_.to_eye[axis], shown, segments.to_eye[axis] + at);
         }
-        for (std::size_t axis = 0; lit_ && axis < 3; ++axis)
-            store_members(eye_.to_eye[axis], shown, parts.to_eye[axis] + at);
         store_members(cell_index(view_->brick, samples[0], samples[1], samples[2]), shown,
-                      parts.index + at);
-        store_members(thickness * rays_->length_float, shown, parts.length + at);
-        parts.count += static_cast<std::size_t>(std::popcount(lanes.set));
-        prefetch(parts, at);
+                      segments.index + at);
+        store_members(thickness * rays_->length_float, shown, segments.length + at);
+        segments.count += static_cast<std::size_t>(std::popcount(lanes.set));
+        prefetch(segments, at);
         return lanes;
     }
 
-    // Parts beside each other mostly lie in the same lines of the cache.
-    LAMINA_INLINE void prefetch(const CellParts& parts, std::size_t from) const {
+    // Segments beside each other mostly lie in the same lines of the cache.
+    LAMINA_INLINE void prefetch(const CellSegments& segments, std::size_t from) const {
         const TileBrick& brick = view_->brick;
         if (brick.pages != nullptr) return;
         const auto* const samples = static_cast<const std::byte*>(brick.samples);
         const std::size_t bytes = bytes_of_sample(brick.layout);
-        for (std::size_t i = from; i < parts.count; i += TileGrid::block) {
-            const auto index = static_cast<std::size_t>(parts.index[i]);
+        for (std::size_t i = from; i < segments.count; i += TileGrid::block) {
+            const auto index = static_cast<std::size_t>(segments.index[i]);
             __builtin_prefetch(samples + bytes * index);
             __builtin_prefetch(samples + bytes * (index + static_cast<std::size_t>(brick.slice)));
-            if (!lit_) continue;
+            if constexpr (!lit) continue;
             for (const std::int32_t row : {0, brick.slice})
                 __builtin_prefetch(brick.gradients + index + static_cast<std::size_t>(row));
         }
     }
 
-    // Where the rays are, from `corner` on, which is counted from the run's first cell. In double
-    // precision: floats would move the rays by up to 2e-6 of a cell, which rays that graze a
+    // The place of the rays, from `corner` on, which is counted from the steps' first cell. In
+    // double precision: floats would move the rays by up to 2e-6 of a cell, which rays that graze a
     // surface show.
     LAMINA_INLINE Float place_in_cell(std::size_t axis, Int corner) const {
         const Float64 place = start_[axis] + Float64(at_) * direction_[axis];
         return to_float(place - Float64(corner));
     }
 
-    // How far the next step goes from where the run began, and which planes it reaches.
-    LAMINA_INLINE Float end_of_step(const Float (&planes)[3], FloatMask (&passes)[3]) const {
-        Float crossings[3];
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            crossings[axis] = (planes[axis] - place_[axis]) * inverse_[axis];
-        const Float to =
-            max(min(min(crossings[0], crossings[1]), min(crossings[2], run_end_)), at_);
-        for (std::size_t axis = 0; axis < 3; ++axis) passes[axis] = crossings[axis] <= to;
-        return to;
+    // The cell, counted from the steps' first, in which a ray is after a step.
+    LAMINA_INLINE Float cell_after(std::size_t axis, const Depth& to) const {
+        if constexpr (lit)
+            return to_float(floor(place_[axis] + to * direction_[axis]));
+        else
+            return floor(place_[axis] + to * slope_[axis]);
     }
 
-    // The same in double precision, of a lit walk, which keeps it in way_.
-    LAMINA_INLINE Float precise_end(const Float (&planes)[3], FloatMask (&passes)[3]) {
-        Float64 crossings[3];
-        way_ = end_ - depth_;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            crossings[axis] = (Float64(planes[axis]) - start_[axis]) * precise_inverse_[axis];
-            way_ = min(way_, crossings[axis]);
-        }
-        way_ = max(way_, 0);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            passes[axis] = to_float_mask(crossings[axis] <= way_);
-        return to_float(way_);
-    }
-
-    // A lit walk begins a run after every step.
-    LAMINA_INLINE void begin_next_run() {
-        depth_ = select(way_ >= end_ - depth_, max(depth_, end_), depth_ + way_);
-        for (std::size_t axis = 0; axis < 3; ++axis) cell_[axis] = cell_at(axis);
-        begin_run();
-    }
-
-    // The cell, counted from the run's first, in which a ray is after a step.
-    LAMINA_INLINE Float cell_after(std::size_t axis, Float to) const {
-        if (!lit_) return floor(place_[axis] + to * slope_[axis]);
-        return to_float(floor(start_[axis] + way_ * direction_[axis]));
-    }
-
-    // Enters the next cell on one axis. After a leap that is where the ray is then; it lies in the
-    // cube that was crossed, or behind the plane at which the ray leaves it.
+    // Enters the next cell on one axis. After a leap that is the one where the ray is then; it lies
+    // in the cube that was crossed, or behind the plane at which the ray leaves it.
     LAMINA_INLINE void advance(std::size_t axis, const Leaps& leaps, Float plane, FloatMask passes,
-                               Float to) {
+                               const Depth& to) {
         const FloatMask forward = forward_[axis];
         if (leaps.some) {
             const Float there = cell_after(axis, to);
@@ -266,25 +311,23 @@ class CellWalk {
         passed_[axis] = select(passes, behind, passed_[axis]);
     }
 
-    const CellMap* map_ = nullptr;  // null where all rays go cell by cell
+    const CellMap* map_ = nullptr;  // null if all rays go cell by cell
     const TileBrickView* view_ = nullptr;
     const PacketRays* rays_ = nullptr;
     std::int32_t last_[3], first_[3];  // the brick's last samples, and its place in the volume
     Float64 depth_, end_;
-    Float64 way_;  // of lit walks: how far the last step went
     Float64 direction_[3];
-    Float64 precise_inverse_[3];
-    Float slope_[3], inverse_[3];  // the directions in float
-    FloatMask forward_[3];         // towards larger indices
-    bool lit_ = false;
-    EyeLanes eye_;  // of lit walks
-    // At the beginning of a run: the cell, and where the ray is in it.
+    Float slope_[3];  // the same in float
+    Depth inverse_[3];
+    FloatMask forward_[3];  // towards larger indices
+    EyeLanes eye_;          // of lit walks alone
+    // When the steps began: the cell, and the place in it.
     Int cell_[3];
     Float64 start_[3];
-    Float place_[3];  // the same in float
+    Depth place_[3];  // the same
     // Since then: cells passed, as whole numbers, and the depth.
     Float passed_[3];
-    Float at_, run_end_;
+    Depth at_, steps_end_;
 };
 
 LAMINA_SIMD_END

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emission and absorption where the scalar is a cubic and the transfer function one linear piece
-// (docs/numerics.md, section 9).
-#if defined(LAMINA_SLICING_TILE_CELL_OPTICS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LAMINA_SLICING_TILE_CELL_OPTICS_INL_H_
-#undef LAMINA_SLICING_TILE_CELL_OPTICS_INL_H_
+// Emission and absorption of a piece, on which the scalar is a cubic and the transfer function one
+// interval (docs/numerics.md, section 9.2).
+//
+//   q(t)     = the place in the interval, 0 .. 1: the scalar's cubic, scaled
+//   depth    = length (a + b mean of q)                                              (9.2)
+//   opacity  = 1 - exp(-depth)
+//   Q        = q(0) opacity + int q'(t) (exp(-D(t)) - exp(-D(1))) dt, by Gauss' rule (9.4)
+//   color    = c0 opacity + (c1 - c0) Q                                              (9.3)
+//
+// A curved interval's extinction is a cubic of q instead of a + b q; depth is its mean.
+#if defined(LAMINA_SLICING_CPU_OPTICS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_CPU_OPTICS_INL_H_
+#undef LAMINA_SLICING_CPU_OPTICS_INL_H_
 #else
-#define LAMINA_SLICING_TILE_CELL_OPTICS_INL_H_
+#define LAMINA_SLICING_CPU_OPTICS_INL_H_
 #endif
 
 #include <cstring>
 
 #include "executors/tile_optics-inl.h"
 #include "executors/tile_shallow-inl.h"
-#include "slicing/tile_cubic-inl.h"
+#include "slicing/cpu_cubic-inl.h"
 #include "tiles/opacity-inl.h"
 
 LAMINA_SIMD_BEGIN
@@ -47,16 +55,16 @@ struct IntervalLanes : IntervalBend<curved> {
 // Records are fetched one by one and transposed, which is faster than a gather for each number.
 template <bool curved>
 LAMINA_INLINE IntervalLanes<curved> fetched_intervals(const TileTransfer& transfer, Int number) {
-    constexpr std::size_t parts = curved ? 4 : 3, size = 4;
+    constexpr std::size_t groups = curved ? 4 : 3, size = 4;
     alignas(64) std::int32_t numbers[most_lanes];
-    alignas(64) float records[parts][size * most_lanes];
+    alignas(64) float records[groups][size * most_lanes];
     store(number, numbers);
     for (std::size_t lane = 0; lane < Float::lanes; ++lane) {
         const float* const from =
             transfer.records.data() +
             TileTransfer::record_size * static_cast<std::size_t>(numbers[lane]);
-        for (std::size_t part = 0; part < parts; ++part)
-            std::memcpy(records[part] + size * lane, from + size * part, size * sizeof(float));
+        for (std::size_t group = 0; group < groups; ++group)
+            std::memcpy(records[group] + size * lane, from + size * group, size * sizeof(float));
     }
     IntervalLanes<curved> lanes;
     Float unused;
@@ -88,20 +96,20 @@ LAMINA_INLINE IntervalLanes<curved> interval_lanes(const TileTransfer& transfer,
     return lanes;
 }
 
-// A part of a ray in one interval: its share, and its extinction times its length.
+// A piece: its place in the interval along it, and its extinction times its length.
 template <bool curved>
-struct RayPart;
+struct PieceOptics;
 
 // A straight interval: extinction at share 0, and its change to share 1.
 template <>
-struct RayPart<false> {
+struct PieceOptics<false> {
     CubicLanes share;
     Float extinction, change;
 
-    RayPart() = default;
-    LAMINA_INLINE RayPart(const IntervalLanes<false>& interval, const CubicLanes& part_share,
-                          Float length)
-        : share(part_share),
+    PieceOptics() = default;
+    LAMINA_INLINE PieceOptics(const IntervalLanes<false>& interval, const CubicLanes& piece_share,
+                              Float length)
+        : share(piece_share),
           extinction(interval.left[3] * length),
           change(interval.change[3] * length) {}
 
@@ -125,14 +133,14 @@ struct RayPart<false> {
 // A curved interval. The extinction is the cubic that has its values at four nodes of Gauss' rule,
 // so that the optical depth is good where the curve and the share are a polynomial of degree 7.
 template <>
-struct RayPart<true> {
+struct PieceOptics<true> {
     CubicLanes share;
     CubicLanes extinction;
 
-    RayPart() = default;
-    LAMINA_INLINE RayPart(const IntervalLanes<true>& interval, const CubicLanes& part_share,
-                          Float length)
-        : share(part_share) {
+    PieceOptics() = default;
+    LAMINA_INLINE PieceOptics(const IntervalLanes<true>& interval, const CubicLanes& piece_share,
+                              Float length)
+        : share(piece_share) {
         for (Float& c : extinction.c) c = Float(0);
         for (std::size_t i = 0; i < 4; ++i) {
             const Float u = clamp01(share.at(GaussRule<4>::nodes[i]));
@@ -160,15 +168,15 @@ struct RayPart<true> {
         {-7.42054007f, 18.7954494f, -18.7954494f, 7.42054007f}};
 };
 
-// The share that reaches a part's front: the integral of share times emission times transmittance,
-// for `opacity` of `depth`, which is at most largest_part_depth. Integrated by parts, so that only
+// The share that reaches a piece's front: the integral of share times emission times transmittance,
+// for `opacity` of `depth`, which is at most largest_piece_depth. Integrated by parts, so that only
 // the share's slope is left for Gauss' rule (docs/numerics.md, section 9), and a constant share is
 // exact.
 template <std::size_t points, bool curved>
-LAMINA_INLINE Float seen_share(const RayPart<curved>& part, Float depth, Float opacity) {
+LAMINA_INLINE Float seen_share(const PieceOptics<curved>& piece, Float depth, Float opacity) {
     using Rule = GaussRule<points>;
-    const CubicLanes& share = part.share;
-    const CubicLanes mean_depth = part.mean_depth();
+    const CubicLanes& share = piece.share;
+    const CubicLanes mean_depth = piece.mean_depth();
     const Float all = shallow_opacity(depth);
     Float sum = opacity * share.c[0];
     for (std::size_t i = 0; i < points; ++i) {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewing rays of a vector of pixels in double precision, as shaders/slicing/ray.glsl.
-#if defined(LAMINA_SLICING_TILE_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LAMINA_SLICING_TILE_RAYS_INL_H_
-#undef LAMINA_SLICING_TILE_RAYS_INL_H_
+// The viewing rays of a vector of pixels in double precision, as shaders/slicing/ray.glsl has them.
+//
+//   origin, direction = of each pixel, along the axes of the brick's samples; direction a depth
+//   enter, leave      = where the ray meets the planes of clips, and then the faces of the box
+//   slabs             = those between the least enter and the largest leave of a packet
+#if defined(LAMINA_SLICING_CPU_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_CPU_RAYS_INL_H_
+#undef LAMINA_SLICING_CPU_RAYS_INL_H_
 #else
-#define LAMINA_SLICING_TILE_RAYS_INL_H_
+#define LAMINA_SLICING_CPU_RAYS_INL_H_
 #endif
 
 #include <algorithm>

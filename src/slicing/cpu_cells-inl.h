@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rays of some packets through one brick, integrated cell by cell without slabs.
+//
+//   repeat until the rays end:
+//       walk some steps: a segment for each cell that shows something       cpu_walk-inl.h
+//       fetch the corners of their cells: the scalar as a cubic (9.1)       cpu_fetch-inl.h
+//       for each segment:
+//           if it stays in one interval of the transfer function (9.5) and is shallow:
+//               depth, opacity and colour by one rule (9.2, 9.3)            cpu_optics-inl.h
+//               add light (10.2); if that bends too much: cut it            cpu_light-inl.h
+//           else: cut it                                                    cpu_cut-inl.h
+//       composite each ray's segments front to back
+//
+// To integrate something else of a cell (its largest value, say), replace integrate(), which sets
+// what a segment adds, and put_behind(), which adds it.
+#if defined(LAMINA_SLICING_CPU_CELLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_CPU_CELLS_INL_H_
+#undef LAMINA_SLICING_CPU_CELLS_INL_H_
+#else
+#define LAMINA_SLICING_CPU_CELLS_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <variant>
+
+#include "slicing/cpu_cut-inl.h"
+#include "slicing/cpu_light-inl.h"
+#include "slicing/cpu_walk-inl.h"
+#include "slicing/tile_block-inl.h"
+
+LAMINA_SIMD_BEGIN
+
+// The associated colour, opacity and optical depth of some of each ray.
+struct RaySum {
+    Float color[3];
+    Float opacity, depth;
+};
+
+LAMINA_INLINE RaySum empty_sum() {
+    const Float zero(0);
+    return {{zero, zero, zero}, zero, zero};
+}
+
+LAMINA_INLINE void put_behind(const RaySum& next, RaySum& sum) {
+    const Float kept = 1 - sum.opacity;
+    for (int channel = 0; channel < 3; ++channel) sum.color[channel] += kept * next.color[channel];
+    sum.opacity += kept * next.opacity;
+    sum.depth += next.depth;
+}
+
+template <bool lit>
+class CellIntegrator {
+  public:
+    static constexpr std::size_t most_packets = CellSegments::most_packets;
+
+    // `colored`: colours are wanted, too.
+    CellIntegrator(const TileSlabs& slabs, bool colored) : slabs_(slabs), colored_(colored) {}
+
+    // Begins at the front of slab `slab`, where the rays are in what is drawn, and ends where they
+    // leave it. `packets`: up to most_packets of them.
+    void begin(const TileBrickView& view, const PacketRays* packets, std::size_t count, int slab) {
+        view_ = &view;
+        packets_ = count;
+        for (std::size_t i = 0; i < count; ++i) {
+            spans_[i] = span_from(packets[i], slab);
+            walks_[i].begin(*slabs_.cells, view, packets[i], spans_[i], slabs_.light);
+        }
+    }
+    // Ends at the front of slab `slab`, which lies behind what was integrated.
+    void set_end(int slab) {
+        for (std::size_t i = 0; i < packets_; ++i)
+            walks_[i].set_end(boundary(slabs_.rays, spans_[i], slab));
+    }
+    // Ends the rays of a packet of which `depths` has reached a limit.
+    void end_where(std::size_t packet, const Float64& depths, double limit) {
+        walks_[packet].end_where(depths, limit);
+    }
+    bool done() const {
+        for (std::size_t i = 0; i < packets_; ++i) {
+            if (!walks_[i].done()) return false;
+        }
+        return true;
+    }
+
+    // The sums over the next few cells of each ray, for each packet.
+    void next(RaySum* sums) {
+        walk();
+        count_ += static_cast<std::int64_t>(segments_.count);
+        if (segments_.count > 0) {
+            set_cubics();
+            with_lookup(*slabs_.transfer, [&](auto kind) LAMINA_LAMBDA {
+                if (slabs_.transfer->bend[0].empty()) {
+                    integrate<decltype(kind)::value, false>(*slabs_.transfer);
+                } else {
+                    integrate<decltype(kind)::value, true>(*slabs_.transfer);
+                }
+            });
+        }
+        if (colored_) {
+            sum_segments<true>(sums);
+        } else {
+            sum_segments<false>(sums);
+        }
+    }
+
+    std::int64_t segments() const { return count_; }
+
+  private:
+    DepthSpan span_from(const PacketRays& rays, int slab) const {
+        const Float64 front = slab * slabs_.rays.slab_thickness;
+        const Float64 enter = max(front, max(rays.enter, rays.drawn.enter));
+        return {enter, max(enter, min(rays.leave, rays.drawn.leave))};
+    }
+
+    void walk() {
+        segments_.clear();
+        for (std::size_t i = 0; i < packets_; ++i) walks_[i].begin_steps();
+        for (bool some = true; some && segments_.steps < CellSegments::most_steps;) {
+            some = false;
+            for (std::size_t i = 0; i < packets_; ++i) {
+                StoredLanes& lanes = segments_.lanes[segments_.steps][i];
+                lanes.set = 0;
+                if (walks_[i].steps_done()) continue;
+                lanes = walks_[i].step(segments_);
+                some = true;
+            }
+            segments_.steps += some;
+        }
+        for (std::size_t i = 0; i < packets_; ++i) walks_[i].end_steps();
+    }
+
+    void set_cubics() {
+        const TileBrick& brick = view_->brick;
+        // Samples have no neighbour along x; those of pages always have one.
+        const bool flat = brick.last_sample[0] == 0 && brick.pages == nullptr;
+        switch (brick.layout) {
+            case TileLayout::bytes:
+                return flat ? set_cubics_by_gathers<TileLayout::bytes>(brick)
+                            : set_cubics_of<TileLayout::bytes>(brick);
+            case TileLayout::words:
+                return flat ? set_cubics_by_gathers<TileLayout::words>(brick)
+                            : set_cubics_of<TileLayout::words>(brick);
+            case TileLayout::floats:
+                return flat ? set_cubics_by_gathers<TileLayout::floats>(brick)
+                            : set_cubics_of<TileLayout::floats>(brick);
+        }
+        unreachable_enum();
+    }
+
+    // Fetches pairs of neighbours along x one by one, which is faster than gathers, some vectors of
+    // segments at a time.
+    template <TileLayout layout>
+    void set_cubics_of(const TileBrick& brick) {
+        using Pair = typename PairOf<layout>::Type;
+        Pair pairs[4][fetched_together];
+        for (std::size_t from = 0; from < segments_.count; from += fetched_together) {
+            const std::size_t count = std::min(fetched_together, segments_.count - from);
+            fetch_pairs(brick, segments_.index + from, count, pairs);
+            for (std::size_t i = 0; i < count; i += Float::lanes) {
+                const Corners corners = unpack_pairs<layout>(brick, pairs, i);
+                set_cubic(brick, corners, from + i);
+            }
+        }
+    }
+
+    template <TileLayout layout>
+    void set_cubics_by_gathers(const TileBrick& brick) {
+        for_each_vector([&](std::size_t i) LAMINA_LAMBDA {
+            const Int index = load<Int>(segments_.index + i);
+            const FloatMask stored = members_from(i);
+            set_cubic(brick, fetch_corners<layout>(brick, zero_unless(stored, index)), i);
+        });
+    }
+
+    LAMINA_INLINE void set_cubic(const TileBrick& brick, const Corners& corners, std::size_t i) {
+        const Float place[3] = {load<Float>(segments_.place[0] + i),
+                                load<Float>(segments_.place[1] + i),
+                                load<Float>(segments_.place[2] + i)};
+        const Float change[3] = {load<Float>(segments_.change[0] + i),
+                                 load<Float>(segments_.change[1] + i),
+                                 load<Float>(segments_.change[2] + i)};
+        // Floats are normalised, with an offset of 0. The scale is a power of two (exact_range()).
+        const Float base(-brick.offset / brick.scale);
+        CubicLanes cubic = cubic_along(corners, base, place, change);
+        for (Float& c : cubic.c) c *= brick.scale;
+        if (slabs_.plan->nan_transparent) set_transparent(corners, cubic, i);
+        for (std::size_t power = 0; power < 4; ++power)
+            store(cubic.c[power], segments_.cubic[power] + i);
+    }
+
+    // Cells with a corner that is not finite.
+    LAMINA_INLINE void set_transparent(const Corners& corners, CubicLanes& cubic, std::size_t i) {
+        Float sum(0);
+        for (int corner = 0; corner < 4; ++corner)
+            sum += corners.lower[corner] + corners.upper[corner];
+        const FloatMask finite = sum == sum;
+        for (Float& c : cubic.c) c = zero_unless(finite, c);
+        store(zero_unless(finite, load<Float>(segments_.length + i)), segments_.length + i);
+    }
+
+    // Segments in one interval of the transfer function are integrated by one rule; the others
+    // are cut.
+    template <Lookup kind, bool curved>
+    void integrate(const TileTransfer& transfer) {
+        cut_.clear();
+        for_each_vector([&](std::size_t i) LAMINA_LAMBDA {
+            const CubicLanes cubic = cubic_of(i);
+            const RangeLanes range = range_of(cubic);
+            const Float lowest = clamp01(range.lo);
+            const Int number = find_interval<kind>(transfer, lowest);
+            const IntervalLanes<curved> interval = interval_lanes<kind, curved>(transfer, number);
+            const FloatMask crosses = range.hi > interval.right_end;
+            const Float length = load<Float>(segments_.length + i);
+            const PieceOptics<curved> piece(interval, interval.share_along(cubic), length);
+            const Float depth = piece.depth();
+            const FloatMask stored = members_from(i);
+            FloatMask hard = crosses;
+            if (any_of(crosses))
+                hard = crosses & shows_something<kind>(transfer, number, clamp01(range.hi));
+            const Float shown_depth = zero_unless(!crosses, depth);
+            if (colored_) hard = hard | (shown_depth > largest_piece_depth);
+            hard = stored & hard;
+            store(shown_depth, segments_.depth + i);
+            if (colored_) set_colors(interval, piece, shown_depth, i);
+            typename CutSegments<lit>::Segment segment;
+            segment.scalar = cubic;
+            segment.length = length;
+            segment.number = iota<Int>(static_cast<std::int32_t>(i));
+            if constexpr (lit) {
+                segment.longest = 1;
+                if (colored_) add_light_to(interval, piece, shown_depth, i, segment, hard);
+            }
+            if (any_of(hard)) cut_.add(segment, hard);
+        });
+        if (!cut_.empty())
+            cut_.template run<kind, curved>(transfer, slabs_.light, colored_, segments_);
+    }
+
+    // Adds light to the colours of segments that show something, and those whose light bends to the
+    // `hard` ones. Sets their gradients, and how long their pieces may be.
+    template <bool curved>
+    LAMINA_INLINE void add_light_to(const IntervalLanes<curved>& interval,
+                                    const PieceOptics<curved>& piece, Float depth, std::size_t i,
+                                    LitCutSegment& segment, FloatMask& hard) {
+        const FloatMask seen = members_from(i) & (depth > 0);
+        if (none_of(seen | hard)) return;
+        const TileLight& light = *slabs_.light;
+        segment.gradient =
+            set_gradients(view_->brick, seen | hard, i, light, segments_, gradient_rows_);
+        Float color[3];
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            color[channel] = load<Float>(segments_.color[channel] + i);
+        const Float opacity = load<Float>(segments_.opacity + i);
+        const Float bend =
+            add_light(light, segment.gradient,
+                      LitPiece<curved>{piece, interval, 0, 1, depth, opacity}, color);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            store(zero_unless(seen, color[channel]), segments_.color[channel] + i);
+        hard = hard | (seen & bends(light, bend, opacity));
+        segment.longest = longest_piece(light, bend);
+    }
+
+    template <bool curved>
+    LAMINA_INLINE void set_colors(const IntervalLanes<curved>& interval,
+                                  const PieceOptics<curved>& piece, Float depth, std::size_t i) {
+        const FloatMask seen = depth > 0;
+        if (none_of(seen)) {
+            for (auto& channel : segments_.color) store(Float(0), channel + i);
+            store(Float(0), segments_.opacity + i);
+            return;
+        }
+        const Float opacity = opacity_from_depth(depth);
+        const Float share = zero_unless(seen, seen_share<4>(piece, depth, opacity));
+        store(opacity, segments_.opacity + i);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            store(interval.color(channel, opacity, share), segments_.color[channel] + i);
+    }
+
+    // Composites each ray's segments front to back.
+    template <bool colored>
+    void sum_segments(RaySum* sums) const {
+        for (std::size_t packet = 0; packet < packets_; ++packet) sums[packet] = empty_sum();
+        std::size_t from = 0;
+        for (int i = 0; i < segments_.steps; ++i) {
+            for (std::size_t packet = 0; packet < packets_; ++packet) {
+                const StoredLanes& lanes = segments_.lanes[i][packet];
+                if (lanes.set == 0) continue;
+                add_segments<colored>(lanes, from, sums[packet]);
+                from += static_cast<std::size_t>(std::popcount(lanes.set));
+            }
+        }
+    }
+    template <bool colored>
+    LAMINA_INLINE void add_segments(const StoredLanes& lanes, std::size_t from, RaySum& sum) const {
+        RaySum next = empty_sum();
+        next.depth = load_members(segments_.depth + from, lanes);
+        if constexpr (colored) {
+            next.opacity = load_members(segments_.opacity + from, lanes);
+            for (int channel = 0; channel < 3; ++channel)
+                next.color[channel] = load_members(segments_.color[channel] + from, lanes);
+            put_behind(next, sum);
+        } else {
+            sum.depth += next.depth;
+        }
+    }
+
+    template <class Body>
+    LAMINA_INLINE void for_each_vector(const Body& body) {
+        for (std::size_t i = 0; i < segments_.count; i += Float::lanes) body(i);
+    }
+
+    LAMINA_INLINE CubicLanes cubic_of(std::size_t i) const {
+        CubicLanes cubic;
+        for (std::size_t power = 0; power < 4; ++power)
+            cubic.c[power] = load<Float>(segments_.cubic[power] + i);
+        return cubic;
+    }
+
+    // The lanes that hold a segment, of the vector from segment i on.
+    LAMINA_INLINE FloatMask members_from(std::size_t i) const {
+        return first_lanes<FloatMask>(segments_.count - i);
+    }
+
+    static constexpr std::size_t fetched_together = 8 * most_lanes;
+
+    const TileSlabs& slabs_;
+    bool colored_;
+    const TileBrickView* view_ = nullptr;
+    std::size_t packets_ = 0;
+    DepthSpan spans_[most_packets];
+    CellWalk<std::conditional_t<lit, Float64, Float>> walks_[most_packets];
+    CellSegments segments_;
+    CutSegments<lit> cut_;
+    struct Nothing {};
+    alignas(64) std::conditional_t<lit, GradientRows, Nothing> gradient_rows_ = {};
+    std::int64_t count_ = 0;
+};
+
+// The integrator of a picture: lit, or not.
+using AnyCellIntegrator = std::variant<CellIntegrator<false>, CellIntegrator<true>>;
+
+LAMINA_INLINE AnyCellIntegrator cell_integrator(const TileSlabs& slabs, bool colored) {
+    if (slabs.light != nullptr)
+        return AnyCellIntegrator(std::in_place_type<CellIntegrator<true>>, slabs, colored);
+    return AnyCellIntegrator(std::in_place_type<CellIntegrator<false>>, slabs, colored);
+}
+
+// Sets optical depths and colours of the slabs of a block that are wanted.
+template <bool lit>
+std::int64_t set_exact_segments(const TileBrickView& brick, const PacketRays& packet, bool colored,
+                                CellIntegrator<lit>& cells, SlabBlock& block) {
+    const std::int64_t before = cells.segments();
+    for_each_run(block.wanted, [&](int first, int end) LAMINA_LAMBDA {
+        cells.begin(brick, &packet, 1, block.first_slab + first);
+        for (int i = first; i < end; ++i) {
+            cells.set_end(block.first_slab + i + 1);
+            RaySum sum = empty_sum();
+            while (!cells.done()) {
+                RaySum next;
+                cells.next(&next);
+                put_behind(next, sum);
+            }
+            store(sum.depth, block.depths + at(i));
+            if (!colored) continue;
+            const Float opacity = max(sum.opacity, 1e-37f);
+            for (int channel = 0; channel < 3; ++channel)
+                store(sum.color[channel] / opacity, block.colors[channel] + at(i));
+        }
+    });
+    return cells.segments() - before;
+}
+
+LAMINA_SIMD_END
+
+#endif
