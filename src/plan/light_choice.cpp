@@ -8,14 +8,15 @@
 namespace lamina {
 namespace {
 
-// Of max_error, what kinks and bends may cost; and what light may be off by in all, with the parts
-// that are too faint to be looked at.
+// Shares of max_error: what kinks and bends may cost, and what light may cost in all, with the
+// pieces that are too faint to be looked at.
 constexpr double bend_share = 0.5, light_share = 0.75;
-// Of what it sees light bend, what the rule of three nodes misses of a kink between them.
+// Share of a bend that the rule of three nodes misses of a kink between them (docs/numerics.md,
+// section 10.4).
 constexpr double missed_of_kink = 0.045;
 
-// A ray's opacity is at most 1: where each of its pieces misses no more than this of what it shows,
-// the ray does not either.
+// Returns the bend that a piece may have (docs/numerics.md, equation (10.4)). A ray's opacity is at
+// most 1: if each of its pieces misses no more than its share of what it shows, so does the ray.
 double most_bend(const Scene& scene, double max_color) {
     return bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);
 }
@@ -42,16 +43,7 @@ void plan_light(const Scene& scene, double max_color, ProjectPlan& project) {
     set_light(scene, max_color, project);
 }
 
-// A piece is tried again, half as long, only where light bends by more than `most_bend` and by more
-// than a quarter of that in what the eye sees of it, divided by the largest effect of light where
-// that is more than 1. The second difference of three effects is at most twice their span, which is
-// at least what may be hidden; kinks count up to 2.52 times the span. So such a piece shows at
-// least 1 / `most` of the ray, and those that do not overlap are at most `most`. Pieces whose
-// lengths lie within one octave do not overlap, and lengths have eight octaves
-// (shaders/slicing/lit_cell.glsl): 8 * most trials in vain, and as length doubles after two pieces
-// of full length, twice as many of these. Whole parts of which that is true are at most `most`,
-// too: each takes a round to be found, up to three stretches that begin with pieces of an eighth,
-// and so ten rounds in all.
+// Returns the bound of docs/numerics.md, equation (10.6).
 double light_rounds(const Scene& scene, double max_color) {
     if (!scene.lighting) return 0;
     const glm::dvec3 anywhere(0, 0, 1);

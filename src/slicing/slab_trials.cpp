@@ -24,48 +24,53 @@
 namespace lamina {
 namespace {
 
-constexpr double most_slabs_per_voxel = 16;
-constexpr int fewest_most_slabs = 1024;  // volumes of few voxels along the view may have kinks, too
-constexpr int most_trials = 8;
+// The search for the fewest slabs whose picture keeps the goal, max_error less what else costs
+// (slab_error_goal()):
+//
+//   too few = 0, enough = none
+//   until most_trials pictures are drawn, or nothing lies between too few and enough:
+//       error = largest difference of the picture of `slabs` slabs to the truth on traced rays, and
+//               to a picture of `finer` times the slabs if not all rays are traced
+//       if error <= goal: enough = slabs; stop if it is at least near_aim of the goal
+//       else: too few = slabs; stop if twice the slabs left still_left of the error
+//       slabs = slabs sqrt(error / (aim goal)), as errors of second order fall
+//
+// Large pictures are searched on first_rays rays, and from there on most_rays. If errors are not of
+// second order, fewer slabs (`fewer`) are tried at the end: they may keep the goal by chance.
+struct TrialLimits {
+    static constexpr int most_trials = 8;  // pictures a search
+    static constexpr double most_slabs_per_voxel = 16;
+    // Volumes of few voxels along the view may have kinks, too.
+    static constexpr int fewest_most_slabs = 1024;
 
-// Of the goal: what is aimed at.
-constexpr double aim = 0.9;
+    static constexpr double aim = 0.9;  // share of the goal that is aimed at
+    // Share of the goal that ends a search: of small pictures, and of large ones, whose trials cost
+    // more than some slabs gain.
+    static constexpr double near_aim_of_small = 0.78, near_aim_of_large = 0.6;
+    static constexpr double most_growth = 4;   // slabs of a trial over those of the one before
+    static constexpr double still_left = 0.7;  // share of the error; then slabs do not help
+    // Share of the goal below which an error is no measure of the next number of slabs.
+    static constexpr double unbelievable = 1e-3;
+    // What rays find may be so many times what pictures show before the trial is doubtful: errors
+    // are not those of second order alone.
+    static constexpr double most_doubt = 1.1;
+    // Shares of the number of slabs that was found.
+    static constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
 
-// Pictures of at most so many rays are held against the tracer on each of them; of larger ones so
-// many are traced, for a fifth of the time that the pictures of a usual search take.
-constexpr double all_traced_rays = 5 << 14;  // 330 x 248
-constexpr std::size_t some_traced_rays = 3 << 12;
-// Larger pictures are first looked at in one of so many rays.
-constexpr double first_rays = 1 << 13;
-constexpr double most_rays = 1 << 20, filter_rays = 1 << 17;
+    // Rays. Pictures of at most all_traced_rays (330 x 248) are held against the tracer on each of
+    // them; of larger ones some_traced_rays are traced, for a fifth of the time that the pictures
+    // of a usual search take.
+    static constexpr double all_traced_rays = 5 << 14;
+    static constexpr std::size_t some_traced_rays = 3 << 12;
+    static constexpr double first_rays = 1 << 13, most_rays = 1 << 20, filter_rays = 1 << 17;
 
-// Of the goal, what is near enough to it: where pictures are small, and where trials cost more than
-// some slabs gain.
-constexpr double near_aim_of_small = 0.78, near_aim_of_large = 0.6;
+    // The tracer's tolerance: this share of max_error, within limits that are worth their time.
+    static constexpr double tracer_share = 0.01, finest_tolerance = 1e-8, coarsest_tolerance = 1e-4;
 
-// The tracer's tolerance is this share of the wanted error, within limits that are worth their
-// time.
-constexpr double tracer_share = 0.01, finest_tolerance = 1e-8, coarsest_tolerance = 1e-4;
-
-// From one trial to the next at most so many times the slabs; where twice as many and more leave
-// more than this share of the error, more of them do not help.
-constexpr double most_growth = 4, still_left = 0.7;
-
-// A picture is compared with one of so many times its slabs, or one that is there and has at least
-// so many times as many.
-constexpr int finer = 3;
-constexpr double fine_enough = 2;
-
-// Where errors are not of second order fewer slabs may by chance make less than more: these shares
-// of what was found are tried.
-constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
-
-// What the tracer finds may be so many times what pictures show: their errors are not those of
-// second order alone.
-constexpr double most_doubt = 1.1;
-
-// Errors below this share of the goal are no measure of the next number of slabs.
-constexpr double unbelievable = 1e-3;
+    // Slabs of the finer picture over those of a trial, when it is drawn and at least.
+    static constexpr int finer = 3;
+    static constexpr double fine_enough = 2;
+};
 
 double rays_of(const Scene& scene) {
     return static_cast<double>(scene.width) * scene.height;
@@ -86,11 +91,11 @@ class SlabTrials {
           tables_(tables),
           ready_(std::move(ready)),
           most_(most),
-          all_traced_(rays_of(scene_) <= all_traced_rays),
+          all_traced_(rays_of(scene_) <= TrialLimits::all_traced_rays),
           truth_(volume, *scene.transfer_function,
                  View(*scene_.camera, scene_.width, scene_.height),
-                 {.tolerance = std::clamp(tracer_share * scene.max_error / 255, finest_tolerance,
-                                          coarsest_tolerance),
+                 {.tolerance = std::clamp(TrialLimits::tracer_share * scene.max_error / 255,
+                                          TrialLimits::finest_tolerance, TrialLimits::coarsest_tolerance),
                   .lighting = scene.lighting,
                   .clip = half_spaces(scene.clip)}) {}
 
@@ -102,7 +107,7 @@ class SlabTrials {
     }
 
     void try_fewer(int enough, std::vector<SlabTrial>& trials) {
-        for (const double share : fewer) {
+        for (const double share : TrialLimits::fewer) {
             const int slabs = static_cast<int>(std::ceil(share * enough));
             if (std::ranges::find(trials, slabs, &SlabTrial::slabs) != trials.end()) continue;
             if (trials.emplace_back(try_slabs(slabs, Filter::exact)).keeps_goal()) return;
@@ -122,21 +127,24 @@ class SlabTrials {
 
   private:
     std::vector<SlabTrial> run_from(int slabs, Filter filter) {
-        const double near_aim = all_traced_ ? near_aim_of_small : near_aim_of_large;
+        const double near_aim = all_traced_ ? TrialLimits::near_aim_of_small : TrialLimits::near_aim_of_large;
         std::vector<SlabTrial> trials;
         double error_of_too_few = std::numeric_limits<double>::infinity();
         int too_few = 0, enough = most_ + 1;
-        while (trials.size() < most_trials && too_few + 1 < enough) {
+        while (trials.size() < TrialLimits::most_trials && too_few + 1 < enough) {
             slabs = std::clamp(slabs, too_few + 1, enough - 1);
             const SlabTrial trial = trials.emplace_back(try_slabs(slabs, filter));
             const bool kept = trial.keeps_goal();
-            if (!kept && slabs >= 2 * too_few && trial.error > still_left * error_of_too_few) break;
+            if (!kept && slabs >= 2 * too_few &&
+                trial.error > TrialLimits::still_left * error_of_too_few)
+                break;
             (kept ? enough : too_few) = slabs;
             if (kept && (trial.error >= near_aim * trial.goal || shows_too_little(trial))) break;
             if (!kept) error_of_too_few = trial.error;
             // The error falls with the square of the number, but where there are steps.
-            const double next = std::ceil(slabs * std::sqrt(trial.error / (aim * trial.goal)));
-            slabs = static_cast<int>(std::min({next, double(most_), most_growth * slabs}));
+            const double next =
+                std::ceil(slabs * std::sqrt(trial.error / (TrialLimits::aim * trial.goal)));
+            slabs = static_cast<int>(std::min({next, double(most_), TrialLimits::most_growth * slabs}));
         }
         return trials;
     }
@@ -144,7 +152,7 @@ class SlabTrials {
     // Where rays may cross a point of the transfer function, an error of nothing says that they met
     // none, not that fewer slabs meet as much.
     bool shows_too_little(const SlabTrial& trial) const {
-        return facts_.knots > 0 && trial.error < unbelievable * trial.goal;
+        return facts_.knots > 0 && trial.error < TrialLimits::unbelievable * trial.goal;
     }
 
     static Facts seen_by(const Scene& scene, Facts facts) {
@@ -179,13 +187,14 @@ class SlabTrials {
         }
         draw_fine(slabs);
         const Image picture = draw(slabs, filter, {});
-        if (truth_.empty()) truth_.trace_some(some_traced_rays, picture, *fine_, points_cover());
+        if (truth_.empty())
+            truth_.trace_some(TrialLimits::some_traced_rays, picture, *fine_, points_cover());
         // The finer picture has the share (slabs / fine_slabs_)^2 of the error, too.
         const double share = static_cast<double>(slabs) / fine_slabs_;
         const double shown = image_error(picture, *fine_).all.linf / (1 - share * share);
         const double traced = truth_.error_of(picture);
         SlabTrial trial = trial_of(slabs, std::max(shown, traced));
-        trial.doubtful = traced > most_doubt * shown || shows_too_little(trial);
+        trial.doubtful = traced > TrialLimits::most_doubt * shown || shows_too_little(trial);
         return trial;
     }
 
@@ -196,8 +205,8 @@ class SlabTrials {
     }
 
     void draw_fine(int slabs) {
-        if (fine_slabs_ >= fine_enough * slabs) return;
-        fine_slabs_ = finer * slabs;
+        if (fine_slabs_ >= TrialLimits::fine_enough * slabs) return;
+        fine_slabs_ = TrialLimits::finer * slabs;
         OmissionSwitch exact;  // the error of early termination is one of the trial's
         exact.kept = {"early_termination"};
         fine_ = draw(fine_slabs_, Filter::exact, exact);
@@ -245,9 +254,9 @@ bool some_keep_goal(const std::vector<SlabTrial>& trials) {
 std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
                                    const MinMaxBricks& bricks, const Facts& facts, int most,
                                    TableCache& tables) {
-    const bool small = rays_of(scene) <= all_traced_rays;
-    SlabTrials first(scene, volume, bricks, facts, most, small ? all_traced_rays : first_rays,
-                     small, tables);
+    const bool small = rays_of(scene) <= TrialLimits::all_traced_rays;
+    SlabTrials first(scene, volume, bricks, facts, most,
+                     small ? TrialLimits::all_traced_rays : TrialLimits::first_rays, small, tables);
     SampleTrials trials{first.run(slabs_per_voxel(facts, 1)), {}};
     if (!some_keep_goal(trials.exact)) {
         trials.exact.push_back(first.try_two_a_voxel());
@@ -255,7 +264,7 @@ std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
     }
     const SlabTrial found = chosen_slabs(facts, trials);
     if (!small) {
-        SlabTrials second(scene, volume, bricks, facts, most, most_rays, true, tables,
+        SlabTrials second(scene, volume, bricks, facts, most, TrialLimits::most_rays, true, tables,
                           first.ready());
         std::vector<SlabTrial> all = second.run(found.slabs);
         if (!some_keep_goal(all)) all.push_back(second.try_two_a_voxel());
@@ -266,8 +275,8 @@ std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
 }
 
 int most_slabs(const Facts& facts) {
-    return std::clamp(slabs_per_voxel(facts, most_slabs_per_voxel), fewest_most_slabs,
-                      max_slabs / finer);
+    return std::clamp(slabs_per_voxel(facts, TrialLimits::most_slabs_per_voxel),
+                      TrialLimits::fewest_most_slabs, max_slabs / TrialLimits::finer);
 }
 
 // Empty where exact segments are as quick.
@@ -304,7 +313,8 @@ SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxB
     if (scene.slice.samples.is_automatic())
         trials.exact = try_numbers(scene, volume, bricks, facts, most_slabs(facts), tables);
     if (!may_filter(scene, facts, capabilities)) return trials;
-    SlabTrials filtered(scene, volume, bricks, facts, most_slabs(facts), filter_rays, true, tables);
+    SlabTrials filtered(scene, volume, bricks, facts, most_slabs(facts), TrialLimits::filter_rays, true,
+                        tables);
     if (scene.slice.samples.is_given()) {
         trials.hardware = {filtered.try_filter(*scene.slice.samples)};
     } else if (const SlabTrial exact = chosen_slabs(facts, trials); exact.keeps_goal()) {
