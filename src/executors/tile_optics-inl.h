@@ -48,7 +48,7 @@ LAMINA_INLINE Int find_interval(const TileTransfer& transfer, Float scalar) {
     if constexpr (kind == Lookup::one) return interval;
     if (kind == Lookup::permute || transfer.intervals <= TileTransfer::few) {
         for (int i = 1; i < transfer.intervals; ++i) {
-            const FloatMask beyond = scalar >= transfer.end[static_cast<std::size_t>(i)];
+            const FloatMask beyond = scalar >= transfer.left_end[static_cast<std::size_t>(i)];
             interval += zero_unless(beyond, Int(1));
         }
         return interval;
@@ -57,7 +57,7 @@ LAMINA_INLINE Int find_interval(const TileTransfer& transfer, Float scalar) {
     interval = gather(transfer.starts.data(), cell);
     const Int last(transfer.intervals - 1);
     while (true) {
-        const Float next = gather(transfer.end.data() + 1, interval);
+        const Float next = gather(transfer.left_end.data() + 1, interval);
         const FloatMask beyond = (scalar >= next) & (interval < last);
         if (none_of(beyond)) return interval;
         interval += zero_unless(beyond, Int(1));
@@ -67,7 +67,7 @@ LAMINA_INLINE Int find_interval(const TileTransfer& transfer, Float scalar) {
 // The position of a scalar in its interval, 0 to 1.
 template <Lookup kind>
 LAMINA_INLINE Float share_of_interval(const TileTransfer& transfer, Int interval, Float scalar) {
-    const Float end = look_up<kind>(transfer.end, interval);
+    const Float end = look_up<kind>(transfer.left_end, interval);
     return clamp01((scalar - end) * look_up<kind>(transfer.inverse_width, interval));
 }
 

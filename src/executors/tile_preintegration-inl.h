@@ -110,8 +110,8 @@ LAMINA_INLINE void cut_segment(const TileTransfer& transfer, const RunEnds& run,
     const Int front_interval = run.front_place.interval, back_interval = run.back_place.interval;
     const Int first = select(rising, front_interval + 1, front_interval);
     const Int last = select(rising, back_interval, back_interval + 1);
-    const Float first_end = look_up<kind>(transfer.end, first);
-    const Float last_end = look_up<kind>(transfer.end, last);
+    const Float first_end = look_up<kind>(transfer.left_end, first);
+    const Float last_end = look_up<kind>(transfer.left_end, last);
     const auto right_node = [&](Int interval) {
         return look_up<kind>(transfer.first_node, interval) +
                look_up<kind>(transfer.nodes, interval);

@@ -40,13 +40,13 @@ std::array<std::vector<float>, 2> bends_of(const std::vector<CurvedPiece>& piece
 
 TileTransfer::Aligned records_of(const TileTransfer& transfer) {
     const std::size_t size = TileTransfer::record_size;
-    TileTransfer::Aligned records(size * transfer.end.size());
-    for (std::size_t i = 0; i < transfer.end.size(); ++i) {
+    TileTransfer::Aligned records(size * transfer.left_end.size());
+    for (std::size_t i = 0; i < transfer.left_end.size(); ++i) {
         float* to = records.data() + size * i;
         const auto &left = transfer.left, &change = transfer.change;
-        for (const float value : {left[3][i], change[3][i], transfer.end[i], transfer.right_end[i],
-                                  transfer.inverse_width[i], left[0][i], left[1][i], left[2][i],
-                                  change[0][i], change[1][i], change[2][i]})
+        for (const float value : {left[3][i], change[3][i], transfer.left_end[i],
+                                  transfer.right_end[i], transfer.inverse_width[i], left[0][i],
+                                  left[1][i], left[2][i], change[0][i], change[1][i], change[2][i]})
             *to++ = value;
         for (const std::vector<float>& row : transfer.bend) *to++ = row.empty() ? 0 : row[i];
     }
@@ -80,7 +80,7 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
         }
         return values;
     };
-    end = component(0, 0);
+    left_end = component(0, 0);
     inverse_width = component(0, 1);
     first_node = component(0, 2);
     nodes = component(0, 3);
@@ -92,13 +92,13 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
     }
     right_extinction = component(2, 3);
     right_end = component(3, 3);
-    if (curved) bend = bends_of(pieces, end.size());
+    if (curved) bend = bends_of(pieces, left_end.size());
     records = records_of(*this);
     float before = 0;
     for (std::size_t i = 0; i < right_extinction.size(); ++i) {
         const bool at_left = left[3][i] > 0, shows = at_left || right_extinction[i] > 0;
         shown_before.push_back(before);
-        shown_beyond.push_back(!shows ? beyond_all_scalars : at_left ? -1 : end[i]);
+        shown_beyond.push_back(!shows ? beyond_all_scalars : at_left ? -1 : left_end[i]);
         if (shows) ++before;
     }
     left_rest = component(3, 0);
@@ -108,7 +108,8 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
 
 std::int64_t TileTransfer::byte_count() const {
     const std::size_t per_interval = 4 + 8 + 6 + (bend[0].empty() ? 0 : 2) + record_size;
-    return static_cast<std::int64_t>(sizeof(float) * (per_interval * end.size() + texels.size()) +
+    return static_cast<std::int64_t>(sizeof(float) *
+                                         (per_interval * left_end.size() + texels.size()) +
                                      sizeof(std::int32_t) * starts.size()) +
            (table ? table->byte_count() : 0);
 }

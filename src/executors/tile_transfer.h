@@ -27,7 +27,7 @@ struct TileTransfer {
                  const TablePlan* table, double step_advance, bool curved = false);
 
     int intervals = 0;
-    std::vector<float> end, inverse_width;  // left end, 1 / width
+    std::vector<float> left_end, inverse_width;  // of each interval: where it begins, 1 / width
     // Nodes of the table: the one at the left end, and how many there are to the right end.
     std::vector<float> first_node, nodes;
     std::array<std::vector<float>, 4> left;    // colour and extinction at the left end

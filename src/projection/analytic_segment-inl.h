@@ -66,7 +66,7 @@ LAMINA_INLINE void for_each_analytic_piece(const TileTransfer& transfer, Float f
         // The segment goes on to the end of this interval.
         const FloatMask whole = left > 0;
         const Int end = min(interval + to_end, transfer.intervals - 1);
-        const Float next_scalar = select(whole, look_up<kind>(transfer.end, end), back);
+        const Float next_scalar = select(whole, look_up<kind>(transfer.left_end, end), back);
         const Float next_share =
             select(whole, end_share, share_of_interval<kind>(transfer, interval, back));
         const Float length =

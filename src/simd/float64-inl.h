@@ -41,7 +41,7 @@ struct Float64 {
     LAMINA_INLINE explicit Float64(Int a)
         : low(hn::PromoteTo(Double::Tag(), hn::LowerHalf(hn::Half<Int::Tag>(), a.v))),
           high(hn::PromoteTo(Double::Tag(), hn::UpperHalf(hn::Half<Int::Tag>(), a.v))) {}
-    // It goes through signed numbers, for which there is an instruction, and is exact.
+    // Converts exactly, by way of signed numbers, for which there is an instruction.
     LAMINA_INLINE explicit Float64(Word a)
         : Float64(Float64(bits_as<Int>(a ^ Word(0x80000000u))) + Float64(0x1p31)) {}
 
@@ -106,7 +106,7 @@ struct Float64 {
     friend LAMINA_INLINE double largest_of(Float64 a) { return largest_of(max(a.low, a.high)); }
 };
 
-// The float next to each double.
+// Rounds to the nearest float.
 LAMINA_INLINE Float to_float(const Float64& a) {
     const hn::Half<Float::Tag> half;
     return hn::Combine(Float::Tag(), hn::DemoteTo(half, a.high.v), hn::DemoteTo(half, a.low.v));
@@ -120,7 +120,7 @@ LAMINA_INLINE Int to_int(const Float64& whole) {
 LAMINA_INLINE Float64 load_float64(const double* from) {
     return {load<Double>(from), load<Double>(from + Double::lanes)};
 }
-// The same lanes.
+// Returns the mask of the same lanes of a Float.
 LAMINA_INLINE FloatMask to_float_mask(const Float64Mask& a) {
     return to_float(zero_unless(a, Float64(1.0))) > Float(0);
 }

@@ -147,7 +147,7 @@ struct Vector {
         return hn::IfThenZeroElse(own(mask), a.v);
     }
 
-    // Whole vectors from and to memory, which the first two want aligned to vectors.
+    // Stores a whole vector. store() and load() need memory that is aligned to vectors.
     friend LAMINA_INLINE void store(Vector a, Scalar* to) { hn::Store(a.v, D(), to); }
     friend LAMINA_INLINE void store_unaligned(Vector a, Scalar* to) { hn::StoreU(a.v, D(), to); }
 
@@ -212,7 +212,7 @@ template <int bits, class V>
 LAMINA_INLINE V shift_right(V a) {
     return hn::ShiftRight<bits>(a.v);
 }
-// By as many bits in each lane as that of `bits` says.
+// Shifts each lane by the number in that of `bits`.
 template <class V>
 LAMINA_INLINE V shift_right(V a, V bits) {
     return hn::Shr(a.v, bits.v);
@@ -274,7 +274,7 @@ LAMINA_INLINE Double to_double(Long a) {
 LAMINA_INLINE Long to_long(Double a) {
     return hn::ConvertTo(Long::Tag(), a.v);
 }
-// The float next to each double.
+// Rounds each double to the nearest float.
 LAMINA_INLINE Double rounded_to_float(Double a) {
     return hn::PromoteTo(Double::Tag(), hn::DemoteTo(hn::Rebind<float, Double::Tag>(), a.v));
 }

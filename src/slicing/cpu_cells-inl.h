@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rays of some packets through one brick, integrated cell by cell without slabs.
+// The rays of some packets through one brick, integrated cell by cell without slabs
+// (docs/numerics.md, section 9; numbers in brackets are equations there).
 //
 //   repeat until the rays end:
 //       walk some steps: a segment for each cell that shows something       cpu_walk-inl.h
@@ -11,8 +12,9 @@
 //           else: cut it                                                    cpu_cut-inl.h
 //       composite each ray's segments front to back
 //
-// To integrate something else of a cell (its largest value, say), replace integrate(), which sets
-// what a segment adds, and put_behind(), which adds it.
+// To draw something else of cells (their largest scalar, say), replace integrate(), which sets what
+// a segment adds; RaySum with put_behind() and add_segments(), which add it to the ray; and what
+// CellMap takes for empty or constant.
 #if defined(LAMINA_SLICING_CPU_CELLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_CELLS_INL_H_
 #undef LAMINA_SLICING_CPU_CELLS_INL_H_
@@ -75,7 +77,7 @@ class CellIntegrator {
         for (std::size_t i = 0; i < packets_; ++i)
             walks_[i].set_end(boundary(slabs_.rays, spans_[i], slab));
     }
-    // Ends the rays of a packet of which `depths` has reached a limit.
+    // Ends the rays of a packet whose value in `depths` is at least `limit`.
     void end_where(std::size_t packet, const Float64& depths, double limit) {
         walks_[packet].end_where(depths, limit);
     }
@@ -192,7 +194,7 @@ class CellIntegrator {
             store(cubic.c[power], segments_.cubic[power] + i);
     }
 
-    // Cells with a corner that is not finite.
+    // Takes segments of cells with a NaN at a corner out: their length and scalar become 0.
     LAMINA_INLINE void set_transparent(const Corners& corners, CubicLanes& cubic, std::size_t i) {
         Float sum(0);
         for (int corner = 0; corner < 4; ++corner)
@@ -202,8 +204,8 @@ class CellIntegrator {
         store(zero_unless(finite, load<Float>(segments_.length + i)), segments_.length + i);
     }
 
-    // Segments in one interval of the transfer function are integrated by one rule; the others
-    // are cut.
+    // Integrates every segment by one rule. Those that leave their interval, are too deep or have
+    // light that bends too much are `hard`: they are cut instead.
     template <Lookup kind, bool curved>
     void integrate(const TileTransfer& transfer) {
         cut_.clear();
@@ -211,8 +213,8 @@ class CellIntegrator {
             const CubicLanes cubic = cubic_of(i);
             const RangeLanes range = range_of(cubic);
             const Float lowest = clamp01(range.lo);
-            const Int number = find_interval<kind>(transfer, lowest);
-            const IntervalLanes<curved> interval = interval_lanes<kind, curved>(transfer, number);
+            const Int first = find_interval<kind>(transfer, lowest);
+            const IntervalLanes<curved> interval = interval_lanes<kind, curved>(transfer, first);
             const FloatMask crosses = range.hi > interval.right_end;
             const Float length = load<Float>(segments_.length + i);
             const PieceOptics<curved> piece(interval, interval.share_along(cubic), length);
@@ -220,7 +222,7 @@ class CellIntegrator {
             const FloatMask stored = members_from(i);
             FloatMask hard = crosses;
             if (any_of(crosses))
-                hard = crosses & shows_something<kind>(transfer, number, clamp01(range.hi));
+                hard = crosses & shows_something<kind>(transfer, first, clamp01(range.hi));
             const Float shown_depth = zero_unless(!crosses, depth);
             if (colored_) hard = hard | (shown_depth > largest_piece_depth);
             hard = stored & hard;
@@ -229,7 +231,7 @@ class CellIntegrator {
             typename CutSegments<lit>::Segment segment;
             segment.scalar = cubic;
             segment.length = length;
-            segment.number = iota<Int>(static_cast<std::int32_t>(i));
+            segment.place = iota<Int>(static_cast<std::int32_t>(i));
             if constexpr (lit) {
                 segment.longest = 1;
                 if (colored_) add_light_to(interval, piece, shown_depth, i, segment, hard);
@@ -240,8 +242,8 @@ class CellIntegrator {
             cut_.template run<kind, curved>(transfer, slabs_.light, colored_, segments_);
     }
 
-    // Adds light to the colours of segments that show something, and those whose light bends to the
-    // `hard` ones. Sets their gradients, and how long their pieces may be.
+    // Lights the colours of segments that show something, makes those `hard` whose light bends too
+    // much, and sets the gradient and the longest piece for the cut.
     template <bool curved>
     LAMINA_INLINE void add_light_to(const IntervalLanes<curved>& interval,
                                     const PieceOptics<curved>& piece, Float depth, std::size_t i,
@@ -274,10 +276,10 @@ class CellIntegrator {
             return;
         }
         const Float opacity = opacity_from_depth(depth);
-        const Float share = zero_unless(seen, seen_share<4>(piece, depth, opacity));
+        const Float seen_color = zero_unless(seen, seen_share<4>(piece, depth, opacity));
         store(opacity, segments_.opacity + i);
         for (std::size_t channel = 0; channel < 3; ++channel)
-            store(interval.color(channel, opacity, share), segments_.color[channel] + i);
+            store(interval.color(channel, opacity, seen_color), segments_.color[channel] + i);
     }
 
     // Composites each ray's segments front to back.
@@ -332,7 +334,7 @@ class CellIntegrator {
     const TileBrickView* view_ = nullptr;
     std::size_t packets_ = 0;
     DepthSpan spans_[most_packets];
-    CellWalk<std::conditional_t<lit, Float64, Float>> walks_[most_packets];
+    CellWalk<lit> walks_[most_packets];
     CellSegments segments_;
     CutSegments<lit> cut_;
     struct Nothing {};

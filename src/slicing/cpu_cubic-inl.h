@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar along a segment: a cubic (docs/numerics.md, section 9.1).
+// The scalar along a segment: a cubic (docs/numerics.md, section 9.1; numbers in brackets are
+// equations there).
 //
-//   c0 .. c3 = the field's value and derivatives at the entry, along the ray         (9.1)
+//   c0 .. c3 = its coefficients, from the corners, the entry and the way in the cell (9.1)
 //   range    = least and largest of its four Bernstein coefficients                  (9.5)
 //   turns    = roots of s'(t) in 0 .. 1
 //   root     = the place between two turns at which s is k                           (9.6)

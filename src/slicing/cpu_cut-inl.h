@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Segments that cross points of the transfer function, or that are too deep for one rule, cut into
-// pieces (docs/numerics.md, section 9.3).
+// pieces (docs/numerics.md, section 9.3; numbers in brackets are equations there). A knot is a
+// point of the transfer function; it ends an interval.
 //
 //   t = 0, in the interval on the side to which the scalar s (9.1) goes
 //   while t < 1 and what is behind can be seen:
-//       end = the next place at which s turns, or 1
-//       k   = the point of the transfer function at which s leaves the interval on its way to `end`
-//       to  = if k lies before s(end): where s is k (9.6); else `end`
-//       shorten the piece t .. to until its depth (9.2) is at most largest_piece_depth, and until
+//       t_end = the next place at which s turns, or 1
+//       knot  = the end of the interval that s reaches on its way to s(t_end)
+//       t_to  = if the knot lies before s(t_end): the t at which s is there (9.6); else t_end
+//       shorten the piece t .. t_to until its depth (9.2) is at most largest_piece_depth, and until
 //           light bends little enough in it (section 10.4)
 //       composite the piece's colour (9.3) and opacity behind what is there
-//       t = to; behind k in the next interval
+//       t = t_to; behind the knot in the next interval
 //
 // Vectors have a segment in each lane. Segments have different numbers of pieces, so each round
 // takes one piece of all of them, and packs those that go on anew.
@@ -36,10 +37,10 @@ LAMINA_SIMD_BEGIN
 struct CutSegment {
     CubicLanes scalar;
     Float length;
-    Int number;  // in CellSegments
+    Int place;  // in CellSegments
 };
 struct LitCutSegment : CutSegment {
-    Float longest;  // share of the segment that a piece may have
+    Float longest;  // extent that a piece may have; a first guess, which composite_lit() corrects
     GradientLanes gradient;
 };
 
@@ -68,15 +69,15 @@ class CutSegments {
   private:
     // Nothing behind this transmittance can be seen.
     static constexpr float least_transmittance = 1e-9f;
-    // A piece this short has one colour, whatever its depth.
+    // A piece of this extent has one colour, whatever its depth. An extent is a difference of t.
     static constexpr float shortest = 1e-6f;
-    // Vectors side by side, because each waits for its own results.
+    // Vectors side by side hide the latency of their chains of operations.
     static constexpr std::size_t vectors = 2;
 
     // How far segments are done, and what is composited of them.
     struct Progress {
-        Float turns[2];  // where the scalar turns
-        Float at, scalar;
+        Float turns[2];  // the t at which the scalar turns
+        Float t, s;
         Int interval;
         Float color[3], opacity, depth, transmittance;
     };
@@ -85,11 +86,12 @@ class CutSegments {
         Progress done;
     };
 
-    // The way to the next turn of each segment, as far as it stays in one interval.
+    // The way from where a segment is to the next turn of its scalar; if the scalar `crosses` the
+    // knot on this way, the segment leaves the interval there.
     template <bool curved>
     struct Stretch {
         IntervalLanes<curved> interval;
-        Float end, at_end, knot;
+        Float t_end, s_end, knot;
         FloatMask rising, crosses;
         RootLanes root;
     };
@@ -119,25 +121,24 @@ class CutSegments {
         }
     }
 
-    // The lanes outside `members` have any values that are places and intervals, too; what is
-    // computed of them is not used.
+    // Zeroes the lanes outside `members`, so that they hold numbers and places.
     LAMINA_INLINE Segment load(std::size_t from, FloatMask members) const {
         Segment segment = segments_.load(from);
         for (Float& c : segment.scalar.c) c = zero_unless(members, c);
         segment.length = zero_unless(members, segment.length);
-        segment.number = zero_unless(members, segment.number);
+        segment.place = zero_unless(members, segment.place);
         return segment;
     }
 
-    // Begins at the front. At an end of an interval segments begin on the side to which they go.
+    // Begins at the front. On a knot a segment begins in the interval to which its scalar goes.
     template <Lookup kind>
     static LAMINA_INLINE Progress begin(const TileTransfer& transfer, const Segment& segment) {
         const Turns turns = turns_of(segment.scalar);
         const Float start = segment.scalar.c[0];
         const FloatMask falling = segment.scalar.at(turns.first) < start;
         const Int interval = find_interval<kind>(transfer, clamp01(start));
-        const FloatMask at_end = look_up<kind>(transfer.end, interval) == start;
-        const FloatMask below = falling & at_end & (interval > 0);
+        const FloatMask on_knot = look_up<kind>(transfer.left_end, interval) == start;
+        const FloatMask below = falling & on_knot & (interval > 0);
         return {{turns.first, turns.second},
                 0,
                 start,
@@ -154,8 +155,8 @@ class CutSegments {
         return done;
     }
 
-    // Keeps the `members` for the next round, behind those that were kept before: never beyond what
-    // was loaded.
+    // Packs the `members` for the next round, behind those that were kept before: it overwrites
+    // what has been loaded alone.
     LAMINA_INLINE void keep(const Lanes& lanes, FloatMask members) {
         if (none_of(members)) return;
         progress_.store_members(lanes.done, members, count_);
@@ -164,23 +165,24 @@ class CutSegments {
 
     static void finish(const Lanes& lanes, FloatMask members, CellSegments& all) {
         alignas(64) float color[3][most_lanes], opacity[most_lanes], depth[most_lanes];
-        alignas(64) std::int32_t number[most_lanes];
+        alignas(64) std::int32_t place[most_lanes];
         for (std::size_t i = 0; i < 3; ++i) store(lanes.done.color[i], color[i]);
         store(lanes.done.opacity, opacity);
         store(lanes.done.depth, depth);
-        store(lanes.segment.number, number);
+        store(lanes.segment.place, place);
         for_each_lane(bits_of(members), [&](std::size_t lane) {
-            const auto to = static_cast<std::size_t>(number[lane]);
+            const auto to = static_cast<std::size_t>(place[lane]);
             for (std::size_t i = 0; i < 3; ++i) all.color[i][to] = color[i][lane];
             all.opacity[to] = opacity[lane];
             all.depth[to] = depth[lane];
         });
     }
 
-    // Finds the lanes that have reached the end.
+    // Adds a piece to each segment; `ended` gets the lanes that are done.
     template <Lookup kind, bool curved>
     LAMINA_INLINE void add_pieces(const TileTransfer& transfer, bool colored, std::size_t used,
                                   Lanes (&lanes)[vectors], FloatMask (&ended)[vectors]) {
+        // Most roots are found in two steps of the third order; asking earlier costs more.
         constexpr int usual_steps = 2, most_steps = 30;
         static_assert(vectors == 2);
         Stretch<curved> stretches[vectors];
@@ -202,36 +204,37 @@ class CutSegments {
                                                       const Lanes& lanes) {
         const auto& [segment, done] = lanes;
         Stretch<curved> next;
-        next.end = select(done.at < done.turns[0], done.turns[0],
-                          select(done.at < done.turns[1], done.turns[1], 1));
-        next.at_end = segment.scalar.at(next.end);
-        next.rising = next.at_end >= done.scalar;
+        next.t_end = select(done.t < done.turns[0], done.turns[0],
+                            select(done.t < done.turns[1], done.turns[1], 1));
+        next.s_end = segment.scalar.at(next.t_end);
+        next.rising = next.s_end >= done.s;
         next.interval = interval_lanes<kind, curved>(transfer, done.interval);
         const FloatMask lowest = done.interval == 0;
         const Float left_end = select(lowest, Float(-3e38f), next.interval.left_end);
         next.knot = select(next.rising, next.interval.right_end, left_end);
-        next.crosses = (next.rising & (next.knot < next.at_end)) |
-                       without(next.knot > next.at_end, next.rising);
-        next.root.begin(next.knot, done.at, next.end, done.scalar, next.at_end, next.crosses);
+        next.crosses =
+            (next.rising & (next.knot < next.s_end)) | without(next.knot > next.s_end, next.rising);
+        next.root.begin(next.knot, done.t, next.t_end, done.s, next.s_end, next.crosses);
         return next;
     }
 
-    // Returns the lanes that have reached the end.
+    // Returns the lanes that are done. `extent`: of the piece, whose world length is the segment's
+    // times that.
     template <bool curved>
     LAMINA_INLINE FloatMask add_piece(bool colored, const Stretch<curved>& stretch,
                                       Lanes& lanes) const {
         auto& [segment, done] = lanes;
-        const Float to = select(stretch.crosses, stretch.root.t, stretch.end);
-        const Float at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
-        Float extent = max(to - done.at, 0), at_back = at_to;
+        const Float t_to = select(stretch.crosses, stretch.root.t, stretch.t_end);
+        const Float s_to = select(stretch.crosses, stretch.knot, stretch.s_end);
+        Float extent = max(t_to - done.t, 0), s_back = s_to;
         FloatMask whole(true);
         if constexpr (lit) {
             whole = extent <= segment.longest;
             extent = min(extent, segment.longest);
-            at_back = select(whole, at_to, segment.scalar.at(done.at + extent));
+            s_back = select(whole, s_to, segment.scalar.at(done.t + extent));
         }
         PieceOptics<curved> piece(stretch.interval,
-                                  share_of_piece(stretch.interval, lanes, extent, at_back),
+                                  share_of_piece(stretch.interval, lanes, extent, s_back),
                                   segment.length * extent);
         whole = whole & shorten(stretch.interval, segment.length, piece, extent);
         if (!lit || !colored) {
@@ -239,31 +242,33 @@ class CutSegments {
         } else if constexpr (lit) {
             const FloatMask again = composite_lit(stretch.interval, piece, extent, lanes);
             segment.longest = select(again, 0.5f * extent, max(segment.longest, 2 * extent));
-            // These stay where they are.
+            // Nothing was added of these: the next round tries shorter pieces.
             whole = without(whole, again);
             extent = zero_unless(!again, extent);
         }
 
-        const Float shortened = max(done.at + extent, done.at + 6e-8f);
-        done.at = select(whole, to, shortened);
-        done.scalar = select(whole, at_to, segment.scalar.at(done.at));
+        // At least one float (2^-24) further, so that every round makes progress.
+        const Float shortened = max(done.t + extent, done.t + 6e-8f);
+        done.t = select(whole, t_to, shortened);
+        done.s = select(whole, s_to, segment.scalar.at(done.t));
         const Int next = select(stretch.rising, done.interval + 1, done.interval - 1);
         done.interval = select(whole & stretch.crosses, next, done.interval);
-        return (done.at >= 1) | (done.transmittance < least_transmittance);
+        return (done.t >= 1) | (done.transmittance < least_transmittance);
     }
 
-    // The place in the interval along the piece of `extent` from where the segments are, up to
-    // where the scalar is `at_to`.
+    // Returns the place in the interval along the piece of `extent`: the scalar there, a cubic of
+    // 0 .. 1, rescaled. c[1] is what makes it end at `s_to` exactly, so that pieces meet on the
+    // knot.
     template <bool curved>
     static LAMINA_INLINE CubicLanes share_of_piece(const IntervalLanes<curved>& interval,
-                                                   const Lanes& lanes, Float extent, Float at_to) {
+                                                   const Lanes& lanes, Float extent, Float s_to) {
         const auto& [segment, done] = lanes;
         const CubicLanes& cubic = segment.scalar;
         CubicLanes piece;
-        piece.c[0] = done.scalar;
-        piece.c[2] = (cubic.c[2] + 3 * cubic.c[3] * done.at) * extent * extent;
+        piece.c[0] = done.s;
+        piece.c[2] = (cubic.c[2] + 3 * cubic.c[3] * done.t) * extent * extent;
         piece.c[3] = cubic.c[3] * extent * extent * extent;
-        piece.c[1] = (at_to - done.scalar) - (piece.c[2] + piece.c[3]);
+        piece.c[1] = (s_to - done.s) - (piece.c[2] + piece.c[3]);
         return interval.share_along(piece);
     }
 
@@ -277,23 +282,23 @@ class CutSegments {
             const FloatMask deep = (depth > largest_piece_depth) & (extent > shortest);
             if (none_of(deep)) return whole;
             whole = without(whole, deep);
-            // Optical depth grows at least with the first power of the extent from where it is 0;
-            // a root does not overshoot where it grows with the second.
+            // If depth grows with the power p = 1 .. 2 of the extent, this factor leaves at least
+            // a depth of .7; it may have to be applied again.
             const Float least = shortest / max(extent, shortest);
-            Float share = min(sqrt(0.7f / max(depth, 1e-3f)), 0.5f);
-            share = select(deep, max(share, min(least, 0.5f)), 1);
-            extent *= share;
-            Float power = share;
+            Float factor = min(sqrt(0.7f / max(depth, 1e-3f)), 0.5f);
+            factor = select(deep, max(factor, min(least, 0.5f)), 1);
+            extent *= factor;
+            Float power = factor;
             for (std::size_t i = 1; i < 4; ++i) {
                 piece.share.c[i] *= power;
-                power *= share;
+                power *= factor;
             }
             piece = PieceOptics<curved>(interval, piece.share, length * extent);
         }
     }
 
-    // The share of the interval's change of colour that is seen of a piece. A piece of the least
-    // extent may be too deep even so: its colour hardly changes.
+    // Returns Q of (9.4). A piece of the least extent may be too deep for the rule even so: its
+    // colour hardly changes.
     template <bool curved>
     static LAMINA_INLINE Float seen_of(const PieceOptics<curved>& piece, Float depth,
                                        Float opacity) {
@@ -313,9 +318,9 @@ class CutSegments {
         // Summed up by itself, so that pieces of small opacity keep their digits.
         done.opacity += weight;
         if (!colored) return;
-        const Float share = transmittance * seen_of(piece, depth, opacity);
+        const Float seen = transmittance * seen_of(piece, depth, opacity);
         for (std::size_t channel = 0; channel < 3; ++channel)
-            done.color[channel] += interval.color(channel, weight, share);
+            done.color[channel] += interval.color(channel, weight, seen);
     }
 
     // Composites lit pieces. Returns those that are left out, because their light bends too much
@@ -327,13 +332,13 @@ class CutSegments {
         auto& [segment, done] = lanes;
         const Float depth = piece.depth();
         const Float opacity = opacity_from_depth(depth);
-        const Float share = seen_of(piece, depth, opacity);
+        const Float seen = seen_of(piece, depth, opacity);
         Float color[3];
         for (std::size_t channel = 0; channel < 3; ++channel)
-            color[channel] = interval.color(channel, opacity, share);
+            color[channel] = interval.color(channel, opacity, seen);
         const Float bend =
             add_light(*light_, segment.gradient,
-                      LitPiece<curved>{piece, interval, done.at, extent, depth, opacity}, color);
+                      LitPiece<curved>{piece, interval, done.t, extent, depth, opacity}, color);
         const Float transmittance = done.transmittance, weight = transmittance * opacity;
         const FloatMask again = (extent > shortest_lit_piece) & bends(*light_, bend, weight);
         const FloatMask added = !again;

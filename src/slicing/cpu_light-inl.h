@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of segments (docs/numerics.md, section 10.4).
+// Light of segments (docs/numerics.md, section 10.4; numbers in brackets are equations there).
 //
 //   g(t) = the gradient along the segment, a cubic on each axis, of the corners' gradients (9.1)
 //   at the three nodes of Gauss' rule: the change of colour and the highlight there (10.2)
@@ -21,11 +21,11 @@
 
 LAMINA_SIMD_BEGIN
 
-// Two words of 32 bits for each lane, of the lower and the upper of two neighbours along x, and for
-// each of a cell's four rows along x, in the order of Corners.
+// Four words a lane for each of a cell's four rows along x, in the order of Corners: two of the
+// lower of two neighbours, two of the upper.
 using GradientRows = std::uint32_t[4][4 * most_lanes];
 
-// The same as fetch_gradients() for cells in pages, whose samples always have a neighbour along x.
+// Does what fetch_gradients() does for cells in pages, whose samples have a neighbour along x.
 inline LAMINA_NOINLINE void fetch_paged_gradients(const TilePages& pages, const std::int32_t* index,
                                                   std::uint32_t lanes, GradientRows& rows) {
     constexpr std::size_t steps[4] = {0, BrickCache::row, BrickCache::slice,
@@ -102,7 +102,8 @@ LAMINA_INLINE Float smallest_square_of(const TileLight& light, Int largest) {
     return smallest * smallest;
 }
 
-// `unit`: the exponent of 2^-16 in that of the cell.
+// `unit` plus the exponent of a sample: the biased exponent of the scale that takes its 16-bit
+// components to the cell's unit.
 LAMINA_INLINE void set_corner(const GradientWords& words, Int unit, std::size_t row, bool upper,
                               Corners (&corners)[3]) {
     const Float scale = power_of_biased(words.exponent() + unit);
@@ -221,7 +222,7 @@ struct GradientNodes {
     Float g[3][3];  // by node and axis
 };
 
-// Returns what the nodes of a piece of `extent` from `at` on may not see.
+// Returns a bound on what the nodes of a piece of `extent` from `at` on do not see, as a bend.
 LAMINA_INLINE Float hidden_bend(const TileLight& light, const GradientLanes& gradient,
                                 const GradientNodes& nodes, Float at, Float extent) {
     const Float half = 0.5f * extent, middle = at + half;
@@ -248,9 +249,10 @@ LAMINA_INLINE CubicLanes component_along(const GradientLanes& gradient,
     return component;
 }
 
-// What the rule of three nodes misses of kinks, where the gradient is perpendicular to a light, as
-// a bend. A kink at k of the piece's length from an end, up to .5, costs up to .113 of what the
-// cosine is at that end: k of it where k < .113, which no node sees, and less beyond.
+// Returns a bound on what the three nodes miss of kinks, at which the gradient is perpendicular to
+// a light, as a bend: a kink in the middle costs .045 of that. A kink at k of the piece's length
+// from an end, up to .5, costs up to .113 of the cosine at that end: k of it if k < .113, which no
+// node sees, and less beyond.
 LAMINA_INLINE Float hidden_kinks(const TileLight& light, const GradientLanes& gradient, Float at,
                                  Float extent) {
     const Float ends[2] = {at, at + extent};

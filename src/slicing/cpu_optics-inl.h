@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Emission and absorption of a piece, on which the scalar is a cubic and the transfer function one
-// interval (docs/numerics.md, section 9.2).
+// interval (docs/numerics.md, section 9.2; numbers in brackets are equations there).
 //
 //   q(t)     = the place in the interval, 0 .. 1: the scalar's cubic, scaled
 //   depth    = length (a + b mean of q)                                              (9.2)
@@ -41,9 +41,9 @@ struct IntervalLanes : IntervalBend<curved> {
     Float inverse_width;
     Float left[4], change[4];  // colour and extinction
 
-    // A colour at a share, both times `opacity`.
-    LAMINA_INLINE Float color(std::size_t channel, Float opacity, Float share) const {
-        return left[channel] * opacity + change[channel] * share;
+    // Returns the associated colour (9.3). `seen`: Q of (9.4).
+    LAMINA_INLINE Float color(std::size_t channel, Float opacity, Float seen) const {
+        return left[channel] * opacity + change[channel] * seen;
     }
     // The share as a cubic, for scalars of this interval.
     LAMINA_INLINE CubicLanes share_along(const CubicLanes& scalar) const {
@@ -83,7 +83,7 @@ template <Lookup kind, bool curved>
 LAMINA_INLINE IntervalLanes<curved> interval_lanes(const TileTransfer& transfer, Int number) {
     if constexpr (kind == Lookup::gather) return fetched_intervals<curved>(transfer, number);
     IntervalLanes<curved> lanes;
-    lanes.left_end = look_up<kind>(transfer.end, number);
+    lanes.left_end = look_up<kind>(transfer.left_end, number);
     lanes.right_end = look_up<kind>(transfer.right_end, number);
     lanes.inverse_width = look_up<kind>(transfer.inverse_width, number);
     for (std::size_t channel = 0; channel < 4; ++channel) {
@@ -113,8 +113,9 @@ struct PieceOptics<false> {
           extinction(interval.left[3] * length),
           change(interval.change[3] * length) {}
 
-    // Exact: the extinction is a cubic. In an interval whose extinction changes, the share is one;
-    // beside samples far outside the range it may be less exact than that.
+    // Returns the depth, exactly: the place is a cubic that stays in 0 .. 1 if the extinction
+    // changes. The clamp guards against samples far outside the range, beside which it is less
+    // exact.
     LAMINA_INLINE Float depth() const {
         const Float mean = clamp01(share.mean());
         return max(extinction + change * mean, 0);
@@ -124,7 +125,7 @@ struct PieceOptics<false> {
         return {{extinction + change * share.c[0], change * ((1 / 2.0f) * share.c[1]),
                  change * ((1 / 3.0f) * share.c[2]), change * ((1 / 4.0f) * share.c[3])}};
     }
-    // Where the share is `there`.
+    // Returns the extinction at t, or where the place is `there`.
     LAMINA_INLINE Float extinction_at(Float, Float there) const {
         return max(extinction + change * there, 0);
     }
@@ -168,10 +169,9 @@ struct PieceOptics<true> {
         {-7.42054007f, 18.7954494f, -18.7954494f, 7.42054007f}};
 };
 
-// The share that reaches a piece's front: the integral of share times emission times transmittance,
-// for `opacity` of `depth`, which is at most largest_piece_depth. Integrated by parts, so that only
-// the share's slope is left for Gauss' rule (docs/numerics.md, section 9), and a constant share is
-// exact.
+// Returns Q of (9.4) by Gauss' rule: the place in the interval, weighted by emission and
+// transmittance. `opacity`: of `depth`, which is at most largest_piece_depth. Only the place's
+// slope is left for the rule, so a constant place is exact.
 template <std::size_t points, bool curved>
 LAMINA_INLINE Float seen_share(const PieceOptics<curved>& piece, Float depth, Float opacity) {
     using Rule = GaussRule<points>;

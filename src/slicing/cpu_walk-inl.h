@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cells along the rays of a packet, front to back (Amanatides and Woo 1987; docs/numerics.md,
-// section 9.4).
+// section 9.4; the number in brackets is an equation there).
 //
 //   cell = the one in which the ray enters the box
 //   while depth < end:
@@ -37,7 +37,7 @@ LAMINA_SIMD_BEGIN
 // The segments of some steps of the rays of a few packets, and what is computed of them. In each
 // step a ray crosses one cell, or several that show nothing or are constant.
 struct CellSegments {
-    // Packets side by side: each waits for its own results.
+    // Packets side by side hide the latency of their chains of operations.
     static constexpr std::size_t most_packets = 2;
     static constexpr int most_steps = 32;
     static constexpr std::size_t capacity = (most_steps * most_packets + 1) * most_lanes;
@@ -49,7 +49,7 @@ struct CellSegments {
     alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner
     // The normalised scalar from entry to exit (9.1).
     alignas(64) float cubic[4][capacity];
-    // Of lit segments: the direction to the eye.
+    // The direction to the eye, of lit segments alone.
     alignas(64) float to_eye[3][capacity];
     // Associated colour, opacity and optical depth that the segment adds to its ray.
     alignas(64) float color[3][capacity];
@@ -66,11 +66,10 @@ struct CellSegments {
     }
 };
 
-// `Depth`: Float, or Float64 for lit rays.
-template <class Depth>
+template <bool lit>
 class CellWalk {
   public:
-    static constexpr bool lit = std::is_same_v<Depth, Float64>;
+    using Depth = std::conditional_t<lit, Float64, Float>;
 
     // The rays between the depths of `span`, inside the box of a brick. `light`: of lit rays alone.
     void begin(const CellMap& map, const TileBrickView& view, const PacketRays& rays,
@@ -96,7 +95,7 @@ class CellWalk {
     // Sets where the walk ends; not in front of where it is.
     void set_end(const Float64& depth) { end_ = depth; }
 
-    // Ends the rays of which `depths`, of anything, has reached a limit.
+    // Ends the rays whose value in `depths` is at least `limit`, until set_end() is called.
     void end_where(const Float64& depths, double limit) {
         end_ = select(depths >= limit, depth_, end_);
     }
@@ -155,7 +154,8 @@ class CellWalk {
     }
 
   private:
-    // How a step goes: over one cell, or over the cube of bricks around it.
+    // Tells which lanes cross a cube of bricks in one step, which of these bricks show nothing, and
+    // how many of them the cube has on each side. A constant cube is a segment of one scalar.
     struct Leaps {
         bool some;
         FloatMask lanes;  // over bricks
@@ -192,6 +192,8 @@ class CellWalk {
         return cell_[axis] + to_int(passed_[axis]);
     }
 
+    // Reads the map: 0 for a cell by itself, else how far the cube reaches; a higher bit says that
+    // it is constant. Codes are stored with the bits of the background turned (SparseBytes).
     LAMINA_INLINE Leaps leaps_here(const Int (&bricks)[3]) const {
         const auto row = static_cast<std::int32_t>(map_->count[0]);
         const auto slice = static_cast<std::int32_t>(map_->count[0] * map_->count[1]);
@@ -279,9 +281,9 @@ class CellWalk {
         }
     }
 
-    // The place of the rays, from `corner` on, which is counted from the steps' first cell. In
-    // double precision: floats would move the rays by up to 2e-6 of a cell, which rays that graze a
-    // surface show.
+    // Returns where the rays are, from `corner` on, which is counted from the steps' first cell. It
+    // computes in double precision: after leaps the depth is large, and floats would move the rays
+    // by 2e-6 of a cell and more, which rays that graze a surface show.
     LAMINA_INLINE Float place_in_cell(std::size_t axis, Int corner) const {
         const Float64 place = start_[axis] + Float64(at_) * direction_[axis];
         return to_float(place - Float64(corner));

@@ -30,7 +30,10 @@ std::set<std::string> types_of(const fs::path& file) {
     for (std::string line; std::getline(stream, line);) {
         if (std::regex_match(line, match, opened) && line.find('}') == std::string::npos) {
             spaces.push_back(match[1]);
-        } else if (line.starts_with("}  // namespace") && !spaces.empty()) {
+        } else if (line == "LAMINA_SIMD_BEGIN") {
+            spaces.push_back("lamina::one instruction set");
+        } else if ((line.starts_with("}  // namespace") || line == "LAMINA_SIMD_END") &&
+                   !spaces.empty()) {
             spaces.pop_back();
         } else if (std::regex_match(line, match, type)) {
             std::string name;
