@@ -243,7 +243,7 @@ void Pipeline::set_up() {
 
 void Pipeline::draw_frame() {
     if (scene().method == Method::trace) {
-        trace_picture(scene_, data_);
+        traced_now({});
         return;
     }
     Frames& drawing = frames();
@@ -343,13 +343,19 @@ void Pipeline::check_data() {
     }
 }
 
+TracedPicture Pipeline::traced_now(const TileDone& tile_done) {
+    return options_.trace_plainly ? plainly_traced_picture(scene_, data_)
+                                  : trace_picture(scene_, data_, tile_done);
+}
+
 const TracedPicture& Pipeline::trace(const TileDone& tile_done) {
     load();
     check_data();
-    if (scene_.draws_mesh()) data_.open_faces(scene_);  // once, in no frame's time
+    if (scene_.draws_mesh() && !options_.trace_plainly)
+        data_.open_faces(scene_);  // once, in no frame's time
     Stage frame("frame");
     frame.count("frame", frames_drawn_++);
-    TracedPicture made = trace_picture(scene_, data_, tile_done);
+    TracedPicture made = traced_now(tile_done);
     trace_ms_ = frame.end();
     traced_ = std::move(made);
     warn_of_data();
@@ -381,7 +387,8 @@ FrameStatistics Pipeline::statistics() {
 
 FrameStatistics Pipeline::trace_statistics() {
     FrameStatistics found;
-    found.renderer = found.drawn_by = "reference tracer";
+    found.renderer = found.drawn_by =
+        options_.trace_plainly ? "plain tracer" : "reference tracer";
     found.stages_ms = stages_ms_;
     data_.add_to(scene_, found);
     if (!traced_) return found;

@@ -42,6 +42,8 @@ struct PipelineOptions {
     // picture counts.
     bool many_frames = false;
     bool count_fragments = false;  // with OpenGL, which takes a query
+    // Traces with the plain twin of the reference tracer, which tells nothing of its tiles.
+    bool trace_plainly = false;
     // Says which part of a picture this pipeline draws, if several draw it together with the native
     // engine.
     PictureShare share = {};
@@ -123,6 +125,7 @@ class Pipeline {
     decltype(auto) in_context(const Work& work);
     void draw_counted();
     const TracePlan& plan_of_trace();
+    TracedPicture traced_now(const TileDone& tile_done);
     void check_data();  // as plans do
     void warn_of_scene();
     void warn_of_data();

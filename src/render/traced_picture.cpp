@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/stage.h"
+#include "plain/plain_tracer.h"
 #include "reference/scene_tracer.h"
 
 namespace lamina {
@@ -27,6 +28,15 @@ TracedPicture trace_picture(const Scene& scene, SceneData& data, const TileDone&
     const Stage tracing("trace");
     TraceResult traced = trace(scene, volume, tile_done);
     return {std::move(traced.image), traced.error_estimate, traced.segments, 0};
+}
+
+TracedPicture plainly_traced_picture(const Scene& scene, SceneData& data) {
+    const auto trace = [&](const auto& drawn) {
+        const Stage tracing("trace");
+        PlainPicture traced = trace_plainly(scene, drawn);
+        return TracedPicture{std::move(traced.image), traced.error_estimate, traced.segments, 0};
+    };
+    return scene.draws_mesh() ? trace(*data.mesh(scene)) : trace(data.volume(scene)->volume);
 }
 
 }  // namespace lamina

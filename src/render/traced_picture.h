@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// A picture of the reference tracer.
+// A picture of the reference tracer, or of its plain twin.
 struct TracedPicture {
     PreciseImage image;  // associated RGBA, before any background
     // The largest error over all pixels and channels, as a share of full scale, as the tracer
@@ -26,5 +26,9 @@ Scene as_trace(Scene scene, TraceOf of);
 // Traces the data that the scene draws, whatever its method, to its trace_tolerance. The scene has
 // nothing automatic in transfer function and camera.
 TracedPicture trace_picture(const Scene& scene, SceneData& data, const TileDone& tile_done = {});
+
+// Does the same with the tracer's plain twin (plain/plain_tracer.h), which counts no overlapping
+// rays and takes no tolerance.
+TracedPicture plainly_traced_picture(const Scene& scene, SceneData& data);
 
 }  // namespace lamina

@@ -38,7 +38,7 @@ struct RenderOptions {
     std::string stats, profile;
     std::vector<std::string> kept;
     std::string context = "auto";
-    bool explain = false, quiet = false;
+    bool plain = false, explain = false, quiet = false;
 };
 
 OmissionSwitch omission_switch(const RenderOptions& options) {
@@ -97,6 +97,9 @@ ReadScene read(const RenderOptions& options) {
     }
     read.scene = load_scene(named, settings_of(options.view), read.document, edit);
     if (read.series) read.series->check(read.scene);
+    if (options.plain && read.scene.method != Method::trace)
+        throw UsageError(fmt::format("--plain: expected the method trace, found {}",
+                                     name_of(read.scene.method)));
     return read;
 }
 
@@ -109,6 +112,7 @@ PipelineOptions how_to_draw(const RenderOptions& options, const Scene& scene,
     how.wishes.all_around = options.output.views > 1;
     how.many_frames = options.output.frames > 0 || options.output.views > 0;
     how.count_fragments = !options.stats.empty();
+    how.trace_plainly = options.plain;
     how.make_frames = extras.make_frames;
     return how;
 }
@@ -191,6 +195,9 @@ CLI::App& add_render_with(CLI::App& app, const RenderExtras& extras) {
     verb->add_option("--method", options->scene.method,
                      "slice, project or trace; as --set render.method=...")
         ->option_text("slice|project|trace");
+    verb->add_flag("--plain", options->plain,
+                   "With the method trace: draw with the tracer's plain twin, which is slow and "
+                   "shares no code with it");
     verb->add_option("--set", options->scene.settings,
                      "Set a key of the scene, as in render.slice.samples=512")
         ->option_text("KEY=VALUE")
