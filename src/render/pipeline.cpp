@@ -387,8 +387,7 @@ FrameStatistics Pipeline::statistics() {
 
 FrameStatistics Pipeline::trace_statistics() {
     FrameStatistics found;
-    found.renderer = found.drawn_by =
-        options_.trace_plainly ? "plain tracer" : "reference tracer";
+    found.renderer = found.drawn_by = options_.trace_plainly ? "plain tracer" : "reference tracer";
     found.stages_ms = stages_ms_;
     data_.add_to(scene_, found);
     if (!traced_) return found;

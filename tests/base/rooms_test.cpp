@@ -203,6 +203,25 @@ TEST(Simd, IsTheOnlyModuleThatNamesHighway) {
     }
 }
 
+// The plain tracer judges the other one, by code of its own that people can read to its end.
+TEST(PlainTracer, SharesNoCodeWithTheTracerAndIsShort) {
+    const std::set<std::string> data{"base/parallel.h",    "base/progress.h",
+                                     "scene/camera.h",     "scene/half_space.h",
+                                     "scene/scene_mesh.h", "volume/sample_access.h"};
+    std::ptrdiff_t lines = 0;
+    for (const fs::path& file : files_under({"src/plain"})) {
+        const std::string text = read_bytes_of(file);
+        if (file.extension() != ".txt") lines += std::count(text.begin(), text.end(), '\n');
+        for (const std::string& include : all_matches(text, R"(^\s*#\s*include\s*"([^"]+)\")")) {
+            EXPECT_TRUE(include.starts_with("lamina/") || include.starts_with("plain/") ||
+                        data.contains(include))
+                << file << " includes " << include;
+        }
+    }
+    EXPECT_GT(lines, 100);
+    EXPECT_LE(lines, 400);
+}
+
 // Whoever uses the library needs GLM and nothing else.
 TEST(PublicHeaders, IncludeEachOtherGlmAndTheStandardLibrary) {
     for (const fs::path& file : files_under({"include"})) {
@@ -314,7 +333,8 @@ std::vector<PipelineStep> pipeline_steps() {
         {"trace_",
          R"(\b(trace_(?:volume|mesh|pixels)\())",
          {tracers, "src/slicing/trial_truth.cpp"}},  // judges the numbers of slabs that are tried
-        {"scene_tracer.h", R"((reference/scene_tracer\.h))", {tracers}}};
+        {"scene_tracer.h", R"((reference/scene_tracer\.h))", {tracers}},
+        {"trace_plainly(", R"(\b(trace_plainly\())", {"src/plain/"}}};
 }
 
 bool defines(const PipelineStep& step, const std::string& file) {

@@ -149,6 +149,8 @@ TEST_F(Render, MistakesOfUsageAreExitTwo) {
         {"-o", folder / "a.exr", "--set", "nonsense"},
         {"-o", folder / "a.exr", "--method", "paint"},
         {"-o", folder / "a.exr", "--context", "directx"},
+        {"-o", folder / "a.exr", "--plain"},
+        {"-o", folder / "a.exr", "--plain", "--method", "slice"},
         {"-o", folder / "a.exr", "--no-omit=nothing"},
         {"-o", folder / "a.exr", "--frames", "0"},
         {"-o", folder / "a.exr", "--turn-by", "10"},
@@ -216,6 +218,31 @@ TEST_F(Render, TracesLitScenes) {
     EXPECT_EQ(resolved.exit_code, 0) << resolved.err;
     EXPECT_EQ(trace("resolved").find("smallest gradient"), std::string::npos);
     EXPECT_EQ(read_bytes_of(folder / "lit.npy"), read_bytes_of(folder / "resolved.npy"));
+}
+
+// The bound of tools/fuzz_scenes; the tracer's tolerance is 1e-5, and it is far better.
+TEST_F(Render, TracesPlainly) {
+    const auto trace = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> options{"--method", "trace",
+                                         "-o",       folder / (name + ".npy"),
+                                         "--stats",  folder / (name + ".json")};
+        options.insert(options.end(), more.begin(), more.end());
+        const ProgramResult result = render(options);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return json::parse(read_bytes_of(folder / (name + ".json")));
+    };
+    trace("traced", {});
+    const json plain = trace("plain", {"--plain"});
+    EXPECT_EQ(plain["context"], "plain tracer");
+    EXPECT_GT(plain["error_estimate"], 0);
+    EXPECT_LE(plain["error_estimate"], 1e-7);
+    const double off =
+        image_error(read_npy(folder / "traced.npy"), read_npy(folder / "plain.npy")).all.linf;
+    EXPECT_LE(off, 255 * 1e-5);
+    EXPECT_NE(read_bytes_of(folder / "traced.npy"), read_bytes_of(folder / "plain.npy"));
+    const ProgramResult sliced = render({"-o", folder / "a.exr", "--plain"});
+    EXPECT_NE(sliced.err.find("--plain: expected the method trace, found slice"), std::string::npos)
+        << sliced.err;
 }
 
 TEST_F(Render, OutputsAreRegularFilesAndLinksStayLinks) {

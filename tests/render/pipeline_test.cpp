@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/atomic_file.h"
+#include "image/metrics.h"
 #include "mesh_files/mesh_file.h"
 #include "scene/given_transfer.h"
 #include "support/expect_error.h"
@@ -117,8 +118,30 @@ TEST(Pipeline, TracesNoVolumeWithoutANumber) {
     scene.nan = NanPolicy::transparent;
     const Volume volume = test::volume_of(test::grid_of({3, 3, 3}, Centering::node),
                                           [](double, double, double) { return NAN; });
-    Pipeline pipeline(scene, SceneData(volume));
-    expect_error([&] { pipeline.trace(); }, {"all 27 samples are NaN or infinite"});
+    for (const bool plainly : {false, true}) {
+        Pipeline pipeline(scene, SceneData(volume), {.trace_plainly = plainly});
+        expect_error([&] { pipeline.trace(); }, {"all 27 samples are NaN or infinite"});
+    }
+}
+
+// Both policies for NaN, of both tracers: an error, or cells that show nothing.
+TEST(Pipeline, TracesPlainlyWhatTheTracerTraces) {
+    Scene scene = read_scene(minimal_scene(), "s");
+    scene.method = Method::trace;
+    const Volume volume = test::volume_of(
+        test::grid_of({5, 5, 5}, Centering::node),
+        [](double i, double j, double k) { return i + j + k == 6 ? NAN : 30 * i + 20 * j; });
+    Pipeline traced(scene, SceneData(volume));
+    Pipeline plain(scene, SceneData(volume), {.trace_plainly = true});
+    for (Pipeline* const pipeline : {&traced, &plain})
+        expect_error([&] { pipeline->trace(); }, {"NaN", "transparent"});
+    scene.nan = NanPolicy::transparent;
+    traced.set_scene(scene);
+    plain.set_scene(scene);
+    const PreciseImage &a = traced.trace().image, &b = plain.trace().image;
+    EXPECT_LE(image_error(to_float(a), to_float(b)).all.linf, 255 * 1e-5);
+    EXPECT_NE(a.rgba, b.rgba);
+    EXPECT_EQ(plain.statistics().drawn_by, "plain tracer");
 }
 
 }  // namespace

@@ -14,6 +14,8 @@ CURVES = 0.17  # of cubics in place of pieces (docs/omissions.md, smooth_points)
 CODES = {"float32": 2.0 ** -24, "float16": 2.0 ** -11, "fixed16": 0.5 / 65535, "fixed8": 0.5 / 255}
 TRACE = ["--method", "trace", "--set", "render.trace.tolerance=1e-7"]
 OF_MESH = ["--set", "render.trace.of=mesh"]
+PLAIN = ["--method", "trace", "--plain"]
+PLAIN_SIZE = ["--set", "image.width=48", "--set", "image.height=36"]
 ORACLE_PIXELS = 8
 SLAB_PIXELS = 300
 STRAIGHT_PIXELS = 60
@@ -88,9 +90,21 @@ class Judge:
             self.verdict.refusal = getattr(self.program, "refusal", "")
         if traced is not None and not self.lit:  # lit rays have cases of their own (tests/reference/lit_cases.json)
             self.tracer(traced)
+        if traced is not None:
+            self.plain([])
+            if self.made.volume and "mesh" in self.made.scene:
+                self.plain(OF_MESH)
         if traced is not None and drawn is not None:
             self.drawn(drawn, traced)
         return self.verdict
+
+    def plain(self, of):
+        """The tracer against its plain twin, whose time is not judged."""
+        traced = self.program.render("fast_twin", TRACE + of + PLAIN_SIZE, ".npy")
+        plain = self.program.render("plain_twin", PLAIN + of + PLAIN_SIZE, ".npy", patience=20)
+        if traced is not None and plain is not None:
+            self.check("plain", numpy.abs(traced.picture - plain.picture).max(2), 1e-5,
+                       f" (estimates {255 * traced.stats['error_estimate']:.2g}, {255 * plain.stats['error_estimate']:.2g})")
 
     def drawn(self, drawn, traced):
         if self.made.seed % 8 == 0 and platform.machine() == "x86_64" and drawn.stats["context"].startswith("cpu"):

@@ -43,16 +43,17 @@ class Program:
         self.findings = []
         self.commands = []
 
-    def limit(self):
+    def limit(self, seconds):
         """Of processor time: other work on the machine does not count."""
-        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(self.seconds), math.ceil(self.seconds) + 5))
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds) + 5))
 
     def report(self, kind, text, times=0):
         self.findings.append(Finding(kind, text, times))
 
-    def render(self, name, arguments, suffix=".exr", scene="scene.json", least=False):
+    def render(self, name, arguments, suffix=".exr", scene="scene.json", least=False, patience=1):
         """None where it ended in an error, said as it should be or not. least: on one processor, with the least
-        instructions."""
+        instructions; patience: how many times the usual seconds it may take."""
+        seconds = patience * self.seconds
         picture, stats = self.folder / f"{name}{suffix}", self.folder / f"{name}.json"
         command = ["render", scene, "-o", picture.name, "--stats", stats.name, *arguments]
         command = [str(self.lamina), *command]
@@ -61,13 +62,13 @@ class Program:
         self.commands.append(shlex.join(command))
         start = time.monotonic()
         try:
-            done = subprocess.run(command, cwd=self.folder, capture_output=True, timeout=WAITING * self.seconds,
-                                  preexec_fn=self.limit)
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, timeout=WAITING * seconds,
+                                  preexec_fn=lambda: self.limit(seconds))
         except subprocess.TimeoutExpired:
-            self.report("hang", f"{name}: no end after {WAITING * self.seconds:g} s")
+            self.report("hang", f"{name}: no end after {WAITING * seconds:g} s")
             return None
         if done.returncode == -signal.SIGXCPU:
-            self.report("hang", f"{name}: no end after {self.seconds:g} s of a processor")
+            self.report("hang", f"{name}: no end after {seconds:g} s of a processor")
             return None
         messages = done.stderr.decode("utf-8", "replace").splitlines()
         found = Outcome(self.commands[-1], done.returncode, messages, time.monotonic() - start)
@@ -90,7 +91,7 @@ class Program:
         command = [str(self.lamina), "scene", "scene.json", "-o", name]
         self.commands.append(shlex.join(command))
         done = subprocess.run(command, cwd=self.folder, capture_output=True, timeout=WAITING * self.seconds,
-                              preexec_fn=self.limit)
+                              preexec_fn=lambda: self.limit(self.seconds))
         if done.returncode == 0:
             return json.loads((self.folder / name).read_text())
         lines = done.stderr.decode("utf-8", "replace").splitlines()
