@@ -100,8 +100,9 @@ class Judge:
 
     def plain(self, of):
         """The tracer against its plain twin, whose time is not judged."""
-        traced = self.program.render("fast_twin", TRACE + of + PLAIN_SIZE, ".npy")
-        plain = self.program.render("plain_twin", PLAIN + of + PLAIN_SIZE, ".npy", patience=20)
+        name = "mesh" if of else "scene"
+        traced = self.program.render(f"{name}_traced", TRACE + of + PLAIN_SIZE, ".npy")
+        plain = self.program.render(f"{name}_plain", PLAIN + of + PLAIN_SIZE, ".npy", patience=20)
         if traced is not None and plain is not None:
             self.check("plain", numpy.abs(traced.picture - plain.picture).max(2), 1e-5,
                        f" (estimates {255 * traced.stats['error_estimate']:.2g}, {255 * plain.stats['error_estimate']:.2g})")
