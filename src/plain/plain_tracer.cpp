@@ -73,8 +73,8 @@ using Field = glm::dvec4;  // the gradient in world space (x, y, z) and the scal
 
 // A part of a ray in one cell or tet, and the field from t = 0 at its front to t = 1 at its back.
 struct Segment {
-    double entry;   // where the ray enters the cell or tet, be it seen or not
-    double length;  // of what is seen of it, in world units
+    double entry;   // z at which the ray enters the cell or tet, be it seen or not
+    double length;  // world units that are seen of it
     Cubic<Field> field;
 };
 
@@ -150,8 +150,8 @@ std::vector<Segment> meet(const Volume& volume, const View::Ray& world, Span see
 
 struct PlainMesh {
     std::span<const glm::dvec3> points;
-    std::vector<Field> fields;  // at the points
-    std::vector<Tet> tets;      // that show something
+    std::vector<Field> fields;  // one a point
+    std::vector<Tet> tets;      // those that show something
     // Gives the half space behind the face opposite a corner, which the tet is in. Both tets of a
     // face begin with its least point, so that their planes are the same to the last bit.
     HalfSpace behind(const Tet& tet, int opposite) const {
@@ -305,11 +305,11 @@ class PlainRay {
         }
         return sum;
     }
-    // Adds a part of a segment, or its halves until an integral and those of its halves agree. What
-    // is deep, or where the gradient turns (by Taylor's series), is halved first: it might hide
-    // from all of their points. Colours are 0 or more and no brighter than the brightest.
+    // Adds a part of a segment, or its halves until Gauss' rule on it and on its halves agree. A
+    // part that is deep, or whose gradient turns (by Taylor's series), is halved first: a peak may
+    // lie between the points. If halving ends, the error is all that the part could show.
     void add(const Segment& segment, double from, double to, int halvings) {
-        constexpr double tolerance = 1e-7, rounding = 1e-14;  // of opacity, of an integral
+        constexpr double tolerance = 1e-7, rounding = 1e-14;  // shares of opacity, of full scale
         const double middle = 0.5 * (from + to), here = thickness(segment, from, to);
         const double opacity = std::exp(-depth) * -std::expm1(-here);
         const double allowed = tolerance * opacity + rounding * brightest_;
@@ -333,7 +333,7 @@ class PlainRay {
     }
 
     const Scene& scene_;
-    double brightest_ = 1;                           // component of a lit colour, or opacity
+    double brightest_ = 1;                           // bound on lit colours and on opacity
     std::vector<std::array<glm::dvec3, 3>> lights_;  // direction, halfway vector, colour
 };
 

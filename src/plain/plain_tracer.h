@@ -13,8 +13,8 @@ namespace lamina {
 
 struct PlainPicture {
     PreciseImage image;         // associated RGBA, before any background
-    double error_estimate = 0;  // of the worst pixel, as a share of full scale, without rounding
-    std::int64_t segments = 0;  // of rays, in one cell or tet each
+    double error_estimate = 0;  // worst pixel's, as a share of full scale, without rounding
+    std::int64_t segments = 0;  // parts of rays, each in one cell or tet
 };
 
 // Traces what a scene shows, whatever its method and trace_tolerance; nothing in it is automatic.
