@@ -201,7 +201,7 @@ TEST(TracerAndTwin, AgreeOnSteepFunctions) {
     const SceneMesh mesh = waves(30, .1);
     for (const Camera& camera : views_of(unit_box)) {
         for (const TransferFunction& function : {peak, opacity}) {
-            Scene scene = scene_of(function, camera);
+            Scene scene = scene_of(function, camera, 12, 9);
             expect_same(scene, volume, "volume");
             expect_same(scene, mesh, "mesh");
             scene.lighting = directional();
@@ -217,7 +217,7 @@ TEST(TracerAndTwin, AgreeOnSteepFunctions) {
 // them.
 TEST(TracerAndTwin, AgreeOnMeshesWithNeedles) {
     for (const double least : {.1, 1e-3, 1e-6}) {
-        const SceneMesh mesh = waves(200, least);
+        const SceneMesh mesh = waves(100, least);
         for (const Camera& camera : views_of(unit_box))
             expect_same(scene_of(test::smooth(), camera), mesh, std::to_string(least), 1e-9);
     }
