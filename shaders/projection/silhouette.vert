@@ -1,6 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A corner of the polygon around a tet. Every corner carries the tet's record (projection/tet_record.h).
+// A corner of the polygon around a tet. Every corner carries the record of the tet or cell fragment
+// (projection/tet_record.h): TetRecord, or with CUT FragmentRecord.
 layout(location = 0) in vec2 position;  // window coordinates
 layout(location = 1) in uint record;
 
@@ -27,7 +28,7 @@ flat out vec4 scalars;          // at the center, per z, per column, per row
 #if defined(EXACT_RUNS) && defined(SCALARS)
 flat out vec4 scalars_low;      // what these lack of double precision
 #endif
-flat out vec4 limits;           // of the scalar, or upper cut per column and row; bits: fronts, number
+flat out vec4 limits;           // least and largest scalar; CUT: upper cut per column and row; bits: fronts, number
 #ifdef CUT
 flat out vec4 cuts;             // lower: depth, per column, per row; upper: depth
 flat out OPTICS low_optics, high_optics;  // colour (where TABLE_COLORED) and extinction at least and largest scalar

@@ -134,10 +134,11 @@ struct GeneralShader {
         return area.depth == PartDepth::faint ? PartDepth::thin : area.depth;
     }
 
-    LAMINA_NOINLINE Fragment color(const TetFragments& fragments, const TetRecord& record,
+    LAMINA_NOINLINE Fragment color(const TetFragments& fragments, const SilhouetteRecord& record,
                                    const PartArea& area, const TetRun& run) const {
         if (!cut) return segment_color(fragments, run);
-        return part_color(fragments.colored, depth_of(fragments, area), fragments, record, run);
+        return part_color(fragments.colored, depth_of(fragments, area), fragments, record.fragment,
+                          run);
     }
     LAMINA_INLINE void put(const TetFragments& fragments, std::uint32_t number,
                            const Fragment& fragment, const TetTile& tile, std::size_t place) const {

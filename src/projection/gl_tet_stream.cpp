@@ -57,7 +57,7 @@ GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribut
         batch.indices =
             gl::Buffer::make_mapped(batch_parts_ * size_.indices * sizeof(std::uint32_t));
         if (size_.has_record)
-            batch.records = gl::Buffer::make_mapped(batch_parts_ * sizeof(TetRecord));
+            batch.records = gl::Buffer::make_mapped(batch_parts_ * sizeof(SilhouetteRecord));
         if (size_.has_gradient)
             batch.gradients = gl::Buffer::make_mapped(batch_parts_ * sizeof(GradientRecord));
         batch.vertex_array.set_indices(batch.indices);
@@ -145,7 +145,7 @@ void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPa
     const std::size_t end = std::min(first + chunk_parts, parts.size());
     std::size_t vertex = first * size_.vertices, index = first * size_.indices;
     auto* const indices = reinterpret_cast<std::uint32_t*>(batch.indices.mapped());
-    auto* const records = reinterpret_cast<TetRecord*>(batch.records.mapped());
+    auto* const records = reinterpret_cast<SilhouetteRecord*>(batch.records.mapped());
     auto* const gradients = reinterpret_cast<GradientRecord*>(batch.gradients.mapped());
     Chunk& chunk = chunks_[number];
     chunk = {};

@@ -70,14 +70,15 @@ struct LitShader {
 
     LAMINA_NOINLINE Fragment lit_color(const TileBatch& batch, std::size_t part,
                                        const FragmentQueue::Found& found) const {
-        const TetRecord& record = batch.record(part);
+        const SilhouetteRecord& record = batch.record(part);
+        const SeenTet& seen = record.seen();
         const Float column = found.aside, row = found.slant;
         GradientRun gradient;
-        const Float slant = find_eye(record, column, row, gradient);
+        const Float slant = find_eye(seen, column, row, gradient);
         const bool by_depth = fragments.slanted;
         const TetSpan ends =
             find_ends(*this, fragments, record, found.span, by_depth ? slant : Float(1));
-        const Float aside = column * record.scalar_per_column + row * record.scalar_per_row;
+        const Float aside = column * seen.scalar_per_column + row * seen.scalar_per_row;
         const TetRun run =
             has_exact_runs(fragments, batch.area(part))
                 ? find_exact_run(*this, fragments, record, found.span, column, row, by_depth)
@@ -92,7 +93,7 @@ struct LitShader {
 
   private:
     // Sets the direction to the eye; returns the length of the ray per unit of z.
-    LAMINA_INLINE Float find_eye(const TetRecord& record, Float column, Float row,
+    LAMINA_INLINE Float find_eye(const SeenTet& record, Float column, Float row,
                                  GradientRun& gradient) const {
         const auto& [right, up, forward] = fragments.axes;
         if (!perspective) {
@@ -127,7 +128,7 @@ struct LitShader {
 
     LAMINA_INLINE Fragment part_lit(const TileBatch& batch, std::size_t part, const TetRun& run,
                                     const GradientRun& gradient) const {
-        const TetRecord& record = batch.record(part);
+        const FragmentRecord& record = batch.record(part).fragment;
         const Fragment unlit = part_color(
             true, GeneralShader::depth_of(fragments, batch.area(part)), fragments, record, run);
         const auto optics = [&](std::size_t i, Float place) LAMINA_LAMBDA {

@@ -26,18 +26,19 @@ constexpr float oblique = 1e-4f;
 
 // The largest difference of depth at a corner of the square X columns and Y rows from the area's
 // first pixel is most + c X - r Y. There is a lane for each line.
-PartOutline find_outline(const TetRecord& record, const PixelArea& area, int image_rows) {
+PartOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
     constexpr float middle = 0.5f * (TileGrid::block - 1);
+    const SeenTet& seen = record.seen();
     const float columns = static_cast<float>(area.last_column - area.first_column),
                 rows = static_cast<float>(area.last_row - area.first_row);
-    const float column = static_cast<float>(area.first_column) + 0.5f - record.center[0] + middle,
-                row = static_cast<float>(image_rows - area.first_row) - 0.5f - record.center[1] -
+    const float column = static_cast<float>(area.first_column) + 0.5f - seen.center[0] + middle,
+                row = static_cast<float>(image_rows - area.first_row) - 0.5f - seen.center[1] -
                       middle;
-    const std::uint32_t fronts = record.fronts & 3u;
+    const std::uint32_t fronts = record.front_faces() & 3u;
     const Int4 front = load<Int4>(front_of[fronts]), back = load<Int4>(back_of[fronts]);
-    const Float4 depth = load<Float4>(record.depth.high.data()),
-                 per_column = load<Float4>(record.depth_per_column.high.data()),
-                 per_row = load<Float4>(record.depth_per_row.high.data());
+    const Float4 depth = load<Float4>(seen.depth.high.data()),
+                 per_column = load<Float4>(seen.depth_per_column.high.data()),
+                 per_row = load<Float4>(seen.depth_per_row.high.data());
     const auto difference = [&](Float4 v)
                                 LAMINA_LAMBDA { return permute(v, back) - permute(v, front); };
     const float slack =
@@ -63,7 +64,7 @@ LAMINA_SIMD_END
 
 namespace lamina {
 
-PartOutline outline_of(const TetRecord& record, const PixelArea& area, int image_rows) {
+PartOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
     return LAMINA_LEAST(find_outline)(record, area, image_rows);
 }
 

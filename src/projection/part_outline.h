@@ -27,6 +27,6 @@ struct PartOutline {
 
 // The outline of a tet with 1 to 3 front faces whose depths are found in float32. `image_rows`:
 // number of rows of the picture.
-PartOutline outline_of(const TetRecord& record, const PixelArea& area, int image_rows);
+PartOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows);
 
 }  // namespace lamina

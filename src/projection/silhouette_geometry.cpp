@@ -12,7 +12,7 @@ TetGeometry::Size SilhouetteGeometry::largest_size(bool lit) {
 
 TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place& place) const {
     ScreenOutline outline;
-    TetRecord record;  // not written in place: that memory may be slow to read
+    SilhouetteRecord record;  // not written in place: that memory may be slow to read
     GradientRecord gradient;
     GradientRecord* const lit = place.gradient != nullptr ? &gradient : nullptr;
     const std::optional<FragmentKind> kind = projector_.project(part, record, outline, lit);

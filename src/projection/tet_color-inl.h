@@ -27,7 +27,7 @@ LAMINA_INLINE Fragment constant_color(const TetFragments& fragments, const TetRu
 // `colored`: otherwise the colour is fragments.single_color. `most_depth`: a bound on the optical
 // depth of the cell fragment.
 LAMINA_INLINE Fragment part_color(bool colored, PartDepth most_depth, const TetFragments& fragments,
-                                  const TetRecord& record, const TetRun& run) {
+                                  const FragmentRecord& record, const TetRun& run) {
     const auto optics = [&](std::size_t i, Float place) LAMINA_LAMBDA {
         return mix(Float(record.low[i]), Float(record.high[i]), place);
     };

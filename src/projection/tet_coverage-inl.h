@@ -55,7 +55,7 @@ class TetCoverage {
 
     // `cut`: the cell fragment ends at planes of constant scalar. `lit`: what is found is.
     template <bool lit>
-    LAMINA_INLINE void find(bool cut, const TetRecord& record, const PartArea& area,
+    LAMINA_INLINE void find(bool cut, const SilhouetteRecord& record, const PartArea& area,
                             std::uint64_t blocks, std::size_t part, FragmentQueue& found) {
         // Blocks at the picture's right and lower edge may stick out of it.
         const bool whole_blocks = area_.width % block == 0 && area_.height % block == 0;
@@ -76,10 +76,10 @@ class TetCoverage {
   private:
     static constexpr int block = TileGrid::block, blocks_a_row = TileGrid::edge / TileGrid::block;
 
-    float from_column(const TetRecord& record) const {
+    float from_column(const SeenTet& record) const {
         return static_cast<float>(area_.column) + 0.5f - record.center[0];
     }
-    float from_row(const TetRecord& record) const {
+    float from_row(const SeenTet& record) const {
         return static_cast<float>(fragments_.image_rows - area_.row) - 0.5f - record.center[1];
     }
 
@@ -139,10 +139,10 @@ class TetCoverage {
 
     // `places`: the queue gets the places of pixels.
     template <bool places, bool bounded, class Depths>
-    LAMINA_INLINE void find_in(bool cut, const TetRecord& record, const PartArea& area,
+    LAMINA_INLINE void find_in(bool cut, const SilhouetteRecord& record, const PartArea& area,
                                std::uint64_t blocks, FragmentQueue::Writer& writer) const {
         constexpr int rows_a_vector = static_cast<int>(FragmentQueue::lanes) / block;
-        const float first_column = from_column(record), first_row = from_row(record);
+        const float first_column = from_column(record.seen()), first_row = from_row(record.seen());
         const auto column_of = [&](int pixel) {
             return first_column + static_cast<float>(pixel - area_.column);
         };
@@ -153,7 +153,7 @@ class TetCoverage {
         const float highest = row_of(area.first_row), lowest = row_of(area.last_row);
         const float* const slants = tile_.slants;
         const Depths depths(fragments_, record);
-        const PartCuts cuts(cut, record);
+        const PartCuts cuts(cut, record.fragment);
         for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
             const auto number = static_cast<std::size_t>(std::countr_zero(left));
             prefetch_pixels(number * block * block);
@@ -166,7 +166,7 @@ class TetCoverage {
                                                            number / blocks_a_row * block * block);
                 InsideSpan<Float> span = depths.at(at_columns, rows);
                 if constexpr (bounded) span.leave = min(span.leave, area.farthest);
-                cuts.shorten(record, columns, rows, span);
+                cuts.shorten(record.fragment, columns, rows, span);
                 FloatMask inside = span.leave > span.enter;
                 if constexpr (bounded) {
                     const FloatMask in_columns = (columns >= first_in) & (columns <= last_in);
@@ -180,7 +180,7 @@ class TetCoverage {
                 }
                 const Float slant = slants != nullptr ? load<Float>(slants + place) : Float(1);
                 const Float aside =
-                    columns * record.scalar_per_column + rows * record.scalar_per_row;
+                    columns * record.seen().scalar_per_column + rows * record.seen().scalar_per_row;
                 writer.add(place, {span, aside, slant}, inside);
             }
         }

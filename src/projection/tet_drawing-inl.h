@@ -72,7 +72,7 @@ class TetDrawing {
         }
         queue_.for_each_place([&](const FragmentQueue::Place& pixels,
                                   const Fragment& color) LAMINA_LAMBDA {
-            shader.put(fragments_, batch_.record(pixels.part).number, color, tile_, pixels.place);
+            shader.put(fragments_, batch_.record(pixels.part).number(), color, tile_, pixels.place);
         });
         queue_.clear();
     }
@@ -81,7 +81,7 @@ class TetDrawing {
     LAMINA_INLINE void find_colors(const Shader& shader) {
         queue_.for_each_vector([&](std::size_t part, std::size_t i) LAMINA_LAMBDA {
             const FragmentQueue::Found found = queue_.found(i);
-            const TetRecord& record = batch_.record(part);
+            const SilhouetteRecord& record = batch_.record(part);
             const bool slanted = tile_.slants != nullptr;
             queue_.set_run(i, has_exact_runs(fragments_, batch_.area(part))
                                   ? find_exact_run(shader, fragments_, record, found.span,

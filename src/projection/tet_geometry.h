@@ -32,7 +32,7 @@ class TetGeometry {
         std::byte* vertices;
         std::uint32_t first_vertex;  // number of the vertex at `vertices`, for the indices
         std::uint32_t* indices;      // of triangles
-        TetRecord* record;           // null without records
+        SilhouetteRecord* record;    // null without records
         GradientRecord* gradient;    // null where nothing is lit
         std::uint32_t record_number;
     };

@@ -51,7 +51,7 @@ std::array<std::size_t, 3> sorted_face(const Tet& tet, std::size_t face) {
     return corners;
 }
 
-void set_pair(TetRecord::Pairs& pairs, std::size_t place, double value) {
+void set_pair(SeenTet::Pairs& pairs, std::size_t place, double value) {
     pairs.high[place] = static_cast<float>(value);
     pairs.low[place] = static_cast<float>(value - static_cast<double>(pairs.high[place]));
 }
@@ -60,7 +60,7 @@ float finite_float(double value) {
     return static_cast<float>(std::clamp(value, -beyond_all, beyond_all));
 }
 
-void set_scalars(const std::array<double, 4>& linear, TetRecord& record) {
+void set_scalars(const std::array<double, 4>& linear, SeenTet& record) {
     record.scalar = finite_float(linear[0]);
     record.scalar_per_z = finite_float(linear[1]);
     record.scalar_per_column = finite_float(linear[2]);
@@ -68,7 +68,7 @@ void set_scalars(const std::array<double, 4>& linear, TetRecord& record) {
 }
 
 // Returns a bound on the optical depth of all runs through a part.
-double largest_depth(const std::array<glm::dvec3, 4>& corners, const TetRecord& record) {
+double largest_depth(const std::array<glm::dvec3, 4>& corners, const FragmentRecord& record) {
     double longest = 0;
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = i + 1; j < 4; ++j)
@@ -124,27 +124,28 @@ TetProjector::DepthPlane TetProjector::depth_plane(const Tet& tet, std::size_t f
 }
 
 bool TetProjector::set_depths(const Tet& tet, FaceSigns signs, const std::array<Seen, 4>& corners,
-                              const Extent& extent, TetRecord& record) const {
+                              const Extent& extent, SilhouetteRecord& record) const {
+    SeenTet& seen = record.seen();
     std::size_t first_back = 0, place_of_back = 3;
     double rounding = 0;
     for (std::size_t face = 0; face < 4; ++face) {
         const DepthPlane plane = depth_plane(tet, face, signs, corners);
         const std::size_t place = plane.front ? first_back++ : place_of_back--;
-        const double at_center = depth_at_center(plane, record);
-        set_pair(record.depth, place, at_center);
-        set_pair(record.depth_per_column, place, plane.per_column);
-        set_pair(record.depth_per_row, place, plane.per_row);
+        const double at_center = depth_at_center(plane, seen);
+        set_pair(seen.depth, place, at_center);
+        set_pair(seen.depth_per_column, place, plane.per_column);
+        set_pair(seen.depth_per_row, place, plane.per_row);
         rounding =
             std::max(rounding, std::abs(at_center) + extent.columns * std::abs(plane.per_column) +
                                    extent.rows * std::abs(plane.per_row));
     }
-    record.fronts = static_cast<std::uint32_t>(first_back);
+    record.tet.fronts = static_cast<std::uint32_t>(first_back);
     const bool steep =
         rounding * std::numeric_limits<float>::epsilon() > float_tolerance * extent.depth_range;
     return !(steep || first_back == 0 || extent.cut);
 }
 
-double TetProjector::depth_at_center(const DepthPlane& plane, const TetRecord& record) const {
+double TetProjector::depth_at_center(const DepthPlane& plane, const SeenTet& record) const {
     const double column = record.center[0] - window_.middle().x,
                  row = record.center[1] - window_.middle().y;
     return plane.at_middle + column * plane.per_column + row * plane.per_row -
@@ -155,7 +156,7 @@ double TetProjector::depth_at_center(const DepthPlane& plane, const TetRecord& r
 // eye is seen edge-on: all three are huge, and only the side of the edge on which a pixel lies
 // counts.
 std::array<float, 3> TetProjector::plane_at_center(const DepthPlane& plane,
-                                                   const TetRecord& record) const {
+                                                   const SeenTet& record) const {
     const glm::dvec3 exact(depth_at_center(plane, record), plane.per_column, plane.per_row);
     const glm::dvec3 kept = exact * std::min(1.0, beyond_all / std::max(largest(exact), 1.0));
     return {static_cast<float>(kept.x), static_cast<float>(kept.y), static_cast<float>(kept.z)};
@@ -181,7 +182,7 @@ double TetProjector::inverted(double value) const {
 
 // Returns the linear function (value - origin) * scale.
 TetProjector::Linear TetProjector::linear(const PartField& field, double origin, double scale,
-                                          const TetRecord& record) const {
+                                          const SeenTet& record) const {
     const double x = (record.center[0] - window_.middle().x) * window_.view().pixel,
                  y = (record.center[1] - window_.middle().y) * window_.view().pixel,
                  // Shaders measure depths from here. center_z is rounded, by much of a small tet
@@ -199,18 +200,20 @@ bool TetProjector::set_whole(const PartField& field, TetRecord& record) const {
     const auto normalised = [&](double value) { return (value - range_.lo) / width; };
     const double least = normalised(field.least()), largest = normalised(field.largest());
     const double shrink = far_scale(least, largest), scale = (1 / width) * shrink;
-    const Linear exact = linear(field, range_.lo, scale, record);
-    set_scalars(exact, record);
-    record.limits = {static_cast<float>(least * shrink), static_cast<float>(largest * shrink)};
-    const std::array rounded{record.scalar, record.scalar_per_z, record.scalar_per_column,
-                             record.scalar_per_row};
+    const Linear exact = linear(field, range_.lo, scale, record.seen);
+    set_scalars(exact, record.seen);
+    record.least = static_cast<float>(least * shrink);
+    record.largest = static_cast<float>(largest * shrink);
+    const SeenTet& seen = record.seen;
+    const std::array rounded{seen.scalar, seen.scalar_per_z, seen.scalar_per_column,
+                             seen.scalar_per_row};
     for (std::size_t i = 0; i < exact.size(); ++i)
-        record.low[i] = finite_float(exact[i] - static_cast<double>(rounded[i]));
+        record.scalar_rest[i] = finite_float(exact[i] - static_cast<double>(rounded[i]));
     return !runs_beyond({field.least(), field.largest()}, range_, far_for_floats);
 }
 
 void TetProjector::set_gradients(const Tet& tet, const std::array<Seen, 4>& corners,
-                                 const TetRecord& record, GradientRecord& lit) const {
+                                 const SeenTet& record, GradientRecord& lit) const {
     double largest_of_tet = 0;
     for (const std::int32_t corner : tet) {
         const glm::vec3& gradient = gradients_[static_cast<std::size_t>(corner)];
@@ -231,9 +234,9 @@ void TetProjector::set_gradients(const Tet& tet, const std::array<Seen, 4>& corn
 }
 
 void TetProjector::set_part(const PartField& field, const LinearPiece& piece,
-                            TetRecord& record) const {
+                            FragmentRecord& record) const {
     const double width = field.largest() - field.least();
-    set_scalars(linear(field, field.least(), width > 0 ? 1 / width : 0, record), record);
+    set_scalars(linear(field, field.least(), width > 0 ? 1 / width : 0, record.seen), record.seen);
     const DepthPlane before_all{-beyond_all, 0, 0, true};
     const DepthPlane lower = field.cut_low() ? level_plane(field, field.least()) : before_all;
     DepthPlane upper = before_all;
@@ -241,12 +244,13 @@ void TetProjector::set_part(const PartField& field, const LinearPiece& piece,
         upper = level_plane(field, field.largest());
         upper.front = !upper.front;
     }
-    record.lower_cut = plane_at_center(lower, record);
-    const std::array<float, 3> upper_cut = plane_at_center(upper, record);
+    record.lower_cut = plane_at_center(lower, record.seen);
+    const std::array<float, 3> upper_cut = plane_at_center(upper, record.seen);
     record.upper_cut = upper_cut[0];
-    record.limits = {upper_cut[1], upper_cut[2]};
-    if (lower.front) record.fronts |= TetRecord::lower_cut_is_front;
-    if (upper.front) record.fronts |= TetRecord::upper_cut_is_front;
+    record.upper_cut_per_column = upper_cut[1];
+    record.upper_cut_per_row = upper_cut[2];
+    if (lower.front) record.fronts |= FragmentRecord::lower_cut_is_front;
+    if (upper.front) record.fronts |= FragmentRecord::upper_cut_is_front;
     const auto optics = [&](double scalar) -> std::array<float, 4> {
         const OpticalProperties found = optics_at(piece, scalar);
         return {finite_float(found.color.r), finite_float(found.color.g),
@@ -274,7 +278,7 @@ TetProjector::VisibleCorners TetProjector::clip_near(const std::array<Seen, 4>& 
     return visible;
 }
 
-std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord& record,
+std::optional<FragmentKind> TetProjector::project(const TetPart& part, SilhouetteRecord& record,
                                                   ScreenOutline& outline,
                                                   GradientRecord* lit) const {
     const Tet& tet = tets_[static_cast<std::size_t>(part.tet)];
@@ -290,7 +294,7 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord
                                          ? nullptr
                                          : &pieces_.pieces()[static_cast<std::size_t>(part.piece)];
     const PartField field(corners, values, piece);
-    const Extent extent = place_center(visible, record);
+    const Extent extent = place_center(visible, record.seen());
     outline = outline_of(visible, field, extent.cut);
     if (outline.count == 0 ||
         pixel_bounds(outline.points(), margin_, view().width, view().height).empty())
@@ -298,21 +302,21 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord
     bool plain =
         set_depths(tet, signer_.signs(static_cast<std::size_t>(part.tet)), corners, extent, record);
     if (piece != nullptr) {
-        set_part(field, *piece, record);
+        set_part(field, *piece, record.fragment);
     } else {
-        plain = set_whole(field, record) && plain;
+        plain = set_whole(field, record.tet) && plain;
     }
-    record.number = part_number(part, tets_.size());
-    if (lit != nullptr) set_gradients(tet, corners, record, *lit);
+    record.tet.number = part_number(part, tets_.size());
+    if (lit != nullptr) set_gradients(tet, corners, record.seen(), *lit);
     if (!plain) return FragmentKind::careful;
-    const bool thin = piece != nullptr && largest_depth(corners, record) <= thin_depth;
+    const bool thin = piece != nullptr && largest_depth(corners, record.fragment) <= thin_depth;
     return thin ? FragmentKind::thin : FragmentKind::plain;
 }
 
 // The center is the same for all parts of a tet, so that they find their common cuts at the same
 // depth.
 TetProjector::Extent TetProjector::place_center(const VisibleCorners& visible,
-                                                TetRecord& record) const {
+                                                SeenTet& record) const {
     glm::dvec2 lo(INFINITY), hi(-INFINITY);
     double z = 0, nearest = INFINITY, farthest = 0;
     for (std::size_t i = 0; i < visible.count; ++i) {

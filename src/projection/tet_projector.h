@@ -37,7 +37,7 @@ class TetProjector {
     // Fills the record and the outline, and returns the kind of its fragments. The outline covers
     // the cell fragment and may cover more of its tet. Returns nothing, and leaves the outputs
     // undefined, where the centre of no pixel is covered. `lit`: null where nothing is lit.
-    std::optional<FragmentKind> project(const TetPart& part, TetRecord& record,
+    std::optional<FragmentKind> project(const TetPart& part, SilhouetteRecord& record,
                                         ScreenOutline& outline,
                                         GradientRecord* lit = nullptr) const;
     double margin() const { return margin_; }
@@ -69,24 +69,23 @@ class TetProjector {
         double depth_range;    // thickness of the tet in `Depth` at its far end
         bool cut;              // whether the near plane cuts the tet
     };
-    Extent place_center(const VisibleCorners& visible, TetRecord& record) const;
+    Extent place_center(const VisibleCorners& visible, SeenTet& record) const;
     ScreenOutline outline_of(const VisibleCorners& visible, const PartField& field,
                              bool cut_by_near) const;
     // Returns whether float32 is good enough for the depths.
     bool set_depths(const Tet& tet, FaceSigns signs, const std::array<Seen, 4>& corners,
-                    const Extent& extent, TetRecord& record) const;
+                    const Extent& extent, SilhouetteRecord& record) const;
     double inverted(double value) const;
     // A linear function: at the center, per z, per column and per row.
     using Linear = std::array<double, 4>;
-    Linear linear(const PartField& field, double origin, double scale,
-                  const TetRecord& record) const;
+    Linear linear(const PartField& field, double origin, double scale, const SeenTet& record) const;
     // Returns whether float32 is good enough for the scalars.
     bool set_whole(const PartField& field, TetRecord& record) const;
-    void set_gradients(const Tet& tet, const std::array<Seen, 4>& corners, const TetRecord& record,
+    void set_gradients(const Tet& tet, const std::array<Seen, 4>& corners, const SeenTet& record,
                        GradientRecord& lit) const;
-    void set_part(const PartField& field, const LinearPiece& piece, TetRecord& record) const;
-    std::array<float, 3> plane_at_center(const DepthPlane& plane, const TetRecord& record) const;
-    double depth_at_center(const DepthPlane& plane, const TetRecord& record) const;
+    void set_part(const PartField& field, const LinearPiece& piece, FragmentRecord& record) const;
+    std::array<float, 3> plane_at_center(const DepthPlane& plane, const SeenTet& record) const;
+    double depth_at_center(const DepthPlane& plane, const SeenTet& record) const;
 
     std::span<const glm::dvec3> points_;
     std::span<const Tet> tets_;

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// What is computed once for each whole tet, or each cell fragment, of one view.
+//
+// `Depth` is z in orthographic views and -1/z in perspective ones. It grows with eye-space depth z
+// and is linear in window coordinates on every plane (Kraus 2004, section 2.1). A ray is inside the
+// tet from the largest depth on front faces, which the eye is in front of, to the least depth on
+// the other faces.
 #pragma once
 
 #include <array>
@@ -6,13 +12,8 @@
 
 namespace lamina {
 
-// One tet or cell fragment of one view, as shaders/projection/silhouette.vert reads it: 12 uvec4.
-//
-// `Depth` is z in orthographic views and -1/z in perspective ones. It grows with eye-space depth z
-// and is linear in window coordinates on every plane (Kraus 2004, section 2.1). A ray is inside the
-// tet from the largest depth on front faces, which the eye is in front of, to the least depth on
-// the other faces.
-struct alignas(16) TetRecord {
+// The faces and the scalar of a tet: what both records begin with.
+struct alignas(16) SeenTet {
     // For each of the four faces a double as the sum of two floats.
     struct Pairs {
         std::array<float, 4> high, low;
@@ -27,26 +28,37 @@ struct alignas(16) TetRecord {
     // or that of the cell fragment. Then its change along the ray per unit of z, and its change per
     // pixel (in perspective views, per pixel at z = 1).
     float scalar, scalar_per_z, scalar_per_column, scalar_per_row;
-    // Whole tet: the least and the largest scalar of its corners. Cell fragment: the change of
-    // `upper_cut` per column and per row.
-    std::array<float, 2> limits;
-    // The number of front faces, 0 (the eye is inside) to 3. For a cell fragment bit 3 says that
-    // its lower cut is a front, and bit 4 that its upper cut is one.
-    std::uint32_t fronts;
-    std::uint32_t number;  // of the tet or cell fragment, for dithering
+};
 
-    // For a cell fragment: the planes on which the scalar is its least and its largest, in the form
-    // that `depth` has for faces. Where the tet itself has no smaller (larger) scalars, the plane
-    // is a front in front of everything.
+// A whole tet.
+struct TetRecord {
+    SeenTet seen;
+    float least, largest;  // scalars of its corners
+    std::uint32_t fronts;  // the number of front faces, 0 (the eye is inside) to 3
+    std::uint32_t number;  // for dithering
+    std::array<float, 4> unused;
+    // What `scalar` and the three numbers behind it lack of double precision. TetProjector sets it
+    // alone.
+    std::array<float, 4> scalar_rest;
+    std::array<float, 4> also_unused;
+};
+
+// A cell fragment: the part of a tet in one interval of the transfer function. It ends at two
+// planes on which the scalar is its least and its largest, in the form that SeenTet::depth has for
+// faces. If the tet itself has no smaller (larger) scalars, the plane is a front in front of
+// everything.
+struct FragmentRecord {
+    SeenTet seen;
+    float upper_cut_per_column, upper_cut_per_row;
+    std::uint32_t fronts;            // as TetRecord has it, and bits for cuts that are fronts
+    std::uint32_t number;            // for dithering
     std::array<float, 3> lower_cut;  // depth, per column, per row
     float upper_cut;                 // depth
-    // Colour and extinction at these scalars. Whole tet: `low` is what `scalar` and the three
-    // numbers behind it lack of double precision; only TetProjector sets it.
-    std::array<float, 4> low, high;
+    std::array<float, 4> low, high;  // colour and extinction at these scalars
 
     bool has_lower_cut() const { return cuts(lower_cut_is_front, lower_cut); }
     bool has_upper_cut() const {
-        return cuts(upper_cut_is_front, {upper_cut, limits[0], limits[1]});
+        return cuts(upper_cut_is_front, {upper_cut, upper_cut_per_column, upper_cut_per_row});
     }
 
     // Bits of `fronts`.
@@ -58,7 +70,21 @@ struct alignas(16) TetRecord {
         return (fronts & front) == 0 || plane != std::array{in_front_of_all, 0.0f, 0.0f};
     }
 };
-static_assert(sizeof(TetRecord) == 192);
+
+// Either record, as buffers hold them and shaders/projection/silhouette.vert reads them: 12 uvec4.
+// A plan draws whole tets or cell fragments. Both begin with the same members, which are read
+// through either.
+union SilhouetteRecord {
+    TetRecord tet;
+    FragmentRecord fragment;
+
+    const SeenTet& seen() const { return tet.seen; }
+    SeenTet& seen() { return tet.seen; }
+    std::uint32_t front_faces() const { return tet.fronts & 7u; }
+    std::uint32_t number() const { return tet.number; }
+};
+static_assert(sizeof(TetRecord) == 192 && sizeof(FragmentRecord) == 192);
+static_assert(sizeof(SilhouetteRecord) == 192);
 
 // Depths on faces in float32 are good enough where their rounding error is at most this share of
 // the tet's thickness in depth. A face exceeds this where it is seen nearly edge-on. Few pixels
@@ -66,6 +92,6 @@ static_assert(sizeof(TetRecord) == 192);
 inline constexpr double float_tolerance = 2e-3;
 
 // Deeper than everything. The product with any window coordinate is still finite.
-inline constexpr double beyond_all = -double{TetRecord::in_front_of_all};
+inline constexpr double beyond_all = -double{FragmentRecord::in_front_of_all};
 
 }  // namespace lamina

@@ -58,27 +58,27 @@ LAMINA_INLINE InsideSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V
 // Depths on faces in float32.
 class PlainDepths {
   public:
-    LAMINA_INLINE PlainDepths(const TetFragments&, const TetRecord& record)
-        : record_(record), fronts_(record.fronts & 7u) {}
+    LAMINA_INLINE PlainDepths(const TetFragments&, const SilhouetteRecord& record)
+        : seen_(record.seen()), fronts_(record.front_faces()) {}
 
     struct AtColumns {
         Float d0, d1, d2, d3;
     };
     LAMINA_INLINE AtColumns at_columns(Float column) const {
         const auto start = [&](std::size_t face) LAMINA_LAMBDA {
-            return at_column(record_.depth.high[face], record_.depth_per_column.high[face], column);
+            return at_column(seen_.depth.high[face], seen_.depth_per_column.high[face], column);
         };
         return {start(0), start(1), start(2), start(3)};
     }
     LAMINA_INLINE InsideSpan<Float> at(const AtColumns& start, Float row) const {
-        const auto& per_row = record_.depth_per_row.high;
+        const auto& per_row = seen_.depth_per_row.high;
         return order_depths(fronts_, at_row(start.d0, per_row[0], row),
                             at_row(start.d1, per_row[1], row), at_row(start.d2, per_row[2], row),
                             at_row(start.d3, per_row[3], row));
     }
 
   private:
-    const TetRecord& record_;
+    const SeenTet& seen_;
     std::uint32_t fronts_;
 };
 
@@ -86,8 +86,8 @@ class PlainDepths {
 // where the eye is inside.
 class CarefulDepths {
   public:
-    LAMINA_INLINE CarefulDepths(const TetFragments& fragments, const TetRecord& record)
-        : fragments_(fragments), record_(record) {}
+    LAMINA_INLINE CarefulDepths(const TetFragments& fragments, const SilhouetteRecord& record)
+        : fragments_(fragments), record_(record), seen_(record.seen()) {}
 
     using AtColumns = Float64;
     LAMINA_INLINE AtColumns at_columns(Float column) const { return moved_column(Float64(column)); }
@@ -95,8 +95,8 @@ class CarefulDepths {
         const Float64 rows = moved_row(Float64(row));
         const auto depth = [&](std::size_t face)
                                LAMINA_LAMBDA { return to_float(plane(face, columns, rows)); };
-        const Float nearest(fragments_.near_depth - record_.center_depth);
-        return order_depths_from(record_.fronts & 7u, nearest, depth(0), depth(1), depth(2),
+        const Float nearest(fragments_.near_depth - seen_.center_depth);
+        return order_depths_from(record_.front_faces(), nearest, depth(0), depth(1), depth(2),
                                  depth(3));
     }
 
@@ -108,19 +108,19 @@ class CarefulDepths {
     // `column`, `row`: from the record's center.
     LAMINA_INLINE ExactSpan exact_at(bool perspective, Float column, Float row) const {
         const Float64 x = moved_column(Float64(column)), y = moved_row(Float64(row));
-        const Float64 nearest = double{fragments_.near_depth - record_.center_depth};
+        const Float64 nearest = double{fragments_.near_depth - seen_.center_depth};
         const InsideSpan<Float64> span =
-            order_depths_from(record_.fronts & 7u, nearest, plane(0, x, y), plane(1, x, y),
+            order_depths_from(record_.front_faces(), nearest, plane(0, x, y), plane(1, x, y),
                               plane(2, x, y), plane(3, x, y));
         const auto exact = [&](std::size_t i, float rounded) {
-            return double{rounded} + double{record_.low[i]};
+            return double{rounded} + double{record_.tet.scalar_rest[i]};
         };
-        const double origin = exact(0, record_.scalar), per_z = exact(1, record_.scalar_per_z);
+        const double origin = exact(0, seen_.scalar), per_z = exact(1, seen_.scalar_per_z);
         const Float64 aside =
-            exact(2, record_.scalar_per_column) * x + exact(3, record_.scalar_per_row) * y;
+            exact(2, seen_.scalar_per_column) * x + exact(3, seen_.scalar_per_row) * y;
         const auto z_of = [&](Float64 depth) LAMINA_LAMBDA {
             if (!perspective) return Float64(1);
-            return -1 / min(double{record_.center_depth} + depth, -1e-30);
+            return -1 / min(double{seen_.center_depth} + depth, -1e-30);
         };
         const Float64 z_front = z_of(span.enter), z_back = z_of(span.leave), z_center = z_of(0);
         const auto scalar = [&](Float64 depth, Float64 z) LAMINA_LAMBDA {
@@ -133,20 +133,19 @@ class CarefulDepths {
   private:
     // The depth of a face, from the record's center.
     LAMINA_INLINE Float64 plane(std::size_t face, Float64 x, Float64 y) const {
-        const auto sum = [&](const TetRecord::Pairs& pairs) {
+        const auto sum = [&](const SeenTet::Pairs& pairs) {
             return double{pairs.high[face]} + double{pairs.low[face]};
         };
-        return sum(record_.depth) + sum(record_.depth_per_column) * x +
-               sum(record_.depth_per_row) * y;
+        return sum(seen_.depth) + sum(seen_.depth_per_column) * x + sum(seen_.depth_per_row) * y;
     }
 
     // The ray perturbation moves the ray in space. Its component along the ray does not count.
     LAMINA_INLINE Float64 moved_column(Float64 column) const {
-        return moved(column, record_.center[0], fragments_.image_middle.x,
+        return moved(column, seen_.center[0], fragments_.image_middle.x,
                      fragments_.ray_perturbation.x);
     }
     LAMINA_INLINE Float64 moved_row(Float64 row) const {
-        return moved(row, record_.center[1], fragments_.image_middle.y,
+        return moved(row, seen_.center[1], fragments_.image_middle.y,
                      fragments_.ray_perturbation.y);
     }
     LAMINA_INLINE Float64 moved(Float64 place, float center, float middle, double shift) const {
@@ -156,7 +155,8 @@ class CarefulDepths {
     }
 
     const TetFragments& fragments_;
-    const TetRecord& record_;
+    const SilhouetteRecord& record_;
+    const SeenTet& seen_;
 };
 
 // Which of the two planes of a cell fragment, on which the scalar is its least or its largest, rays
@@ -164,14 +164,14 @@ class CarefulDepths {
 class PartCuts {
   public:
     // Neither where `cut` is false.
-    PartCuts(bool cut, const TetRecord& record)
+    PartCuts(bool cut, const FragmentRecord& record)
         : lower_(cut && record.has_lower_cut()),
           upper_(cut && record.has_upper_cut()),
-          lower_is_front_((record.fronts & TetRecord::lower_cut_is_front) != 0),
-          upper_is_front_((record.fronts & TetRecord::upper_cut_is_front) != 0) {}
+          lower_is_front_((record.fronts & FragmentRecord::lower_cut_is_front) != 0),
+          upper_is_front_((record.fronts & FragmentRecord::upper_cut_is_front) != 0) {}
 
     // Shortens a ray's run to the stretch between the two planes.
-    LAMINA_INLINE void shorten(const TetRecord& record, Float column, Float row,
+    LAMINA_INLINE void shorten(const FragmentRecord& record, Float column, Float row,
                                InsideSpan<Float>& span) const {
         const auto cut = [&](bool front, float at_center, float per_column,
                              float per_row) LAMINA_LAMBDA {
@@ -184,7 +184,9 @@ class PartCuts {
         };
         if (lower_)
             cut(lower_is_front_, record.lower_cut[0], record.lower_cut[1], record.lower_cut[2]);
-        if (upper_) cut(upper_is_front_, record.upper_cut, record.limits[0], record.limits[1]);
+        if (upper_)
+            cut(upper_is_front_, record.upper_cut, record.upper_cut_per_column,
+                record.upper_cut_per_row);
     }
 
   private:
@@ -205,15 +207,16 @@ struct TetSpan {
 // see projection/tet_drawing-inl.h.
 template <class Shader>
 LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragments,
-                                const TetRecord& record, const InsideSpan<Float>& span,
+                                const SilhouetteRecord& record, const InsideSpan<Float>& span,
                                 Float slant) {
+    const SeenTet& seen = record.seen();
     Float length = span.leave - span.enter;
     Float z_front(1), z_back(1), front = span.enter, back = span.leave;
     if (shader.perspective) {
         // Differences of z are computed from differences of depth, so that a distant eye costs no
         // digits.
-        const Float depth_front = record.center_depth + span.enter;
-        const Float depth_back = record.center_depth + span.leave;
+        const Float depth_front = seen.center_depth + span.enter;
+        const Float depth_back = seen.center_depth + span.leave;
         if (fragments.one_division) {
             // All depths in front of the eye are negative; near the horizon rounding may give 0.
             const Float near = min(depth_front, -1e-18f), far = min(depth_back, -1e-18f);
@@ -225,8 +228,8 @@ LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragme
             z_back = -1 / min(depth_back, -1e-30f);
         }
         length = length * z_front * z_back * slant;
-        front = front * z_front * record.center_z;
-        back = back * z_back * record.center_z;
+        front = front * z_front * seen.center_z;
+        back = back * z_back * seen.center_z;
     }
     if (shader.opacity_only) length *= fragments.depth_scale;
     return {{z_front, front}, {z_back, back}, length};
@@ -234,14 +237,15 @@ LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragme
 
 // `aside`: the scalar's change from the record's center, at z = 1.
 template <class Shader>
-LAMINA_INLINE TetRun run_between(const Shader& shader, const TetRecord& record, const TetSpan& ends,
-                                 Float aside) {
+LAMINA_INLINE TetRun run_between(const Shader& shader, const SilhouetteRecord& record,
+                                 const TetSpan& ends, Float aside) {
     TetRun run{0, 0, ends.world_length};
     if (!shader.scalars) return run;
-    const float least = shader.cut ? 0.0f : record.limits[0];
-    const float largest = shader.cut ? 1.0f : record.limits[1];
+    const float least = shader.cut ? 0.0f : record.tet.least;
+    const float largest = shader.cut ? 1.0f : record.tet.largest;
+    const SeenTet& seen = record.seen();
     const auto scalar = [&](const TetSpanEnd& end) LAMINA_LAMBDA {
-        const Float sum = record.scalar + end.from_center * record.scalar_per_z + end.z * aside;
+        const Float sum = seen.scalar + end.from_center * seen.scalar_per_z + end.z * aside;
         return clamp(sum, least, largest);
     };
     run.front = scalar(ends.front);
@@ -251,8 +255,8 @@ LAMINA_INLINE TetRun run_between(const Shader& shader, const TetRecord& record, 
 
 template <class Shader>
 LAMINA_INLINE TetRun find_run(const Shader& shader, const TetFragments& fragments,
-                              const TetRecord& record, const InsideSpan<Float>& span, Float aside,
-                              Float slant) {
+                              const SilhouetteRecord& record, const InsideSpan<Float>& span,
+                              Float aside, Float slant) {
     return run_between(shader, record, find_ends(shader, fragments, record, span, slant), aside);
 }
 
@@ -268,7 +272,7 @@ LAMINA_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea&
 // of z.
 template <class Shader>
 LAMINA_INLINE TetRun find_exact_run(const Shader& shader, const TetFragments& fragments,
-                                    const TetRecord& record, const InsideSpan<Float>& span,
+                                    const SilhouetteRecord& record, const InsideSpan<Float>& span,
                                     Float column, Float row, bool slanted) {
     const auto [exact_length, front, back] =
         CarefulDepths(fragments, record).exact_at(shader.perspective, column, row);
@@ -277,13 +281,13 @@ LAMINA_INLINE TetRun find_exact_run(const Shader& shader, const TetFragments& fr
         const auto from_middle = [&](Float place, float center, float middle) LAMINA_LAMBDA {
             return (place + (center - middle)) * fragments.pixel_size;
         };
-        const Float x = from_middle(column, record.center[0], fragments.image_middle.x);
-        const Float y = from_middle(row, record.center[1], fragments.image_middle.y);
+        const Float x = from_middle(column, record.seen().center[0], fragments.image_middle.x);
+        const Float y = from_middle(row, record.seen().center[1], fragments.image_middle.y);
         length *= sqrt(1 + (x * x + y * y));
     }
     if (shader.opacity_only) length *= fragments.depth_scale;
     const auto within = [&](Float64 scalar) LAMINA_LAMBDA {
-        return clamp(to_float(scalar), record.limits[0], record.limits[1]);
+        return clamp(to_float(scalar), record.tet.least, record.tet.largest);
     };
     return {within(front), within(back), zero_unless(span.leave > span.enter, length)};
 }

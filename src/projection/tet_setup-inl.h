@@ -263,8 +263,8 @@ class TetVectors {
         put(lanes_.limits[1], upper.per_row);
         const auto bit = [&](DoubleMask front, std::uint32_t value)
                              LAMINA_LAMBDA { return zero_unless(front, Double(value)); };
-        fronts_ += bit(lower.front, TetRecord::lower_cut_is_front) +
-                   bit(upper.front, TetRecord::upper_cut_is_front);
+        fronts_ += bit(lower.front, FragmentRecord::lower_cut_is_front) +
+                   bit(upper.front, FragmentRecord::upper_cut_is_front);
         const Double width = to - from;
         constexpr std::size_t extinction = 3;
         Double most = 0;
@@ -290,7 +290,7 @@ class TetVectors {
         put(lanes_.largest_depth, sqrt(longest) * most);
     }
 
-    // A plane of constant scalar, as in TetRecord.
+    // A plane of constant scalar, as in FragmentRecord.
     struct Cut {
         Double depth, per_column, per_row;
         DoubleMask front;

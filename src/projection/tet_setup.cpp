@@ -42,24 +42,27 @@ LAMINA_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t c
 // The groups are what these say of four numbers side by side.
 static_assert(sizeof(PixelArea) == 16 && std::is_base_of_v<PixelArea, PartArea>);
 static_assert(sizeof(GradientRecord::Component) == 16);
-static_assert(offsetof(TetRecord, center_z) == offsetof(TetRecord, center) + 12);
-static_assert(offsetof(TetRecord, scalar_per_row) == offsetof(TetRecord, scalar) + 12);
-static_assert(offsetof(TetRecord, fronts) == offsetof(TetRecord, limits) + 8);
-static_assert(offsetof(TetRecord, number) == offsetof(TetRecord, limits) + 12);
-static_assert(offsetof(TetRecord, upper_cut) == offsetof(TetRecord, lower_cut) + 12);
+static_assert(offsetof(SeenTet, center_z) == offsetof(SeenTet, center) + 12);
+static_assert(offsetof(SeenTet, scalar_per_row) == offsetof(SeenTet, scalar) + 12);
+static_assert(offsetof(TetRecord, fronts) == offsetof(TetRecord, least) + 8);
+static_assert(offsetof(TetRecord, number) == offsetof(TetRecord, least) + 12);
+static_assert(offsetof(FragmentRecord, upper_cut_per_column) == offsetof(TetRecord, least));
+static_assert(offsetof(FragmentRecord, fronts) == offsetof(TetRecord, fronts));
+static_assert(offsetof(FragmentRecord, number) == offsetof(TetRecord, number));
+static_assert(offsetof(FragmentRecord, upper_cut) == offsetof(FragmentRecord, lower_cut) + 12);
 
 LAMINA_INLINE void write_records(const TetSetup::Lanes& lanes, bool parts, std::size_t count,
-                                 TetRecord* records) {
-    write_group<offsetof(TetRecord, depth)>(lanes.depth, count, records);
-    write_group<offsetof(TetRecord, depth_per_column)>(lanes.per_column, count, records);
-    write_group<offsetof(TetRecord, depth_per_row)>(lanes.per_row, count, records);
-    write_group<offsetof(TetRecord, center)>(lanes.center, count, records);
-    write_group<offsetof(TetRecord, scalar)>(lanes.scalar, count, records);
-    write_group<offsetof(TetRecord, limits)>(lanes.limits, count, records);
+                                 SilhouetteRecord* records) {
+    write_group<offsetof(SeenTet, depth)>(lanes.depth, count, records);
+    write_group<offsetof(SeenTet, depth_per_column)>(lanes.per_column, count, records);
+    write_group<offsetof(SeenTet, depth_per_row)>(lanes.per_row, count, records);
+    write_group<offsetof(SeenTet, center)>(lanes.center, count, records);
+    write_group<offsetof(SeenTet, scalar)>(lanes.scalar, count, records);
+    write_group<offsetof(TetRecord, least)>(lanes.limits, count, records);
     if (!parts) return;
-    write_group<offsetof(TetRecord, lower_cut)>(lanes.cuts, count, records);
-    write_group<offsetof(TetRecord, low)>(lanes.low, count, records);
-    write_group<offsetof(TetRecord, high)>(lanes.high, count, records);
+    write_group<offsetof(FragmentRecord, lower_cut)>(lanes.cuts, count, records);
+    write_group<offsetof(FragmentRecord, low)>(lanes.low, count, records);
+    write_group<offsetof(FragmentRecord, high)>(lanes.high, count, records);
 }
 
 LAMINA_INLINE void write_gradients(const TetSetup::Lanes& lanes, std::size_t count,
@@ -73,7 +76,7 @@ LAMINA_INLINE void write_gradients(const TetSetup::Lanes& lanes, std::size_t cou
 // Sets up one vector after the other, and writes `count` records, their gradients where `lit` is
 // not null, and the pixels of areas.
 void set_up_vectors(const SetupView& view, bool parts, TetSetup::Lanes& lanes, std::size_t count,
-                    TetRecord* records, GradientRecord* lit, PartArea* areas) {
+                    SilhouetteRecord* records, GradientRecord* lit, PartArea* areas) {
     for (std::size_t first = 0; first < TetSetup::most_parts; first += Double::lanes)
         TetVectors(view, lanes, first).set_up(parts, lit != nullptr);
     write_records(lanes, parts, count, records);
@@ -123,7 +126,7 @@ void TetSetup::prefetch(std::span<const TetPart> next) const {
 }
 
 void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> next,
-                      TetRecord* records, GradientRecord* lit, Parts& result) const {
+                      SilhouetteRecord* records, GradientRecord* lit, Parts& result) const {
     Lanes lanes;
     prefetch(next);
     load(parts, lanes);
@@ -174,8 +177,8 @@ void TetSetup::load(std::span<const TetPart> parts, Lanes& lanes) const {
     }
 }
 
-void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, const TetRecord* records,
-                     Parts& result) const {
+void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes,
+                     const SilhouetteRecord* records, Parts& result) const {
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         Outcome& outcome = result.outcomes[lane];
         outcome = lanes.good[lane] == 0      ? Outcome::doubtful

@@ -48,15 +48,15 @@ class TetSetup {
     // areas are defined where the outcome is `done`; the others are overwritten, too. `records`:
     // one for each cell fragment, and so `lit`, which is null where there are no gradients. `next`:
     // cell fragments that will follow, which are prefetched.
-    void set_up(std::span<const TetPart> parts, std::span<const TetPart> next, TetRecord* records,
-                GradientRecord* lit, Parts& result) const;
+    void set_up(std::span<const TetPart> parts, std::span<const TetPart> next,
+                SilhouetteRecord* records, GradientRecord* lit, Parts& result) const;
 
     struct Lanes;  // memory of the vectors (projection/tet_setup_lanes.h)
 
   private:
     LAMINA_INLINE void prefetch(std::span<const TetPart> next) const;
     void load(std::span<const TetPart> parts, Lanes& lanes) const;
-    void store(std::span<const TetPart> parts, const Lanes& lanes, const TetRecord* records,
+    void store(std::span<const TetPart> parts, const Lanes& lanes, const SilhouetteRecord* records,
                Parts& result) const;
     void load_gradients(std::span<const TetPart> parts, Lanes& lanes) const;
 

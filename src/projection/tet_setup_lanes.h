@@ -26,10 +26,11 @@ struct TetSetup::Lanes {
     Row farthest;                // PartArea::farthest
     Row largest_depth;
     Group pixels;                      // PixelArea, in the bits of integers
-    Group depth, per_column, per_row;  // of the faces, as in TetRecord
+    Group depth, per_column, per_row;  // of the faces, as in SeenTet
     Group center;                      // column, row, depth and z
     Group scalar;                      // at the center, per z, per column and per row
-    // Two limits, and in the bits of integers TetRecord::fronts and (in) number.
+    // Least and largest scalar of a whole tet, or the upper cut of a fragment per column and per
+    // row; then in the bits of integers the fronts and (in) the number.
     Group limits;
     Group cuts;  // lower: depth, per column, per row; upper: depth
     Group low, high;

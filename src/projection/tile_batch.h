@@ -75,7 +75,7 @@ class TileBatch {
             first_tet_ = last_tet_ = -1;
         }
         // The record that the next cell fragment is written to. It is kept once add() is called.
-        TetRecord& next() { return batch_->records_[end()]; }
+        SilhouetteRecord& next() { return batch_->records_[end()]; }
         GradientRecord* next_gradient() {
             return batch_->is_lit() ? &batch_->gradients_[end()] : nullptr;
         }
@@ -121,7 +121,7 @@ class TileBatch {
 
     bool has_triangles() const { return !triangles_.empty(); }
     bool is_lit() const { return !gradients_.empty(); }
-    const TetRecord& record(std::size_t part) const { return records_[part]; }
+    const SilhouetteRecord& record(std::size_t part) const { return records_[part]; }
     const GradientRecord& gradient(std::size_t part) const { return gradients_[part]; }
     const TriangleRecord& triangle(std::size_t part) const { return triangles_[part]; }
     const PartArea& area(std::size_t part) const { return areas_[part]; }
@@ -143,7 +143,7 @@ class TileBatch {
                                    [&](const Chunk& chunk) { return chunk.is_drawn_by(tile); });
     }
     std::int64_t byte_count() const {
-        std::size_t bytes = sizeof(*this) + records_.size() * sizeof(TetRecord) +
+        std::size_t bytes = sizeof(*this) + records_.size() * sizeof(SilhouetteRecord) +
                             gradients_.size() * sizeof(GradientRecord) +
                             triangles_.size() * sizeof(TriangleRecord) +
                             areas_.size() * sizeof(PartArea) + sets_.size() * sizeof(Set);
@@ -152,7 +152,7 @@ class TileBatch {
     }
 
   private:
-    std::vector<TetRecord> records_;
+    std::vector<SilhouetteRecord> records_;
     std::vector<GradientRecord> gradients_;  // of the records; empty where nothing is lit
     std::vector<TriangleRecord> triangles_;
     std::vector<PartArea> areas_;

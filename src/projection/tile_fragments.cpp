@@ -15,9 +15,9 @@ struct PartShader {
     static constexpr bool lit = false, cut = true, scalars = true, perspective = true,
                           opacity_only = false;
 
-    LAMINA_INLINE Fragment color(const TetFragments& fragments, const TetRecord& record,
+    LAMINA_INLINE Fragment color(const TetFragments& fragments, const SilhouetteRecord& record,
                                  const PartArea& area, const TetRun& run) const {
-        return part_color(true, area.depth, fragments, record, run);
+        return part_color(true, area.depth, fragments, record.fragment, run);
     }
     LAMINA_INLINE void put(const TetFragments&, std::uint32_t, const Fragment& fragment,
                            const TetTile& tile, std::size_t place) const {

@@ -252,7 +252,7 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
             parts.subspan(first, std::min(TetSetup::most_parts, parts.size() - first));
         TetSetup::Parts done;
         // Records are written in place, and moved where one before them is not drawn.
-        TetRecord* const records = &chunk.next();
+        SilhouetteRecord* const records = &chunk.next();
         GradientRecord* const lit = chunk.next_gradient();
         projectors.setup.set_up(group, parts.subspan(first + group.size()), records, lit, done);
         for (std::size_t i = 0; i < group.size(); ++i) {
