@@ -20,7 +20,7 @@ std::vector<std::size_t> parts_of(const TileBatch& batch, std::size_t tile) {
 
 void add(TileBatch::Chunk& chunk, float depth, std::int32_t tet,
          const std::vector<std::size_t>& touched) {
-    chunk.next().center_depth = depth;
+    chunk.next().seen().center_depth = depth;
     chunk.add({}, tet);
     for (const std::size_t tile : touched) chunk.touch(tile);
 }
@@ -34,8 +34,8 @@ TEST(TileBatch, TilesDrawTheirPartsInTheOrderOfTheChunks) {
     EXPECT_EQ(parts_of(batch, 0), (std::vector<std::size_t>{0, 1}));
     EXPECT_EQ(parts_of(batch, 599), (std::vector<std::size_t>{0, third}));
     EXPECT_FALSE(batch.is_drawn_by(511));
-    EXPECT_EQ(batch.record(1).center_depth, 2);
-    EXPECT_EQ(batch.record(third).center_depth, 5);
+    EXPECT_EQ(batch.record(1).seen().center_depth, 2);
+    EXPECT_EQ(batch.record(third).seen().center_depth, 5);
     EXPECT_EQ(batch.chunk(0).tets(), 1);
     EXPECT_TRUE(batch.chunk(1).empty());
 }
