@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "projection/tet_view-inl.h"
+
 namespace lamina {
 
 PartField::PartField(const Corners& corners, const Values& values, const LinearPiece* piece)
@@ -19,10 +21,10 @@ PartField::PartField(const Corners& corners, const Values& values, const LinearP
     }
     const glm::dvec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0],
                      e3 = corners[3] - corners[0];
-    const glm::dvec3 n1 = glm::cross(e2, e3);
-    gradient_ = ((values[1] - values[0]) * n1 + (values[2] - values[0]) * glm::cross(e3, e1) +
-                 (values[3] - values[0]) * glm::cross(e1, e2)) /
-                glm::dot(e1, n1);
+    const LAMINA_LEAST(TetSlopes)<double> slopes(corners);
+    gradient_ =
+        slopes.numerator(values[1] - values[0], values[2] - values[0], values[3] - values[0]) /
+        slopes.determinant;
     // A tet without volume is not seen, whatever its scalar.
     const auto largest_of = [](const glm::dvec3& v) {
         return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});

@@ -47,15 +47,6 @@ class TetProjector {
     // A point relative to the eye, along right, up and forward.
     using Seen = glm::dvec3;
 
-    // The `Depth` (tet_record.h) on a plane, as a linear function of window coordinates relative to
-    // the middle of the picture.
-    struct DepthPlane {
-        double at_middle, per_column, per_row;
-        bool front;
-    };
-    DepthPlane depth_plane(const Tet& tet, std::size_t face, FaceSigns signs,
-                           const std::array<Seen, 4>& corners) const;
-    DepthPlane level_plane(const PartField& field, double level) const;
     // The corners of the region of a tet beyond the near plane (z >= near_depth), which is what can
     // be seen of it; at most 6.
     struct VisibleCorners {
@@ -63,29 +54,8 @@ class TetProjector {
         std::array<Seen, 6> seen;
     };
     VisibleCorners clip_near(const std::array<Seen, 4>& corners) const;
-    // The size of that region.
-    struct Extent {
-        double columns, rows;  // pixels
-        double depth_range;    // thickness of the tet in `Depth` at its far end
-        bool cut;              // whether the near plane cuts the tet
-    };
-    Extent place_center(const VisibleCorners& visible, SeenTet& record) const;
     ScreenOutline outline_of(const VisibleCorners& visible, const PartField& field,
                              bool cut_by_near) const;
-    // Returns whether float32 is good enough for the depths.
-    bool set_depths(const Tet& tet, FaceSigns signs, const std::array<Seen, 4>& corners,
-                    const Extent& extent, SilhouetteRecord& record) const;
-    double inverted(double value) const;
-    // A linear function: at the center, per z, per column and per row.
-    using Linear = std::array<double, 4>;
-    Linear linear(const PartField& field, double origin, double scale, const SeenTet& record) const;
-    // Returns whether float32 is good enough for the scalars.
-    bool set_whole(const PartField& field, TetRecord& record) const;
-    void set_gradients(const Tet& tet, const std::array<Seen, 4>& corners, const SeenTet& record,
-                       GradientRecord& lit) const;
-    void set_part(const PartField& field, const LinearPiece& piece, FragmentRecord& record) const;
-    std::array<float, 3> plane_at_center(const DepthPlane& plane, const SeenTet& record) const;
-    double depth_at_center(const DepthPlane& plane, const SeenTet& record) const;
 
     std::span<const glm::dvec3> points_;
     std::span<const Tet> tets_;

@@ -132,7 +132,7 @@ void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> n
     load(parts, lanes);
     if (lit != nullptr) load_gradients(parts, lanes);
     const bool pieces = parts[0].piece != TetPart::whole;
-    const SetupView view{window_.view(), window_.perspective(), near_depth_, margin_, range_};
+    const SetupView view{window_.view(), near_depth_, margin_, range_};
     LAMINA_DISPATCH(set_up_vectors)
     (view, pieces, lanes, parts.size(), records, lit, result.areas.data());
     store(parts, lanes, records, result);

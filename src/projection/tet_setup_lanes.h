@@ -39,7 +39,6 @@ struct TetSetup::Lanes {
 
 struct SetupView {
     const View& view;
-    bool perspective;
     double near_depth, margin;
     ValueRange range;
 };
