@@ -24,13 +24,6 @@ class FragmentQueue {
   public:
     static constexpr std::size_t lanes = Float::lanes;
 
-    // The result of the first step.
-    struct Found {
-        InsideSpan<Float> span;
-        // The scalar's change from the record's center, at z = 1, and world length per unit of z.
-        // Columns and rows from the center, of lit fragments and of those with exact runs.
-        Float aside, slant;
-    };
     // A vector of pixels, by the TileGrid::place() of the first one, and the number in the
     // TileBatch of the cell fragment that covers some of them.
     struct Place {
@@ -49,30 +42,11 @@ class FragmentQueue {
               to_(queue.values_ + position(0, queue.end_)),
               place_(queue.places_ + queue.place_count_) {}
 
-        // Keeps the vector where one of its pixels is `inside`. It does so without a branch, which
-        // could not be predicted. The span of pixels that are not inside becomes 0, so that `aside`
-        // and `slant`, which stay as they are, make no difference there.
-        LAMINA_INLINE void add(std::size_t place, const Found& found, FloatMask inside) {
-            const std::size_t count = count_of(inside), some = count > 0 ? 1 : 0;
-            *place_ = {static_cast<std::uint16_t>(place), part_};
-            if constexpr (packs) {
-                put(0, members_first(found.span.enter, inside));
-                put(1, members_first(found.span.leave, inside));
-                put(2, members_first(found.aside, inside));
-                put(3, members_first(found.slant, inside));
-                Packed& packed = queue_.packed_[place_ - queue_.places_];
-                packed.first = static_cast<std::uint16_t>(to_ - queue_.values_);
-                packed.inside = static_cast<std::uint16_t>(bits_of(inside));
-                to_ += count;
-            } else {
-                put(0, zero_unless(inside, found.span.enter));
-                put(1, zero_unless(inside, found.span.leave));
-                put(2, found.aside);
-                put(3, found.slant);
-                to_ += some * (values * lanes);
-            }
-            place_ += some;
-            count_ += count;
+        LAMINA_INLINE void add(std::size_t place, const SlantedRay& found, FloatMask inside) {
+            add(place, found.span, found.aside, found.slant, inside);
+        }
+        LAMINA_INLINE void add(std::size_t place, const PlacedRay& found, FloatMask inside) {
+            add(place, found.span, found.column, found.row, inside);
         }
         // Returns the number of fragments.
         LAMINA_INLINE std::size_t finish() {
@@ -93,6 +67,32 @@ class FragmentQueue {
         }
 
       private:
+        // Keeps the vector if one of its pixels is `inside`. It does so without a branch, which
+        // could not be predicted. The span of pixels that are not inside becomes 0, so that the
+        // other two numbers, which stay as they are, make no difference there.
+        LAMINA_INLINE void add(std::size_t place, const InsideSpan<Float>& span, Float third,
+                               Float fourth, FloatMask inside) {
+            const std::size_t count = count_of(inside), some = count > 0 ? 1 : 0;
+            *place_ = {static_cast<std::uint16_t>(place), part_};
+            if constexpr (packs) {
+                put(0, members_first(span.enter, inside));
+                put(1, members_first(span.leave, inside));
+                put(2, members_first(third, inside));
+                put(3, members_first(fourth, inside));
+                Packed& packed = queue_.packed_[place_ - queue_.places_];
+                packed.first = static_cast<std::uint16_t>(to_ - queue_.values_);
+                packed.inside = static_cast<std::uint16_t>(bits_of(inside));
+                to_ += count;
+            } else {
+                put(0, zero_unless(inside, span.enter));
+                put(1, zero_unless(inside, span.leave));
+                put(2, third);
+                put(3, fourth);
+                to_ += some * (values * lanes);
+            }
+            place_ += some;
+            count_ += count;
+        }
         LAMINA_INLINE void put(std::size_t value, Float v) {
             store_unaligned(v, to_ + position(value, 0));
         }
@@ -119,10 +119,14 @@ class FragmentQueue {
         }
     }
 
-    LAMINA_INLINE Found found(std::size_t i) const {
+    // A fragment has four numbers at a time: those of the first step, then those of a run unless it
+    // is lit, then those of a colour.
+    LAMINA_INLINE SlantedRay slanted(std::size_t i) const {
         return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
     }
-    // A run overwrites the result of the first step, and a colour overwrites a run.
+    LAMINA_INLINE PlacedRay placed(std::size_t i) const {
+        return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
+    }
     LAMINA_INLINE void set_run(std::size_t i, const TetRun& run) {
         put(0, i, run.front);
         put(1, i, run.back);

@@ -69,20 +69,19 @@ struct LitShader {
         : fragments(of), cut(of.source == SegmentSource::parts), perspective(of.perspective) {}
 
     LAMINA_NOINLINE Fragment lit_color(const TileBatch& batch, std::size_t part,
-                                       const FragmentQueue::Found& found) const {
+                                       const PlacedRay& found) const {
         const SilhouetteRecord& record = batch.record(part);
         const SeenTet& seen = record.seen();
-        const Float column = found.aside, row = found.slant;
+        const Float column = found.column, row = found.row;
         GradientRun gradient;
         const Float slant = find_eye(seen, column, row, gradient);
         const bool by_depth = fragments.slanted;
         const TetSpan ends =
             find_ends(*this, fragments, record, found.span, by_depth ? slant : Float(1));
         const Float aside = column * seen.scalar_per_column + row * seen.scalar_per_row;
-        const TetRun run =
-            has_exact_runs(fragments, batch.area(part))
-                ? find_exact_run(*this, fragments, record, found.span, column, row, by_depth)
-                : run_between(*this, record, ends, aside);
+        const TetRun run = has_exact_runs(fragments, batch.area(part))
+                               ? find_exact_run(*this, fragments, record, found, by_depth)
+                               : run_between(*this, record, ends, aside);
         find_gradients(batch.gradient(part), column, row, ends, gradient);
         return cut ? part_lit(batch, part, run, gradient) : analytic_lit(run, gradient);
     }

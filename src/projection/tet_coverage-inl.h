@@ -137,8 +137,8 @@ class TetCoverage {
         __builtin_prefetch(tile_.pixels->alpha.data() + first);
     }
 
-    // `places`: the queue gets the places of pixels.
-    template <bool places, bool bounded, class Depths>
+    // `placed`: the queue gets the places of pixels.
+    template <bool placed, bool bounded, class Depths>
     LAMINA_INLINE void find_in(bool cut, const SilhouetteRecord& record, const PartArea& area,
                                std::uint64_t blocks, FragmentQueue::Writer& writer) const {
         constexpr int rows_a_vector = static_cast<int>(FragmentQueue::lanes) / block;
@@ -174,14 +174,14 @@ class TetCoverage {
                     inside = inside & (in_columns & in_rows);
                 }
                 const std::size_t place = number * block * block + step;
-                if constexpr (places) {
-                    writer.add(place, {span, columns, rows}, inside);
+                if constexpr (placed) {
+                    writer.add(place, PlacedRay{span, columns, rows}, inside);
                     continue;
                 }
                 const Float slant = slants != nullptr ? load<Float>(slants + place) : Float(1);
                 const Float aside =
                     columns * record.seen().scalar_per_column + rows * record.seen().scalar_per_row;
-                writer.add(place, {span, aside, slant}, inside);
+                writer.add(place, SlantedRay{span, aside, slant}, inside);
             }
         }
     }

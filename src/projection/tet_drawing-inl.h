@@ -65,7 +65,7 @@ class TetDrawing {
     LAMINA_NOINLINE void draw_queue(const Shader& shader) {
         if constexpr (Shader::lit) {
             queue_.for_each_vector([&](std::size_t part, std::size_t i) LAMINA_LAMBDA {
-                queue_.set_color(i, shader.lit_color(batch_, part, queue_.found(i)));
+                queue_.set_color(i, shader.lit_color(batch_, part, queue_.placed(i)));
             });
         } else {
             find_colors(shader);
@@ -80,14 +80,14 @@ class TetDrawing {
     template <class Shader>
     LAMINA_INLINE void find_colors(const Shader& shader) {
         queue_.for_each_vector([&](std::size_t part, std::size_t i) LAMINA_LAMBDA {
-            const FragmentQueue::Found found = queue_.found(i);
             const SilhouetteRecord& record = batch_.record(part);
-            const bool slanted = tile_.slants != nullptr;
-            queue_.set_run(i, has_exact_runs(fragments_, batch_.area(part))
-                                  ? find_exact_run(shader, fragments_, record, found.span,
-                                                   found.aside, found.slant, slanted)
-                                  : find_run(shader, fragments_, record, found.span, found.aside,
-                                             found.slant));
+            if (has_exact_runs(fragments_, batch_.area(part))) {
+                const bool slanted = tile_.slants != nullptr;
+                queue_.set_run(
+                    i, find_exact_run(shader, fragments_, record, queue_.placed(i), slanted));
+            } else {
+                queue_.set_run(i, find_run(shader, fragments_, record, queue_.slanted(i)));
+            }
         });
         queue_.for_each_vector([&](std::size_t part, std::size_t i) LAMINA_LAMBDA {
             queue_.set_color(

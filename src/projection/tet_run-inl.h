@@ -18,6 +18,18 @@ struct InsideSpan {
     V enter, leave;
 };
 
+// A ray inside a cell fragment, with what a run in float32 takes: the scalar's change from the
+// record's center at z = 1, and the world length per unit of z.
+struct SlantedRay {
+    InsideSpan<Float> span;
+    Float aside, slant;
+};
+// Such a ray with its pixel, from the record's center: lit fragments and exact runs take it.
+struct PlacedRay {
+    InsideSpan<Float> span;
+    Float column, row;
+};
+
 // The run of a ray through a cell fragment. Scalars are normalised as the record says. A ray that
 // misses the cell fragment has equal scalars and length 0.
 struct TetRun {
@@ -255,9 +267,9 @@ LAMINA_INLINE TetRun run_between(const Shader& shader, const SilhouetteRecord& r
 
 template <class Shader>
 LAMINA_INLINE TetRun find_run(const Shader& shader, const TetFragments& fragments,
-                              const SilhouetteRecord& record, const InsideSpan<Float>& span,
-                              Float aside, Float slant) {
-    return run_between(shader, record, find_ends(shader, fragments, record, span, slant), aside);
+                              const SilhouetteRecord& record, const SlantedRay& ray) {
+    const TetSpan ends = find_ends(shader, fragments, record, ray.span, ray.slant);
+    return run_between(shader, record, ends, ray.aside);
 }
 
 // Tells whether lengths and scalars of the tet's runs are computed in double precision: of careful
@@ -272,24 +284,24 @@ LAMINA_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea&
 // of z.
 template <class Shader>
 LAMINA_INLINE TetRun find_exact_run(const Shader& shader, const TetFragments& fragments,
-                                    const SilhouetteRecord& record, const InsideSpan<Float>& span,
-                                    Float column, Float row, bool slanted) {
+                                    const SilhouetteRecord& record, const PlacedRay& ray,
+                                    bool slanted) {
     const auto [exact_length, front, back] =
-        CarefulDepths(fragments, record).exact_at(shader.perspective, column, row);
+        CarefulDepths(fragments, record).exact_at(shader.perspective, ray.column, ray.row);
     Float length = to_float(exact_length);
     if (slanted) {
         const auto from_middle = [&](Float place, float center, float middle) LAMINA_LAMBDA {
             return (place + (center - middle)) * fragments.pixel_size;
         };
-        const Float x = from_middle(column, record.seen().center[0], fragments.image_middle.x);
-        const Float y = from_middle(row, record.seen().center[1], fragments.image_middle.y);
+        const Float x = from_middle(ray.column, record.seen().center[0], fragments.image_middle.x);
+        const Float y = from_middle(ray.row, record.seen().center[1], fragments.image_middle.y);
         length *= sqrt(1 + (x * x + y * y));
     }
     if (shader.opacity_only) length *= fragments.depth_scale;
     const auto within = [&](Float64 scalar) LAMINA_LAMBDA {
         return clamp(to_float(scalar), record.tet.least, record.tet.largest);
     };
-    return {within(front), within(back), zero_unless(span.leave > span.enter, length)};
+    return {within(front), within(back), zero_unless(ray.span.leave > ray.span.enter, length)};
 }
 
 LAMINA_SIMD_END
