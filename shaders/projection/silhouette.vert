@@ -35,7 +35,7 @@ flat out OPTICS low_optics, high_optics;  // colour (where TABLE_COLORED) and ex
 #endif
 
 #ifdef LIT
-// Of each component of the gradient: at the center, per z, per column, per row (projection/gradient_record.h).
+// Of each component of the gradient: at the center, per z, per column, per row (projection/tet_record.h).
 flat out vec4 gradients[3];
 #endif
 

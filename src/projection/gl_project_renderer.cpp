@@ -18,7 +18,7 @@
 #include "gl/api.h"
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
-#include "projection/silhouette_geometry.h"
+#include "projection/tet_geometry.h"
 #include "scene/ray_perturbation.h"
 
 namespace lamina {

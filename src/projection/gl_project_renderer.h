@@ -16,7 +16,6 @@
 #include "plan/capabilities.h"
 #include "plan/plan.h"
 #include "projection/gl_project_tables.h"
-#include "projection/gl_tet_leaves.h"
 #include "projection/gl_tet_stream.h"
 #include "projection/project_renderer.h"
 #include "projection/stored_gradients.h"

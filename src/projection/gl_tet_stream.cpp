@@ -8,8 +8,10 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/stage.h"
+#include "executors/gl_compositing.h"
 #include "gl/api.h"
 #include "gl/check.h"
+#include "projection/visible_parts.h"
 
 namespace lamina {
 namespace {
@@ -212,6 +214,24 @@ void GlTetStream::submit_one_by_one(const DrawOrder<TetPart>& parts, int rows,
         index += static_cast<std::size_t>(count);
     }
     if (limit != nullptr) set_scissor(nullptr, rows);
+}
+
+GlTetLeaves::GlTetLeaves(const CompositingPlan& plan, GlTetStream& stream,
+                         const TetGeometry& geometry, const DrawOrder<TetPart>& parts,
+                         std::int64_t samples, const GlTetStream::Programs& programs)
+    : plan_(plan),
+      stream_(stream),
+      geometry_(geometry),
+      parts_(parts),
+      samples_(samples),
+      programs_(programs) {}
+
+void GlTetLeaves::draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) {
+    for (gl::Program* program : programs_)
+        program->set("depth_scale", static_cast<float>(depth_scale));
+    const CompositingState state(plan_, true, target);
+    drawn_ += stream_.draw(geometry_, parts_of_leaf(parts_, span, samples_), target.height(),
+                           programs_, [] {});
 }
 
 }  // namespace lamina

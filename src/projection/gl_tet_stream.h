@@ -7,11 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "executors/tree_leaves.h"
 #include "gl/buffer.h"
 #include "gl/fence.h"
 #include "gl/program.h"
 #include "gl/timeline.h"
 #include "gl/vertex_array.h"
+#include "plan/compositing_plan.h"
 #include "projection/tet_geometry.h"
 #include "visibility/draw_order.h"
 
@@ -88,6 +90,28 @@ class GlTetStream {
     std::vector<const void*> offsets_;
     gl::Timeline timeline_;
     double write_ms_ = 0;
+};
+
+// The tets of one frame, or their cell fragments, as the samples of a compositing tree.
+class GlTetLeaves : public TreeLeaves {
+  public:
+    // `samples`: of the tree (parts_of_leaf). The programs must draw opacity alone (OPACITY_ONLY).
+    // All arguments must outlive it.
+    GlTetLeaves(const CompositingPlan& plan, GlTetStream& stream, const TetGeometry& geometry,
+                const DrawOrder<TetPart>& parts, std::int64_t samples,
+                const GlTetStream::Programs& programs);
+
+    void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override;
+    std::int64_t drawn() const { return drawn_; }
+
+  private:
+    const CompositingPlan& plan_;
+    GlTetStream& stream_;
+    const TetGeometry& geometry_;
+    DrawOrder<TetPart> parts_;
+    std::int64_t samples_;
+    const GlTetStream::Programs& programs_;
+    std::int64_t drawn_ = 0;
 };
 
 }  // namespace lamina

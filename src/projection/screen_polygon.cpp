@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "projection/window_view.h"
+#include "scene/window_view.h"
 
 namespace lamina {
 namespace {

@@ -4,9 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "projection/fragment_kind.h"
-#include "projection/gradient_record.h"
-#include "projection/tet_part.h"
+#include "projection/tet_projector.h"
 #include "projection/tet_record.h"
 
 namespace lamina {
@@ -43,6 +41,24 @@ class TetGeometry {
         FragmentKind kind = FragmentKind::thin;
     };
     virtual Written write(const TetPart& part, const Place& place) const = 0;
+};
+
+// A corner of the polygon around a tet (shaders/projection/silhouette.vert).
+struct SilhouetteVertex {
+    glm::vec2 position;  // window coordinates
+    std::uint32_t record;
+};
+
+// Projects each tet as one polygon around it. The fragments find the front and the back from the
+// planes of the faces.
+class SilhouetteGeometry : public TetGeometry {
+  public:
+    explicit SilhouetteGeometry(const TetProjector& projector) : projector_(projector) {}
+    static Size largest_size(bool lit);
+    Written write(const TetPart& part, const Place& place) const override;
+
+  private:
+    TetProjector projector_;
 };
 
 }  // namespace lamina

@@ -11,14 +11,11 @@
 
 #include "facts/tet_pieces.h"
 #include "mesh/tet_mesh.h"
-#include "projection/fragment_kind.h"
-#include "projection/gradient_record.h"
 #include "projection/part_field.h"
 #include "projection/screen_polygon.h"
-#include "projection/tet_part.h"
 #include "projection/tet_record.h"
-#include "projection/window_view.h"
 #include "scene/camera.h"
+#include "scene/window_view.h"
 #include "visibility/face_signs.h"
 #include "volume/min_max_bricks.h"
 

@@ -8,9 +8,35 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace lamina {
+
+// A cell fragment: the region of a tet on which the transfer function is linear, or the whole tet.
+// Cell fragments are projected one by one.
+struct TetPart {
+    static constexpr std::int32_t whole = -1;
+
+    std::int32_t tet;
+    std::int32_t piece = whole;  // index into TetPieces::pieces()
+};
+
+// A number of its own for each cell fragment of a mesh of `tets` tets, for dithering.
+inline std::uint32_t part_number(const TetPart& part, std::size_t tets) {
+    return static_cast<std::uint32_t>(part.tet) +
+           static_cast<std::uint32_t>(part.piece + 1) * static_cast<std::uint32_t>(tets);
+}
+
+// How the fragments of a cell fragment (TetPart) are computed. A later kind is also right for what
+// an earlier one serves, but slower.
+enum class FragmentKind {
+    thin,   // optical depth at most thin_depth (optics/front_weights.h); depths on faces in float32
+    plain,  // depths on faces in float32
+    careful  // depths on faces in double precision: for faces that are seen nearly edge-on, for
+             // cell fragments that the near plane cuts, and where the eye is inside
+};
+inline constexpr std::size_t fragment_kinds = 3;
 
 // The faces and the scalar of a tet: what both records begin with.
 struct alignas(16) SeenTet {
@@ -85,6 +111,20 @@ union SilhouetteRecord {
 };
 static_assert(sizeof(TetRecord) == 192 && sizeof(FragmentRecord) == 192);
 static_assert(sizeof(SilhouetteRecord) == 192);
+
+// The gradient in a tet of one view, linear in space, for a lit cell fragment: beside its
+// record, as shaders/projection/silhouette.vert reads it: 3 uvec4. Gradients are in the axes of
+// the world and in units in which the longest at a point of the mesh is 1
+// (projection/stored_gradients.h).
+struct alignas(16) GradientRecord {
+    // One component: at the point of SeenTet::center, its change along the ray per unit of z, and
+    // its change per pixel to the right and upwards (in perspective views, per pixel at z = 1).
+    struct Component {
+        float at_center, per_z, per_column, per_row;
+    };
+    std::array<Component, 3> components;
+};
+static_assert(sizeof(GradientRecord) == 48);
 
 // Depths on faces in float32 are good enough where their rounding error is at most this share of
 // the tet's thickness in depth. A face exceeds this where it is seen nearly edge-on. Few pixels

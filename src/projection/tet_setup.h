@@ -8,11 +8,9 @@
 
 #include "facts/tet_pieces.h"
 #include "mesh/tet_mesh.h"
-#include "projection/gradient_record.h"
 #include "projection/part_area.h"
-#include "projection/tet_part.h"
 #include "projection/tet_record.h"
-#include "projection/window_view.h"
+#include "scene/window_view.h"
 #include "simd/attributes.h"
 #include "volume/min_max_bricks.h"
 

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "projection/gradient_record.h"
 #include "projection/part_area.h"
 #include "projection/tet_record.h"
 #include "projection/triangle_record.h"

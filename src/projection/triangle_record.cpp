@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "projection/window_view.h"
+#include "scene/window_view.h"
 
 namespace lamina {
 namespace {

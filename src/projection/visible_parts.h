@@ -9,7 +9,7 @@
 #include "facts/tet_pieces.h"
 #include "mesh/eye.h"
 #include "mesh/tet_mesh.h"
-#include "projection/tet_part.h"
+#include "projection/tet_record.h"
 #include "scene/camera.h"
 #include "visibility/draw_order.h"
 #include "visibility/visibility_order.h"

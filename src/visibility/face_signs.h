@@ -26,6 +26,20 @@ constexpr FaceSigns farther_bit(std::size_t face) {
     return FaceSigns{16} << face;
 }
 
+// Whether sorting the corners of a face by their numbers reverses its orientation. This is true for
+// one of the two tets that share the face.
+inline bool turned_by_sorting(const Tet& tet, std::size_t face) {
+    const auto [a, b, c] = corners_of_face(tet, face);
+    return (a > b) != ((b > c) != (a > c));
+}
+
+// Whether the eye is in front of a face. Where the face is seen edge-on, the eye counts as in front
+// for one of its two tets.
+inline bool is_front(const Tet& tet, std::size_t face, FaceSigns signs) {
+    const bool nearer = (signs & nearer_bit(face)) != 0, farther = (signs & farther_bit(face)) != 0;
+    return nearer || (!farther && turned_by_sorting(tet, face));
+}
+
 // The exact sign of the solid angle (for an eye at infinity, of the projected area) of the triangle
 // a, b, c. It is positive where the eye sees the corners clockwise. So for a face whose corners are
 // counter-clockwise from outside its tet, it is positive where the eye is on the inner side.

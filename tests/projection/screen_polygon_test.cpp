@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "projection/window_view.h"
+#include "scene/window_view.h"
 
 namespace lamina {
 namespace {

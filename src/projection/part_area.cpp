@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "projection/part_outline.h"
+#include "projection/part_area.h"
 
 #include <cmath>
 

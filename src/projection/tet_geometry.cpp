@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "projection/silhouette_geometry.h"
+#include "projection/tet_geometry.h"
 
 #include <cstring>
 
