@@ -73,7 +73,7 @@ vec4 tet_color() {
     return vec4(values.rgb * values.a, values.a);
 }
 #elif SOURCE == SOURCE_CUT_TABLE
-#include "optics/preintegration.glsl"
+#include "preintegration/knot_table.glsl"
 #ifndef TABLE_COLORED
 uniform vec3 single_color;
 #endif
@@ -87,7 +87,7 @@ vec4 color_within(float front, float back, float world_length) {
 #endif
 }
 #elif SOURCE == SOURCE_TABLE
-#include "optics/segment_table.glsl"
+#include "preintegration/uniform_table.glsl"
 vec4 color_within(float front, float back, float world_length) { return integrate_segment(front, back, world_length); }
 #elif SOURCE == SOURCE_ANALYTIC
 #ifdef LIT

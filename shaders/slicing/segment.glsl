@@ -21,7 +21,7 @@
 uniform vec4 constant_optics;  // colour, extinction
 uniform float constant_extinction_low;
 #elif defined(PREINTEGRATED) && !defined(LINEAR)
-#include "optics/preintegration.glsl"
+#include "preintegration/knot_table.glsl"
 #elif !defined(EXACT)
 #include "optics/transfer_function.glsl"
 #endif

@@ -10,17 +10,17 @@ namespace {
 enum TextureUnit {
     intervals_unit,
     interval_starts_unit,
-    preintegration_unit,
+    knot_table_unit,
     front_parts_unit = GlTransferTables::lit_unit
 };
-static_assert(preintegration_unit < GlTransferTables::first_free_unit);
+static_assert(knot_table_unit < GlTransferTables::first_free_unit);
 
 // The texels of a coloured table are emission and mean extinction, those of a table without colour
 // mean extinction alone. Each length is a layer.
-gl::Texture upload_table(const PreintegrationTable& table) {
+gl::Texture upload_table(const KnotTable& table) {
     const std::size_t nodes = table.nodes.size();
     const int size = static_cast<int>(nodes);
-    if (!table.colored) {
+    if (!table.request.colored) {
         gl::Texture texture = gl::Texture::make_2d(gl::TextureFormat::r32f, size, size);
         texture.upload({0, 0, 0, size, size, 1}, std::span<const float>(table.mean_extinction));
         return texture;
@@ -40,8 +40,8 @@ gl::Texture upload_table(const PreintegrationTable& table) {
     return texture;
 }
 
-// Of lit tables the front parts of emission and extinction, layer by layer.
-gl::Texture upload_front_parts(const PreintegrationTable& table) {
+// Front parts of a lit table's emission and extinction, layer by layer.
+gl::Texture upload_front_parts(const KnotTable& table) {
     const int size = static_cast<int>(table.nodes.size());
     const int layers = static_cast<int>(table.lengths.size());
     gl::Texture texture = gl::Texture::make_3d(gl::TextureFormat::rgba32f, size, size, layers);
@@ -52,19 +52,19 @@ gl::Texture upload_front_parts(const PreintegrationTable& table) {
 }  // namespace
 
 GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
-                                   const ValueRange& range, const TablePlan* wanted, bool filtered,
+                                   const ValueRange& range, const KnotTable* table, bool filtered,
                                    double step_advance) {
-    if (wanted != nullptr) {
-        const PreintegrationTable& table = *wanted->built;
-        anchors_ = table.anchors;
-        preintegration_ = upload_table(table);
-        if (table.lit()) front_parts_.emplace(upload_front_parts(table));
-        if (filtered) preintegration_.set_filter(gl::TextureFilter::linear);
+    if (table != nullptr) {
+        anchors_ = table->anchors;
+        knot_table_ = upload_table(*table);
+        if (table->request.lit) front_parts_.emplace(upload_front_parts(*table));
+        if (filtered) knot_table_.set_filter(gl::TextureFilter::linear);
         if (filtered && front_parts_) front_parts_->set_filter(gl::TextureFilter::linear);
-        node_count_ = static_cast<int>(table.nodes.size());
-        if (wanted->max_length > 0) {
+        node_count_ = static_cast<int>(table->nodes.size());
+        const TableRequest& request = table->request;
+        if (request.max_length > 0) {
             layers_per_length_ =
-                static_cast<float>((wanted->length_layers - 1) / wanted->max_length);
+                static_cast<float>((request.length_layers - 1) / request.max_length);
         }
     }
     const ShaderIntervals intervals =
@@ -86,8 +86,8 @@ void GlTransferTables::bind(gl::Program& program) const {
     program.set("intervals", intervals_unit);
     program.set("interval_starts", interval_starts_unit);
     if (node_count_ == 0) return;
-    preintegration_.bind(preintegration_unit);
-    program.set("preintegration", preintegration_unit);
+    knot_table_.bind(knot_table_unit);
+    program.set("knot_table", knot_table_unit);
     program.set("layers_per_length", layers_per_length_);
     if (!front_parts_) return;
     front_parts_->bind(front_parts_unit);

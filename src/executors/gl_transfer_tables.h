@@ -8,35 +8,36 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "lamina/transfer_function.h"
-#include "plan/table_plan.h"
+#include "preintegration/preintegration_table.h"
+#include "volume/min_max_bricks.h"
 
 namespace lamina {
 
-// The transfer function and, where it is needed, its pre-integration table, as the textures that
-// shaders/optics/intervals.glsl and preintegration.glsl read.
+// The transfer function and, if it is needed, its pre-integration table, as the textures that
+// shaders/optics/intervals.glsl and preintegration/knot_table.glsl read.
 class GlTransferTables {
   public:
     static constexpr int first_free_unit = 3;  // texture units below are taken by these tables
-    static constexpr int lit_unit = 10;        // and, where they are lit, this one
+    static constexpr int lit_unit = 10;        // and, if they are lit, this one
 
-    // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: the plan of the
-    // pre-integration table, which is built, or null. `filtered`: the table is read through the
-    // texture unit's filter. `step_advance`: see make_intervals().
+    // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: the pre-integration
+    // table, or null. `filtered`: the table is read through the texture unit's filter.
+    // `step_advance`: see make_intervals().
     GlTransferTables(const TransferFunction& transfer_function, const ValueRange& range,
-                     const TablePlan* table, bool filtered, double step_advance);
+                     const KnotTable* table, bool filtered, double step_advance);
 
     int intervals() const { return interval_count_; }
     int nodes() const { return node_count_; }  // along an axis of the table; 0 without a table
     void bind(gl::Program& program) const;     // binds textures and sets uniforms
 
     // The anchors of the pre-integration table.
-    const std::vector<PreintegrationTable::Anchor>& anchors() const { return anchors_; }
+    const std::vector<KnotTable::Anchor>& anchors() const { return anchors_; }
 
   private:
     int interval_count_ = 0, node_count_ = 0;
     float layers_per_length_ = 0;
-    std::vector<PreintegrationTable::Anchor> anchors_;
-    gl::Texture intervals_, interval_starts_, preintegration_;
+    std::vector<KnotTable::Anchor> anchors_;
+    gl::Texture intervals_, interval_starts_, knot_table_;
     std::optional<gl::Texture> front_parts_;
 };
 

@@ -40,15 +40,13 @@ float low_part(const OpticalProperties& optics) {
 }  // namespace
 
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
-                               const std::vector<PreintegrationTable::Anchor>& anchors,
-                               double step_advance) {
+                               const std::vector<KnotTable::Anchor>& anchors, double step_advance) {
     return make_intervals(pieces_between(transfer_function, range.lo, range.hi, false), range,
                           anchors, step_advance);
 }
 
 ShaderIntervals make_intervals(const std::vector<CurvedPiece>& pieces, const ValueRange& range,
-                               const std::vector<PreintegrationTable::Anchor>& anchors,
-                               double step_advance) {
+                               const std::vector<KnotTable::Anchor>& anchors, double step_advance) {
     ShaderIntervals intervals;
     const double width = range.hi - range.lo;
     const auto normalised = [&](double value) {

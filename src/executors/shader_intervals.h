@@ -6,7 +6,7 @@
 
 #include "lamina/transfer_function.h"
 #include "optics/curved_pieces.h"
-#include "optics/preintegration_table.h"
+#include "preintegration/preintegration_table.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -43,11 +43,9 @@ inline constexpr double sampled_step_advance = 0x1p-22;
 // `anchors`: those of the pre-integration table that goes with it, or empty. `step_advance`: by how
 // much steps lie earlier, in scalars normalised to [0, 1].
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
-                               const std::vector<PreintegrationTable::Anchor>& anchors,
-                               double step_advance);
-// The same of the pieces over that range, as straight ones.
+                               const std::vector<KnotTable::Anchor>& anchors, double step_advance);
+// Makes intervals of the pieces over that range, as straight ones.
 ShaderIntervals make_intervals(const std::vector<CurvedPiece>& pieces, const ValueRange& range,
-                               const std::vector<PreintegrationTable::Anchor>& anchors,
-                               double step_advance);
+                               const std::vector<KnotTable::Anchor>& anchors, double step_advance);
 
 }  // namespace lamina

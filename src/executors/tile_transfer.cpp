@@ -2,6 +2,7 @@
 #include "executors/tile_transfer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "executors/shader_intervals.h"
 
@@ -9,9 +10,9 @@ namespace lamina {
 namespace {
 
 // Coloured tables are read entry by entry, so extinction stands beside emission.
-TileTransfer::Aligned texels_of(const PreintegrationTable& table) {
+TileTransfer::Aligned texels_of(const KnotTable& table) {
     const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
-    const std::size_t size = table.lit() ? 8 : 4;
+    const std::size_t size = table.request.lit ? 8 : 4;
     TileTransfer::Aligned texels(entries * size * layers);
     const auto place = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
     for (std::size_t entry = 0; entry < entries; ++entry) {
@@ -20,7 +21,8 @@ TileTransfer::Aligned texels_of(const PreintegrationTable& table) {
             const auto to = texels.begin() + place(size * (entry * layers + layer));
             std::copy_n(table.emission.begin() + place(3 * from), 3, to);
             to[3] = table.mean_extinction[entry];
-            if (table.lit()) std::copy_n(table.front_parts.begin() + place(4 * from), 4, to + 4);
+            if (table.request.lit)
+                std::copy_n(table.front_parts.begin() + place(4 * from), 4, to + 4);
         }
     }
     return texels;
@@ -56,15 +58,17 @@ TileTransfer::Aligned records_of(const TileTransfer& transfer) {
 }  // namespace
 
 TileTransfer::TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
-                           const TablePlan* wanted, double step_advance, bool curved) {
-    std::vector<PreintegrationTable::Anchor> anchors;
-    if (wanted != nullptr) {
-        table = wanted->built;
+                           std::shared_ptr<const KnotTable> knot_table, double step_advance,
+                           bool curved)
+    : table(std::move(knot_table)) {
+    std::vector<KnotTable::Anchor> anchors;
+    if (table) {
+        const TableRequest& request = table->request;
         anchors = table->anchors;
-        if (table->colored) texels = texels_of(*table);
-        if (wanted->max_length > 0) {
+        if (request.colored) texels = texels_of(*table);
+        if (request.max_length > 0) {
             layers_per_length =
-                static_cast<float>((wanted->length_layers - 1) / wanted->max_length);
+                static_cast<float>((request.length_layers - 1) / request.max_length);
         }
     }
     const auto pieces = pieces_between(transfer_function, range.lo, range.hi, curved);

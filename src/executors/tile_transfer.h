@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lamina/transfer_function.h"
-#include "plan/table_plan.h"
+#include "preintegration/preintegration_table.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -20,11 +20,12 @@ namespace lamina {
 struct TileTransfer {
     static constexpr int few = 16;  // up to so many intervals are searched by comparisons
 
-    // `range`: the scalars that become [0, 1]; lo < hi. `table`: the plan of the pre-integration
-    // table, which is built, or null. `step_advance`: see make_intervals(). `curved`: intervals are
-    // curves where points are smooth (optics/curved_pieces.h); not with a table.
+    // `range`: the scalars that become [0, 1]; lo < hi. `knot_table`: the pre-integration table, or
+    // null. `step_advance`: see make_intervals(). `curved`: intervals are curves if points are
+    // smooth (optics/curved_pieces.h); not with a table.
     TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
-                 const TablePlan* table, double step_advance, bool curved = false);
+                 std::shared_ptr<const KnotTable> knot_table, double step_advance,
+                 bool curved = false);
 
     int intervals = 0;
     std::vector<float> left_end, inverse_width;  // of each interval: where it begins, 1 / width
@@ -33,8 +34,8 @@ struct TileTransfer {
     std::array<std::vector<float>, 4> left;    // colour and extinction at the left end
     std::array<std::vector<float>, 4> change;  // from the left end to the right end
     std::vector<float> right_extinction;
-    // Of curves, empty where all intervals are straight: at the share u of the way the extinction
-    // is that of the straight line plus u (1 - u) (bend[0] + u bend[1]).
+    // Bends of curves, empty if all intervals are straight: at the share u of the way the
+    // extinction is that of the straight line plus u (1 - u) (bend[0] + u bend[1]).
     std::array<std::vector<float>, 2> bend;
     std::vector<float> right_end;  // of the last interval: beyond all scalars
     // Remainders of the extinctions that float does not hold.
@@ -44,14 +45,14 @@ struct TileTransfer {
     std::vector<float> shown_before, shown_beyond;
     std::vector<std::int32_t> starts;  // ShaderIntervals::starts
 
-    // What is looked up of an interval together, in a line of the cache for each: extinction at the
-    // left end, its change, left end, right end; 1 / width, colour at the left end; its change,
-    // bend[0]; bend[1].
+    // Numbers that are looked up of an interval together, in a line of the cache for each:
+    // extinction at the left end, its change, left end, right end; 1 / width, colour at the left
+    // end; its change, bend[0]; bend[1].
     static constexpr std::size_t record_size = 16;
     using Aligned = std::vector<float, tbb::cache_aligned_allocator<float>>;
     Aligned records;
 
-    std::shared_ptr<const PreintegrationTable> table;
+    std::shared_ptr<const KnotTable> table;
     // The texels of a coloured table: emission and mean extinction as RGBA, and of a lit one behind
     // that its front parts. The layers of a pair of scalars lie side by side and are aligned, so
     // that two of them share a line of the cache.

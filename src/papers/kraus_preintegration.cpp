@@ -4,14 +4,15 @@
 
 #include <algorithm>
 
+#include "base/stopwatch.h"
 #include "facts/world_unit.h"
-#include "optics/segment_table.h"
 #include "papers/compared_pictures.h"
 #include "papers/findings.h"
 #include "papers/kraus.h"
 #include "papers/kraus_stage.h"
 #include "papers/kraus_variants.h"
 #include "papers/mesh_frame.h"
+#include "preintegration/preintegration_table.h"
 #include "study/text_file.h"
 
 namespace lamina::papers {
@@ -53,9 +54,11 @@ Json build_ms(const KrausSubject& subject, const Scene& scene, const Capabilitie
                       {.capabilities = capabilities, .tables = subject.tables});
     const Plan& plan = pipeline.plan();
     if (plan.project.source != SegmentSource::table) return nullptr;
-    return build_segment_table(in_units(*scene.transfer_function, plan.project.unit),
-                               plan.project.table)
-        .build_ms;
+    const TransferFunction transfer_function =
+        in_units(*scene.transfer_function, plan.project.unit);
+    const Stopwatch watch;
+    const auto table = build_table(transfer_function, plan.project.table.request);
+    return watch.milliseconds();
 }
 
 Json measured_rows(KrausSubject& subject, const char* transfer_function, const Scene& scene,

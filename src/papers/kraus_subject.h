@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "optics/table_cache.h"
+#include "preintegration/table_cache.h"
 #include "study/traced_mesh.h"
 
 namespace lamina::papers {

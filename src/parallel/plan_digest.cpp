@@ -16,7 +16,7 @@ void add(const IndexBox& box, std::string& text) {
 }  // namespace
 
 std::string digest_of(const SlicePlan& plan, const std::vector<IndexBox>& shares) {
-    const TablePlan& table = plan.table;
+    const TableRequest& table = plan.table.request;
     std::string text = fmt::format(
         "{} {} {} {} {} {} {} {:a} {} {} {:a} {:a} {:a} {:a} {} {}", plan.slabs,
         static_cast<int>(plan.classification), static_cast<int>(plan.sampling), plan.single_color,

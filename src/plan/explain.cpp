@@ -114,12 +114,12 @@ void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& 
 }
 
 std::string text_of_table(const ProjectPlan& project) {
-    if (project.source == SegmentSource::cut_table) {
+    const TableRequest& table = project.table.request;
+    if (table.kind == TableKind::knots) {
         return fmt::format(
             "nodes on the transfer function's points, some {0} x {0} scalars, {1} lengths",
-            project.aligned.scalar_nodes, project.aligned.length_layers);
+            table.scalar_nodes, table.length_layers);
     }
-    const SegmentTableRequest& table = project.table;
     const std::string lengths =
         table.length_layers > 1
             ? fmt::format(", {} lengths ({})", table.length_layers, name_of(table.mapping))
@@ -208,8 +208,8 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
                 fmt::format(
                     "{0} x {0} scalars, {1} lengths{2}; off by {3:.2g} / 255 on rays all over "
                     "this view and segments of all pieces",
-                    slice.table.scalar_nodes, slice.table.length_layers,
-                    slice.table.colored ? ", coloured" : "", slice.table.error));
+                    slice.table.request.scalar_nodes, slice.table.request.length_layers,
+                    slice.table.request.colored ? ", coloured" : "", slice.table.error));
         }
     }
     if (plan.method != Method::trace) row("error", text_of(plan.error()));

@@ -41,7 +41,7 @@ int search_rounds(const Scene& scene, const Facts& facts) {
 
 // The slab, a leap, light in the middle or at up to two ends, and for tables four searches and up
 // to three runs (shaders/slicing/slab_march.glsl, slab_light.glsl,
-// shaders/optics/preintegration.glsl).
+// shaders/preintegration/knot_table.glsl).
 int rounds_of_slab(const Scene& scene, const Facts& facts) {
     const int search = search_rounds(scene, facts);
     const bool table = scene.slice.classification == Classification::preintegrated;

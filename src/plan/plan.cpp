@@ -63,8 +63,8 @@ SlicePlan of_all_views(SlicePlan plan) {
     plan.occupied_only = other.occupied_only;
     plan.opaque_depth = other.opaque_depth;
     // A table of one layer knows no lengths.
-    if (!plan.uses_table() || plan.table.length_layers == 1)
-        plan.table.max_length = other.table.max_length;
+    if (!plan.uses_table() || plan.table.request.length_layers == 1)
+        plan.table.request.max_length = other.table.request.max_length;
     return without_remarks(std::move(plan));
 }
 

@@ -14,7 +14,6 @@
 #include "facts/mesh_facts.h"
 #include "lamina/error_figure.h"
 #include "lamina/scene.h"
-#include "optics/table_cache.h"
 #include "plan/capabilities.h"
 #include "plan/classification_choice.h"
 #include "plan/compositing_plan.h"
@@ -22,6 +21,7 @@
 #include "plan/project_plan.h"
 #include "plan/sample_trials.h"
 #include "plan/tree_choice.h"
+#include "preintegration/table_cache.h"
 
 namespace lamina {
 

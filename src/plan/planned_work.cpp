@@ -39,9 +39,7 @@ double volume_bytes(const SlicePlan& plan, const Facts& facts, bool tiles) {
                                                                                 : 2 * samples;
 }
 
-// TablePlan, SegmentTableRequest.
-template <typename Table>
-double table_bytes(const Table& table) {
+double table_bytes(const TableRequest& table) {
     return 4.0 * table.scalar_nodes * table.scalar_nodes *
            (table.colored ? 4 * table.length_layers : 1);
 }
@@ -84,7 +82,7 @@ ProjectPlan without(ProjectPlan plan, const std::string& name) {
     if (name == "transparent_tets") plan.draw_transparent = plan.tree.empty();
     if (name == "drawing") plan.nothing_visible = false;
     if (name == "order") plan.visibility = OrderMethod::exact;
-    if (name == "color") plan.table.colored = plan.aligned.colored = true;
+    if (name == "color") plan.table.request.colored = true;
     return plan;
 }
 
@@ -100,7 +98,7 @@ Work planned_work(const SlicePlan& plan, const Facts& facts, const Scene& scene,
     work.segments = pixels_of(scene) * on_a_ray * share_of_rays(plan, facts.ray_shares);
     if (!tiles) work.fetches = work.segments * fetches_per_segment(plan);
     work.passes = passes_of(plan);
-    if (plan.uses_table()) work.bytes += table_bytes(plan.table);
+    if (plan.uses_table()) work.bytes += table_bytes(plan.table.request);
     if (plan.occupied_only)
         work.bytes += static_cast<double>(facts.occupied_bricks.distance.size());
     if (plan.constant_regions)
@@ -118,8 +116,8 @@ Work planned_work(const ProjectPlan& plan, const MeshFacts& facts, const Scene& 
     work.tets = (cut ? static_cast<double>(facts.parts) : tets - transparent) +
                 (plan.draw_transparent ? transparent : 0);
     work.ordered = plan.visibility == OrderMethod::none ? 0 : tets;
-    if (plan.source == SegmentSource::cut_table) work.bytes += table_bytes(plan.aligned);
-    if (plan.source == SegmentSource::table) work.bytes += table_bytes(plan.table);
+    if (plan.source == SegmentSource::cut_table || plan.source == SegmentSource::table)
+        work.bytes += table_bytes(plan.table.request);
     return work;
 }
 

@@ -11,7 +11,7 @@
 #include "lamina/lighting.h"
 #include "lamina/project_settings.h"
 #include "plan/compositing_plan.h"
-#include "plan/table_plan.h"
+#include "preintegration/table_cache.h"
 #include "visibility/visibility_order.h"
 #include "volume/min_max_bricks.h"
 
@@ -57,8 +57,7 @@ struct ProjectPlan : CompositingPlan {
     // The range is the window of what shows. Scalars may lie outside it, where the transfer
     // function is constant.
     bool windowed = false;
-    SegmentTablePlan table;  // for SegmentSource::table
-    TablePlan aligned;       // for SegmentSource::cut_table
+    TablePlan table;  // for SegmentSource::table (uniform) and ::cut_table (knots)
     MeshFacts::TrialError trial_error;
     ErrorFigure error;                 // of the picture
     std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient

@@ -267,25 +267,24 @@ class ProjectPlanner {
             return;
         } else if (settings_.table.is_given()) {
             take_window();
-            plan_.table = {request_of(*settings_.table)};
-            plan_.table.built = tables_.get(*transfer_function_, plan_.table);
-            plan_.trial_error = error_of(lookup_in(*plan_.table.built));
+            try_table(request_of(*settings_.table));
         } else {
             choose_table();
         }
     }
 
-    SegmentTableRequest request_of(const TableSettings& settings) const {
+    TableRequest request_of(const TableSettings& settings) const {
         return {.lo = plan_.range.lo,
                 .hi = plan_.range.hi,
                 .max_length = facts_.longest_edge * plan_.unit,
                 .scalar_nodes = settings.scalar,
                 .length_layers = settings.length,
+                .colored = !plan_.single_color,
+                .kind = TableKind::uniform,
                 .mapping = settings.mapping,
                 .store = settings.store,
                 .format = settings.format,
-                .construction = settings.construction,
-                .colored = !plan_.single_color};
+                .construction = settings.construction};
     }
 
     // Normalises scalars to the window of what shows, if that is far narrower than the range of the
@@ -373,12 +372,13 @@ class ProjectPlanner {
         sum += (1 - sum.a) * glm::dvec4(segment.color, segment.alpha);
     }
 
-    // Looks runs up in a SegmentTable or a PreintegrationTable, which must outlive the result.
-    template <typename Table>
-    static Lookup lookup_in(const Table& table) {
-        return [&table](const MeshFacts::Run& run) {
+    // Takes the table that is asked for, and measures its error.
+    void try_table(const TableRequest& request) {
+        plan_.table.request = request;
+        plan_.table.built = tables_.get(*transfer_function_, request);
+        plan_.trial_error = error_of([&table = *plan_.table.built](const MeshFacts::Run& run) {
             return table.lookup(run.front, run.back, run.length);
-        };
+        });
     }
 
     void choose_table() {
@@ -407,13 +407,15 @@ class ProjectPlanner {
         if (scene_.transfer_function->knots().size() > most_table_points) return false;
         const double depth = facts_.max_extinction * facts_.longest_edge;
         const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
-        plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge * plan_.unit,
-                         !plan_.single_color};
-        plan_.aligned.built = tables_.get(*transfer_function_, plan_.aligned.request(plan_.range));
-        plan_.trial_error = error_of(lookup_in(*plan_.aligned.built));
+        try_table({.lo = plan_.range.lo,
+                   .hi = plan_.range.hi,
+                   .max_length = facts_.longest_edge * plan_.unit,
+                   .scalar_nodes = 256,
+                   .length_layers = plan_.single_color ? 1 : layers,
+                   .colored = !plan_.single_color});
         const double most = std::min(most_segment_error, scene_.max_error / 2) / sampling_margin;
         if (plan_.trial_error.segments <= most) return true;
-        plan_.aligned.built.reset();
+        plan_.table.built.reset();
         return false;
     }
 

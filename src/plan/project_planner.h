@@ -5,10 +5,10 @@
 
 #include "facts/mesh_facts.h"
 #include "lamina/scene.h"
-#include "optics/table_cache.h"
 #include "plan/capabilities.h"
 #include "plan/omission.h"
 #include "plan/project_plan.h"
+#include "preintegration/table_cache.h"
 
 namespace lamina {
 

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "compositing/tree_shape.h"
+#include "facts/drawn_range.h"
 #include "facts/ray_shares.h"
 #include "facts/world_unit.h"
 #include "optics/front_weights.h"
@@ -254,7 +255,10 @@ class SlicePlanner {
                       "the transfer function is constant: opacity has a closed form");
             return;
         }
-        TablePlan& table = slice.table;
+        TableRequest& table = slice.table.request;
+        const ValueRange range = drawn_range(*scene_.transfer_function, facts_.range);
+        table.lo = range.lo;
+        table.hi = range.hi;
         table.colored = !slice.single_color;
         table.lit = scene_.lighting.has_value();
         const double longest =
@@ -275,7 +279,7 @@ class SlicePlanner {
         }
         if (!table.colored) return;
         if (scene_.slice.table.is_given()) {
-            take_table(scene_, facts_, slice.slabs, longest, slice.unit, table, tables_);
+            take_table(scene_, facts_, slice.slabs, longest, slice.unit, slice.table, tables_);
             return;
         }
         const bool limit_alone =
@@ -283,7 +287,7 @@ class SlicePlanner {
                       fmt::format("a segment's optical depth is at most {:.3g}: its colour does "
                                   "not depend on its length",
                                   depth));
-        refine_table(scene_, facts_, slice.slabs, limit_alone ? 0 : depth, table, tables_);
+        refine_table(scene_, facts_, slice.slabs, limit_alone ? 0 : depth, slice.table, tables_);
     }
 
     void choose_bricks() {
@@ -400,7 +404,7 @@ Plan plan_slicing(const Scene& scene, const Facts& facts, const Capabilities& ca
 void build_drawn_table(const Scene& scene, const Facts& facts, SlicePlan& plan,
                        TableCache& tables) {
     if (plan.uses_table() && !plan.table.built && !plan.nothing_visible)
-        build_table(scene, facts, plan.table, tables);
+        get_table(scene, facts, plan.table, tables);
 }
 
 }  // namespace lamina

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "optics/linear_pieces.h"
 #include "optics/ray_lights.h"
@@ -15,7 +14,7 @@ namespace lamina {
 namespace {
 
 // Segments of a ray are tried one by one up to so many; of more, some that stand for the others.
-// Where rays have fewer segments, more rays are tried.
+// If rays have fewer segments, more rays are tried.
 constexpr int most_tried = 64, most_tried_of_all_rays = 1 << 14;
 
 // So many of the linear pieces are tried one by one, from all over the range.
@@ -82,7 +81,7 @@ double largest(const glm::dvec3& error) {
     return std::max({std::abs(error.r), std::abs(error.g), std::abs(error.b)});
 }
 
-// What light may do at most to colours up to 1.
+// Largest changes that light makes to colours up to 1.
 struct MostLight {
     double change = 0, highlight = 0;
 };
@@ -144,16 +143,16 @@ std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_functio
 }
 
 // Numbers of an entry and a length.
-double numbers_of(const TablePlan& table) {
+double numbers_of(const TableRequest& table) {
     return table.lit ? 7 : 3;
 }
 
-double most_nodes_of(const TablePlan& table, double knots) {
-    return 1.5 * table.scalar_nodes + 3 * (knots + 1);  // optics/preintegration_table.h
+double most_nodes_of(const TableRequest& table, double knots) {
+    return 1.5 * table.scalar_nodes + 3 * (knots + 1);  // preintegration/preintegration_table.h
 }
 
-// Fewer layers where more would take too long or too much memory.
-int affordable_layers(const TablePlan& table, double knots, double wanted) {
+// Fewer layers if more would take too long or too much memory.
+int affordable_layers(const TableRequest& table, double knots, double wanted) {
     const double nodes = most_nodes_of(table, knots);
     // Pairs within each of the pieces, and from point to point through all pieces between.
     const double work = nodes * nodes / (knots + 1) + knots * knots * knots / 3;
@@ -164,23 +163,21 @@ int affordable_layers(const TablePlan& table, double knots, double wanted) {
 
 }  // namespace
 
-// Takes the range that is drawn, which is wider than that of the samples if they have one value.
-void build_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables) {
+void get_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables) {
     const double unit = world_unit(box_diagonal(facts.grid));
-    const ValueRange range = drawn_range(*scene.transfer_function, facts.range);
-    table.built = tables.get(in_units(*scene.transfer_function, unit), table.request(range));
+    table.built = tables.get(in_units(*scene.transfer_function, unit), table.request);
 }
 
 double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& plan) {
     const double unit = world_unit(box_diagonal(facts.grid));
     const TransferFunction transfer_function = in_units(*scene.transfer_function, unit);
     const MostLight light = most_light(scene);
-    const auto looked_up = [&](const Segment& segment) {
-        return plan.built->lookup_lit(segment.front, segment.back, segment.length);
+    const auto looked_up = [&table = *plan.knot_table()](const Segment& segment) {
+        return table.lookup_lit(segment.front, segment.back, segment.length);
     };
     const auto integrated = [&](const Segment& segment) {
         const double front = segment.front, back = segment.back, length = segment.length;
-        if (plan.lit) return integrate_lit_segment(transfer_function, front, back, length);
+        if (plan.request.lit) return integrate_lit_segment(transfer_function, front, back, length);
         return LitIntegral{integrate_segment(transfer_function, front, back, length), {}};
     };
     const std::vector<ScalarRays::Ray>& rays = facts.scalar_rays.rays;
@@ -219,7 +216,7 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     std::vector<double> errors(single.size());
     parallel_for(static_cast<std::int64_t>(single.size()), 64, [&](std::int64_t number) {
         const auto i = static_cast<std::size_t>(number);
-        single[i].length = plan.max_length;
+        single[i].length = plan.request.max_length;
         ErrorSum error(light);
         error.add(1, looked_up(single[i]), integrated(single[i]));
         errors[i] = error.largest_error();
@@ -234,8 +231,8 @@ void refine_table(const Scene& scene, const Facts& facts, int slabs, double dept
     TablePlan tried = table;
     double wanted = std::min(steps + 1, usual_length_layers);
     const auto try_it = [&] {
-        tried.length_layers = affordable_layers(tried, knots, wanted);
-        build_table(scene, facts, tried, tables);
+        tried.request.length_layers = affordable_layers(tried.request, knots, wanted);
+        get_table(scene, facts, tried, tables);
         tried.error = table_error(scene, facts, slabs, tried);
     };
     const auto keep_better = [&] {
@@ -247,8 +244,8 @@ void refine_table(const Scene& scene, const Facts& facts, int slabs, double dept
     const double goal = table_share * scene.max_error;
     if (table.error > goal) {
         const auto room = static_cast<int>((most_nodes - 3 * (knots + 1)) / 1.5);
-        tried.scalar_nodes =
-            std::max(tried.scalar_nodes, std::min(finer_nodes * tried.scalar_nodes, room));
+        int& nodes = tried.request.scalar_nodes;
+        nodes = std::max(nodes, std::min(finer_nodes * nodes, room));
         keep_better();
     }
     if (table.error > goal && steps > 0) {
@@ -260,8 +257,9 @@ void refine_table(const Scene& scene, const Facts& facts, int slabs, double dept
 void take_table(const Scene& scene, const Facts& facts, int slabs, double longest, double unit,
                 TablePlan& table, TableCache& tables) {
     const SliceTableSettings& asked = *scene.slice.table;
-    table.scalar_nodes = asked.scalars;
-    table.length_layers = asked.lengths;
+    TableRequest& request = table.request;
+    request.scalar_nodes = asked.scalars;
+    request.length_layers = asked.lengths;
     double most = asked.max_length;
     const bool short_alone = asked.lengths == 1 && facts.max_extinction * longest >= short_depth;
     if (longest > most || short_alone) {
@@ -271,12 +269,12 @@ void take_table(const Scene& scene, const Facts& facts, int slabs, double longes
                                     : 0;
         const double steps = std::max(as_close, facts.max_extinction * most);
         const bool none = asked.lengths == 1 && facts.max_extinction * most < short_depth;
-        table.length_layers =
+        request.length_layers =
             none ? 1 : static_cast<int>(std::min(std::ceil(steps) + 1, most_length_layers));
     }
-    table.max_length = most * unit;
+    request.max_length = most * unit;
     if (facts.scalar_rays.rays.empty()) return;
-    build_table(scene, facts, table, tables);
+    get_table(scene, facts, table, tables);
     table.error = table_error(scene, facts, slabs, table);
 }
 

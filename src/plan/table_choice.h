@@ -4,8 +4,7 @@
 
 #include "facts/facts.h"
 #include "lamina/scene.h"
-#include "optics/table_cache.h"
-#include "plan/table_plan.h"
+#include "preintegration/table_cache.h"
 
 namespace lamina {
 
@@ -18,24 +17,24 @@ inline constexpr double table_share = 0.1;
 // most .5 / 255.
 inline constexpr double short_depth = 0.02;
 
-// Gets the table of the plan's numbers.
-void build_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables);
+// Gets the table that the plan's request asks for, from the cache or built.
+void get_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables);
 
 // The largest error of a ray's colour, in 1/255, that the built table makes on Facts::scalar_rays
 // cut into `slabs` segments. Opacity is exact.
 double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& table);
 
-// Chooses the scalar nodes and the lengths of a coloured table whose max_length is set. Of a few
-// sizes it takes the coarsest that keeps the error within table_share of max_error; where none
-// does, the one with the least error found. `depth`: the largest optical depth of a segment, or 0
-// where the limit of short segments serves all.
+// Chooses the scalar nodes and the lengths of a coloured table whose range and max_length are set.
+// Of a few sizes it takes the coarsest that keeps the error within table_share of max_error; if
+// none does, the one with the least error found. `depth`: the largest optical depth of a segment,
+// or 0 if the limit of short segments serves all.
 void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth, TablePlan& table,
                   TableCache& tables);
 
-// Takes the table that the scene asks for. Where the longest segment of this view, of `longest`
-// world units, is longer than that table knows, the table is extended, with layers as close, to
-// serve all views of such a camera. The table is built, and its error measured, if there are
-// Facts::scalar_rays.
+// Takes the table that the scene asks for, over the range that is set. If the longest segment of
+// this view, of `longest` world units, is longer than that table knows, the table is extended, with
+// layers as close, to serve all views of such a camera. The table is built, and its error measured,
+// if there are Facts::scalar_rays.
 void take_table(const Scene& scene, const Facts& facts, int slabs, double longest, double unit,
                 TablePlan& table, TableCache& tables);
 

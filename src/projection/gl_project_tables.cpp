@@ -17,7 +17,7 @@ namespace {
 
 constexpr unsigned table_unit = GlTransferTables::first_free_unit;
 
-gl::TextureFormat format_of(const SegmentTable& table) {
+gl::TextureFormat format_of(const UniformTable& table) {
     const bool one = table.channels == 1;
     switch (table.request.format) {
         case TableFormat::fixed8:
@@ -53,15 +53,15 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
             constant_ = transfer_function.at(plan.range.lo);
             break;
         case SegmentSource::table:
-            table_ = plan.table.built;
+            table_ = plan.table.uniform_table();
             upload(*table_);
             break;
         case SegmentSource::parts:
             if (!plan.single_color) upload_front_weights();
             break;
         case SegmentSource::cut_table:
-            intervals_.emplace(transfer_function, plan.range, &plan_.aligned, plan.table_filtered,
-                               0);
+            intervals_.emplace(transfer_function, plan.range, plan.table.knot_table().get(),
+                               plan.table_filtered, 0);
             break;
         case SegmentSource::analytic:
             intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
@@ -81,7 +81,7 @@ void GlProjectTables::upload_front_weights() {
     if (plan_.table_filtered) texture_->set_filter(gl::TextureFilter::linear);
 }
 
-void GlProjectTables::upload(const SegmentTable& table) {
+void GlProjectTables::upload(const UniformTable& table) {
     const int nodes = table.request.scalar_nodes;
     const gl::TextureFormat format = format_of(table);
     texture_ = table.layers > 1 ? gl::Texture::make_3d(format, nodes, nodes, table.layers)
@@ -116,7 +116,7 @@ void GlProjectTables::set_defines(gl::Defines& defines) const {
     if (intervals_) {
         defines.set("INTERVALS", intervals_->intervals());
         if (intervals_->nodes() > 0) defines.set("TABLE_NODES", intervals_->nodes());
-        defines.set("TABLE_LAYERS", plan_.aligned.length_layers);
+        defines.set("TABLE_LAYERS", plan_.table.request.length_layers);
     }
     if (!table_) return;
     defines.set("TABLE_NODES", table_->request.scalar_nodes);
@@ -135,7 +135,7 @@ void GlProjectTables::bind(gl::Program& program) const {
     if (intervals_) intervals_->bind(program);
     if (!texture_) return;
     texture_->bind(table_unit);
-    program.set(table_ ? "segment_table" : "front_weights", static_cast<int>(table_unit));
+    program.set(table_ ? "uniform_table" : "front_weights", static_cast<int>(table_unit));
     if (!table_) return;
     program.set("table_scale", table_->scale);
     if (table_->layers > 1) {

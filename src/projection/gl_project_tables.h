@@ -28,13 +28,13 @@ class GlProjectTables {
     std::int64_t table_bytes() const { return texture_ ? texture_->byte_count() : 0; }
 
   private:
-    void upload(const SegmentTable& table);
+    void upload(const UniformTable& table);
     void upload_front_weights();
 
     ProjectPlan plan_;
     glm::vec3 single_color_{0};
     OpticalProperties constant_;
-    std::shared_ptr<const SegmentTable> table_;
+    std::shared_ptr<const UniformTable> table_;
     // Holds table_, or FrontWeightTable for SegmentSource::parts.
     std::optional<gl::Texture> texture_;
     std::optional<GlTransferTables> intervals_;  // for SegmentSource::analytic and ::cut_table

@@ -10,8 +10,8 @@
 
 #include "executors/tile_light.h"
 #include "executors/tile_transfer.h"
-#include "optics/segment_table.h"
 #include "plan/project_plan.h"
+#include "preintegration/preintegration_table.h"
 #include "projection/tile_batch.h"
 #include "tiles/target_blend.h"
 #include "tiles/tile_grid.h"
@@ -51,7 +51,7 @@ struct TetFragments {
     glm::vec4 constant_optics;               // SegmentSource::constant
     glm::vec3 single_color;                  // where colored is false
     const float* front_weights = nullptr;    // SegmentSource::parts, where colored
-    const SegmentTable* table = nullptr;     // SegmentSource::table
+    const UniformTable* table = nullptr;     // SegmentSource::table
     float inverse_first_length = 0;          // of `table`
     const TileTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
     // The following where something is lit.

@@ -23,13 +23,13 @@ TileProjectTables::TileProjectTables(const TransferFunction& transfer_function,
             break;
         }
         case SegmentSource::table:
-            table_ = plan.table.built;
+            table_ = plan.table.uniform_table();
             break;
         case SegmentSource::parts:
             if (!plan.single_color) front_weights_ = FrontWeightTable::get().texels().data();
             break;
         case SegmentSource::cut_table:
-            transfer_.emplace(transfer_function, plan.range, &plan.aligned, 0);
+            transfer_.emplace(transfer_function, plan.range, plan.table.knot_table(), 0);
             break;
         case SegmentSource::analytic:
             transfer_.emplace(transfer_function, plan.range, nullptr, 0);
@@ -52,8 +52,7 @@ void TileProjectTables::set(TetFragments& fragments) const {
 }
 
 std::int64_t TileProjectTables::byte_count() const {
-    return (table_ ? static_cast<std::int64_t>(table_->texels.size() * sizeof(float)) : 0) +
-           (transfer_ ? transfer_->byte_count() : 0);
+    return (table_ ? table_->byte_count() : 0) + (transfer_ ? transfer_->byte_count() : 0);
 }
 
 }  // namespace lamina

@@ -27,7 +27,7 @@ class TileProjectTables {
     glm::vec3 single_color_;
     glm::vec4 constant_optics_{0};
     const float* front_weights_ = nullptr;
-    std::shared_ptr<const SegmentTable> table_;
+    std::shared_ptr<const UniformTable> table_;
     std::optional<TileTransfer> transfer_;  // for SegmentSource::cut_table and ::analytic
     double build_ms_ = 0;
 };

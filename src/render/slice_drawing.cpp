@@ -75,9 +75,10 @@ Resolved SliceDrawing::resolve(Scene scene, const Plan& plan) const {
     }
     if (settings.dither && settings.dither->period.is_automatic())
         settings.dither->period = dither_period_for(slice.slabs);
-    if (slice.uses_table() && slice.table.colored)
-        settings.table = SliceTableSettings{slice.table.scalar_nodes, slice.table.length_layers,
-                                            slice.table.max_length / slice.unit};
+    const TableRequest& table = slice.table.request;
+    if (slice.uses_table() && table.colored)
+        settings.table = SliceTableSettings{table.scalar_nodes, table.length_layers,
+                                            table.max_length / slice.unit};
     scene.target = slice.target;
     return Resolved(std::move(scene));
 }

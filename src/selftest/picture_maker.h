@@ -5,8 +5,8 @@
 
 #include "lamina/image.h"
 #include "lamina/scene.h"
-#include "optics/table_cache.h"
 #include "plan/capabilities.h"
+#include "preintegration/table_cache.h"
 #include "render/scene_data.h"
 
 namespace lamina::selftest {

@@ -78,10 +78,10 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     }
     defines.set("TABLE_NODES", table_nodes);
     if (plan.table_filtered) defines.set("TABLE_FILTERED", 1);
-    if (!plan.table.colored) return defines;
+    if (!plan.table.request.colored) return defines;
     defines.set("TABLE_COLORED", 1);
-    defines.set("TABLE_LAYERS", plan.table.length_layers);
-    if (plan.table.lit) defines.set("TABLE_LIT", 1);
+    defines.set("TABLE_LAYERS", plan.table.request.length_layers);
+    if (plan.table.request.lit) defines.set("TABLE_LIT", 1);
     return defines;
 }
 
@@ -99,7 +99,8 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
     range_ = exact ? exact_range(transfer_function, facts.range, volume.type()) : drawn;
     Stage tables("tables");
     if (plan_.sampling != VolumeSampling::none) {
-        tables_.emplace(transfer_function, range_, plan_.uses_table() ? &plan_.table : nullptr,
+        tables_.emplace(transfer_function, range_,
+                        plan_.uses_table() ? plan_.table.knot_table().get() : nullptr,
                         plan_.table_filtered, exact ? 0 : sampled_step_advance);
     }
     table_ms_ = tables.end();

@@ -3,9 +3,9 @@
 
 #include "facts/facts.h"
 #include "lamina/volume.h"
-#include "optics/table_cache.h"
 #include "plan/capabilities.h"
 #include "plan/sample_trials.h"
+#include "preintegration/table_cache.h"
 
 namespace lamina {
 

@@ -8,7 +8,7 @@
 #define LAMINA_SLICING_TILE_RUNS_INL_H_
 #endif
 
-#include "executors/tile_preintegration-inl.h"
+#include "executors/tile_knot_table-inl.h"
 #include "slicing/tile_block-inl.h"
 
 LAMINA_SIMD_BEGIN

@@ -61,7 +61,8 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     const bool exact = plan_.integrates_cells();
     const ValueRange unit =
         exact ? exact_range(transfer_function, facts.range, volume.type()) : range;
-    transfer_.emplace(transfer_function, unit, plan_.uses_table() ? &plan_.table : nullptr,
+    transfer_.emplace(transfer_function, unit,
+                      plan_.uses_table() ? plan_.table.knot_table() : nullptr,
                       exact ? 0 : sampled_step_advance, plan_.curve_error > 0);
     slabs_.transfer = &*transfer_;
     table_ms_ = tables.end();

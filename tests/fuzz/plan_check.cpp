@@ -47,8 +47,9 @@ void check_plan(const Plan& plan) {
 void check_slicing(const SlicePlan& plan) {
     require(plan.slabs >= 1 && plan.slabs <= max_slabs, "slabs beyond their limit");
     require(!plan.bricks.empty(), "no brick");
-    require_finite(plan.table.max_length, "the table's length");
-    require(plan.table.length_layers >= 1 && plan.table.scalar_nodes >= 2, "an empty table");
+    const TableRequest& table = plan.table.request;
+    require_finite(table.max_length, "the table's length");
+    require(table.length_layers >= 1 && table.scalar_nodes >= 2, "an empty table");
     if (plan.error_bound) require_finite(*plan.error_bound, "the bound of the error");
     require(!std::isnan(plan.opaque_depth), "the depth at which rays end is no number");
     if (plan.tree) require(!plan.tree->factors.empty(), "a tree without levels");
@@ -58,8 +59,7 @@ void check_projection(const ProjectPlan& plan) {
     require_finite(plan.near_depth, "the near plane");
     require_finite(plan.trial_error.segments, "the error of segments");
     require(plan.nothing_visible || plan.range.lo < plan.range.hi, "an empty range");
-    require_finite(plan.table.max_length, "the table's length");
-    require_finite(plan.aligned.max_length, "the table's length");
+    require_finite(plan.table.request.max_length, "the table's length");
 }
 
 // What slicing/slab_trials.h would find by drawing pictures: halved errors for twice the slabs.

@@ -5,24 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
-#include "optics/preintegration_table.h"
 #include "support/transfer_functions.h"
 
 namespace lamina {
 namespace {
 
-using test::knot;
+using test::peak_and_step;
 using test::smooth;
-
-TransferFunction peak_and_step() {
-    return TransferFunction::linear(
-        {knot(0, glm::dvec3(1, 0, 0), 0), knot(.3, glm::dvec3(1, .5, 0), 0),
-         knot(.303, glm::dvec3(1, .8, .2), 60), knot(.306, glm::dvec3(0, .5, 1), 0),
-         knot(.6, glm::dvec3(1, 0, 1), 1), knot(.6, glm::dvec3(0, 0, 1), 5),
-         knot(1, glm::dvec3(0, 1, 0), 8)});
-}
 
 // Simpson's rule over the root of the optical depth, in which the place is smooth.
 double moment_by_depth(double p, double q) {
@@ -91,71 +81,6 @@ TEST(FrontParts, AgreesWithManyShortSegments) {
                 EXPECT_NEAR(found.front.color[c], sum.color[c], 1. / count / count * 4);
         }
     }
-}
-
-double largest_error(const FrontParts& a, const FrontParts& b) {
-    double worst = std::abs(a.alpha - b.alpha);
-    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(a.color[c] - b.color[c]));
-    return worst;
-}
-
-PreintegrationTable table_of(const TransferFunction& f, int nodes, int layers) {
-    PreintegrationRequest request{0, 1, .5, nodes, layers};
-    request.lit = true;
-    return build_preintegration_table(f, request);
-}
-
-// On lengths of its own, where nothing is interpolated.
-TEST(FrontParts, TableIsExactFromPointToPoint) {
-    const auto f = peak_and_step();
-    const PreintegrationTable table = table_of(f, 24, 4);
-    for (const auto& [one, other] : {std::pair(0., .3), {.3, .303}, {.303, .306}}) {
-        for (const double length : {.5 / 3, 1. / 3, .5}) {
-            for (const auto& [front, back] : {std::pair(one, other), {other, one}, {one, one}}) {
-                const LitIntegral found = table.lookup_lit(front, back, length);
-                const LitIntegral expected = integrate_lit_segment(f, front, back, length);
-                // Floats, 6e-8 each, in some ten operations, and the moments' 1e-8.
-                EXPECT_LE(largest_error(found.front, expected.front), 7e-7) << front << " " << back;
-                EXPECT_NEAR(found.whole.alpha, expected.whole.alpha, 2e-7);
-            }
-        }
-    }
-}
-
-double worst_error(const TransferFunction& f, int nodes, int layers) {
-    const PreintegrationTable table = table_of(f, nodes, layers);
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> unit(0, 1);
-    double worst = 0;
-    for (int i = 0; i < 3000; ++i) {
-        const double front = unit(random), length = .5 * unit(random);
-        const double back = std::clamp(front + .2 * (unit(random) - .5), 0., 1.);
-        worst = std::max(worst, largest_error(table.lookup_lit(front, back, length).front,
-                                              integrate_lit_segment(f, front, back, length).front));
-    }
-    return worst;
-}
-
-// Interpolation is linear in scalars and lengths: with four times the nodes the error falls 16
-// times, to half of that where the worst segments are others. The first table is good to a node's
-// share of the range squared, some 1 / 32^2, times the colours' and extinctions' changes.
-TEST(FrontParts, TableConverges) {
-    for (const auto& f : {smooth(), peak_and_step()}) {
-        const double coarse = worst_error(f, 32, 5), fine = worst_error(f, 128, 17);
-        EXPECT_LE(fine, coarse / 8);
-        EXPECT_LE(fine, 1. / 255 / 4);
-    }
-}
-
-TEST(FrontParts, UnlitTablesHaveNone) {
-    const auto table = build_preintegration_table(smooth(), {0, 1, .5, 32, 3, true});
-    EXPECT_FALSE(table.lit());
-    PreintegrationRequest request{0, 1, .5, 32, 3, true};
-    request.lit = true;
-    const auto lit = build_preintegration_table(smooth(), request);
-    EXPECT_TRUE(lit.lit());
-    EXPECT_EQ(lit.emission, table.emission);
-    EXPECT_EQ(lit.mean_extinction, table.mean_extinction);
 }
 
 }  // namespace

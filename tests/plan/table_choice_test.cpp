@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "facts/drawn_range.h"
 #include "optics/segment_integral.h"
 #include "plan/plan.h"
 #include "support/transfer_functions.h"
@@ -39,6 +40,16 @@ Scene scene_of(const TransferFunction& transfer_function) {
     return scene;
 }
 
+// The table before its choice, over the range that is drawn.
+TablePlan table_of(const Scene& scene, const Facts& facts, double max_length) {
+    const ValueRange range = drawn_range(*scene.transfer_function, facts.range);
+    TablePlan table;
+    table.request.lo = range.lo;
+    table.request.hi = range.hi;
+    table.request.max_length = max_length;
+    return table;
+}
+
 Volume blobs() {
     return generate({"gaussians", std::array<std::int64_t, 3>{32, 32, 32}, SampleType::float32});
 }
@@ -49,16 +60,16 @@ TEST(TableChoice, ManyPointsGetMoreNodesUntilTheErrorIsKept) {
     scene.max_error = 4;
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     ASSERT_FALSE(facts.scalar_rays.rays.empty());
-    TablePlan coarse;
-    coarse.max_length = (facts.far_depth - facts.near_depth) / 200 * facts.max_length_per_depth;
-    coarse.length_layers = 3;
+    const double longest = (facts.far_depth - facts.near_depth) / 200 * facts.max_length_per_depth;
+    TablePlan coarse = table_of(scene, facts, longest);
+    coarse.request.length_layers = 3;
     TableCache tables;
-    build_table(scene, facts, coarse, tables);
+    get_table(scene, facts, coarse, tables);
     const double error = table_error(scene, facts, 200, coarse);
     TablePlan chosen = coarse;
-    const double depth = facts.max_extinction * coarse.max_length;
+    const double depth = facts.max_extinction * longest;
     refine_table(scene, facts, 200, depth, chosen, tables);
-    EXPECT_GT(chosen.scalar_nodes, coarse.scalar_nodes);
+    EXPECT_GT(chosen.request.scalar_nodes, coarse.request.scalar_nodes);
     EXPECT_LE(chosen.error, table_share * scene.max_error);
     // Two cells a piece became 17: the error of linear interpolation falls with the square.
     EXPECT_LE(chosen.error, error / 16);
@@ -68,11 +79,10 @@ TEST(TableChoice, FewPointsKeepTheCoarsestTable) {
     const Volume volume = blobs();
     const Scene scene = scene_of(zigzag(4));
     const Facts facts = measure(scene, volume, measure_bricks(volume));
-    TablePlan chosen;
-    chosen.max_length = .01;
+    TablePlan chosen = table_of(scene, facts, .01);
     TableCache tables;
     refine_table(scene, facts, 200, .06, chosen, tables);
-    EXPECT_EQ(chosen.scalar_nodes, TablePlan().scalar_nodes);
+    EXPECT_EQ(chosen.request.scalar_nodes, TableRequest().scalar_nodes);
     EXPECT_GT(chosen.error, 0);
     EXPECT_LE(chosen.error, table_share * scene.max_error);
 }
@@ -92,10 +102,10 @@ TEST(TableChoice, OfOnePieceTheErrorOfLongSegmentsIsFoundOnRays) {
         EXPECT_LE(ray.far, facts.far_depth + 1e-12);
         EXPECT_TRUE(std::ranges::all_of(ray.scalars, [](float s) { return std::isfinite(s); }));
     }
-    TablePlan table;
-    table.max_length = (facts.far_depth - facts.near_depth) / 2 * facts.max_length_per_depth;
+    const double longest = (facts.far_depth - facts.near_depth) / 2 * facts.max_length_per_depth;
+    TablePlan table = table_of(scene, facts, longest);
     TableCache tables;
-    refine_table(scene, facts, 2, facts.max_extinction * table.max_length, table, tables);
+    refine_table(scene, facts, 2, facts.max_extinction * longest, table, tables);
     // Segments of the largest length lie on a layer, where no error of lengths is: rays alone have
     // shorter ones.
     Facts without_rays = facts;
@@ -117,25 +127,15 @@ TEST(TableChoice, PlansHaveTheirTablesAndShareThoseOfOneCache) {
         const SlicePlan plan = make_plan(scene, facts, native, {}, {}, tables).slice;
         ASSERT_TRUE(plan.uses_table());
         ASSERT_NE(plan.table.built, nullptr);
-        EXPECT_EQ(plan.table.built->colored, plan.table.colored);
-        EXPECT_EQ(plan.table.built->lengths.size(),
-                  static_cast<std::size_t>(plan.table.length_layers));
+        EXPECT_EQ(plan.table.built->request.colored, plan.table.request.colored);
+        EXPECT_EQ(plan.table.knot_table()->lengths.size(),
+                  static_cast<std::size_t>(plan.table.request.length_layers));
         EXPECT_EQ(make_plan(scene, facts, native, {}, {}, tables).slice.table.built,
                   plan.table.built);
         const SlicePlan other = make_plan(scene, facts, native, {}).slice;
         EXPECT_NE(other.table.built, plan.table.built);
         EXPECT_EQ(other, plan);  // the numbers are those that the table is built from
     }
-}
-
-// A camera that moves changes the longest segment.
-TEST(TableChoice, OneLayerServesSegmentsOfAnyLength) {
-    TablePlan near, far;
-    near.max_length = 1;
-    far.max_length = 2;
-    EXPECT_EQ(near.request({0, 1}), far.request({0, 1}));
-    near.length_layers = far.length_layers = 2;
-    EXPECT_NE(near.request({0, 1}), far.request({0, 1}));
 }
 
 }  // namespace

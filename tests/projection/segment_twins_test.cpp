@@ -16,7 +16,7 @@
 #include "optics/front_weights.h"
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
-#include "optics/segment_table.h"
+#include "preintegration/preintegration_table.h"
 #include "support/transfer_functions.h"
 
 namespace lamina {
@@ -56,7 +56,7 @@ gl::Program integrating_program(const std::string& file, const gl::Defines& defi
 // --- tables ---
 
 struct TableCase {
-    SegmentTableRequest request;
+    TableRequest request;
     bool filtered;
 
     std::string name() const {
@@ -78,7 +78,7 @@ std::vector<Code> codes_of(const std::vector<float>& texels) {
     return codes;
 }
 
-gl::Texture upload(const SegmentTable& table, bool filtered) {
+gl::Texture upload(const UniformTable& table, bool filtered) {
     using gl::TextureFormat;
     const bool color = table.channels == 4;
     TextureFormat format = color ? TextureFormat::rgba32f : TextureFormat::r32f;
@@ -108,7 +108,7 @@ void compare_table(const TableCase& wanted) {
     const TransferFunction transfer_function = TransferFunction::linear(
         {knot(-1, color({0, 0, 1}), 0), knot(-.4, color({0, 1, 0}), 1),
          knot(.4, color({.2, .4, .8}), 2), knot(.4, color({1, .5, 0}), 6)});
-    const SegmentTable table = build_segment_table(transfer_function, wanted.request);
+    const UniformTable table(transfer_function, wanted.request);
     const gl::Texture texture = upload(table, wanted.filtered);
     gl::Defines defines;
     defines.set("TABLE_NODES", wanted.request.scalar_nodes)
@@ -117,9 +117,9 @@ void compare_table(const TableCase& wanted) {
         .set("TABLE_STORE", static_cast<int>(wanted.request.store));
     if (colored) defines.set("TABLE_COLORED", "");
     if (wanted.filtered) defines.set("TABLE_FILTERED", "");
-    gl::Program program = integrating_program("optics/segment_table.glsl", defines);
+    gl::Program program = integrating_program("preintegration/uniform_table.glsl", defines);
     texture.bind(0);
-    program.set("segment_table", 0);
+    program.set("uniform_table", 0);
     program.set("table_scale", table.scale);
     program.set("single_color", glm::vec3(grey));
     program.set("inverse_first_length", static_cast<float>(table.inverse_first_length()));
@@ -149,6 +149,7 @@ void compare_table(const TableCase& wanted) {
 
 TEST_F(SegmentTwins, TablesGiveWhatTheirLookUpGives) {
     TableCase wanted;
+    wanted.request.kind = TableKind::uniform;
     wanted.request.lo = -1;
     wanted.request.hi = 1;
     wanted.request.max_length = 3;

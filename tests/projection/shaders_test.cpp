@@ -84,12 +84,17 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         plan.range = {0, 1};
         plan.single_color = single_color;
         plan.table_filtered = filtered;
-        plan.table.scalar_nodes = 16;
-        plan.table.length_layers = lengths;
-        plan.table.colored = !single_color;
-        plan.aligned = {32, single_color ? 1 : lengths, 1.0, !single_color};
-        plan.table.built = cache.get(transfer_function, plan.table);
-        plan.aligned.built = cache.get(transfer_function, plan.aligned.request(plan.range));
+        TableRequest& request = plan.table.request;
+        request.colored = !single_color;
+        if (source == SegmentSource::table) {
+            request.kind = TableKind::uniform;
+            request.scalar_nodes = 16;
+            request.length_layers = lengths;
+        } else {
+            request.scalar_nodes = 32;
+            request.length_layers = single_color ? 1 : lengths;
+        }
+        plan.table.built = cache.get(transfer_function, request);
         const GlProjectTables tables(transfer_function, plan);
         for (const FragmentKind kind :
              {FragmentKind::thin, FragmentKind::plain, FragmentKind::careful}) {

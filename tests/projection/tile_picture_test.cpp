@@ -88,10 +88,11 @@ class TilePicture : public gl::GlTest {
                     ProjectPlan plan = plan_of(mesh_, scene, tile_capabilities()).project;
                     if (source == SegmentSource::cut_table) {
                         plan.source = source;
-                        plan.aligned = {200, plan.single_color ? 1 : 8, 0.5, !plan.single_color};
-                        plan.aligned.built =
-                            tables.get(in_units(*scene.transfer_function, plan.unit),
-                                       plan.aligned.request(plan.range));
+                        plan.table.request = {
+                            plan.range.lo,     plan.range.hi, 0.5, 200, plan.single_color ? 1 : 8,
+                            !plan.single_color};
+                        plan.table.built = tables.get(in_units(*scene.transfer_function, plan.unit),
+                                                      plan.table.request);
                     }
                     plan.plain = plain;
                     ASSERT_EQ(plan.source, source) << name;

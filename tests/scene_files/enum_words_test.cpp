@@ -47,8 +47,8 @@ TEST(EnumWords, ShadersHaveTheNumbersOfTheirTwins) {
     expect_numbers<NodeCode>("compositing/node_code.glsl", "CODE_");
     expect_numbers<AlphaRounding>("compositing/codes.glsl", "ROUND_");
     expect_numbers<SegmentSource>("projection/tet.frag", "SOURCE_");
-    expect_numbers<LengthMapping>("optics/segment_table.glsl", "MAPPING_");
-    expect_numbers<TableStore>("optics/segment_table.glsl", "STORE_");
+    expect_numbers<LengthMapping>("preintegration/uniform_table.glsl", "MAPPING_");
+    expect_numbers<TableStore>("preintegration/uniform_table.glsl", "STORE_");
 }
 
 template <typename Enum>

@@ -49,8 +49,8 @@ void add_lit_plans(std::vector<SlicePlan>& plans) {
             for (const Classification each :
                  {Classification::post, Classification::preintegrated}) {
                 plan.classification = each;
-                plan.table.lit = true;
-                plan.table.length_layers = (bits & 1) != 0 ? 5 : 1;
+                plan.table.request.lit = true;
+                plan.table.request.length_layers = (bits & 1) != 0 ? 5 : 1;
                 plan.table_filtered = (bits & 2) != 0;
                 plans.push_back(plan);
             }
@@ -71,8 +71,8 @@ std::vector<SlicePlan> every_segment_plan() {
             plan.classification =
                 (bits & 8) != 0 ? Classification::preintegrated : Classification::post;
             plan.table_filtered = (bits & 16) != 0;
-            plan.table.colored = !plan.single_color;
-            plan.table.length_layers = (bits & 32) != 0 ? 5 : 1;
+            plan.table.request.colored = !plan.single_color;
+            plan.table.request.length_layers = (bits & 32) != 0 ? 5 : 1;
             plan.precise_rays = (bits & 64) != 0;
             plan.linear = (bits & 128) != 0;
             plans.push_back(plan);

@@ -53,14 +53,12 @@ void compare_runs(bool colored, int layers, bool filtered, bool lit = false) {
     plan.classification = Classification::preintegrated;
     plan.single_color = !colored;
     plan.table_filtered = filtered;
-    plan.table = {256, layers, 1.0, colored, lit};
-    const auto table = std::make_shared<const PreintegrationTable>(
-        build_preintegration_table(transfer_function, plan.table.request({0, 1})));
-    plan.table.built = table;
-    const GlTransferTables tables(transfer_function, {0, 1}, &plan.table, filtered, 0);
+    plan.table.request = {0, 1, 1.0, 256, layers, colored, lit};
+    const KnotTable table(transfer_function, plan.table.request);
+    const GlTransferTables tables(transfer_function, {0, 1}, &table, filtered, 0);
     gl::Program program = gl::full_screen_program(
         "#version 450 core\n"
-        "#include \"optics/preintegration.glsl\"\n"
+        "#include \"preintegration/knot_table.glsl\"\n"
         "uniform float world_length;\n"
         "out vec4 result;\n"
         "void main() {\n"
@@ -79,7 +77,7 @@ void compare_runs(bool colored, int layers, bool filtered, bool lit = false) {
     for (int row = 0; row < edge; ++row) {
         for (int column = 0; column < edge; ++column) {
             const double front = (column + .5) / edge, back = (edge - row - .5) / edge;
-            const LitIntegral both = table->lookup_lit(front, back, .35f);
+            const LitIntegral both = table.lookup_lit(front, back, .35f);
             const SegmentIntegral& expected = both.whole;
             const float* const pixel = image.pixel(column, row);
             // Node coordinates near 300 in float32 are good to 3e-5 of a cell, over which

@@ -22,4 +22,13 @@ inline TransferFunction smooth() {
     return TransferFunction::linear(knots);
 }
 
+// A peak that is narrow beside its surroundings, and a step.
+inline TransferFunction peak_and_step() {
+    return TransferFunction::linear(
+        {knot(0, glm::dvec3(1, 0, 0), 0), knot(.3, glm::dvec3(1, .5, 0), 0),
+         knot(.303, glm::dvec3(1, .8, .2), 60), knot(.306, glm::dvec3(0, .5, 1), 0),
+         knot(.6, glm::dvec3(1, 0, 1), 1), knot(.6, glm::dvec3(0, 0, 1), 5),
+         knot(1, glm::dvec3(0, 1, 0), 8)});
+}
+
 }  // namespace lamina::test

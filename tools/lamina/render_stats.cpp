@@ -53,7 +53,7 @@ Json project_to_json(const ProjectPlan& project) {
     }
     json["off_on_trial_rays"] = project.trial_error.segments;
     if (project.source == SegmentSource::table) {
-        const SegmentTableRequest& table = project.table;
+        const TableRequest& table = project.table.request;
         json["table"] = {{"scalars", table.scalar_nodes},
                          {"lengths", table.colored ? table.length_layers : 1},
                          {"mapping", name_of(table.mapping)},
@@ -61,9 +61,10 @@ Json project_to_json(const ProjectPlan& project) {
                          {"format", name_of(table.format)},
                          {"colored", table.colored}};
     } else if (project.source == SegmentSource::cut_table) {
-        json["table"] = {{"scalars", project.aligned.scalar_nodes},
-                         {"lengths", project.aligned.length_layers},
-                         {"colored", project.aligned.colored}};
+        const TableRequest& table = project.table.request;
+        json["table"] = {{"scalars", table.scalar_nodes},
+                         {"lengths", table.length_layers},
+                         {"colored", table.colored}};
     }
     return json;
 }
@@ -92,9 +93,9 @@ Json slice_to_json(const SlicePlan& slice) {
     }
     if (slice.error_bound) json["error_bound"] = *slice.error_bound;
     if (slice.uses_table()) {
-        json["table"] = {{"scalars", slice.table.scalar_nodes},
-                         {"lengths", slice.table.length_layers},
-                         {"colored", slice.table.colored},
+        json["table"] = {{"scalars", slice.table.request.scalar_nodes},
+                         {"lengths", slice.table.request.length_layers},
+                         {"colored", slice.table.request.colored},
                          {"off_on_trial_rays", slice.table.error}};
     }
     return json;

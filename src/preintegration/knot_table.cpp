@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/preintegration_table.h"
-
+// Tables whose nodes lie on the transfer function's knots: how they are filled, and looked up.
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
+#include "preintegration/preintegration_table.h"
 
 namespace lamina {
-
 namespace {
 
 constexpr std::size_t most_knots = 1022;  // two nodes an interval: textures of 2048 hold them
@@ -40,7 +41,7 @@ struct Node {
 
 class NodeBuilder {
   public:
-    explicit NodeBuilder(PreintegrationTable& table) : table_(table) {}
+    explicit NodeBuilder(KnotTable& table) : table_(table) {}
 
     void add_interval(const LinearPiece& piece, int wanted_cells) {
         // Points that are a few roundings apart leave no room for more nodes.
@@ -79,12 +80,12 @@ class NodeBuilder {
     }
 
   private:
-    PreintegrationTable& table_;
+    KnotTable& table_;
     std::vector<Node> nodes_;
 };
 
 std::vector<Node> place_nodes(const TransferFunction& transfer_function,
-                              const PreintegrationRequest& request, PreintegrationTable& table) {
+                              const TableRequest& request, KnotTable& table) {
     NodeBuilder builder(table);
     if (request.lo == request.hi) {
         builder.add_anchor(request.lo, transfer_function.at(request.lo));
@@ -106,7 +107,7 @@ std::vector<Node> place_nodes(const TransferFunction& transfer_function,
     return builder.finish();
 }
 
-void check(const TransferFunction& transfer_function, const PreintegrationRequest& request) {
+void check(const TransferFunction& transfer_function, const TableRequest& request) {
     const auto inside = static_cast<std::size_t>(
         std::ranges::count_if(transfer_function.knots(), [&](const TransferKnot& knot) {
             return knot.value > request.lo && knot.value < request.hi;
@@ -119,10 +120,10 @@ void check(const TransferFunction& transfer_function, const PreintegrationReques
     }
 }
 
-void check_size(const PreintegrationTable& table, bool lit) {
-    if (!table.colored) return;
+void check_size(const KnotTable& table) {
+    if (!table.request.colored) return;
     const std::size_t nodes = table.nodes.size();
-    const std::size_t numbers = lit ? 7 : 3;
+    const std::size_t numbers = table.request.lit ? 7 : 3;
     const std::size_t bytes = nodes * nodes * table.lengths.size() * numbers * sizeof(float);
     if (bytes > most_bytes) {
         fail(
@@ -135,7 +136,7 @@ void check_size(const PreintegrationTable& table, bool lit) {
 
 class TableBuilder {
   public:
-    TableBuilder(PreintegrationTable& table, const std::vector<Node>& nodes)
+    TableBuilder(KnotTable& table, const std::vector<Node>& nodes)
         : table_(table), nodes_(nodes), count_(static_cast<int>(nodes.size())) {}
 
     void fill_row(int front) {
@@ -147,7 +148,7 @@ class TableBuilder {
     }
 
   private:
-    // What a segment of no length has per length.
+    // Numbers per length of a segment whose length goes to 0.
     struct Limit {
         double extinction = 0;
         glm::dvec3 emission{0};
@@ -193,17 +194,17 @@ class TableBuilder {
     void store(int front, int back, const Limit& limit) {
         const std::size_t entry = static_cast<std::size_t>(back) * count_ + front;
         table_.mean_extinction[entry] = as_float(limit.extinction);
-        if (!table_.colored) return;
+        if (!table_.request.colored) return;
         store_layer(0, entry, limit);
         for (std::size_t layer = 1; layer < table_.lengths.size(); ++layer) {
             const double length = table_.lengths[layer];
             const double alpha = opacity_from_depth(limit.extinction * length);
-            // The limit is taken at length 0 (max_length = 0) and where the depth underflows.
+            // The limit is taken at length 0 (max_length = 0) and if the depth underflows.
             Limit there = limit;
             if (is_looked_up(front, back) && alpha > std::numeric_limits<double>::min()) {
                 const double scale = limit.extinction / alpha;
                 if (front != back) there.emission = color(front, back, length) * scale;
-                if (table_.lit()) {
+                if (table_.request.lit) {
                     there.front = front_parts(front, back, length);
                     there.front.alpha *= scale;
                     there.front.color *= scale;
@@ -223,15 +224,15 @@ class TableBuilder {
     void store_layer(std::size_t layer, std::size_t entry, const Limit& values) {
         const std::size_t number = layer * nodes_.size() * nodes_.size() + entry;
         for (int c = 0; c < 3; ++c) table_.emission[number * 3 + c] = as_float(values.emission[c]);
-        if (!table_.lit()) return;
+        if (!table_.request.lit) return;
         for (int c = 0; c < 3; ++c)
             table_.front_parts[number * 4 + c] = as_float(values.front.color[c]);
         table_.front_parts[number * 4 + 3] = as_float(values.front.alpha);
     }
 
     // Calls visit(from, to, begin, end, share) for the linear pieces of a segment from the front
-    // on: nodes, where they lie in it, and their share of its length. This is integrate_segment()
-    // without the search for pieces, because both ends of every piece are nodes. It ends where
+    // on: nodes, their places in it, and their share of its length. This is integrate_segment()
+    // without the search for pieces, because both ends of every piece are nodes. It ends when
     // visit() returns false.
     template <typename Visit>
     void for_each_piece(int front, int back, const Visit& visit) const {
@@ -289,40 +290,165 @@ class TableBuilder {
         transmittance *= std::exp(-(p / 2 + q / 2));
     }
 
-    PreintegrationTable& table_;
+    KnotTable& table_;
     const std::vector<Node>& nodes_;
     int count_;
 };
 
 }  // namespace
 
-PreintegrationTable build_preintegration_table(const TransferFunction& transfer_function,
-                                               const PreintegrationRequest& request) {
+KnotTable::KnotTable(const TransferFunction& transfer_function, const TableRequest& asked)
+    : PreintegrationTable(asked) {
+    assert(request.kind == TableKind::knots);
     check(transfer_function, request);
-    PreintegrationTable table;
-    table.colored = request.colored;
-    const std::vector<Node> nodes = place_nodes(transfer_function, request, table);
+    const std::vector<Node> placed = place_nodes(transfer_function, request, *this);
     for (int layer = 0; layer < request.length_layers; ++layer) {
-        table.lengths.push_back(
-            layer == 0 ? 0 : request.max_length * layer / (request.length_layers - 1));
+        lengths.push_back(layer == 0 ? 0
+                                     : request.max_length * layer / (request.length_layers - 1));
     }
-    check_size(table, request.lit);
-    const std::size_t entries = nodes.size() * nodes.size();
-    table.mean_extinction.resize(entries);
-    if (table.colored) table.emission.resize(entries * table.lengths.size() * 3);
-    if (request.lit) table.front_parts.resize(entries * table.lengths.size() * 4);
+    check_size(*this);
+    const std::size_t entries = placed.size() * placed.size();
+    mean_extinction.resize(entries);
+    if (request.colored) emission.resize(entries * lengths.size() * 3);
+    if (request.lit) front_parts.resize(entries * lengths.size() * 4);
     const auto seen =
-        std::ranges::find_if(nodes, [](const Node& node) { return node.optics.extinction > 0; });
-    if (seen != nodes.end()) table.single_color = seen->optics.color;
+        std::ranges::find_if(placed, [](const Node& node) { return node.optics.extinction > 0; });
+    if (seen != placed.end()) single_color = seen->optics.color;
 
-    TableBuilder builder(table, nodes);
-    const auto count = static_cast<std::int64_t>(nodes.size());
+    TableBuilder builder(*this, placed);
+    const auto count = static_cast<std::int64_t>(placed.size());
     Progress progress("pre-integrating", count);
     parallel_for(count, 4, [&](std::int64_t front) {
         builder.fill_row(static_cast<int>(front));
         progress.advance();
     });
-    return table;
+}
+
+std::int64_t KnotTable::byte_count() const {
+    const std::size_t numbers = mean_extinction.size() + emission.size() + front_parts.size();
+    return static_cast<std::int64_t>(numbers * sizeof(float));
+}
+
+namespace {
+
+struct Cell {
+    std::size_t first, second;
+    double weight;  // of the second
+};
+
+Cell cell_of(double position, std::size_t count) {
+    const auto first = std::min(static_cast<std::size_t>(position), count - 1);
+    return {first, std::min(first + 1, count - 1), position - static_cast<double>(first)};
+}
+
+// `front` and `back` are node coordinates.
+LitIntegral sample(const KnotTable& table, double front, double back, double length) {
+    const std::size_t count = table.nodes.size();
+    const Cell f = cell_of(front, count), b = cell_of(back, count);
+    const std::array<std::size_t, 4> entries = {
+        b.first * count + f.first, b.first * count + f.second, b.second * count + f.first,
+        b.second * count + f.second};
+    const std::array<double, 4> weights = {(1 - b.weight) * (1 - f.weight),
+                                           (1 - b.weight) * f.weight, b.weight * (1 - f.weight),
+                                           b.weight * f.weight};
+    double extinction = 0;
+    for (int i = 0; i < 4; ++i) extinction += weights[i] * table.mean_extinction[entries[i]];
+    LitIntegral result;
+    SegmentIntegral& whole = result.whole;
+    whole.optical_depth = extinction * length;
+    whole.alpha = opacity_from_depth(whole.optical_depth);
+    if (!table.request.colored) {
+        whole.color = whole.alpha * table.single_color;
+        return result;
+    }
+    if (extinction == 0) return result;
+    const double longest = table.lengths.back();
+    const double share = longest > 0 ? std::clamp(length / longest, 0.0, 1.0) : 0;
+    const Cell l =
+        cell_of(share * static_cast<double>(table.lengths.size() - 1), table.lengths.size());
+    const double scale = whole.alpha / extinction;
+    for (const auto& [layer, of_layer] : {std::pair(l.first, 1 - l.weight), {l.second, l.weight}}) {
+        for (int i = 0; i < 4; ++i) {
+            const std::size_t number = layer * count * count + entries[i];
+            const double weight = scale * of_layer * weights[i];
+            const float* const texel = &table.emission[number * 3];
+            whole.color += weight * glm::dvec3(texel[0], texel[1], texel[2]);
+            if (!table.request.lit) continue;
+            const float* const front_part = &table.front_parts[number * 4];
+            result.front.color += weight * glm::dvec3(front_part[0], front_part[1], front_part[2]);
+            result.front.alpha += weight * front_part[3];
+        }
+    }
+    return result;
+}
+
+double coordinate_between(const KnotTable::Anchor& a, const KnotTable::Anchor& b, double value) {
+    return a.node + (value - a.value) / (b.value - a.value) * (b.node - a.node);
+}
+
+// As coordinate(), but returns the left node at a step.
+double left_coordinate(const KnotTable& table, double value) {
+    const auto& anchors = table.anchors;
+    const auto at = std::ranges::lower_bound(anchors, value, {}, &KnotTable::Anchor::value);
+    if (at == anchors.end()) return anchors.back().node;
+    if (at == anchors.begin()) return at->node;
+    return coordinate_between(*(at - 1), *at, value);
+}
+
+struct Part {
+    double from, to;  // node coordinates, ascending
+    double width;     // in scalars
+};
+
+// Splits the interval from `lo` to `hi` >= lo at the first and at the last anchor strictly between
+// them.
+std::array<Part, 3> split(const KnotTable& table, double lo, double hi) {
+    const auto& anchors = table.anchors;
+    const double first = table.coordinate(lo);
+    const double last = lo < hi ? left_coordinate(table, hi) : first;
+    const auto above = std::ranges::upper_bound(anchors, lo, {}, &KnotTable::Anchor::value);
+    const auto not_below = std::ranges::lower_bound(anchors, hi, {}, &KnotTable::Anchor::value);
+    if (above >= not_below) return {Part{first, last, hi - lo}, Part{}, Part{}};
+    const auto below = not_below - 1;
+    const double inner = below->value - above->value;
+    // If the inner part ends at a step, it takes the node on its own side.
+    return {Part{first, double(above->node), above->value - lo},
+            Part{table.coordinate(above->value), left_coordinate(table, below->value), inner},
+            Part{double(below->node), last, hi - below->value}};
+}
+
+}  // namespace
+
+double KnotTable::coordinate(double value) const {
+    if (value >= anchors.back().value) return anchors.back().node;
+    const auto above = std::ranges::upper_bound(anchors, value, {}, &Anchor::value);
+    if (above == anchors.begin()) return 0;
+    return coordinate_between(*(above - 1), *above, value);
+}
+
+LitIntegral KnotTable::lookup_lit(double front, double back, double length) const {
+    std::array<Part, 3> parts = split(*this, std::min(front, back), std::max(front, back));
+    if (front > back) {
+        std::ranges::reverse(parts);
+        for (Part& part : parts) std::swap(part.from, part.to);
+    }
+    if (front == back) return sample(*this, parts[0].from, parts[0].to, length);
+    LitIntegral result;
+    SegmentIntegral& whole = result.whole;
+    double left = 1;  // behind the part, as a share of the segment
+    for (const Part& part : parts) {
+        if (part.width == 0) continue;
+        const double share = part.width / std::abs(back - front);
+        left = std::max(left - share, 0.0);
+        const LitIntegral next = sample(*this, part.from, part.to, length * share);
+        const double transmittance = std::exp(-whole.optical_depth);
+        result.front.color += transmittance * (left * next.whole.color + share * next.front.color);
+        result.front.alpha += transmittance * (left * next.whole.alpha + share * next.front.alpha);
+        whole.color += transmittance * next.whole.color;
+        whole.optical_depth += next.whole.optical_depth;
+    }
+    whole.alpha = opacity_from_depth(whole.optical_depth);
+    return result;
 }
 
 }  // namespace lamina

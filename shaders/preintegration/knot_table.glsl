@@ -2,13 +2,13 @@
 #include "optics/intervals.glsl"
 #include "optics/opacity.glsl"
 
-// Twin of PreintegrationTable::lookup (optics/preintegration_table.h). The texel (front node, back node) has the mean
+// Twin of KnotTable::lookup (preintegration/preintegration_table.h). The texel (front node, back node) has the mean
 // extinction in its last component. With colour, it has emission in rgb, and each length is a layer.
 #ifdef TABLE_COLORED
-uniform sampler3D preintegration;
+uniform sampler3D knot_table;
 uniform float layers_per_length;
 #else
-uniform sampler2D preintegration;
+uniform sampler2D knot_table;
 #endif
 // TABLE_LIT: front parts (optics/front_parts.h) of emission in rgb and of extinction in a, in the same places.
 #ifdef TABLE_LIT
@@ -40,11 +40,11 @@ vec4 table_layer(TABLE_SAMPLER table, vec2 nodes, int layer) {
 // Returns the mean extinction at table nodes. It does not depend on length.
 float table_extinction(vec2 nodes) {
 #if defined(TABLE_FILTERED) && defined(TABLE_COLORED)
-    return texture(preintegration, vec3((nodes + 0.5) / float(TABLE_NODES), 0.0)).a;
+    return texture(knot_table, vec3((nodes + 0.5) / float(TABLE_NODES), 0.0)).a;
 #elif defined(TABLE_FILTERED)
-    return texture(preintegration, (nodes + 0.5) / float(TABLE_NODES)).r;
+    return texture(knot_table, (nodes + 0.5) / float(TABLE_NODES)).r;
 #else
-    return table_layer(preintegration, nodes, 0).a;
+    return table_layer(knot_table, nodes, 0).a;
 #endif
 }
 
@@ -67,7 +67,7 @@ vec4 table_numbers(sampler3D table, vec2 nodes, float world_length) {
 // Returns emission (rgb, with a coloured table) and mean extinction (a) at table nodes.
 vec4 table_entry(vec2 nodes, float world_length) {
 #ifdef TABLE_COLORED
-    return table_numbers(preintegration, nodes, world_length);
+    return table_numbers(knot_table, nodes, world_length);
 #else
     return vec4(table_extinction(nodes));
 #endif

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of shaders/optics/segment_table.glsl: SegmentTable::lookup in float.
-#if defined(LAMINA_TILES_SEGMENT_TABLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LAMINA_TILES_SEGMENT_TABLE_INL_H_
-#undef LAMINA_TILES_SEGMENT_TABLE_INL_H_
+// Vector form of shaders/preintegration/uniform_table.glsl: UniformTable::lookup in float.
+#if defined(LAMINA_TILES_UNIFORM_TABLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_TILES_UNIFORM_TABLE_INL_H_
+#undef LAMINA_TILES_UNIFORM_TABLE_INL_H_
 #else
-#define LAMINA_TILES_SEGMENT_TABLE_INL_H_
+#define LAMINA_TILES_UNIFORM_TABLE_INL_H_
 #endif
 
 #include <algorithm>
 #include <glm/vec3.hpp>
 
-#include "optics/segment_table.h"
+#include "preintegration/preintegration_table.h"
 #include "simd/math-inl.h"
 #include "tiles/opacity-inl.h"
 
@@ -18,7 +18,7 @@ LAMINA_SIMD_BEGIN
 
 // The layer coordinate of a length that is given in units of layer 1's length. Whole numbers are
 // layers. It is not clamped to the last layer.
-LAMINA_INLINE Float length_layer(const SegmentTable& table, Float v) {
+LAMINA_INLINE Float length_layer(const UniformTable& table, Float v) {
     if (table.layers == 2 || table.request.mapping == LengthMapping::linear) return v;
     if (table.request.mapping == LengthMapping::log2) {
         const Float octaves = log_of(max(v, 1)) * 1.44269504f;
@@ -45,7 +45,7 @@ struct SegmentPlace {
 };
 
 // Scalars must be normalised so that the table covers [0, 1].
-LAMINA_INLINE SegmentPlace segment_place(const SegmentTable& table, float inverse_first_length,
+LAMINA_INLINE SegmentPlace segment_place(const UniformTable& table, float inverse_first_length,
                                          Float front, Float back, Float world_length) {
     const int nodes = table.request.scalar_nodes;
     const auto last = static_cast<float>(nodes - 1);
@@ -64,7 +64,7 @@ LAMINA_INLINE SegmentPlace segment_place(const SegmentTable& table, float invers
 }
 
 // For tables with one number a texel.
-LAMINA_INLINE Float plain_entry(const SegmentTable& table, const SegmentPlace& place) {
+LAMINA_INLINE Float plain_entry(const UniformTable& table, const SegmentPlace& place) {
     const std::ptrdiff_t nodes = table.request.scalar_nodes;
     const auto layer_from = [&](const float* texels) LAMINA_LAMBDA {
         const auto texel = [&](std::ptrdiff_t step)
@@ -78,7 +78,7 @@ LAMINA_INLINE Float plain_entry(const SegmentTable& table, const SegmentPlace& p
 }
 
 // For tables with four numbers a texel. It goes lane by lane, because these lie side by side.
-LAMINA_INLINE SegmentEntry colored_entry(const SegmentTable& table, const SegmentPlace& place) {
+LAMINA_INLINE SegmentEntry colored_entry(const UniformTable& table, const SegmentPlace& place) {
     constexpr std::size_t lanes = Float::lanes;
     alignas(64) std::int32_t numbers[lanes];
     alignas(64) float fronts[lanes], backs[lanes], layers[lanes], entries[4 * lanes];
@@ -112,7 +112,7 @@ LAMINA_INLINE SegmentEntry colored_entry(const SegmentTable& table, const Segmen
 
 // Associated colour and opacity of segments on which the scalar is linear from `front` to `back`.
 // `single_color`: the colour for tables without colour.
-LAMINA_INLINE SegmentEntry integrate_segment(const SegmentTable& table, float inverse_first_length,
+LAMINA_INLINE SegmentEntry integrate_segment(const UniformTable& table, float inverse_first_length,
                                              const glm::vec3& single_color, Float front, Float back,
                                              Float world_length) {
     const SegmentPlace place =
@@ -128,7 +128,7 @@ LAMINA_INLINE SegmentEntry integrate_segment(const SegmentTable& table, float in
     }
     const Float opacity =
         opacities ? entry.value * scale : opacity_from_depth(entry.value * (scale * world_length));
-    // Where the optical depth is 0, so is the emission. The scale cancels.
+    // If the optical depth is 0, so is the emission. The scale cancels.
     const Float weight = opacities ? scale : opacity / max(entry.value, 1e-37f);
     for (int channel = 0; channel < 3; ++channel) {
         entry.color[channel] =

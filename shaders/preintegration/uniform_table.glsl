@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// Twin of SegmentTable::lookup (optics/segment_table.h). The table has TABLE_NODES x TABLE_NODES x TABLE_LAYERS texels
-// (front node, back node, layer of length). The last component of a texel is mean extinction or opacity, as TABLE_STORE
-// says. With TABLE_COLORED, rgb is emission or associated colour, respectively. TABLE_FILTERED: the texture unit
-// interpolates, whose weights have 8 bits on GPUs. Otherwise four or eight texels are interpolated in float32.
+// Twin of UniformTable::lookup (preintegration/preintegration_table.h). The table has TABLE_NODES x TABLE_NODES x
+// TABLE_LAYERS texels (front node, back node, layer of length). The last component of a texel is mean extinction or
+// opacity, as TABLE_STORE says. With TABLE_COLORED, rgb is emission or associated colour, respectively. TABLE_FILTERED:
+// the texture unit interpolates, whose weights have 8 bits on GPUs. Otherwise four or eight texels are interpolated in
+// float32.
 
 // Values of TABLE_MAPPING, as in LengthMapping.
 #define MAPPING_OCTAVE 0
@@ -15,10 +16,10 @@
 #define STORE_OPACITY 1
 
 #if TABLE_LAYERS > 1
-uniform sampler3D segment_table;
+uniform sampler3D uniform_table;
 uniform float inverse_first_length;  // 1 / length of layer 1, per world unit
 #else
-uniform sampler2D segment_table;
+uniform sampler2D uniform_table;
 #endif
 uniform float table_scale;  // value = texel * table_scale
 #ifndef TABLE_COLORED
@@ -51,18 +52,18 @@ vec4 table_entry(float front, float back, float world_length) {
     const float nodes = float(TABLE_NODES);
     vec2 place = vec2(front, back) * ((nodes - 1.0) / nodes) + 0.5 / nodes;
 #if TABLE_LAYERS > 1
-    return texture(segment_table, vec3(place, (length_layer(world_length) + 0.5) * (1.0 / float(TABLE_LAYERS))));
+    return texture(uniform_table, vec3(place, (length_layer(world_length) + 0.5) * (1.0 / float(TABLE_LAYERS))));
 #else
-    return texture(segment_table, place);
+    return texture(uniform_table, place);
 #endif
 }
 
 #else
 
 #if TABLE_LAYERS > 1
-vec4 table_texel(ivec2 node, int layer) { return texelFetch(segment_table, ivec3(node, layer), 0); }
+vec4 table_texel(ivec2 node, int layer) { return texelFetch(uniform_table, ivec3(node, layer), 0); }
 #else
-vec4 table_texel(ivec2 node, int layer) { return texelFetch(segment_table, node, 0); }
+vec4 table_texel(ivec2 node, int layer) { return texelFetch(uniform_table, node, 0); }
 #endif
 
 vec4 table_layer(ivec2 corner, vec2 share, int layer) {
@@ -102,7 +103,7 @@ vec4 integrate_segment(float front, float back, float world_length) {
 #elif TABLE_STORE == STORE_MEAN_EXTINCTION
 #ifdef TABLE_COLORED
     float alpha = opacity_from_depth(entry.a * (table_scale * world_length));
-    // Where the optical depth is 0, so is the emission. The scale cancels.
+    // If the optical depth is 0, so is the emission. The scale cancels.
     return vec4(entry.rgb * (alpha / max(entry.a, 1e-37)), alpha);
 #else
     return vec4(single_color, 1.0) * opacity_from_depth(entry.r * (table_scale * world_length));

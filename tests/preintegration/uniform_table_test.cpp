@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/segment_table.h"
+#include "preintegration/preintegration_table.h"
 
 #include <gtest/gtest.h>
 
@@ -38,8 +38,9 @@ double worst_difference(const SegmentIntegral& a, const SegmentIntegral& b) {
     return worst;
 }
 
-SegmentTableRequest request_of(int nodes, int layers) {
-    SegmentTableRequest request;
+TableRequest request_of(int nodes, int layers) {
+    TableRequest request;
+    request.kind = TableKind::uniform;
     request.max_length = 3;
     request.scalar_nodes = nodes;
     request.length_layers = layers;
@@ -51,14 +52,14 @@ constexpr LengthMapping mappings[] = {LengthMapping::octave, LengthMapping::log2
                                       LengthMapping::linear};
 constexpr TableStore stores[] = {TableStore::mean_extinction, TableStore::opacity};
 
-TEST(SegmentTable, IsExactAtItsNodesAndLengths) {
+TEST(UniformTable, IsExactAtItsNodesAndLengths) {
     for (const auto& f : {smooth(), stepped()}) {
         for (const LengthMapping mapping : mappings) {
             for (const TableStore store : stores) {
-                SegmentTableRequest request = request_of(33, 5);
+                TableRequest request = request_of(33, 5);
                 request.mapping = mapping;
                 request.store = store;
-                const SegmentTable table = build_segment_table(f, request);
+                const UniformTable table(f, request);
                 for (int i = 0; i < 33 * 33 * 5; ++i) {
                     const double front = (i % 33) / 32.0, back = (i / 33 % 33) / 32.0;
                     const double length = table.length_of(i / (33 * 33));
@@ -73,12 +74,12 @@ TEST(SegmentTable, IsExactAtItsNodesAndLengths) {
     }
 }
 
-TEST(SegmentTable, LengthsAndLayersAreEachOthersInverse) {
-    SegmentTableRequest request = request_of(2, 8);
+TEST(UniformTable, LengthsAndLayersAreEachOthersInverse) {
+    TableRequest request = request_of(2, 8);
     request.max_length = 5;
     for (const LengthMapping mapping : mappings) {
         request.mapping = mapping;
-        const SegmentTable table = build_segment_table(smooth(), request);
+        const UniformTable table(smooth(), request);
         EXPECT_EQ(table.length_of(0), 0);
         EXPECT_DOUBLE_EQ(table.length_of(7), 5);
         for (int layer = 0; layer < 8; ++layer) {
@@ -93,18 +94,18 @@ TEST(SegmentTable, LengthsAndLayersAreEachOthersInverse) {
     }
 }
 
-TEST(SegmentTable, MeanExtinctionMakesOpacityExactAtEveryLength) {
-    const SegmentTable table = build_segment_table(smooth(), request_of(33, 4));
+TEST(UniformTable, MeanExtinctionMakesOpacityExactAtEveryLength) {
+    const UniformTable table(smooth(), request_of(33, 4));
     for (const double length : {1e-9, 1e-3, .37, 2.9, 50.0}) {
         const SegmentIntegral expected = integrate_segment(smooth(), 0.25, 0.75, length);
         EXPECT_NEAR(table.lookup(.25, .75, length).alpha, expected.alpha, 1e-7 * expected.alpha);
     }
 }
 
-TEST(SegmentTable, OneColorTakesOneChannel) {
-    SegmentTableRequest request = request_of(16, 6);
+TEST(UniformTable, OneColorTakesOneChannel) {
+    TableRequest request = request_of(16, 6);
     request.colored = false;
-    const SegmentTable table = build_segment_table(grey_ramp(), request);
+    const UniformTable table(grey_ramp(), request);
     EXPECT_EQ(table.layers, 1);
     EXPECT_EQ(table.byte_count(), 16 * 16 * 4);
     const SegmentIntegral expected = integrate_segment(grey_ramp(), .15, .8, 1.7);
@@ -112,15 +113,15 @@ TEST(SegmentTable, OneColorTakesOneChannel) {
     EXPECT_LE(worst_difference(table.lookup(.15, .8, 1.7), expected), 3e-7);
 
     request.store = TableStore::opacity;
-    EXPECT_EQ(build_segment_table(grey_ramp(), request).layers, 6);
+    EXPECT_EQ(UniformTable(grey_ramp(), request).layers, 6);
     request.length_layers = 1;
-    const SegmentTable longest = build_segment_table(grey_ramp(), request);
+    const UniformTable longest(grey_ramp(), request);
     EXPECT_NEAR(longest.lookup(1, 1, .1).alpha, opacity_from_depth(3 * 3), 1e-7);
 }
 
 // The largest error of colour of a table in 1/255, over rays of `count` equal segments that
 // together run over all scalars.
-double worst_color(const TransferFunction& f, const SegmentTable& table) {
+double worst_color(const TransferFunction& f, const UniformTable& table) {
     double worst = 0;
     for (const int count : {10, 100, 1000, 10000}) {
         // Edge ratios up to 1e4: segments of the table's largest length down to 1e-4 of it.
@@ -144,14 +145,14 @@ double worst_color(const TransferFunction& f, const SegmentTable& table) {
     return worst;
 }
 
-TEST(SegmentTable, VariantsRankAsNumericsFound) {
+TEST(UniformTable, VariantsRankAsNumericsFound) {
     const auto worst = [](TableStore store, LengthMapping mapping, TableFormat format) {
-        SegmentTableRequest request = request_of(65, 16);
+        TableRequest request = request_of(65, 16);
         request.max_length = 10;
         request.store = store;
         request.mapping = mapping;
         request.format = format;
-        return worst_color(smooth(), build_segment_table(smooth(), request));
+        return worst_color(smooth(), UniformTable(smooth(), request));
     };
     constexpr auto opacity = TableStore::opacity, mean = TableStore::mean_extinction;
     constexpr auto octave = LengthMapping::octave, log2 = LengthMapping::log2;
@@ -175,16 +176,16 @@ TEST(SegmentTable, VariantsRankAsNumericsFound) {
     EXPECT_LT(of_mean, .25 * of_octave);
 }
 
-TEST(SegmentTable, LogarithmicLengthsOverestimateByUpToSixPercent) {
+TEST(UniformTable, LogarithmicLengthsOverestimateByUpToSixPercent) {
     // A depth so small that alpha is linear in length; docs/numerics.md, section 5:
     // (1 + log2(u)) / u - 1 at u times the start of an octave, at most .0615 (at u = 1.36).
     const auto f = TransferFunction::linear({knot(0, {1, 1, 1}, 1e-6)});
-    SegmentTableRequest request = request_of(2, 8);
+    TableRequest request = request_of(2, 8);
     request.store = TableStore::opacity;
     double worst_log2 = 0, worst_octave = 0;
     for (const LengthMapping mapping : {LengthMapping::log2, LengthMapping::octave}) {
         request.mapping = mapping;
-        const SegmentTable table = build_segment_table(f, request);
+        const UniformTable table(f, request);
         double& worst = mapping == LengthMapping::log2 ? worst_log2 : worst_octave;
         for (int i = 0; i <= 1000; ++i) {
             const double length = .75 + .75 * i / 1000;
@@ -196,7 +197,7 @@ TEST(SegmentTable, LogarithmicLengthsOverestimateByUpToSixPercent) {
 }
 
 // Largest difference of texels, times the scales, over the largest texel.
-double texel_difference(const SegmentTable& a, const SegmentTable& b) {
+double texel_difference(const UniformTable& a, const UniformTable& b) {
     double worst = 0, largest = 0;
     for (std::size_t i = 0; i < a.texels.size(); ++i) {
         const double x = double{a.texels[i]} * a.scale, y = double{b.texels[i]} * b.scale;
@@ -206,18 +207,17 @@ double texel_difference(const SegmentTable& a, const SegmentTable& b) {
     return worst / largest;
 }
 
-TEST(SegmentTable, IncrementalTablesConvergeToExactOnes) {
+TEST(UniformTable, IncrementalTablesConvergeToExactOnes) {
     for (const TableStore store : stores) {
         for (const LengthMapping mapping : mappings) {
             std::array<double, 2> differences{};
             for (const int refined : {0, 1}) {
-                SegmentTableRequest request = request_of(refined ? 129 : 33, 7);
+                TableRequest request = request_of(refined ? 129 : 33, 7);
                 request.store = store;
                 request.mapping = mapping;
-                const SegmentTable exact = build_segment_table(smooth(), request);
+                const UniformTable exact(smooth(), request);
                 request.construction = TableConstruction::incremental;
-                differences[refined] =
-                    texel_difference(exact, build_segment_table(smooth(), request));
+                differences[refined] = texel_difference(exact, UniformTable(smooth(), request));
             }
             // Bilinear interpolation of a function with kinks: at least of first order in the
             // distance of the nodes, of which the second table has a quarter.
@@ -228,29 +228,29 @@ TEST(SegmentTable, IncrementalTablesConvergeToExactOnes) {
     }
 }
 
-TEST(SegmentTable, IncrementalIsExactForOneExtinctionAndColor) {
+TEST(UniformTable, IncrementalIsExactForOneExtinctionAndColor) {
     const auto f = TransferFunction::linear({knot(0, {1, .5, .25}, 2)});
     for (const TableStore store : stores) {
         for (const LengthMapping mapping : mappings) {
-            SegmentTableRequest request = request_of(5, 9);
+            TableRequest request = request_of(5, 9);
             request.store = store;
             request.mapping = mapping;
-            const SegmentTable exact = build_segment_table(f, request);
+            const UniformTable exact(f, request);
             request.construction = TableConstruction::incremental;
             // One rounding to float a layer.
-            EXPECT_LE(texel_difference(exact, build_segment_table(f, request)), 9 * 6e-8);
+            EXPECT_LE(texel_difference(exact, UniformTable(f, request)), 9 * 6e-8);
         }
     }
 }
 
-TEST(SegmentTable, FormatsRoundToNearest) {
-    const SegmentTableRequest request = request_of(20, 4);
-    const SegmentTable exact = build_segment_table(stepped(), request);
+TEST(UniformTable, FormatsRoundToNearest) {
+    const TableRequest request = request_of(20, 4);
+    const UniformTable exact(stepped(), request);
     for (const TableFormat format :
          {TableFormat::fixed16, TableFormat::fixed8, TableFormat::float16}) {
-        SegmentTableRequest rounded_request = request;
+        TableRequest rounded_request = request;
         rounded_request.format = format;
-        const SegmentTable rounded = build_segment_table(stepped(), rounded_request);
+        const UniformTable rounded(stepped(), rounded_request);
         const bool half = format == TableFormat::float16;
         const double codes = format == TableFormat::fixed8 ? 255 : 65535;
         for (std::size_t i = 0; i < exact.texels.size(); ++i) {
@@ -275,7 +275,7 @@ TEST(SegmentTable, FormatsRoundToNearest) {
 }
 
 // Every variant of a table, tried at and beyond the ends of its scalars and lengths.
-void expect_finite(const TransferFunction& f, SegmentTableRequest request) {
+void expect_finite(const TransferFunction& f, TableRequest request) {
     for (const TableStore store : stores) {
         for (const LengthMapping mapping : mappings) {
             for (const TableFormat format :
@@ -286,7 +286,7 @@ void expect_finite(const TransferFunction& f, SegmentTableRequest request) {
                     request.mapping = mapping;
                     request.format = format;
                     request.construction = construction;
-                    const SegmentTable table = build_segment_table(f, request);
+                    const UniformTable table(f, request);
                     for (const float texel : table.texels) {
                         ASSERT_TRUE(texel >= 0 && texel <= std::numeric_limits<float>::max());
                     }
@@ -303,8 +303,8 @@ void expect_finite(const TransferFunction& f, SegmentTableRequest request) {
     }
 }
 
-TEST(SegmentTable, HoldsOutAtTheEnds) {
-    SegmentTableRequest request = request_of(8, 5);
+TEST(UniformTable, HoldsOutAtTheEnds) {
+    TableRequest request = request_of(8, 5);
     expect_finite(TransferFunction::linear({knot(0, {1, 0, 1}, 0)}), request);
     expect_finite(TransferFunction::linear({knot(0, {1, 0, 1}, 1e300), knot(1, {0, 1, 9}, 0)}),
                   request);
@@ -325,24 +325,24 @@ TEST(SegmentTable, HoldsOutAtTheEnds) {
     request.lo = request.hi = .5;
     expect_finite(stepped(), request);
     // At a step's very value the later knot counts.
-    const SegmentTable point = build_segment_table(stepped(), request);
+    const UniformTable point(stepped(), request);
     EXPECT_NEAR(point.lookup(.5, .5, .2).alpha, opacity_from_depth(5 * .2), 1e-7);
 }
 
-TEST(SegmentTable, OpaqueStaysOpaque) {
+TEST(UniformTable, OpaqueStaysOpaque) {
     const auto f = TransferFunction::linear({knot(0, {1, .5, 0}, 1e30), knot(1, {1, .5, 0}, 1e30)});
     for (const TableFormat format :
          {TableFormat::fixed16, TableFormat::float16, TableFormat::float32}) {
-        SegmentTableRequest request = request_of(4, 4);
+        TableRequest request = request_of(4, 4);
         request.format = format;
-        const auto found = build_segment_table(f, request).lookup(.1, .9, .01);
+        const auto found = UniformTable(f, request).lookup(.1, .9, .01);
         EXPECT_EQ(found.alpha, 1);
         EXPECT_NEAR(found.color.g, .5, 1e-3);  // a half float's
     }
 }
 
-TEST(SegmentTable, RefusesWhatIsTooLarge) {
-    EXPECT_THROW(build_segment_table(smooth(), request_of(4096, 5)), Error);
+TEST(UniformTable, RefusesWhatIsTooLarge) {
+    EXPECT_THROW(UniformTable(smooth(), request_of(4096, 5)), Error);
 }
 
 }  // namespace

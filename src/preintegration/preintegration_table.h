@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pre-integrated transfer functions (docs/numerics.md, section 5): tables over the scalar at the
+// front of a segment, the scalar at its back, and its length. A TableRequest says which table;
+// build_table() builds it, and a TableCache (preintegration/table_cache.h) finds it again.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "lamina/table_settings.h"
+#include "lamina/transfer_function.h"
+#include "optics/front_parts.h"
+#include "optics/segment_integral.h"
+
+namespace lamina {
+
+// A table's nodes lie on the transfer function's knots and equally spaced between two of them
+// (KnotTable), or are equally spaced over the whole range (UniformTable).
+enum class TableKind { knots, uniform };
+
+struct TableRequest {
+    double lo = 0, hi = 1;  // scalars, lo <= hi, both finite
+    // Longest segment in the transfer function's unit of length, finite, >= 0. A KnotTable of one
+    // layer does not depend on it.
+    double max_length = 1;
+    int scalar_nodes = 256;  // >= 2; of a KnotTable approximate, of a UniformTable at most 4096
+    int length_layers = 1;   // >= 1, of a UniformTable at most 64
+    bool colored = true;     // may be false if transfer_function.single_color(lo, hi)
+    bool lit = false;        // with front parts (optics/front_parts.h): KnotTable, if `colored`
+    TableKind kind = TableKind::knots;
+    // UniformTable alone: the variants of Kraus, Qiao, Ebert 2004, section 3.
+    LengthMapping mapping = LengthMapping::octave;
+    TableStore store = TableStore::mean_extinction;
+    TableFormat format = TableFormat::fixed16;
+    TableConstruction construction = TableConstruction::exact;
+
+    friend bool operator==(const TableRequest&, const TableRequest&) = default;
+};
+
+struct PreintegrationTable {
+    TableRequest request;
+    glm::dvec3 single_color{0};  // the colour if the request is not coloured
+
+    virtual ~PreintegrationTable() = default;
+    // Computes in double precision what shaders do in float.
+    virtual SegmentIntegral lookup(double front, double back, double length) const = 0;
+    virtual std::int64_t byte_count() const = 0;  // memory
+
+  protected:
+    explicit PreintegrationTable(const TableRequest& asked) : request(asked) {}
+};
+
+// A table whose nodes are aligned with the transfer function's knots, so that within one linear
+// piece the mean extinction is exactly bilinear, and nothing is interpolated across a step. If
+// front and back lie close on both sides of a step, no table is right; there the corner holds the
+// mean of both sides. It stores quantities that do not scale with length, so opacity is exact at
+// every length, and colour has a finite limit at length 0.
+struct KnotTable : PreintegrationTable {
+    struct Anchor {
+        double value;
+        int node;
+    };
+
+    // S scalars over [lo, hi], in non-decreasing order. A step's value occurs twice (left, right).
+    std::vector<double> nodes;
+    // The scalars lo, the knots in (lo, hi) (steps twice), and hi. Between two anchors lie one or
+    // more equally spaced nodes. For lo == hi there is one node and one anchor.
+    std::vector<Anchor> anchors;
+    // L >= 1 lengths, equally spaced from lengths[0] = 0 (the limit) to max_length.
+    std::vector<double> lengths;
+    // S * S values tbar = optical depth / length, index back * S + front.
+    std::vector<float> mean_extinction;
+    // L * S * S * 3 values E = tbar * C / alpha, index ((layer * S + back) * S + front) * 3 +
+    // channel; empty if the table is not coloured. Look-ups need pairs of nodes within one linear
+    // piece and pairs of anchors. For all other pairs every layer holds the limit.
+    std::vector<float> emission;
+    // L * S * S * 4 values tbar * FrontParts / alpha of a lit table: of the colour, then of the
+    // opacity; in the order of `emission`, and looked up as that is. Otherwise empty.
+    std::vector<float> front_parts;
+
+    // Builds in parallel, with progress. There are at most 1.5 * scalar_nodes + 3 * (knots in (lo,
+    // hi) + 1) nodes. Throws Error if more than 1022 knots lie in (lo, hi) or the numbers would
+    // exceed 1 GiB. Extinctions beyond the largest float are clamped to it.
+    KnotTable(const TransferFunction& transfer_function, const TableRequest& asked);
+
+    // The node coordinate of a scalar (clamped to [lo, hi]): whole numbers are nodes. At a step it
+    // is the right node.
+    double coordinate(double value) const;
+
+    // Twin of shaders/preintegration/knot_table.glsl: it interpolates bilinearly in the scalars and
+    // linearly in length (clamped to max_length), then alpha = -expm1(-tbar * length) and C = alpha
+    // * E / tbar. tbar and E are smooth only within a linear piece. So a segment is cut at the
+    // first and at the last anchor between its ends and composed of at most three look-ups. Each of
+    // these is within smooth cells or, between anchors, exact in the scalars.
+    SegmentIntegral lookup(double front, double back, double length) const override {
+        return lookup_lit(front, back, length).whole;
+    }
+    // Looks up the front parts of lit tables, too.
+    LitIntegral lookup_lit(double front, double back, double length) const;
+
+    std::int64_t byte_count() const override;
+};
+
+// A table with equally spaced scalars.
+struct UniformTable : PreintegrationTable {
+    int channels = 4;  // of a texel: 4 (rgb, then tbar or alpha) or 1 (tbar or alpha)
+    // Number of layers that are stored: 1 for a mean extinction without colour, which does not
+    // depend on length.
+    int layers = 1;
+    // Value = stored * scale; fixed formats store [0, 1], float16 stores values below 32768.
+    float scale = 1;
+    // Numbers of the texture, rounded to the format and not multiplied by `scale`. The index is
+    // ((layer * nodes + back) * nodes + front) * channels + channel.
+    std::vector<float> texels;
+
+    // Builds on all cores, with progress. Throws Error if the texels would exceed 1 GiB as floats.
+    // Extinctions beyond 1e30 over a length of max(1, max_length) are clamped to that: it is
+    // opaque, and its products stay finite in float32.
+    UniformTable(const TransferFunction& transfer_function, const TableRequest& asked);
+
+    double length_of(int layer) const;
+    // 1 / length_of(1), a uniform of the shader; 0 if there is none.
+    double inverse_first_length() const;
+    // The layer coordinate of a length: whole numbers are layers, 0..layers - 1. Lengths are
+    // clamped to max_length.
+    double layer_of(double length) const;
+
+    // Twin of shaders/preintegration/uniform_table.glsl: trilinear interpolation between texels.
+    // With TableStore::opacity, optical_depth is -log1p(-alpha), which is +inf for alpha = 1.
+    SegmentIntegral lookup(double front, double back, double length) const override;
+
+    std::int64_t byte_count() const override;
+};
+
+// Builds what the request asks for, a KnotTable or a UniformTable.
+std::shared_ptr<const PreintegrationTable> build_table(const TransferFunction& transfer_function,
+                                                       const TableRequest& request);
+
+}  // namespace lamina

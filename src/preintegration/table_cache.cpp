@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preintegration/table_cache.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/stage.h"
+#include "base/unreachable.h"
+
+namespace lamina {
+namespace {
+
+std::vector<double> numbers_of(const TransferFunction& transfer_function) {
+    std::vector<double> numbers;
+    for (const TransferKnot& knot : transfer_function.knots()) {
+        const OpticalProperties& optics = knot.optics;
+        numbers.insert(numbers.end(), {knot.value, optics.color.r, optics.color.g, optics.color.b,
+                                       optics.extinction});
+    }
+    return numbers;
+}
+
+// The request with 0 for a length that its table does not depend on.
+TableRequest without_idle_length(TableRequest request) {
+    if (request.kind == TableKind::knots && request.length_layers == 1) request.max_length = 0;
+    return request;
+}
+
+}  // namespace
+
+std::shared_ptr<const PreintegrationTable> build_table(const TransferFunction& transfer_function,
+                                                       const TableRequest& request) {
+    switch (request.kind) {
+        case TableKind::knots:
+            return std::make_shared<const KnotTable>(transfer_function, request);
+        case TableKind::uniform:
+            return std::make_shared<const UniformTable>(transfer_function, request);
+    }
+    unreachable_enum();
+}
+
+// The table is not built under the lock: the build runs on all cores and may execute a task that
+// waits for the lock. If two threads build one table, both get the one that was added first.
+std::shared_ptr<const PreintegrationTable> TableCache::get(
+    const TransferFunction& transfer_function, const TableRequest& request) {
+    Content content{numbers_of(transfer_function), without_idle_length(request)};
+    if (auto table = find(content)) return table;
+    Stage building("table");
+    auto table = build_table(transfer_function, content.request);
+    building.end();
+    return add(std::move(content), std::move(table));
+}
+
+TableCache::TablePointer TableCache::find(const Content& content) {
+    const std::lock_guard lock(mutex_);
+    return find_locked(content);
+}
+
+TableCache::TablePointer TableCache::add(Content content, TablePointer table) {
+    const std::lock_guard lock(mutex_);
+    if (auto found = find_locked(content)) return found;
+    known_.push_front({std::move(content), table->byte_count(), table, table});
+    keep_newest();
+    return table;
+}
+
+TableCache::TablePointer TableCache::find_locked(const Content& content) {
+    const auto known = std::ranges::find(known_, content, &Known::content);
+    if (known == known_.end()) return nullptr;
+    TablePointer table = known->table.lock();
+    if (!table) {
+        known_.erase(known);
+        return nullptr;
+    }
+    known->kept = table;
+    known_.splice(known_.begin(), known_, known);
+    keep_newest();
+    return table;
+}
+
+void TableCache::keep_newest() {
+    std::int64_t bytes = 0;
+    std::size_t count = 0;
+    for (Known& known : known_) {
+        bytes += known.bytes;
+        ++count;
+        if (bytes > most_bytes_ || count > most_tables) known.kept.reset();
+    }
+    std::erase_if(known_, [](const Known& known) { return known.table.expired(); });
+}
+
+}  // namespace lamina
