@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,10 +10,24 @@
 
 namespace lamina {
 
-// The words of an enum class that files and messages use, with their values, in the order of the
-// enum. name_of(Enum) is the only table of these words. It is a switch with a case for every value,
-// so that the compiler warns where a new value lacks its word, followed by a return of nullptr,
-// which marks the end of the words. The enum's values must be 0, 1, 2, ...
+// Tells whether an enum class names this value: compilers write others as (Enum)number.
+template <auto value>
+constexpr bool is_enumerator() {
+    return std::string_view(__PRETTY_FUNCTION__).find("value = (") == std::string_view::npos;
+}
+
+// Returns the value's word from the only table of an enum's words, which stands in its name_of(),
+// in the order of the enum; null behind the last one. The enum's values must be 0, 1, 2, ...
+template <typename Enum, std::size_t count>
+const char* word_of(Enum value, const char* const (&words)[count]) {
+    static_assert(is_enumerator<static_cast<Enum>(count - 1)>(), "a word without a value");
+    static_assert(!is_enumerator<static_cast<Enum>(count)>(), "a value without its word");
+    const auto number = static_cast<std::size_t>(value);
+    return number < count ? words[number] : nullptr;
+}
+
+// Lists the words of an enum class that files and messages use, with their values, in the order of
+// the enum. Its name_of() is made with word_of().
 template <typename Enum>
 std::vector<std::pair<const char*, Enum>> enum_words() {
     std::vector<std::pair<const char*, Enum>> words;

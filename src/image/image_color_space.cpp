@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/image_color_space.h"
 
+#include "base/enum_words.h"
+
 namespace lamina {
 
 const char* name_of(ImageColorSpace space) {
-    switch (space) {
-        case ImageColorSpace::linear:
-            return "linear";
-        case ImageColorSpace::display:
-            return "display";
-    }
-    return nullptr;
+    return word_of(space, {"linear", "display"});
 }
 
 }  // namespace lamina

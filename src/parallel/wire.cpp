@@ -7,17 +7,8 @@
 
 namespace lamina {
 
-// Its words are listed by enum_words() (base/enum_words.h), too.
 const char* name_of(Wire wire) {
-    switch (wire) {
-        case Wire::float32:
-            return "float32";
-        case Wire::half:
-            return "half";
-        case Wire::coded:
-            return "coded";
-    }
-    return nullptr;
+    return word_of(wire, {"float32", "half", "coded"});
 }
 
 Wire wire_of(const std::string& word) {

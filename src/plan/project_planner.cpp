@@ -10,6 +10,7 @@
 #include <glm/vec4.hpp>
 #include <optional>
 
+#include "base/enum_words.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/unreachable.h"
@@ -464,23 +465,8 @@ ProjectPlan without_remarks(ProjectPlan plan) {
 }
 
 const char* name_of(SegmentSource source) {
-    switch (source) {
-        case SegmentSource::constant:
-            return "constant";
-        case SegmentSource::table:
-            return "table";
-        case SegmentSource::parts:
-            return "parts";
-        case SegmentSource::cut_table:
-            return "cut_table";
-        case SegmentSource::analytic:
-            return "analytic";
-        case SegmentSource::mean:
-            return "mean";
-        case SegmentSource::vertices:
-            return "vertices";
-    }
-    return nullptr;  // enum_words() ends here
+    return word_of(source,
+                   {"constant", "table", "parts", "cut_table", "analytic", "mean", "vertices"});
 }
 
 ProjectPlan plan_projection(const Scene& scene, const MeshFacts& facts,

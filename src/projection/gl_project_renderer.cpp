@@ -19,7 +19,7 @@
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
 #include "projection/tet_geometry.h"
-#include "scene/ray_perturbation.h"
+#include "scene/window_view.h"
 
 namespace lamina {
 namespace {

@@ -12,7 +12,7 @@
 #include "base/stage.h"
 #include "executors/light_cuts.h"
 #include "facts/world_unit.h"
-#include "scene/ray_perturbation.h"
+#include "scene/window_view.h"
 
 namespace lamina {
 namespace {

@@ -13,17 +13,8 @@
 
 namespace lamina {
 
-// Its words are listed by enum_words() (base/enum_words.h), too.
 const char* name_of(ContextChoice choice) {
-    switch (choice) {
-        case ContextChoice::osmesa:
-            return "osmesa";
-        case ContextChoice::egl:
-            return "egl";
-        case ContextChoice::cpu:
-            return "cpu";
-    }
-    return nullptr;
+    return word_of(choice, {"osmesa", "egl", "cpu"});
 }
 
 bool is_context(const std::string& word) {

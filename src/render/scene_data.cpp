@@ -7,7 +7,7 @@
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
 #include "mesh/scalar_range.h"
-#include "scene/scene_volume.h"
+#include "scene/scene_mesh.h"
 
 namespace lamina {
 namespace {

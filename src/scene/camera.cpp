@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "base/enum_words.h"
 #include "base/error.h"
 
 namespace lamina {
@@ -42,15 +43,8 @@ View::Ray View::ray(double column, double row) const {
     return {eye + offset, forward};
 }
 
-// Its words are listed by enum_words() (base/enum_words.h), too.
 const char* name_of(Projection projection) {
-    switch (projection) {
-        case Projection::perspective:
-            return "perspective";
-        case Projection::orthographic:
-            return "orthographic";
-    }
-    return nullptr;
+    return word_of(projection, {"perspective", "orthographic"});
 }
 
 Camera turned(const Camera& camera, double degrees) {

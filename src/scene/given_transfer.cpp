@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/enum_words.h"
 #include "optics/colormap.h"
 #include "optics/opacity.h"
 #include "optics/opacity_slope.h"
@@ -72,17 +73,8 @@ TransferFunction colored_by_points(const GivenTransfer& given) {
 
 }  // namespace
 
-// Its words are listed by enum_words() (base/enum_words.h), too.
 const char* name_of(PointInterpolation interpolation) {
-    switch (interpolation) {
-        case PointInterpolation::linear:
-            return "linear";
-        case PointInterpolation::extinction:
-            return "extinction";
-        case PointInterpolation::nearest:
-            return "nearest";
-    }
-    return nullptr;
+    return word_of(interpolation, {"linear", "extinction", "nearest"});
 }
 
 std::filesystem::path GivenTransfer::colormap_file() const {

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "lamina/scene.h"
-#include "scene/largest_scene_coordinate.h"
 
 namespace lamina {
 namespace {

@@ -11,6 +11,9 @@ namespace lamina {
 
 struct Scene;
 
+// Squares of distances far beyond this, in world units, would overflow.
+inline constexpr double largest_scene_coordinate = 1e100;
+
 // What cannot be drawn of a lighting.
 struct LightingMistake {
     std::string key;      // "power", "lights.2.direction"

@@ -2,8 +2,9 @@
 #include "lamina/scene.h"
 
 #include "base/client.h"
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "scene/scene_volume.h"
+#include "scene/scene_mesh.h"
 #include "volume/generate.h"
 #include "volume_files/volume_file.h"
 
@@ -17,129 +18,89 @@ const VolumeFile& file_of_volume(const Scene& scene) {
 
 }  // namespace
 
-// The words of every enum below are listed by enum_words() (base/enum_words.h), too.
+// The words of scene files and messages.
 const char* name_of(Method method) {
-    switch (method) {
-        case Method::slice:
-            return "slice";
-        case Method::project:
-            return "project";
-        case Method::trace:
-            return "trace";
-    }
-    return nullptr;
+    return word_of(method, {"slice", "project", "trace"});
 }
 
 const char* name_of(Target target) {
-    switch (target) {
-        case Target::float32:
-            return "float32";
-        case Target::float16:
-            return "float16";
-        case Target::fixed16:
-            return "fixed16";
-        case Target::fixed8:
-            return "fixed8";
-        case Target::emulated:
-            return "emulated";
-    }
-    return nullptr;
+    return word_of(target, {"float32", "float16", "fixed16", "fixed8", "emulated"});
 }
 
 const char* name_of(TraceOf of) {
-    switch (of) {
-        case TraceOf::volume:
-            return "volume";
-        case TraceOf::mesh:
-            return "mesh";
-    }
-    return nullptr;
+    return word_of(of, {"volume", "mesh"});
 }
 
 const char* name_of(NanPolicy policy) {
-    switch (policy) {
-        case NanPolicy::error:
-            return "error";
-        case NanPolicy::transparent:
-            return "transparent";
-    }
-    return nullptr;
+    return word_of(policy, {"error", "transparent"});
 }
 
 const char* name_of(Classification classification) {
-    switch (classification) {
-        case Classification::post:
-            return "post";
-        case Classification::preintegrated:
-            return "preintegrated";
-        case Classification::exact:
-            return "exact";
-    }
-    return nullptr;
+    return word_of(classification, {"post", "preintegrated", "exact"});
 }
 
 const char* name_of(Order order) {
-    switch (order) {
-        case Order::back_to_front:
-            return "back_to_front";
-        case Order::front_to_back:
-            return "front_to_back";
-    }
-    return nullptr;
+    return word_of(order, {"back_to_front", "front_to_back"});
 }
 
 const char* name_of(Filter filter) {
-    switch (filter) {
-        case Filter::exact:
-            return "exact";
-        case Filter::hardware:
-            return "hardware";
-    }
-    return nullptr;
+    return word_of(filter, {"exact", "hardware"});
 }
 
 const char* name_of(NodeArithmetic nodes) {
-    switch (nodes) {
-        case NodeArithmetic::shader:
-            return "shader";
-        case NodeArithmetic::fixed:
-            return "fixed";
-    }
-    return nullptr;
+    return word_of(nodes, {"shader", "fixed"});
 }
 
 const char* name_of(NodeCode code) {
-    switch (code) {
-        case NodeCode::minimax:
-            return "minimax";
-        case NodeCode::phi:
-            return "phi";
-        case NodeCode::alpha:
-            return "alpha";
-    }
-    return nullptr;
+    return word_of(code, {"minimax", "phi", "alpha"});
 }
 
 const char* name_of(AlphaRounding rounding) {
-    switch (rounding) {
-        case AlphaRounding::truncate:
-            return "truncate";
-        case AlphaRounding::nearest:
-            return "nearest";
-        case AlphaRounding::stochastic:
-            return "stochastic";
-    }
-    return nullptr;
+    return word_of(rounding, {"truncate", "nearest", "stochastic"});
 }
 
 const char* name_of(OverRounding rounding) {
-    switch (rounding) {
-        case OverRounding::separate:
-            return "separate";
-        case OverRounding::fused:
-            return "fused";
-    }
-    return nullptr;
+    return word_of(rounding, {"separate", "fused"});
+}
+
+const char* name_of(Coloring coloring) {
+    return word_of(coloring, {"preintegrated", "attenuation", "vertex", "analytic"});
+}
+
+const char* name_of(Interpolation interpolation) {
+    return word_of(interpolation, {"perspective", "linear"});
+}
+
+const char* name_of(Thickness thickness) {
+    return word_of(thickness, {"exact", "dz"});
+}
+
+const char* name_of(ProjectOrder order) {
+    return word_of(order, {"mpvo", "exact", "centroid", "none"});
+}
+
+const char* name_of(ProjectGeometry geometry) {
+    return word_of(geometry, {"silhouette", "triangles"});
+}
+
+const char* name_of(ProjectDither dither) {
+    return word_of(dither, {"none", "alpha", "after_blend"});
+}
+
+const char* name_of(LengthMapping mapping) {
+    return word_of(mapping, {"octave", "log2", "linear"});
+}
+
+const char* name_of(TableStore store) {
+    return word_of(store, {"mean_extinction", "opacity"});
+}
+
+const char* name_of(TableFormat format) {
+    return word_of(format, {"fixed16", "fixed8", "float16", "float32"});
+}
+
+const char* name_of(TableConstruction construction) {
+    return word_of(construction, {"exact", "incremental"});
 }
 
 Volume load_volume(const Scene& scene, const std::filesystem::path& only_below) {

@@ -12,6 +12,10 @@
 
 namespace lamina {
 
+// Opens the volume that a scene names, as load_volume() loads it; it stays in its files if it does
+// not fit the memory limit (volume_files/volume_opening.h). Throws Error.
+Volume open_volume(const Scene& scene);
+
 // The mesh that a scene draws, and the one scalar of it that is drawn.
 struct SceneMesh {
     TetMesh mesh;

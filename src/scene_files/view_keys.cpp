@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "image/image_limits.h"
-#include "scene/largest_scene_coordinate.h"
 #include "scene/lighting_check.h"
 #include "scene_files/forms.h"
 #include "scene_files/scene_keys.h"

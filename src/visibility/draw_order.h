@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "scene/pixel_area.h"
+#include "scene/window_view.h"
 
 namespace lamina {
 

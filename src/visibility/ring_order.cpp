@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/interrupt.h"
-#include "scene/ray_perturbation.h"
+#include "scene/window_view.h"
 
 namespace lamina {
 namespace {

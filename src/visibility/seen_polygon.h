@@ -9,7 +9,6 @@
 #include <span>
 
 #include "mesh/rounded_plane.h"
-#include "scene/pixel_area.h"
 #include "scene/window_view.h"
 
 namespace lamina {
