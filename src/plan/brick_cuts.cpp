@@ -64,11 +64,4 @@ std::vector<TextureBrick> cut_into_bricks(const Grid& grid, bool bordered,
     return bricks;
 }
 
-std::uint64_t texel_bytes(const SlicePlan& plan, SampleType type,
-                          const Capabilities& capabilities) {
-    constexpr std::uint64_t gradient_bytes = 8;
-    if (plan.lighting && !capabilities.tiles) return gradient_bytes;
-    return plan.float_texture ? 4 : bytes_of(type);
-}
-
 }  // namespace lamina

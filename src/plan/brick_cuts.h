@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "plan/plan.h"
+#include "lamina/grid.h"
+#include "plan/capabilities.h"
 
 namespace lamina {
+
+// A box of the volume's samples that one texture holds: samples first .. first + size - 1.
+// Neighbouring bricks share a layer of samples.
+struct TextureBrick {
+    std::array<std::int64_t, 3> first{0, 0, 0};
+    std::array<std::int64_t, 3> size{1, 1, 1};
+    // At the volume's border the texture holds one more layer, which repeats the border sample, so
+    // that its samples reach as far as the volume's box.
+    bool bordered = false;
+
+    friend bool operator==(const TextureBrick&, const TextureBrick&) = default;
+};
 
 // Cuts the volume into the fewest bricks that respect the context's limits: the longest edge is cut
 // once more until all fit. `bordered`: bricks get one more sample at both ends of each `cell` axis,
@@ -16,9 +30,5 @@ namespace lamina {
 std::vector<TextureBrick> cut_into_bricks(const Grid& grid, bool bordered,
                                           std::uint64_t texel_bytes,
                                           const Capabilities& capabilities);
-
-// The bytes of the largest texel that a sample takes: OpenGL has lit volumes' gradients in
-// textures, too (slicing/gradient_map.h).
-std::uint64_t texel_bytes(const SlicePlan& plan, SampleType type, const Capabilities& capabilities);
 
 }  // namespace lamina

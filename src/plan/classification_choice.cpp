@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "plan/lit_check.h"
+#include "plan/light_choice.h"
 #include "plan/march_limit.h"
 
 namespace lamina {

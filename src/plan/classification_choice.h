@@ -6,7 +6,7 @@
 #include "facts/facts.h"
 #include "lamina/scene.h"
 #include "plan/capabilities.h"
-#include "plan/sample_trials.h"
+#include "plan/slab_choice.h"
 
 namespace lamina {
 

@@ -11,6 +11,9 @@
 
 namespace lamina {
 
+// Throws Error where the picture does not fit the context's render targets.
+void check_limits(const Scene& scene, const Capabilities& capabilities);
+
 // What computes OVER on the target's pixels.
 enum class Blending {
     native,   // the blending unit

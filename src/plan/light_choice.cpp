@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "optics/ray_lights.h"
+#include "scene/coloring.h"
 
 namespace lamina {
 namespace {
@@ -21,26 +23,16 @@ double most_bend(const Scene& scene, double max_color) {
     return bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);
 }
 
-template <typename MethodPlan>
-void set_light(const Scene& scene, double max_color, MethodPlan& plan) {
-    if (!scene.lighting) return;
-    plan.lighting = scene.lighting;
-    plan.light_error = light_share * scene.max_error;
-    plan.most_bend = most_bend(scene, max_color);
+void check_smallest_gradient(const Scene& scene) {
+    if (scene.lighting->smallest_gradient.is_given()) return;
+    fail("{}: lighting.smallest_gradient: has not been chosen from the data", scene.file.string());
 }
 
 }  // namespace
 
-void plan_light(const Scene& scene, double max_color, SlicePlan& slice) {
-    if (slice.classification == Classification::exact) {
-        set_light(scene, max_color, slice);
-    } else {
-        slice.lighting = scene.lighting;
-    }
-}
-
-void plan_light(const Scene& scene, double max_color, ProjectPlan& project) {
-    set_light(scene, max_color, project);
+LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays) {
+    if (!scene.lighting || !cuts_rays) return {scene.lighting};
+    return {scene.lighting, most_bend(scene, max_color), light_share * scene.max_error};
 }
 
 // Returns the bound of docs/numerics.md, equation (10.6).
@@ -57,6 +49,46 @@ double largest_drawn_color(const Scene& scene, double max_color) {
     if (!scene.lighting) return max_color;
     const glm::dvec3 anywhere(0, 0, 1);
     return RayLights(*scene.lighting, anywhere).brightest_lit(max_color);
+}
+
+void check_lit_slicing(const Scene& scene) {
+    if (!scene.lighting) return;
+    check_smallest_gradient(scene);
+}
+
+// The two colourings interpolate colours, or one opacity, between the vertices of a fan: they have
+// no place for a gradient. Neither has a table of segments.
+void check_lit_projection(const Scene& scene) {
+    if (!scene.lighting) return;
+    const ProjectSettings& project = scene.project;
+    const std::string file = scene.file.string();
+    if (mixes_colors(project.coloring)) {
+        fail(
+            "{}: render.project.coloring: found \"{}\", expected \"preintegrated\" or \"analytic\" "
+            "with lighting",
+            file, name_of(project.coloring));
+    }
+    if (project.geometry == ProjectGeometry::triangles ||
+        project.interpolation == Interpolation::linear) {
+        fail(
+            "{}: render.project: found geometry \"{}\" and interpolation \"{}\", expected "
+            "silhouettes and perspective with lighting: gradients are found where rays enter and "
+            "leave a tet",
+            file, name_of(project.geometry), name_of(project.interpolation));
+    }
+    if (project.table.is_given()) {
+        fail(
+            "{}: render.project.table: found a table, expected none with lighting: it knows no "
+            "gradients",
+            file);
+    }
+    if (project.tree) {
+        fail(
+            "{}: render.project.tree: found a tree, expected none with lighting: its nodes have "
+            "one colour (LaMar 2004, section 6), and light makes many of it",
+            file);
+    }
+    check_smallest_gradient(scene);
 }
 
 }  // namespace lamina

@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
+#include "lamina/lighting.h"
 #include "lamina/scene.h"
-#include "plan/plan.h"
-#include "plan/project_plan.h"
 
 namespace lamina {
 
-// Sets what the plan of a lit scene says of light; `max_color`: of the unlit picture.
-void plan_light(const Scene& scene, double max_color, SlicePlan& slice);
-void plan_light(const Scene& scene, double max_color, ProjectPlan& project);
+// How a lit scene is drawn.
+struct LightPlan {
+    std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient
+    // Parts of rays along which light bends by more are cut (slicing/cpu_light-inl.h).
+    double most_bend = 0;
+    double light_error = 0;  // that this leaves, in 1/255
+
+    friend bool operator==(const LightPlan&, const LightPlan&) = default;
+};
+
+// Plans the light of a scene. `max_color`: of the unlit picture. `cuts_rays`: rays are cut where
+// light bends.
+LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays);
 
 // The most rounds of loops that a fragment of OpenGL takes, beyond those of unlit scenes, to cut
 // its ray where light bends.
@@ -17,5 +28,9 @@ double light_rounds(const Scene& scene, double max_color);
 
 // The largest component that the scene may draw.
 double largest_drawn_color(const Scene& scene, double max_color);
+
+// Throw Error for a lit scene that the method cannot draw lit; nothing is drawn unlit instead.
+void check_lit_slicing(const Scene& scene);
+void check_lit_projection(const Scene& scene);
 
 }  // namespace lamina

@@ -5,11 +5,8 @@
 
 #include "base/unreachable.h"
 #include "plan/classification_choice.h"
-#include "plan/lit_check.h"
-#include "plan/picture_limits.h"
 #include "plan/planned_work.h"
-#include "plan/project_planner.h"
-#include "plan/slice_planner.h"
+#include "plan/planners.h"
 #include "plan/target_choice.h"
 
 namespace lamina {
@@ -41,31 +38,12 @@ ErrorFigure Plan::error() const {
     unreachable_enum();
 }
 
-SlicePlan without_remarks(SlicePlan plan) {
-    plan.slab_trial.reset();
-    plan.filter_reason.clear();
-    plan.filter_error = 0;
-    plan.classification_reason.clear();
-    plan.target_reason.clear();
-    plan.error_bound.reset();
-    plan.tree_reason.clear();
-    plan.rounding_bound.reset();
-    plan.segment_error = exact_segment_error;
-    plan.table.error = 0;
-    return plan;
-}
-
-SlicePlan of_all_views(SlicePlan plan) {
-    const SlicePlan other;
-    plan.orthographic = other.orthographic;
-    plan.nothing_visible = other.nothing_visible;
-    plan.drawn = other.drawn;
-    plan.occupied_only = other.occupied_only;
-    plan.opaque_depth = other.opaque_depth;
+PlannedPicture of_all_views(PlannedPicture picture) {
     // A table of one layer knows no lengths.
-    if (!plan.uses_table() || plan.table.request.length_layers == 1)
-        plan.table.request.max_length = other.table.request.max_length;
-    return without_remarks(std::move(plan));
+    TableRequest& table = picture.table.request;
+    if (!picture.uses_table() || table.length_layers == 1) table.max_length = 0;
+    picture.table.error = 0;
+    return picture;
 }
 
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
@@ -104,17 +82,17 @@ Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capa
 Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions, const std::shared_ptr<TableCache>& tables) {
     Plan plan;
-    plan.method = scene.method;
     if (scene.method == Method::project) {
         check_lit_projection(scene);
         check_limits(scene, capabilities);
         const TargetChoice choice = choose_project_target(scene);
-        plan.project = plan_projection(with_target(scene, choice.target), facts, capabilities,
-                                       omissions, plan.omitted, *tables);
+        plan = plan_projection(with_target(scene, choice.target), facts, capabilities, omissions,
+                               *tables);
         plan.project.target_reason = choice.reason;
         add_savings(plan, scene, facts);
         return plan;
     }
+    plan.method = scene.method;
     plan.omitted.push_back(no_context);
     if (scene.has_volume() && scene.made_mesh() == nullptr)
         plan.omitted.push_back({"volume", "the mesh is traced: the volume is not read"});

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +14,14 @@
 #include "facts/mesh_facts.h"
 #include "lamina/error_figure.h"
 #include "lamina/scene.h"
+#include "plan/brick_cuts.h"
 #include "plan/capabilities.h"
 #include "plan/classification_choice.h"
 #include "plan/compositing_plan.h"
+#include "plan/light_choice.h"
 #include "plan/omission.h"
 #include "plan/project_plan.h"
-#include "plan/sample_trials.h"
+#include "plan/slab_choice.h"
 #include "plan/tree_choice.h"
 #include "preintegration/table_cache.h"
 
@@ -34,85 +36,37 @@ enum class VolumeSampling {
                // hardware
 };
 
-// A box of the volume's samples that one texture holds: samples first .. first + size - 1.
-// Neighbouring bricks share a layer of samples.
-struct TextureBrick {
-    std::array<std::int64_t, 3> first{0, 0, 0};
-    std::array<std::int64_t, 3> size{1, 1, 1};
-    // At the volume's border the texture holds one more layer, which repeats the border sample, so
-    // that its samples reach as far as the volume's box.
-    bool bordered = false;
-
-    friend bool operator==(const TextureBrick&, const TextureBrick&) = default;
-};
-
-struct SlicePlan : CompositingPlan {
+// What slicing draws, whatever the view. Renderers prepare for it once.
+struct PlannedPicture : CompositingPlan, LightPlan {
     int slabs = 1;
-    std::optional<SlabTrial> slab_trial;  // the trial that was chosen, for "samples": "auto"
-    std::string filter_reason;  // for "filter": "auto", where the hardware's filter is chosen
-    // The error that the hardware's filter was found to add, in 1/255: for "filter": "auto" with a
-    // given number of slabs.
-    double filter_error = 0;
-    std::string classification_reason;  // for "classification": "auto"
-    std::string target_reason;          // for "target": "auto"
     std::optional<Dither> dither;
     std::optional<TreePlan> tree;
-    std::optional<double> error_bound;  // for "tree": "auto", in 1/255; tree_reason explains it
-    std::string tree_reason;
-    // What compositing may add to the error of the slabs, in 1/255, whoever chose it; none: nothing
-    // is known that is worth saying.
-    std::optional<double> rounding_bound;
     Classification classification = Classification::post;
     VolumeSampling sampling = VolumeSampling::fetch;
     bool float_texture = false;  // samples normalised to their range and stored as R32F
     // Tables are read through the texture unit's filter, not by single fetches.
     bool table_filtered = false;
-    // Rays are parallel; all have one direction and one length per depth.
-    bool orthographic = false;
     bool single_color = false;     // the colour is a constant of the program
     bool precise_rays = true;      // rays and chords in double precision
     bool nan_transparent = false;  // samples may be NaN
     int batches = 1;  // a frame is drawn in so many draws, each waited for, for progress and Ctrl-C
-    bool nothing_visible = false;  // no slab is drawn
     // Segments are integrated in closed form, because colour and extinction are linear in the
     // scalar.
     bool linear = false;
     TablePlan table;  // otherwise, for Classification::preintegrated
     // Segments end at these planes, in the volume's index space.
     std::vector<IndexPlane> clip;
-    // Polygons cover only this box inside the volume's box. Segments are clipped to the volume's
-    // box.
-    IndexBox drawn;
-    bool occupied_only = false;     // segments that come near no occupied brick are not evaluated
     bool constant_regions = false;  // marched rays cross constant regions in one step
-    // Marched rays end at this optical depth, because what lies behind it cannot be seen.
-    double opaque_depth = std::numeric_limits<double>::infinity();
     std::vector<TextureBrick> bricks;
     // The part of the volume that this renderer draws of a picture that several draw together
     // (volume_shares.h), in the volume's index space; none: all of it. Exact segments end at its
     // faces. Slabs are drawn whole by the renderer in whose share the middle of the segment lies.
     std::optional<IndexBox> share;
-    std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient
-    // Parts of rays along which light bends by more are cut (slicing/cpu_light-inl.h).
-    double most_bend = 0;
-    double light_error = 0;  // that this leaves, in 1/255
     // Exact segments follow curves where points of the transfer function are smooth, if > 0; it is
     // what that may cost, in 1/255.
     double curve_error = 0;
-    // The largest error of exact segments, in 1/255. A picture is linear in its colours, and so is
-    // the error of a crossing of the transfer function: it grows with the brightest one above 1.
-    double segment_error = exact_segment_error;
 
-    // The error that slabs, filter and table were found to make, in 1/255, as far as it was
-    // measured; that of exact segments.
-    double found_error() const {
-        if (integrates_cells()) return segment_error + light_error + curve_error;
-        return slab_trial ? slab_trial->error : filter_error + table.error;
-    }
-    // With the bound on roundings. Nothing was measured of slabs that the scene states.
-    ErrorFigure error() const;
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
-    bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }
     // Whether segments are integrated from the scalars at both ends and in the middle. Otherwise
     // they take the scalar in the middle alone.
     bool integrates_runs() const {
@@ -124,14 +78,64 @@ struct SlicePlan : CompositingPlan {
     }
     bool uses_table() const { return integrates_runs() && !linear; }
 
+    friend bool operator==(const PlannedPicture&, const PlannedPicture&) = default;
+};
+
+// What follows from the view, and is planned again with each camera.
+struct ViewPart {
+    // Rays are parallel; all have one direction and one length per depth.
+    bool orthographic = false;
+    bool nothing_visible = false;  // no slab is drawn
+    // Polygons cover only this box inside the volume's box. Segments are clipped to the volume's
+    // box.
+    IndexBox drawn;
+    bool occupied_only = false;  // segments that come near no occupied brick are not evaluated
+    // Marched rays end at this optical depth, because what lies behind it cannot be seen.
+    double opaque_depth = std::numeric_limits<double>::infinity();
+
+    bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }
+
+    friend bool operator==(const ViewPart&, const ViewPart&) = default;
+};
+
+// What is said of the slices: why they are drawn so, and the errors that were found, in 1/255. It
+// changes no picture.
+struct Remarks {
+    std::optional<SlabTrial> slab_trial;  // the trial that was chosen, for "samples": "auto"
+    std::string filter_reason;  // for "filter": "auto", if the hardware's filter is chosen
+    // The error that the hardware's filter was found to add: for "filter": "auto" with a given
+    // number of slabs.
+    double filter_error = 0;
+    std::string classification_reason;  // for "classification": "auto"
+    std::string target_reason;          // for "target": "auto"
+    std::optional<double> error_bound;  // for "tree": "auto"; tree_reason explains it
+    std::string tree_reason;
+    // What compositing may add to the error of the slabs, whoever chose it; none: nothing is known
+    // that is worth saying.
+    std::optional<double> rounding_bound;
+    // The largest error of exact segments. A picture is linear in its colours, and so is the error
+    // of a crossing of the transfer function: it grows with the brightest one above 1.
+    double segment_error = exact_segment_error;
+
+    friend bool operator==(const Remarks&, const Remarks&) = default;
+};
+
+struct SlicePlan : PlannedPicture, ViewPart, Remarks {
+    // The error that slabs, filter and table were found to make, in 1/255, as far as it was
+    // measured; that of exact segments.
+    double found_error() const {
+        if (integrates_cells()) return segment_error + light_error + curve_error;
+        return slab_trial ? slab_trial->error : filter_error + table.error;
+    }
+    // With the bound on roundings. Nothing was measured of slabs that the scene states.
+    ErrorFigure error() const;
+
     friend bool operator==(const SlicePlan&, const SlicePlan&) = default;
 };
 
-// The plan without its remarks (reasons, found errors), which change no picture.
-SlicePlan without_remarks(SlicePlan plan);
-// The same, and all that belongs to one view has its default value. Renderers prepare for all views
-// from what is left.
-SlicePlan of_all_views(SlicePlan plan);
+// Returns what renderers of a plan prepare for: another plan with as much draws only another view.
+// Tables without what a view changes, and without their errors, are left.
+PlannedPicture of_all_views(PlannedPicture picture);
 
 // Says what will run, and has the pre-integration tables that renderers look up. It is a pure
 // function of scene, facts, trials and capabilities, and can be printed.

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/unreachable.h"
 #include "compositing/tree_shape.h"
-#include "plan/slice_planner.h"
+#include "plan/planners.h"
 
 namespace lamina {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "facts/mesh_facts.h"
 #include "lamina/error_figure.h"
-#include "lamina/lighting.h"
 #include "lamina/project_settings.h"
 #include "plan/compositing_plan.h"
+#include "plan/light_choice.h"
 #include "preintegration/table_cache.h"
 #include "visibility/visibility_order.h"
 #include "volume/min_max_bricks.h"
@@ -31,8 +31,8 @@ enum class SegmentSource {
     vertices    // no integration: Coloring::vertex
 };
 
-struct ProjectPlan : CompositingPlan {
-    std::string target_reason;  // for "target": "auto"
+// What projection draws. Renderers prepare for it once.
+struct ProjectedPicture : CompositingPlan, LightPlan {
     SegmentSource source = SegmentSource::table;
     Interpolation interpolation = Interpolation::perspective;
     Thickness thickness = Thickness::exact;
@@ -58,21 +58,23 @@ struct ProjectPlan : CompositingPlan {
     // function is constant.
     bool windowed = false;
     TablePlan table;  // for SegmentSource::table (uniform) and ::cut_table (knots)
-    MeshFacts::TrialError trial_error;
-    ErrorFigure error;                 // of the picture
-    std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient
-    // Runs along which light bends by more are cut.
-    double most_bend = 0;
-    double light_error = 0;  // that this leaves, in 1/255
 
     // Whether the program, not the blending unit, rounds opacity to codes.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
 
-    friend bool operator==(const ProjectPlan&, const ProjectPlan&) = default;
+    friend bool operator==(const ProjectedPicture&, const ProjectedPicture&) = default;
 };
 
-// The plan without its remarks (reasons, found errors), which change no picture.
-ProjectPlan without_remarks(ProjectPlan plan);
+// What is said of the projection. It changes no picture.
+struct ProjectRemarks {
+    std::string target_reason;  // for "target": "auto"
+    MeshFacts::TrialError trial_error;
+    ErrorFigure error;  // of the picture
+};
+
+struct ProjectPlan : ProjectedPicture, ProjectRemarks {
+    const ProjectedPicture& picture() const { return *this; }
+};
 
 const char* name_of(SegmentSource source);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan/project_planner.h"
+#include "plan/planners.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,8 @@
 #include <functional>
 #include <glm/vec4.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/enum_words.h"
 #include "base/error.h"
@@ -20,8 +22,7 @@
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
 #include "plan/light_choice.h"
-#include "plan/scalar_window.h"
-#include "plan/tree_check.h"
+#include "plan/tree_choice.h"
 #include "scene/coloring.h"
 
 namespace lamina {
@@ -53,16 +54,59 @@ constexpr double most_segment_error = 0.5;
 // What a table is tried on is a sample: the rest of the picture may be this much worse.
 constexpr double sampling_margin = 1.25;
 
-// Of a tet that shows something, on the average: where the transfer function's points cut tets into
-// more, a table that knows the transfer function is faster.
+// Parts of a tet that shows something, on the average: if the transfer function's points cut tets
+// into more, a table that knows the transfer function is faster.
 constexpr std::int64_t most_parts = 8;
 
-// Of a transfer function: with more, a table takes longer to build than it saves.
+// Points of a transfer function: with more, a table takes longer to build than it saves.
 constexpr std::size_t most_table_points = 200;
 
-// Of fewer tets one may fill the picture, and a face of it be met at a grazing angle by many rays:
-// their faces are always found in double, which takes some third longer.
+// Meshes of fewer tets may have one that fills the picture, with a face that many rays meet at a
+// grazing angle: their faces are always found in double, which takes some third longer.
 constexpr std::int64_t fewest_plain_tets = 10000;
+
+// Scalars are normalised to the window of what shows if the whole range is so many times as wide:
+// below, no more than 3 of float32's 24 bits are at stake.
+constexpr double least_narrowing = 8;
+
+bool is_far_narrower(const ValueRange& window, const ValueRange& range) {
+    return (range.hi - range.lo) / least_narrowing > window.hi - window.lo;
+}
+
+// Tets are cut into parts, however many, if the whole range is so many times as wide as most pieces
+// of the transfer function and no window holds these: float32 would have 1e-3 of a piece.
+constexpr double narrow_pieces = 0x1p12;
+
+// Tells whether most pieces that show something are so narrow beside the range.
+bool has_narrow_pieces(const TransferFunction& transfer_function, const ValueRange& range) {
+    std::vector<double> widths;
+    for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
+                          [&](const LinearPiece& piece) {
+                              if (piece.at_from.extinction > 0 || piece.at_to.extinction > 0)
+                                  widths.push_back(piece.to - piece.from);
+                          });
+    if (widths.empty()) return false;
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::ranges::nth_element(widths, middle);
+    return *middle * narrow_pieces < range.hi - range.lo;
+}
+
+// Calls visit() with the parts of a run before the window, within it and behind it, as they are
+// drawn; their scalars lie in the window. A run within it is its only part.
+template <typename Visit>
+void for_each_run_of_window(const MeshFacts::Run& run, const ValueRange& window,
+                            const Visit& visit) {
+    const double in = std::clamp(run.front, window.lo, window.hi),
+                 out = std::clamp(run.back, window.lo, window.hi);
+    if (in == out) return visit(MeshFacts::Run{in, out, run.length});
+    const auto length = [&](double from, double to) {
+        return run.length * ((to - from) / (run.back - run.front));
+    };
+    if (in != run.front) visit(MeshFacts::Run{in, in, length(run.front, in)});
+    const bool whole = in == run.front && out == run.back;
+    visit(MeshFacts::Run{in, out, whole ? run.length : length(in, out)});
+    if (out != run.back) visit(MeshFacts::Run{out, out, length(out, run.back)});
+}
 
 OrderMethod method_of(ProjectOrder order) {
     switch (order) {
@@ -78,53 +122,65 @@ OrderMethod method_of(ProjectOrder order) {
     unreachable_enum();
 }
 
+// Decides how a mesh is projected. make() has the order of its choices, each of which takes what it
+// needs of those before:
+//
+//   geometry       silhouettes or fans of triangles; what is drawn at all
+//   precision      faces of tets in float or in double
+//   visibility     the order of tets
+//   compositing    what rounds to codes, and dithering; a tree
+//   source         how a tet's part of a ray is integrated, whether one colour or many, and, from
+//                  trial rays, the error
 class ProjectPlanner {
   public:
     ProjectPlanner(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
-                   const OmissionSwitch& omissions, std::vector<Omission>& omitted,
-                   TableCache& tables)
+                   const OmissionSwitch& omissions, TableCache& tables)
         : scene_(scene),
           settings_(scene.project),
           facts_(facts),
           capabilities_(capabilities),
-          omissions_(omissions),
-          omitted_(omitted),
+          omissions_{omissions},
           tables_(tables) {
         plan_.unit = world_unit(facts.diagonal);
         transfer_function_ = in_units(*scene.transfer_function, plan_.unit);
     }
 
-    ProjectPlan make() {
+    Plan make() {
         plan_.target = *scene_.target;
         plan_.seed = scene_.emulate.seed;
-        plan_.interpolation = settings_.interpolation;
         plan_.thickness = settings_.thickness;
         plan_.table_filtered = capabilities_.exact_float_filter;
         plan_.near_depth = near_share * facts_.diagonal * plan_.unit;
         drawn_ = drawn_range(*scene_.transfer_function, facts_.range);
         plan_.range = drawn_;
-        plan_light(scene_, facts_.max_color, plan_);
+        static_cast<LightPlan&>(plan_) = plan_light(scene_, facts_.max_color, true);
         check_size();
-        choose_geometry();
-        choose_precision();
-        choose_visibility();
-        choose_compositing();
+        plan_.interpolation = interpolation();
+        plan_.geometry = geometry();
+        choose_what_is_drawn();
+        plan_.plain = choose_precision(plan_.geometry == ProjectGeometry::triangles);
+        plan_.solve_rings =
+            is_right_order(settings_.order) ||
+            // `auto` takes `mpvo` for a convex mesh, where it is right.
+            (settings_.order == ProjectOrder::mpvo && facts_.convexity != Convexity::none);
+        plan_.visibility = choose_visibility();
+        plan_.dither = choose_dither();
+        if (scene_.target == Target::emulated) plan_.emulation = scene_.emulate;
+        if (plan_.emulation || plan_.dither == ProjectDither::after_blend)
+            plan_.blending = programmable_blending(capabilities_);
         if (settings_.tree) choose_tree();
         choose_source();
         // Leaves take so many parts each: there, more parts would be another picture.
         if (plan_.source == SegmentSource::parts && settings_.tree) plan_.draw_transparent = false;
         plan_.error = picture_error();
-        return std::move(plan_);
+        Plan plan;
+        plan.method = Method::project;
+        plan.project = std::move(plan_);
+        plan.omitted = std::move(omissions_.list);
+        return plan;
     }
 
   private:
-    // True, and said, where the scene does not need `name`.
-    bool leave_out(bool unneeded, const std::string& name, const std::string& reason) {
-        if (!unneeded || !omissions_.allows(name)) return false;
-        omitted_.push_back({name, reason});
-        return true;
-    }
-
     // Products of four lengths decide the order of tets.
     void check_size() const {
         constexpr double least = 1e-60, most = 1e60;
@@ -133,73 +189,71 @@ class ProjectPlanner {
              name_of_mesh(scene_), facts_.diagonal, least, most);
     }
 
-    void choose_geometry() {
-        // Of Shirley's and Tuchman's triangles colour and opacity themselves are interpolated,
-        // which belong to no depth.
-        if (settings_.coloring == Coloring::vertex) plan_.interpolation = Interpolation::linear;
-        // What is interpolated between the vertices of a fan, a silhouette cannot carry.
+    // Returns `linear` for Shirley's and Tuchman's triangles: colour and opacity themselves are
+    // interpolated, which belong to no depth.
+    Interpolation interpolation() const {
+        return settings_.coloring == Coloring::vertex ? Interpolation::linear
+                                                      : settings_.interpolation;
+    }
+
+    // What is interpolated between the vertices of a fan, a silhouette cannot carry.
+    ProjectGeometry geometry() const {
         const bool fan =
             settings_.interpolation == Interpolation::linear || mixes_colors(settings_.coloring);
-        plan_.geometry = settings_.geometry.value_or(fan ? ProjectGeometry::triangles
-                                                         : ProjectGeometry::silhouette);
+        return settings_.geometry.value_or(fan ? ProjectGeometry::triangles
+                                               : ProjectGeometry::silhouette);
+    }
+
+    void choose_what_is_drawn() {
         plan_.orthographic = facts_.orthographic;  // the other way is for no such view
         if (plan_.orthographic) {
-            omitted_.push_back({"perspective",
-                                "parallel rays: depth is linear in the picture, nothing is divided "
-                                "per fragment, with --no-omit neither"});
+            omissions_.list.push_back(
+                {"perspective",
+                 "parallel rays: depth is linear in the picture, nothing is divided "
+                 "per fragment, with --no-omit neither"});
         }
         const bool transparent = facts_.transparent_tets == facts_.tets;
         if (facts_.clipped_away)
-            omitted_.push_back({"drawing", "the clip cuts the whole mesh away"});
+            omissions_.list.push_back({"drawing", "the clip cuts the whole mesh away"});
         plan_.nothing_visible =
             facts_.clipped_away ||
-            leave_out(transparent || !facts_.in_front, "drawing",
-                      transparent ? "the transfer function shows no value that the mesh has"
-                                  : "the mesh lies behind the eye");
+            omissions_.leave_out(transparent || !facts_.in_front, "drawing",
+                                 transparent
+                                     ? "the transfer function shows no value that the mesh has"
+                                     : "the mesh lies behind the eye");
         const bool left_out =
-            leave_out(facts_.transparent_tets > 0, "transparent_tets",
-                      fmt::format("{} of {} tets show nothing: they are not projected",
-                                  facts_.transparent_tets, facts_.tets));
-        // Where a value is no finite number, there is nothing that could be drawn.
+            omissions_.leave_out(facts_.transparent_tets > 0, "transparent_tets",
+                                 fmt::format("{} of {} tets show nothing: they are not projected",
+                                             facts_.transparent_tets, facts_.tets));
+        // If a value is no finite number, there is nothing that could be drawn.
         plan_.draw_transparent = !left_out && facts_.non_finite == 0;
     }
 
-    void choose_precision() {
-        const bool fan = plan_.geometry == ProjectGeometry::triangles;
-        plan_.plain = leave_out(!fan && facts_.tets >= fewest_plain_tets, "double_precision",
-                                fmt::format("{} tets: only where a face is seen nearly edge-on are "
-                                            "faces found in double",
-                                            facts_.tets)) ||
-                      fan;
+    bool choose_precision(bool fan) {
+        return omissions_.leave_out(
+                   !fan && facts_.tets >= fewest_plain_tets, "double_precision",
+                   fmt::format("{} tets: only where a face is seen nearly edge-on are faces "
+                               "found in double",
+                               facts_.tets)) ||
+               fan;
     }
 
-    void choose_visibility() {
-        plan_.visibility = settings_.order.is_given()            ? method_of(*settings_.order)
-                           : facts_.convexity == Convexity::none ? OrderMethod::exact
-                                                                 : OrderMethod::mpvo;
-        // `auto` takes `mpvo` for a convex mesh, where it is right.
-        plan_.solve_rings =
-            is_right_order(settings_.order) ||
-            (settings_.order == ProjectOrder::mpvo && facts_.convexity != Convexity::none);
-        if (settings_.order.is_automatic() && scene_.target == Target::float32 &&
-            !scene_.lighting &&
-            leave_out(
-                facts_.single_color, "order",
+    OrderMethod choose_visibility() {
+        if (settings_.order.is_given()) return method_of(*settings_.order);
+        if (omissions_.leave_out(
+                scene_.target == Target::float32 && !scene_.lighting && facts_.single_color,
+                "order",
                 "one colour: OVER gives the same whatever comes first, to float32's rounding"))
-            plan_.visibility = OrderMethod::none;
+            return OrderMethod::none;
+        return facts_.convexity == Convexity::none ? OrderMethod::exact : OrderMethod::mpvo;
     }
 
-    void choose_compositing() {
-        if (scene_.target == Target::emulated) plan_.emulation = scene_.emulate;
-        plan_.dither = settings_.dither;
-        if (!is_fixed_point(*scene_.target) && plan_.dither != ProjectDither::none) {
-            plan_.dither = ProjectDither::none;
-            omitted_.push_back(
-                {"dither", "tets are composited in float: there is nothing to dither"});
-        }
-        if (plan_.emulation || plan_.dither == ProjectDither::after_blend) {
-            plan_.blending = programmable_blending(capabilities_);
-        }
+    ProjectDither choose_dither() {
+        if (is_fixed_point(*scene_.target) || settings_.dither == ProjectDither::none)
+            return settings_.dither;
+        omissions_.list.push_back(
+            {"dither", "tets are composited in float: there is nothing to dither"});
+        return ProjectDither::none;
     }
 
     void choose_tree() {
@@ -207,16 +261,17 @@ class ProjectPlanner {
         plan_.tree = given_tree(settings_.tree)->factors;
         plan_.scattered =
             settings_.order.is_automatic() &&
-            leave_out(true, "order",
-                      "one colour: leaves take tets from all over the mesh, so that every ray "
-                      "meets some of each leaf; codes are rounded in another order");
+            omissions_.leave_out(
+                true, "order",
+                "one colour: leaves take tets from all over the mesh, so that every ray "
+                "meets some of each leaf; codes are rounded in another order");
         if (plan_.scattered) plan_.visibility = OrderMethod::none;
     }
 
     void choose_source() {
-        plan_.single_color =
-            leave_out(facts_.single_color && !scene_.lighting, "color",
-                      "one colour in all that can be seen: only extinction is looked up");
+        plan_.single_color = omissions_.leave_out(
+            facts_.single_color && !scene_.lighting, "color",
+            "one colour in all that can be seen: only extinction is looked up");
         switch (settings_.coloring) {
             case Coloring::vertex:
                 plan_.source = SegmentSource::vertices;
@@ -255,9 +310,10 @@ class ProjectPlanner {
     }
 
     void choose_integral() {
-        if (leave_out(facts_.constant && facts_.non_finite == 0 && !scene_.lighting, "scalars",
-                      "the transfer function is constant over the mesh: opacity has a "
-                      "closed form of the length alone")) {
+        if (omissions_.leave_out(facts_.constant && facts_.non_finite == 0 && !scene_.lighting,
+                                 "scalars",
+                                 "the transfer function is constant over the mesh: opacity has a "
+                                 "closed form of the length alone")) {
             plan_.source = SegmentSource::constant;
             plan_.trial_error = error_of(exact_integral());
         } else if (settings_.coloring == Coloring::analytic) {
@@ -447,8 +503,7 @@ class ProjectPlanner {
     const ProjectSettings& settings_;
     const MeshFacts& facts_;
     const Capabilities& capabilities_;
-    const OmissionSwitch& omissions_;
-    std::vector<Omission>& omitted_;
+    Omissions omissions_;
     TableCache& tables_;
     std::optional<TransferFunction> transfer_function_;  // in the plan's units
     ValueRange drawn_;                                   // of the data's scalars
@@ -457,22 +512,14 @@ class ProjectPlanner {
 
 }  // namespace
 
-ProjectPlan without_remarks(ProjectPlan plan) {
-    plan.target_reason.clear();
-    plan.trial_error = {};
-    plan.error = {};
-    return plan;
-}
-
 const char* name_of(SegmentSource source) {
     return word_of(source,
                    {"constant", "table", "parts", "cut_table", "analytic", "mean", "vertices"});
 }
 
-ProjectPlan plan_projection(const Scene& scene, const MeshFacts& facts,
-                            const Capabilities& capabilities, const OmissionSwitch& omissions,
-                            std::vector<Omission>& omitted, TableCache& tables) {
-    return ProjectPlanner(scene, facts, capabilities, omissions, omitted, tables).make();
+Plan plan_projection(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
+                     const OmissionSwitch& omissions, TableCache& tables) {
+    return ProjectPlanner(scene, facts, capabilities, omissions, tables).make();
 }
 
 }  // namespace lamina

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan/slice_planner.h"
+#include "plan/planners.h"
 
 #include <fmt/format.h>
 
@@ -13,16 +13,13 @@
 #include "facts/drawn_range.h"
 #include "facts/ray_shares.h"
 #include "facts/world_unit.h"
+#include "optics/curved_pieces.h"
 #include "optics/front_weights.h"
-#include "plan/brick_cuts.h"
-#include "plan/curve_choice.h"
 #include "plan/light_choice.h"
 #include "plan/march_limit.h"
-#include "plan/picture_limits.h"
 #include "plan/slab_choice.h"
 #include "plan/table_choice.h"
 #include "plan/target_choice.h"
-#include "plan/tree_check.h"
 
 namespace lamina {
 namespace {
@@ -35,12 +32,28 @@ constexpr int software_batches = 64;
 // % of a frame.
 constexpr double thin_box_ratio = 20;
 
-// Of a ray, where leaping over empty bricks pays. In OpenGL (llvmpipe, post-classified) hydrogen,
-// of which .6 % are empty, took 1.2 times as long with it, and neghip, 30 %, .9 times.
+// Shares of a ray that must be empty for leaps over empty bricks to pay. In OpenGL (llvmpipe,
+// post-classified) hydrogen, of which .6 % are empty, took 1.2 times as long with it, and neghip,
+// 30 %, .9 times.
 constexpr double least_empty_in_tiles = 0.01, least_empty_in_shaders = 0.2;
 
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
 
+constexpr double curve_share = 0.25;  // of max_error: what curves may cost
+
+constexpr std::uint64_t gradient_bytes = 8;  // a sample's, in OpenGL (slicing/gradient_map.h)
+
+// Decides how a scene is sliced. make() has the order of its choices, each of which takes what it
+// needs of those before:
+//
+//   clip, light    the planes that cut; how far rays may bend in light before they are cut
+//   slabs          how many, and whether the texture unit's filter serves (measured by trials)
+//   precision      rays in float or in double
+//   scalars        how they are fetched; curves in place of the transfer function's pieces
+//   integral       of segments: in closed form, or which table
+//   bricks         textures that hold the volume
+//   compositing    a tree or blending, and the bound on its roundings; dithering
+//   view           the box that is drawn; regions in one step; the depth at which rays end
 class SlicePlanner {
   public:
     SlicePlanner(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
@@ -50,133 +63,331 @@ class SlicePlanner {
           trials_(trials),
           tables_(tables),
           capabilities_(capabilities),
-          omissions_(omissions) {}
+          omissions_{omissions},
+          classification_(*scene.slice.classification),
+          max_color_(largest_drawn_color(scene, facts.max_color)) {}
 
     Plan make() {
         check_limits(scene_, capabilities_);
-        SlicePlan& slice = plan_.slice;
+        Plan plan;
+        SlicePlan& slice = plan.slice;
         slice.unit = world_unit(box_diagonal(facts_.grid));
         slice.target = *scene_.target;
-        slice.classification = *scene_.slice.classification;
+        slice.classification = classification_;
         slice.order = scene_.slice.order;
         slice.batches = capabilities_.software ? software_batches : 1;
         slice.nan_transparent = facts_.non_finite > 0;
         slice.table_filtered =
             scene_.slice.filter == Filter::hardware || capabilities_.exact_float_filter;
-        choose_clip();
-        plan_light(scene_, facts_.max_color, slice);
-        choose_slabs();
-        choose_filter();
-        choose_precision();
-        choose_sampling();
-        const CurveChoice curves = choose_curves(scene_, facts_, slice, capabilities_);
-        if (leave_out(curves.pay, "smooth_points", curves.reason)) slice.curve_error = curves.error;
-        slice.segment_error = exact_segment_error * std::max(max_color(), 1.0);
-        choose_table();
-        choose_bricks();
-        choose_compositing();
-        choose_geometry();
-        choose_constant_regions();
+        slice.segment_error = exact_segment_error * std::max(max_color_, 1.0);
+
+        slice.clip = choose_clip();
+        static_cast<LightPlan&>(slice) =
+            plan_light(scene_, facts_.max_color, classification_ == Classification::exact);
+
+        SlabChoice slabs = choose_slabs();
+        slice.slabs = slabs.slabs;
+        slice.slab_trial = slabs.trial;
+        slice.filter_reason = std::move(slabs.filter_reason);
+        slice.filter_error = slabs.filter_error;
+
+        slice.precise_rays = choose_precision();
+        slice.sampling = choose_sampling(slabs.hardware_filter);
+        slice.float_texture =
+            slice.sampling == VolumeSampling::filtered ||
+            (slice.sampling != VolumeSampling::none && facts_.type == SampleType::float32);
+        if (slice.integrates_cells()) slice.curve_error = choose_curves();
+
+        slice.single_color = choose_single_color();
+        if (classification_ == Classification::preintegrated) {
+            IntegralChoice integral =
+                choose_integral(slice.sampling, slice.slabs, slice.unit, slice.single_color);
+            slice.linear = integral.linear;
+            slice.table = std::move(integral.table);
+        }
+        slice.bricks = choose_bricks(slice.sampling, slice.float_texture);
+
+        if (scene_.target == Target::emulated) {
+            slice.emulation = scene_.emulate;
+            slice.blending = programmable_blending(capabilities_);
+        }
+        const TreeQuestion question =
+            tree_question(slice.slabs, slice.bricks.size(), slice.found_error());
+        TreeChoice compositing = choose_compositing(question);
+        slice.tree = std::move(compositing.tree);
+        slice.tree_reason = std::move(compositing.reason);
+        slice.error_bound = compositing.error_bound;
         slice.rounding_bound =
-            slice.error_bound ? slice.error_bound : rounding_bound(tree_question(), slice.tree);
-        choose_termination();
-        return std::move(plan_);
+            slice.error_bound ? slice.error_bound : rounding_bound(question, slice.tree);
+        const bool marched = slice.has_tree(NodeArithmetic::shader);
+        slice.dither = choose_dither(question.dither, marched);
+
+        static_cast<ViewPart&>(slice) = choose_view(marched);
+        if (!slice.nothing_visible && slice.sampling != VolumeSampling::none)
+            slice.constant_regions = choose_constant_regions(slice.integrates_cells() || marched);
+        const bool whole_rays = marched && slice.tree->factors.front() >= slice.slabs;
+        if (!slice.nothing_visible && whole_rays)
+            slice.opaque_depth = choose_end_of_rays(slice.bricks.size(), slice.error_bound);
+        if (slice.ends_early()) {
+            if (slice.error_bound) *slice.error_bound += hidden_error();
+            if (slice.rounding_bound) *slice.rounding_bound += hidden_error();
+        }
+        plan.omitted = std::move(omissions_.list);
+        return plan;
     }
 
   private:
-    // True, and said, where the scene does not need `name`.
-    bool leave_out(bool unneeded, const std::string& name, const std::string& reason) {
-        if (!unneeded || !omissions_.allows(name)) return false;
-        plan_.omitted.push_back({name, reason});
-        return true;
-    }
-
-    void choose_clip() {
+    std::vector<IndexPlane> choose_clip() {
         const std::vector<IndexPlane> cutting = cutting_planes(facts_.clip, facts_.grid);
         const std::size_t all = facts_.clip.size(), idle = all - cutting.size();
         const std::string reason =
             fmt::format("{} of {} planes of the clip cut nothing away", idle, all);
-        plan_.slice.clip = leave_out(idle > 0, "clip_planes", reason) ? cutting : facts_.clip;
+        return omissions_.leave_out(idle > 0, "clip_planes", reason) ? cutting : facts_.clip;
     }
-    double max_color() const { return largest_drawn_color(scene_, facts_.max_color); }
 
-    void choose_slabs() {
-        SlicePlan& slice = plan_.slice;
-        if (scene_.slice.samples.is_given()) {
-            slice.slabs = *scene_.slice.samples;
-            return;
+    struct SlabChoice {
+        int slabs = 1;
+        std::optional<SlabTrial> trial;
+        bool hardware_filter = false;
+        std::string filter_reason;
+        double filter_error = 0;
+    };
+
+    // The texture unit's filter is taken if it was measured to be no worse than what was tried. (Of
+    // tables nothing was tried: they keep their fetches.)
+    SlabChoice choose_slabs() const {
+        SlabChoice choice;
+        const bool given = scene_.slice.samples.is_given();
+        if (given) {
+            choice.slabs = *scene_.slice.samples;
+        } else {
+            const SlabTrial chosen = chosen_slabs(facts_, trials_);
+            choice.slabs = chosen.slabs;
+            if (!trials_.exact.empty()) choice.trial = chosen;
         }
-        const SlabTrial chosen = chosen_slabs(facts_, trials_);
-        slice.slabs = chosen.slabs;
-        if (!trials_.exact.empty()) slice.slab_trial = chosen;
-    }
-
-    // Where the texture unit was measured to be no worse than what was tried. (Of tables nothing
-    // was tried: they keep their fetches.)
-    void choose_filter() {
-        SlicePlan& slice = plan_.slice;
-        if (scene_.slice.filter == Filter::hardware) slice.sampling = VolumeSampling::hardware;
-        const std::optional<SlabTrial> trial = slabs_of_hardware_filter(trials_);
-        if (scene_.slice.filter.is_given() || !trial || !capabilities_.eight_bit_filter) return;
-        slice.filter_reason = fmt::format(
+        choice.hardware_filter = scene_.slice.filter == Filter::hardware;
+        const std::optional<SlabTrial> filtered = slabs_of_hardware_filter(trials_);
+        if (scene_.slice.filter.is_given() || !filtered || !capabilities_.eight_bit_filter)
+            return choice;
+        choice.hardware_filter = true;
+        choice.filter_reason = fmt::format(
             "one look-up instead of eight: an error of {:.2g} / 255, {}, was found, of "
             "{:.3g} wanted",
-            trial->error, scene_.slice.samples.is_given() ? "its own" : "with that of the slabs",
-            trial->goal);
-        slice.sampling = VolumeSampling::hardware;
-        if (scene_.slice.samples.is_given()) {
-            slice.filter_error = trial->error;
+            filtered->error, given ? "its own" : "with that of the slabs", filtered->goal);
+        if (given) {
+            choice.filter_error = filtered->error;
         } else {
-            slice.slabs = trial->slabs;
-            slice.slab_trial = trial;
+            choice.slabs = filtered->slabs;
+            choice.trial = filtered;
         }
+        return choice;
     }
 
-    void choose_precision() {
-        plan_.slice.precise_rays = !leave_out(
+    bool choose_precision() {
+        return !omissions_.leave_out(
             !capabilities_.software && facts_.side_ratio < thin_box_ratio, "double_precision",
             "a GPU is slow with doubles and the box is not thin: rays are float32, chords good to "
             "1e-5");
     }
 
-    void choose_geometry() {
-        SlicePlan& slice = plan_.slice;
-        slice.orthographic =
-            leave_out(facts_.orthographic, "perspective",
-                      "parallel rays: one direction and one length per depth for all fragments");
+    VolumeSampling choose_sampling(bool hardware_filter) {
+        if (omissions_.leave_out(
+                facts_.constant && facts_.non_finite == 0 && !scene_.lighting, "volume_texture",
+                "the transfer function is constant over the volume's range: no scalar is fetched"))
+            return VolumeSampling::none;
+        if (hardware_filter) return VolumeSampling::hardware;
+        const std::uint64_t float_bytes =
+            4 * static_cast<std::uint64_t>(facts_.grid.sample_count());
+        const bool filtered = classification_ != Classification::exact &&
+                              capabilities_.exact_float_filter && float_bytes <= max_filtered_bytes;
+        return filtered ? VolumeSampling::filtered : VolumeSampling::fetch;
+    }
+
+    // Returns what curves in place of straight pieces (optics/curved_pieces.h) may cost, in 1/255.
+    // It is 0, and there are none, if no point of the transfer function is smooth or max_error is
+    // too small.
+    double choose_curves() {
+        const double error = largest_curve_error * std::max(facts_.max_color, 1.0);
+        const bool pay = capabilities_.tiles && facts_.curves != facts_.pieces &&
+                         error <= curve_share * scene_.max_error;
+        const bool taken = omissions_.leave_out(
+            pay, "smooth_points",
+            fmt::format("{} cubics follow {} straight pieces of the transfer function, which meet "
+                        "at smooth points: off by at most {:.2g} / 255",
+                        facts_.curves, facts_.pieces, error));
+        return taken ? error : 0;
+    }
+
+    bool choose_single_color() {
+        return omissions_.leave_out(
+            facts_.single_color && !scene_.lighting, "color",
+            "one colour in all that can be seen: only extinction is looked up");
+    }
+
+    struct IntegralChoice {
+        bool linear = false;
+        TablePlan table;
+    };
+
+    IntegralChoice choose_integral(VolumeSampling sampling, int slabs, double unit,
+                                   bool single_color) {
+        IntegralChoice choice;
+        if (sampling == VolumeSampling::none) {
+            omissions_.leave_out(true, "table",
+                                 "the transfer function is constant: opacity has a closed form");
+            return choice;
+        }
+        TableRequest& table = choice.table.request;
+        const ValueRange range = drawn_range(*scene_.transfer_function, facts_.range);
+        table.lo = range.lo;
+        table.hi = range.hi;
+        table.colored = !single_color;
+        table.lit = scene_.lighting.has_value();
+        const double longest =
+            (facts_.far_depth - facts_.near_depth) / slabs * facts_.max_length_per_depth;
+        table.max_length = longest * unit;
+        const double depth = facts_.max_extinction * longest;
+        choice.linear = omissions_.leave_out(
+            facts_.pieces == 1 && !table.lit && (!table.colored || depth <= thin_depth), "table",
+            table.colored
+                ? fmt::format("the transfer function is one linear piece and a segment's optical "
+                              "depth at most {:.3g}: its colour has a closed form",
+                              depth)
+                : "the transfer function is one linear piece: optical depth has a closed form");
+        if (choice.linear || !table.colored) return choice;
+        if (scene_.slice.table.is_given()) {
+            take_table(scene_, facts_, slabs, longest, unit, choice.table, tables_);
+            return choice;
+        }
+        const bool limit_alone = omissions_.leave_out(
+            depth < short_depth, "length_layers",
+            fmt::format("a segment's optical depth is at most {:.3g}: its colour does not depend "
+                        "on its length",
+                        depth));
+        refine_table(scene_, facts_, slabs, limit_alone ? 0 : depth, choice.table, tables_);
+        return choice;
+    }
+
+    // OpenGL has lit volumes' gradients in textures, too: then they are its largest texels.
+    std::vector<TextureBrick> choose_bricks(VolumeSampling sampling, bool float_texture) const {
+        if (sampling == VolumeSampling::none) return {TextureBrick{{0, 0, 0}, facts_.grid.size}};
+        const std::uint64_t sample_bytes = float_texture ? 4 : bytes_of(facts_.type);
+        const bool gradients = scene_.lighting && !capabilities_.tiles;
+        return cut_into_bricks(facts_.grid, facts_.non_finite > 0,
+                               gradients ? gradient_bytes : sample_bytes, capabilities_);
+    }
+
+    TreeQuestion tree_question(int slabs, std::size_t bricks, double slab_error) const {
+        TreeQuestion question;
+        question.target = *scene_.target;
+        question.emulation = scene_.emulate;
+        question.slabs = slabs;
+        const double thickness = (facts_.far_depth - facts_.near_depth) / slabs;
+        const DepthRange& seen = facts_.occupied_depth;
+        const double visible =
+            thickness > 0 ? std::ceil((seen.far - seen.near) / thickness) + 1 : 0.0;
+        // A slab that lies in several bricks is composited in parts.
+        question.visible_slabs =
+            static_cast<int>(std::clamp(visible, 0.0, static_cast<double>(slabs))) +
+            static_cast<int>(bricks) - 1;
+        question.order = scene_.slice.order;
+        if (scene_.slice.dither && is_fixed_point(question.target))
+            question.dither = dither_of(*scene_.slice.dither, slabs);
+        question.largest_color = max_color_;
+        question.max_error = scene_.max_error;
+        question.slab_error = slab_error;
+        return question;
+    }
+
+    // Returns the scene's tree, or the choice of an automatic one, or for float32 the one that
+    // marches as many slabs in registers as it can.
+    TreeChoice choose_compositing(const TreeQuestion& question) {
+        const int slabs = question.slabs;
+        const auto most_marched = [&] {
+            return most_marched_slabs(scene_, facts_, capabilities_, slabs);
+        };
+        TreeChoice choice;
+        if (const TreeSettings* const given = given_tree(scene_.slice.tree)) {
+            choice.tree = TreePlan{given->factors, given->nodes, given->code, given->alpha_bits};
+            check_slice_tree(scene_, facts_.single_color);
+        } else if (scene_.slice.tree) {
+            try {
+                choice = choose_tree(question);
+            } catch (const Error& error) {
+                fail("{}: {}", scene_.file.string(), error.what());
+            }
+        } else {
+            const int most = most_marched();
+            const bool whole = slabs <= most;
+            const std::string node =
+                whole ? "one node marches all slabs in registers: "
+                      : fmt::format(
+                            "nodes march {} slabs in registers, no more fit into this "
+                            "driver's loops: ",
+                            most);
+            if (omissions_.leave_out(question.target == Target::float32, "blending",
+                                     node + "what blending in float32 would give, with one write "
+                                            "a pixel and without its roundings")) {
+                choice.tree = TreePlan{.factors = {slabs}};
+                if (!whole) choice.tree->factors = {(slabs + most - 1) / most, most};
+            }
+        }
+        if (!choice.tree) return choice;
+        if (choice.tree->nodes == NodeArithmetic::shader)
+            check_leaves(scene_, TreeShape(choice.tree->factors, slabs), most_marched(),
+                         capabilities_);
+        if (is_fixed_point(question.target)) choice.tree->largest_color = std::max(max_color_, 1.0);
+        return choice;
+    }
+
+    // `of_codes`: the dithering of a fixed-point target, if the scene asks for any.
+    std::optional<Dither> choose_dither(const std::optional<Dither>& of_codes, bool marched) {
+        if (!scene_.slice.dither) return {};
+        if (of_codes && !marched) return of_codes;
+        omissions_.list.push_back(
+            {"dither", "slabs are composited in float: there is nothing to dither"});
+        return {};
+    }
+
+    ViewPart choose_view(bool marched) {
+        ViewPart view;
+        view.orthographic = omissions_.leave_out(
+            facts_.orthographic, "perspective",
+            "parallel rays: one direction and one length per depth for all fragments");
         const IndexBox whole{facts_.grid.index_min(), facts_.grid.index_max()};
-        slice.drawn = whole;
-        slice.nothing_visible = leave_out(
+        view.drawn = whole;
+        view.nothing_visible = omissions_.leave_out(
             facts_.occupied.empty() || facts_.far_depth <= facts_.near_depth, "drawing",
             facts_.clipped_away       ? "the clip cuts all away that the transfer function shows"
             : facts_.occupied.empty() ? "the transfer function shows no value that the volume has"
                                       : "the volume lies behind the eye");
-        if (slice.nothing_visible) return;
+        if (view.nothing_visible) return view;
         const bool smaller = facts_.occupied.min != whole.min || facts_.occupied.max != whole.max;
-        const bool by_brick = skips_bricks();
-        if (leave_out((smaller || by_brick) && !facts_.occupied.empty(), "empty_space",
-                      fmt::format("only {} of the bricks of {}^3 cells can be seen: {}",
-                                  percent_text(facts_.occupied_share), MinMaxBricks::edge,
-                                  by_brick ? fmt::format("rays leap over the others, by a map of "
-                                                         "{} bytes",
-                                                         facts_.occupied_bricks.distance.size())
-                                           : "slabs are drawn in the box around them"))) {
-            slice.drawn = facts_.occupied;
-            slice.occupied_only = by_brick;
+        const bool by_brick = skips_bricks(marched);
+        if (omissions_.leave_out(
+                (smaller || by_brick) && !facts_.occupied.empty(), "empty_space",
+                fmt::format("only {} of the bricks of {}^3 cells can be seen: {}",
+                            percent_text(facts_.occupied_share), MinMaxBricks::edge,
+                            by_brick
+                                ? fmt::format("rays leap over the others, by a map of {} bytes",
+                                              facts_.occupied_bricks.distance.size())
+                                : "slabs are drawn in the box around them"))) {
+            view.drawn = facts_.occupied;
+            view.occupied_only = by_brick;
         }
+        return view;
     }
 
-    // Where enough is empty. Between two bricks that show nothing scalars may jump over what can be
-    // seen where NaN parts them: a segment from one into the other would show it.
-    bool skips_bricks() const {
-        const SlicePlan& slice = plan_.slice;
+    // Skips empty bricks if enough is empty. Between two bricks that show nothing scalars may jump
+    // over what can be seen if NaN parts them: a segment from one into the other would show it.
+    bool skips_bricks(bool marched) const {
         const bool jumps =
-            facts_.non_finite > 0 && slice.classification == Classification::preintegrated;
+            facts_.non_finite > 0 && classification_ == Classification::preintegrated;
         const std::int64_t longest = std::ranges::max(facts_.occupied_bricks.count);
-        const bool leaps = capabilities_.tiles || (slice.has_tree(NodeArithmetic::shader) &&
-                                                   longest <= capabilities_.max_3d_texture_size &&
-                                                   facts_.occupied_bricks.distance.size() <=
-                                                       capabilities_.max_texture_bytes);
+        const bool leaps =
+            capabilities_.tiles ||
+            (marched && longest <= capabilities_.max_3d_texture_size &&
+             facts_.occupied_bricks.distance.size() <= capabilities_.max_texture_bytes);
         const RayShares& shares = facts_.ray_shares;
         const double least = capabilities_.tiles ? least_empty_in_tiles : least_empty_in_shaders;
         const bool pays = shares.occupied <= (1 - least) * shares.box;
@@ -185,213 +396,48 @@ class SlicePlanner {
 
     // Codes are those of slabs one by one. In OpenGL, measured in software, asking where the
     // regions are takes longer than they do.
-    void choose_constant_regions() {
-        SlicePlan& slice = plan_.slice;
-        if (slice.nothing_visible || slice.sampling == VolumeSampling::none) return;
-        const bool marches = slice.integrates_cells() || slice.has_tree(NodeArithmetic::shader);
-        if (!capabilities_.tiles || !marches) return;
+    bool choose_constant_regions(bool one_program) {
         const ConstantBricks& constant = facts_.constant_bricks;
-        slice.constant_regions = leave_out(
-            !constant.kinds.empty() && !scene_.lighting, "constant_regions",
+        return omissions_.leave_out(
+            capabilities_.tiles && one_program && !constant.kinds.empty() && !scene_.lighting,
+            "constant_regions",
             fmt::format("{} of the bricks that show something have one colour and one extinction: "
                         "rays take them in one step, by maps of {} bytes",
                         percent_text(constant.share), 2 * constant.kind.size()));
     }
 
-    // In a tree, what is behind one leaf's part of a ray is another leaf's; on GL, of several
-    // bricks, another program's.
-    void choose_termination() {
-        SlicePlan& slice = plan_.slice;
-        if (slice.nothing_visible || !slice.has_tree(NodeArithmetic::shader)) return;
-        if (slice.tree->factors.front() < slice.slabs) return;
-        if (!capabilities_.tiles && slice.bricks.size() > 1) return;
-        const double hidden = hidden_share * scene_.max_error;  // in 1/255
-        if (slice.error_bound && *slice.error_bound + hidden > scene_.max_error) return;
-        const double depth = opaque_depth(scene_.max_error, max_color());
+    // Returns the optical depth at which rays end that one program marches whole: in a tree, what
+    // is behind one leaf's part of a ray is another leaf's; on GL, of several bricks, another
+    // program's.
+    double choose_end_of_rays(std::size_t bricks, const std::optional<double>& error_bound) {
+        constexpr double never = std::numeric_limits<double>::infinity();
+        if (!capabilities_.tiles && bricks > 1) return never;
+        if (error_bound && *error_bound + hidden_error() > scene_.max_error) return never;
+        const double depth = opaque_depth(scene_.max_error, max_color_);
         const DepthRange& seen = facts_.occupied_depth;
         const double deepest =
             facts_.max_extinction * (seen.far - seen.near) * facts_.max_length_per_depth;
         const RayShares& shares = facts_.ray_shares;
-        if (leave_out(
-                deepest > depth && shares.box_before_opaque < shares.box, "early_termination",
-                fmt::format("rays may get {:.3g} deep and end at an optical depth of {:.3g}: "
-                            "what lies behind changes no channel by more than {:.2g} / "
-                            "255{}",
-                            deepest, depth, hidden,
-                            is_fixed_point(slice.target) ? " before it becomes a code" : ""))) {
-            slice.opaque_depth = depth;
-            if (slice.error_bound) *slice.error_bound += hidden;
-            if (slice.rounding_bound) *slice.rounding_bound += hidden;
-        }
+        const bool ends = omissions_.leave_out(
+            deepest > depth && shares.box_before_opaque < shares.box, "early_termination",
+            fmt::format("rays may get {:.3g} deep and end at an optical depth of {:.3g}: what lies "
+                        "behind changes no channel by more than {:.2g} / 255{}",
+                        deepest, depth, hidden_error(),
+                        is_fixed_point(*scene_.target) ? " before it becomes a code" : ""));
+        return ends ? depth : never;
     }
 
-    void choose_sampling() {
-        SlicePlan& slice = plan_.slice;
-        if (leave_out(facts_.constant && facts_.non_finite == 0 && !scene_.lighting,
-                      "volume_texture",
-                      "the transfer function is constant over the volume's range: no scalar is "
-                      "fetched")) {
-            slice.sampling = VolumeSampling::none;
-            return;
-        }
-        const std::uint64_t float_bytes =
-            4 * static_cast<std::uint64_t>(facts_.grid.sample_count());
-        if (slice.sampling == VolumeSampling::fetch && !slice.integrates_cells() &&
-            capabilities_.exact_float_filter && float_bytes <= max_filtered_bytes) {
-            slice.sampling = VolumeSampling::filtered;
-        }
-        slice.float_texture =
-            slice.sampling == VolumeSampling::filtered || facts_.type == SampleType::float32;
-    }
-
-    void choose_table() {
-        SlicePlan& slice = plan_.slice;
-        slice.single_color =
-            leave_out(facts_.single_color && !scene_.lighting, "color",
-                      "one colour in all that can be seen: only extinction is looked up");
-        if (slice.classification != Classification::preintegrated) return;
-        if (slice.sampling == VolumeSampling::none) {
-            leave_out(true, "table",
-                      "the transfer function is constant: opacity has a closed form");
-            return;
-        }
-        TableRequest& table = slice.table.request;
-        const ValueRange range = drawn_range(*scene_.transfer_function, facts_.range);
-        table.lo = range.lo;
-        table.hi = range.hi;
-        table.colored = !slice.single_color;
-        table.lit = scene_.lighting.has_value();
-        const double longest =
-            (facts_.far_depth - facts_.near_depth) / slice.slabs * facts_.max_length_per_depth;
-        table.max_length = longest * slice.unit;
-        const double depth = facts_.max_extinction * longest;
-        if (leave_out(facts_.pieces == 1 && !table.lit && (!table.colored || depth <= thin_depth),
-                      "table",
-                      table.colored
-                          ? fmt::format("the transfer function is one linear piece and a "
-                                        "segment's optical depth at most {:.3g}: its colour has a "
-                                        "closed form",
-                                        depth)
-                          : "the transfer function is one linear piece: optical depth has a closed "
-                            "form")) {
-            slice.linear = true;
-            return;
-        }
-        if (!table.colored) return;
-        if (scene_.slice.table.is_given()) {
-            take_table(scene_, facts_, slice.slabs, longest, slice.unit, slice.table, tables_);
-            return;
-        }
-        const bool limit_alone =
-            leave_out(depth < short_depth, "length_layers",
-                      fmt::format("a segment's optical depth is at most {:.3g}: its colour does "
-                                  "not depend on its length",
-                                  depth));
-        refine_table(scene_, facts_, slice.slabs, limit_alone ? 0 : depth, slice.table, tables_);
-    }
-
-    void choose_bricks() {
-        SlicePlan& slice = plan_.slice;
-        if (slice.sampling == VolumeSampling::none) {
-            slice.bricks = {TextureBrick{{0, 0, 0}, facts_.grid.size}};
-            return;
-        }
-        slice.bricks =
-            cut_into_bricks(facts_.grid, slice.nan_transparent,
-                            texel_bytes(slice, facts_.type, capabilities_), capabilities_);
-    }
-
-    void choose_compositing() {
-        SlicePlan& slice = plan_.slice;
-        if (scene_.target == Target::emulated) slice.emulation = scene_.emulate;
-        if (scene_.slice.tree) {
-            take_tree(given_tree(scene_.slice.tree));
-        } else {
-            const int most = most_marched_slabs(scene_, facts_, capabilities_, slice.slabs);
-            const bool whole = slice.slabs <= most;
-            const std::string node =
-                whole ? "one node marches all slabs in registers: "
-                      : fmt::format(
-                            "nodes march {} slabs in registers, no more fit into this "
-                            "driver's loops: ",
-                            most);
-            if (leave_out(slice.target == Target::float32, "blending",
-                          node + "what blending in float32 would give, with one write a pixel and "
-                                 "without its roundings")) {
-                slice.tree = TreePlan{.factors = {slice.slabs}};
-                if (!whole) slice.tree->factors = {(slice.slabs + most - 1) / most, most};
-            }
-        }
-        if (slice.has_tree(NodeArithmetic::shader))
-            check_leaves(scene_, TreeShape(slice.tree->factors, slice.slabs),
-                         most_marched_slabs(scene_, facts_, capabilities_, slice.slabs),
-                         capabilities_);
-        if (slice.tree && is_fixed_point(slice.target))
-            slice.tree->largest_color = std::max(max_color(), 1.0);
-        if (slice.emulation) slice.blending = programmable_blending(capabilities_);
-        if (scene_.slice.dither) choose_dither(*scene_.slice.dither);
-    }
-
-    // Takes the given tree, or chooses one.
-    void take_tree(const TreeSettings* given) {
-        SlicePlan& slice = plan_.slice;
-        if (given != nullptr) {
-            slice.tree = TreePlan{given->factors, given->nodes, given->code, given->alpha_bits};
-            check_slice_tree(scene_, facts_.single_color);
-            return;
-        }
-        try {
-            const TreeChoice choice = choose_tree(tree_question());
-            slice.tree = choice.tree;
-            slice.error_bound = choice.error_bound;
-            slice.tree_reason = choice.reason;
-        } catch (const Error& error) {
-            fail("{}: {}", scene_.file.string(), error.what());
-        }
-    }
-
-    TreeQuestion tree_question() const {
-        const SlicePlan& slice = plan_.slice;
-        TreeQuestion question;
-        question.target = slice.target;
-        question.emulation = scene_.emulate;
-        question.slabs = slice.slabs;
-        const double thickness = (facts_.far_depth - facts_.near_depth) / slice.slabs;
-        const DepthRange& seen = facts_.occupied_depth;
-        const double visible =
-            thickness > 0 ? std::ceil((seen.far - seen.near) / thickness) + 1 : 0.0;
-        // A slab that lies in several bricks is composited in parts.
-        question.visible_slabs =
-            static_cast<int>(std::clamp(visible, 0.0, static_cast<double>(slice.slabs))) +
-            static_cast<int>(slice.bricks.size()) - 1;
-        question.order = slice.order;
-        if (scene_.slice.dither && is_fixed_point(slice.target)) {
-            question.dither = dither_of(*scene_.slice.dither, slice.slabs);
-        }
-        question.largest_color = max_color();
-        question.max_error = scene_.max_error;
-        question.slab_error = slice.found_error();
-        return question;
-    }
-
-    void choose_dither(const DitherSettings& settings) {
-        SlicePlan& slice = plan_.slice;
-        const bool codes = is_fixed_point(slice.target) && !slice.has_tree(NodeArithmetic::shader);
-        if (!codes) {
-            plan_.omitted.push_back(
-                {"dither", "slabs are composited in float: there is nothing to dither"});
-            return;
-        }
-        slice.dither = dither_of(settings, slice.slabs);
-    }
+    // What rays that end may miss, in 1/255.
+    double hidden_error() const { return hidden_share * scene_.max_error; }
 
     const Scene& scene_;
     const Facts& facts_;
     const SampleTrials& trials_;
     TableCache& tables_;
     const Capabilities& capabilities_;
-    const OmissionSwitch& omissions_;
-    Plan plan_;
+    Omissions omissions_;
+    Classification classification_;
+    double max_color_;  // the largest component that may be drawn
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "facts/facts.h"
 #include "lamina/scene.h"
-#include "plan/sample_trials.h"
+#include "plan/slab_choice.h"
 
 namespace lamina {
 

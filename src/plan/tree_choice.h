@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "compositing/dither.h"
+#include "compositing/tree_shape.h"
 #include "lamina/scene.h"
+#include "plan/capabilities.h"
 
 namespace lamina {
 
@@ -36,7 +38,8 @@ struct TreeQuestion {
 
 struct TreeChoice {
     std::optional<TreePlan> tree;  // none: slabs are blended one after the other
-    double error_bound = 0;        // in 1/255, relative to the same slabs composited exactly
+    // In 1/255, relative to the same slabs composited exactly; none of a tree that was given.
+    std::optional<double> error_bound;
     std::string reason;
 };
 
@@ -53,5 +56,15 @@ std::optional<double> rounding_bound(const TreeQuestion& question,
 // leave of max_error, or, where neither fits, the one with the smaller bound. Throws Error where
 // compositing alone exceeds max_error and the scene asks for another target than float32.
 TreeChoice choose_tree(const TreeQuestion& question);
+
+// Throws Error where a tree whose factors the scene gives cannot be drawn. `single_color`: whether
+// all that can be seen has one colour.
+void check_slice_tree(const Scene& scene, bool single_color);
+void check_project_tree(const Scene& scene, bool single_color);
+
+// Throws Error where a leaf has more than `most` slabs, the limit of the context's loops
+// (plan/march_limit.h).
+void check_leaves(const Scene& scene, const TreeShape& shape, int most,
+                  const Capabilities& capabilities);
 
 }  // namespace lamina

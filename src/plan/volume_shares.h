@@ -5,11 +5,12 @@
 
 #include "facts/facts.h"
 #include "lamina/scene.h"
-#include "plan/plan.h"
-#include "plan/share_costs.h"
+#include "scene/camera.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
+
+class ShareCosts;
 
 // A volume cut into boxes, for renderers that draw one picture together, each its own box. A box is
 // cut in two by a plane through samples, again and again.

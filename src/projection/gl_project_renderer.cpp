@@ -150,7 +150,7 @@ int GlProjectRenderer::step_count() const {
 }
 
 bool GlProjectRenderer::take(const Plan& plan) {
-    return without_remarks(plan.project) == without_remarks(plan_);
+    return plan.project.picture() == plan_.picture();
 }
 
 void GlProjectRenderer::draw(const View& view, Progress* progress) {

@@ -112,7 +112,7 @@ std::int64_t TileProjectRenderer::byte_count() const {
 }
 
 bool TileProjectRenderer::take(const Plan& plan) {
-    return without_remarks(plan.project) == without_remarks(plan_);
+    return plan.project.picture() == plan_.picture();
 }
 
 void TileProjectRenderer::draw(const View& view, Progress* progress) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "plan/sample_trials.h"
+#include "plan/slab_choice.h"
 #include "plan/volume_shares.h"
 #include "render/drawing.h"
 #include "render/picture_share.h"

@@ -14,8 +14,8 @@
 #include "image/metrics.h"
 #include "plan/classification_choice.h"
 #include "plan/light_choice.h"
+#include "plan/planners.h"
 #include "plan/slab_choice.h"
-#include "plan/slice_planner.h"
 #include "slicing/point_cover.h"
 #include "slicing/tile_slice_renderer.h"
 #include "slicing/trial_truth.h"
@@ -94,8 +94,9 @@ class SlabTrials {
           all_traced_(rays_of(scene_) <= TrialLimits::all_traced_rays),
           truth_(volume, *scene.transfer_function,
                  View(*scene_.camera, scene_.width, scene_.height),
-                 {.tolerance = std::clamp(TrialLimits::tracer_share * scene.max_error / 255,
-                                          TrialLimits::finest_tolerance, TrialLimits::coarsest_tolerance),
+                 {.tolerance =
+                      std::clamp(TrialLimits::tracer_share * scene.max_error / 255,
+                                 TrialLimits::finest_tolerance, TrialLimits::coarsest_tolerance),
                   .lighting = scene.lighting,
                   .clip = half_spaces(scene.clip)}) {}
 
@@ -127,7 +128,8 @@ class SlabTrials {
 
   private:
     std::vector<SlabTrial> run_from(int slabs, Filter filter) {
-        const double near_aim = all_traced_ ? TrialLimits::near_aim_of_small : TrialLimits::near_aim_of_large;
+        const double near_aim =
+            all_traced_ ? TrialLimits::near_aim_of_small : TrialLimits::near_aim_of_large;
         std::vector<SlabTrial> trials;
         double error_of_too_few = std::numeric_limits<double>::infinity();
         int too_few = 0, enough = most_ + 1;
@@ -144,7 +146,8 @@ class SlabTrials {
             // The error falls with the square of the number, but where there are steps.
             const double next =
                 std::ceil(slabs * std::sqrt(trial.error / (TrialLimits::aim * trial.goal)));
-            slabs = static_cast<int>(std::min({next, double(most_), TrialLimits::most_growth * slabs}));
+            slabs =
+                static_cast<int>(std::min({next, double(most_), TrialLimits::most_growth * slabs}));
         }
         return trials;
     }
@@ -313,8 +316,8 @@ SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxB
     if (scene.slice.samples.is_automatic())
         trials.exact = try_numbers(scene, volume, bricks, facts, most_slabs(facts), tables);
     if (!may_filter(scene, facts, capabilities)) return trials;
-    SlabTrials filtered(scene, volume, bricks, facts, most_slabs(facts), TrialLimits::filter_rays, true,
-                        tables);
+    SlabTrials filtered(scene, volume, bricks, facts, most_slabs(facts), TrialLimits::filter_rays,
+                        true, tables);
     if (scene.slice.samples.is_given()) {
         trials.hardware = {filtered.try_filter(*scene.slice.samples)};
     } else if (const SlabTrial exact = chosen_slabs(facts, trials); exact.keeps_goal()) {

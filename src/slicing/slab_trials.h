@@ -4,7 +4,7 @@
 #include "facts/facts.h"
 #include "lamina/volume.h"
 #include "plan/capabilities.h"
-#include "plan/sample_trials.h"
+#include "plan/slab_choice.h"
 #include "preintegration/table_cache.h"
 
 namespace lamina {
