@@ -25,7 +25,7 @@ struct TextureBrick {
 // Cuts the volume into the fewest bricks that respect the context's limits: the longest edge is cut
 // once more until all fit. `bordered`: bricks get one more sample at both ends of each `cell` axis,
 // which repeats the border. The half voxels there then lie between samples of the brick, and no
-// other sample, which may be NaN, is read with a weight of 0. Throws Error where even two samples
+// other sample, which may be NaN, is read with a weight of 0. Throws Error if even two samples
 // along an axis are too many.
 std::vector<TextureBrick> cut_into_bricks(const Grid& grid, bool bordered,
                                           std::uint64_t texel_bytes,

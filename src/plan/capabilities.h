@@ -6,8 +6,8 @@
 
 namespace lamina {
 
-// What the context can do: an OpenGL context (gl::Context fills this in) or the native engine
-// (tile_capabilities()).
+// Abilities and limits of the context: an OpenGL context (gl::Context fills this in) or the native
+// engine (tile_capabilities()).
 struct Capabilities {
     std::string renderer;  // GL_RENDERER, with how the context was made: "OSMesa: llvmpipe (...)"
     int threads = 0;       // of the native engine; they do not change the picture
@@ -24,12 +24,12 @@ struct Capabilities {
     bool exact_float_filter =
         // Measured: linear filtering of R32F has errors below 1e-6 (so on llvmpipe, not on GPUs).
         false;
-    // Where exact_float_filter is false: whether the filters of R8, R16 and R32F were measured to
-    // be as good as weights rounded to 8 bits. Trials of filters assume such weights.
+    // Matters if exact_float_filter is false: whether the filters of R8, R16 and R32F were measured
+    // to be as good as weights rounded to 8 bits. Trials of filters assume such weights.
     bool eight_bit_filter = false;
 };
 
-// The renderer, and its number of threads where that is known: for reports of times.
+// The renderer, and its number of threads if that is known: for reports of times.
 inline std::string renderer_and_threads(const Capabilities& capabilities) {
     if (capabilities.threads == 0) return capabilities.renderer;
     return capabilities.renderer + ", " + std::to_string(capabilities.threads) +

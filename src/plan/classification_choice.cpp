@@ -64,7 +64,7 @@ ClassificationChoice choose_classification(const Scene& scene, const Facts& fact
     }
     if (scene.slice.filter == Filter::hardware)
         return {Classification::post, 1, "exact segments have no use for the hardware's filter"};
-    // Where neither samples nor a tree are asked for, segments get as short as they must be. A
+    // If neither samples nor a tree are asked for, segments get as short as they must be. A
     // tree's leaves may be longer than a slab.
     if (slabs_of(scene, least) < least || (scene.slice.tree && least > 1)) {
         return {Classification::post, 1,

@@ -11,10 +11,10 @@
 
 namespace lamina {
 
-// Throws Error where the picture does not fit the context's render targets.
+// Throws Error if the picture does not fit the context's render targets.
 void check_limits(const Scene& scene, const Capabilities& capabilities);
 
-// What computes OVER on the target's pixels.
+// The unit that computes OVER on the target's pixels.
 enum class Blending {
     native,   // the blending unit
     fetch,    // the fragment program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
@@ -27,7 +27,7 @@ enum class Blending {
 Blending programmable_blending(const Capabilities& capabilities);
 const char* name_of(Blending blending);
 
-// The dithering of so many slabs, with its period chosen where that is automatic.
+// The dithering of so many slabs, with its period chosen if that is automatic.
 Dither dither_of(const DitherSettings& settings, int slabs);
 
 // How fragments are composited.
@@ -38,7 +38,7 @@ struct CompositingPlan {
     Blending blending = Blending::native;
     Order order = Order::back_to_front;
 
-    // Bits of a code, where the program rounds fragments to codes.
+    // Bits of a code, if the program rounds fragments to codes.
     int code_bits() const {
         return emulation ? emulation->bits : target == Target::fixed16 ? 16 : 8;
     }

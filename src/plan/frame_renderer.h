@@ -19,14 +19,14 @@ class FrameRenderer {
     virtual ~FrameRenderer() = default;
 
     // Takes another plan of the same scene and size for further frames. Returns false, and changes
-    // nothing, where that plan differs in more than belongs to one view.
+    // nothing, if that plan differs in more than belongs to one view.
     virtual bool take(const Plan& plan) = 0;
     // Draws a frame, which is complete on return. Ctrl-C ends it between steps; `progress` advances
     // by step_count() in all.
     virtual void draw(const View& view, Progress* progress = nullptr) = 0;
     virtual int step_count() const = 0;
     // The last frame: associated, linear, before the background. The one that is given `image`
-    // takes no memory where that has the frame's size.
+    // takes no memory if that has the frame's size.
     virtual void read(Image& image) const = 0;
     Image read() const {
         Image image;

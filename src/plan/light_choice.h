@@ -10,7 +10,7 @@ namespace lamina {
 
 // How a lit scene is drawn.
 struct LightPlan {
-    std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient
+    std::optional<Lighting> lighting;  // with the smallest gradient that is lit
     // Parts of rays along which light bends by more are cut (slicing/cpu_light-inl.h).
     double most_bend = 0;
     double light_error = 0;  // that this leaves, in 1/255
@@ -18,8 +18,8 @@ struct LightPlan {
     friend bool operator==(const LightPlan&, const LightPlan&) = default;
 };
 
-// Plans the light of a scene. `max_color`: of the unlit picture. `cuts_rays`: rays are cut where
-// light bends.
+// Plans the light of a scene. `max_color`: of the unlit picture. `cuts_rays`: tells
+// whether rays are cut at bends of light.
 LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays);
 
 // The most rounds of loops that a fragment of OpenGL takes, beyond those of unlit scenes, to cut

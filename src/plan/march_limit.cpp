@@ -15,8 +15,8 @@ namespace lamina {
 namespace {
 
 constexpr int most_rounds = 65535;
-constexpr int spare_rounds = 64;    // of what else a fragment does
-constexpr int search_cells = 1024;  // of the range: where searches for an interval start
+constexpr int spare_rounds = 64;    // for what else a fragment does
+constexpr int search_cells = 1024;  // parts of the range at which searches for an interval start
 // Rays end at an optical depth of 20.7. Cells deeper than .75 are parted: a part at least as deep
 // as half of that takes up to 20 rounds to find and up to 20 more parts before it, where extinction
 // rises from 0 (shaders/slicing/cut_cell.glsl).
@@ -49,7 +49,7 @@ int rounds_of_slab(const Scene& scene, const Facts& facts) {
     return 2 + light + (table ? 4 * search + 4 : search);
 }
 
-// The cell, a leap, its light, two searches, and where knots are crossed one for the cell and up to
+// The cell, a leap, its light, two searches, and if knots are crossed one for the cell and up to
 // three crossings of each (a cubic has three monotone parts).
 double rounds_of_cell(const Scene& scene, const Facts& facts) {
     const auto pieces = 3 * (static_cast<double>(facts.knots) + 1);

@@ -18,7 +18,7 @@ int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilitie
 // Into how many slabs a ray must be parted so that one fragment can walk through the cells of each.
 int least_exact_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
 
-// The least render.max_error to which one fragment can cut a lit ray; 0 where nothing is limited.
+// The least render.max_error to which one fragment can cut a lit ray; 0 if nothing is limited.
 double least_lit_error(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
 
 }  // namespace lamina

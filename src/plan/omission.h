@@ -12,7 +12,7 @@ namespace lamina {
 struct Work {
     double segments = 0;  // segments of rays in slabs that are evaluated
     double fetches = 0;   // fetches of the volume's texels by OpenGL's fragments
-    double tets = 0;      // projected tets, or cell fragments where tets are cut
+    double tets = 0;      // projected tets, or cell fragments if tets are cut
     double ordered = 0;   // tets put in visibility order
     double passes = 0;    // layers that are composited onto images one by one
     double bytes = 0;     // size of the volume, tables and images that are read and written
@@ -41,7 +41,7 @@ struct OmissionSwitch {
 };
 std::vector<std::string> omission_names();
 
-// What a planner leaves out, in the order of its choices.
+// Collects what a planner leaves out, in the order of its choices.
 struct Omissions {
     const OmissionSwitch& allowed;
     std::vector<Omission> list = {};

@@ -31,12 +31,12 @@ namespace lamina {
 enum class VolumeSampling {
     none,      // the transfer function is constant over the volume: no scalar is needed
     fetch,     // eight texel fetches and float arithmetic
-    filtered,  // linear filter of a float texture, where the filter was measured to be exact
+    filtered,  // linear filter of a float texture, if the filter was measured to be exact
     hardware,  // linear filter of a texture in the file's own type, with the weights of the
                // hardware
 };
 
-// What slicing draws, whatever the view. Renderers prepare for it once.
+// The picture that slicing draws, whatever the view. Renderers prepare for it once.
 struct PlannedPicture : CompositingPlan, LightPlan {
     int slabs = 1;
     std::optional<Dither> dither;
@@ -67,12 +67,12 @@ struct PlannedPicture : CompositingPlan, LightPlan {
     double curve_error = 0;
 
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
-    // Whether segments are integrated from the scalars at both ends and in the middle. Otherwise
-    // they take the scalar in the middle alone.
+    // Tells whether segments are integrated from the scalars at both ends and in the middle.
+    // Otherwise they take the scalar in the middle alone.
     bool integrates_runs() const {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }
-    // Whether rays are integrated cell by cell.
+    // Tells whether rays are integrated cell by cell.
     bool integrates_cells() const {
         return classification == Classification::exact && sampling != VolumeSampling::none;
     }
@@ -81,7 +81,7 @@ struct PlannedPicture : CompositingPlan, LightPlan {
     friend bool operator==(const PlannedPicture&, const PlannedPicture&) = default;
 };
 
-// What follows from the view, and is planned again with each camera.
+// The part that follows from the view, and is planned again with each camera.
 struct ViewPart {
     // Rays are parallel; all have one direction and one length per depth.
     bool orthographic = false;
@@ -98,8 +98,8 @@ struct ViewPart {
     friend bool operator==(const ViewPart&, const ViewPart&) = default;
 };
 
-// What is said of the slices: why they are drawn so, and the errors that were found, in 1/255. It
-// changes no picture.
+// Remarks say why slices are drawn so, and which errors were found, in 1/255. They change no
+// picture.
 struct Remarks {
     std::optional<SlabTrial> slab_trial;  // the trial that was chosen, for "samples": "auto"
     std::string filter_reason;  // for "filter": "auto", if the hardware's filter is chosen
@@ -110,8 +110,8 @@ struct Remarks {
     std::string target_reason;          // for "target": "auto"
     std::optional<double> error_bound;  // for "tree": "auto"; tree_reason explains it
     std::string tree_reason;
-    // What compositing may add to the error of the slabs, whoever chose it; none: nothing is known
-    // that is worth saying.
+    // Bound on what compositing adds to the error of the slabs, whoever chose it; none: nothing is
+    // known that is worth saying.
     std::optional<double> rounding_bound;
     // The largest error of exact segments. A picture is linear in its colours, and so is the error
     // of a crossing of the transfer function: it grows with the brightest one above 1.
@@ -150,14 +150,14 @@ struct Plan {
     ErrorFigure error() const;
 };
 
-// Throws Error where the context cannot do what the scene asks for, and names the limit. `trials`:
-// measured errors, for automatic choices. `tables`: finds the tables of earlier plans; without it,
-// all are built.
+// Makes the plan. Throws Error if the context cannot do what the scene asks for, and names the
+// limit. `trials`: measured errors, for automatic choices. `tables`: finds the tables of earlier
+// plans; without it, all are built.
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions, const SampleTrials& trials = {},
                const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
-// The same for Method::slice, without the work that omissions save; quicker, for the frames of a
-// moving scene.
+// Makes the plan for Method::slice without the work that omissions save; quicker, for the frames of
+// a moving scene.
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials,
                 const std::shared_ptr<TableCache>& tables);

@@ -68,7 +68,8 @@ double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
     return (early ? shares.box_before_opaque : shares.box) - in_one_step;
 }
 
-// Where one program marches many slabs, a scalar between two of them is that of both.
+// Counts a scalar once if one program marches many slabs: a scalar between two of them is that of
+// both.
 double fetches_per_segment(const SlicePlan& plan) {
     if (plan.sampling == VolumeSampling::none) return 0;
     const double scalars = plan.classification != Classification::preintegrated ? 1

@@ -31,7 +31,7 @@ enum class SegmentSource {
     vertices    // no integration: Coloring::vertex
 };
 
-// What projection draws. Renderers prepare for it once.
+// The picture that projection draws. Renderers prepare for it once.
 struct ProjectedPicture : CompositingPlan, LightPlan {
     SegmentSource source = SegmentSource::table;
     Interpolation interpolation = Interpolation::perspective;
@@ -41,35 +41,35 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
     bool solve_rings = false;
     ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
     ProjectDither dither = ProjectDither::none;
-    std::uint32_t seed = 1;     // of dithering and stochastic rounding
+    std::uint32_t seed = 1;     // for dithering and stochastic rounding
     std::vector<int> tree;      // bifurcation factors of fixed-point nodes; empty: none
     bool scattered = false;     // the tets of a tree's leaf come from all over the mesh
     bool orthographic = false;  // rays are parallel; fragments need no division
     bool single_color = false;  // the colour is a constant of the program
-    // Where float32 can find the faces of a tet, the setup in float32 draws it.
+    // The setup in float32 draws a tet if float32 can find its faces.
     bool plain = true;
     bool draw_transparent = false;  // transparent tets are drawn, too
     bool nothing_visible = false;   // no tet is drawn
     bool table_filtered = false;    // tables are read through the texture unit's filter
     // Eye-space depth of the near plane, in the plan's units, as are lengths in tables.
     double near_depth = 0;
-    ValueRange range;  // of scalars, [0, 1] in shaders; lo < hi
-    // The range is the window of what shows. Scalars may lie outside it, where the transfer
+    ValueRange range;  // scalars, [0, 1] in shaders; lo < hi
+    // The range is the window of what shows. Scalars may lie outside it, and there the transfer
     // function is constant.
     bool windowed = false;
     TablePlan table;  // for SegmentSource::table (uniform) and ::cut_table (knots)
 
-    // Whether the program, not the blending unit, rounds opacity to codes.
+    // Tells whether the program, not the blending unit, rounds opacity to codes.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
 
     friend bool operator==(const ProjectedPicture&, const ProjectedPicture&) = default;
 };
 
-// What is said of the projection. It changes no picture.
+// Remarks on the projection change no picture.
 struct ProjectRemarks {
     std::string target_reason;  // for "target": "auto"
     MeshFacts::TrialError trial_error;
-    ErrorFigure error;  // of the picture
+    ErrorFigure error;  // the picture's
 };
 
 struct ProjectPlan : ProjectedPicture, ProjectRemarks {

@@ -36,7 +36,7 @@ constexpr double near_share = 1e-6;
 // of volumes (plan/classification_choice.h).
 constexpr double float_error = 0.05;
 
-// By this share of a tet's longest edge faces are taken to be out of their places, at both ends of
+// Share of a tet's longest edge by which faces are taken to be out of their places, at both ends of
 // a run. The bound is 9e-6 (docs/stability.md); planes of doubles relative to a near pixel keep
 // most faces far below it.
 constexpr double placing_share = 1e-6;
@@ -48,10 +48,10 @@ constexpr double scalar_rounding = 0x1p-22;
 // A figure of more, in 1/255, is no figure: few rays tell little of pictures that are so far off.
 constexpr double most_figure = 8;
 
-// What a table may add to the picture's error, in 1/255.
+// Error that a table may add to the picture's, in 1/255.
 constexpr double most_segment_error = 0.5;
 
-// What a table is tried on is a sample: the rest of the picture may be this much worse.
+// Factor by which the rest of the picture may be worse than the sample that a table is tried on.
 constexpr double sampling_margin = 1.25;
 
 // Parts of a tet that shows something, on the average: if the transfer function's points cut tets
@@ -196,7 +196,7 @@ class ProjectPlanner {
                                                       : settings_.interpolation;
     }
 
-    // What is interpolated between the vertices of a fan, a silhouette cannot carry.
+    // A silhouette cannot carry what is interpolated between the vertices of a fan.
     ProjectGeometry geometry() const {
         const bool fan =
             settings_.interpolation == Interpolation::linear || mixes_colors(settings_.coloring);

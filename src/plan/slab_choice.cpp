@@ -11,15 +11,15 @@
 namespace lamina {
 namespace {
 
-// Of the goal what is used: the pictures and rays that trials are compared with have errors, too,
-// and the context that draws the picture rounds otherwise than the trials'.
+// Share of the goal that is used: the pictures and rays that trials are compared with have errors,
+// too, and the context that draws the picture rounds otherwise than the trials'.
 constexpr double used_share = 0.96;
 
 // The largest error on a quarter of a picture's rays was up to 1.37 times below that on all
 // (docs/precision.md): a maximum that grows with a power of the number of rays.
 constexpr double rays_power = 0.25;
 
-// What more slabs gain less than is not worth their time.
+// Factor on the error that more slabs must gain to be worth their time.
 constexpr double near_least = 1.2;
 
 // Errors of second order fall by such a power of the number of slabs.
@@ -42,7 +42,7 @@ double slab_error_goal(const Scene& scene, double max_color, int slabs, double r
         return share * (scene.max_error - std::max(rounding, unknown));
     }
     if (!scene.slice.tree || tree_given) return share * scene.max_error;
-    TreeQuestion question;  // of a tree that needs no more than its root's rounding
+    TreeQuestion question;  // about a tree that needs no more than its root's rounding
     question.target = *scene.target;
     question.emulation = scene.emulate;
     const double root = one_level_error_bound(question);

@@ -26,7 +26,7 @@ struct SlabTrial {
     friend bool operator==(const SlabTrial&, const SlabTrial&) = default;
 };
 
-// Numbers of slabs that were tried, where the scene has "auto" (slicing/slab_trials.h tries them).
+// Numbers of slabs that were tried, if the scene has "auto" (slicing/slab_trials.h tries them).
 struct SampleTrials {
     // For "samples": "auto"; otherwise empty.
     std::vector<SlabTrial> exact;
@@ -39,17 +39,17 @@ struct SampleTrials {
 int slabs_per_voxel(const Facts& facts, double slabs);
 
 // The largest error, in 1/255, that a trial of an automatic number of slabs may find. Automatic
-// compositing takes its share of max_error first. The goal is stricter where only `rays` of the
+// compositing takes its share of max_error first. The goal is stricter if only `rays` of the
 // picture's rays were tried, because the largest error of all rays is then larger than the one
-// found. `max_color` and `slabs` matter where the target is automatic, too.
+// found. `max_color` and `slabs` matter if the target is automatic, too.
 double slab_error_goal(const Scene& scene, double max_color, int slabs, double rays);
 
-// Whether the errors fall with about the second power of the number of slabs, as for smooth
+// Tells whether the errors fall with about the second power of the number of slabs, as for smooth
 // pictures. Otherwise fewer slabs may by chance have a smaller error than more.
 bool are_of_second_order(std::vector<SlabTrial> trials);
 
-// The choice of "samples": "auto". It is the fewest slabs whose trial keeps its goal. Where none
-// does, it is the fewest slabs, of two a voxel or more, whose error is near the least. Where
+// The choice of "samples": "auto". It is the fewest slabs whose trial keeps its goal. If none
+// does, it is the fewest slabs, of two a voxel or more, whose error is near the least. If
 // nothing was tried, it is two slabs a voxel, with an unknown error (NaN).
 SlabTrial chosen_slabs(const Facts& facts, const SampleTrials& trials);
 

@@ -39,7 +39,7 @@ constexpr double least_empty_in_tiles = 0.01, least_empty_in_shaders = 0.2;
 
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
 
-constexpr double curve_share = 0.25;  // of max_error: what curves may cost
+constexpr double curve_share = 0.25;  // curves may cost this share of max_error
 
 constexpr std::uint64_t gradient_bytes = 8;  // a sample's, in OpenGL (slicing/gradient_map.h)
 
@@ -427,7 +427,7 @@ class SlicePlanner {
         return ends ? depth : never;
     }
 
-    // What rays that end may miss, in 1/255.
+    // Error of rays that end at opaque_depth(), in 1/255.
     double hidden_error() const { return hidden_share * scene_.max_error; }
 
     const Scene& scene_;

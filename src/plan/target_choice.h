@@ -15,19 +15,19 @@ inline constexpr double target_share = 0.15;
 
 struct TargetChoice {
     Target target = Target::float32;
-    std::string reason;  // empty where the scene names the target
-    double error = 0;    // bound on its rounding, in 1/255; 0 where no bound is known or needed
+    std::string reason;  // empty if the scene names the target
+    double error = 0;    // bound on its rounding, in 1/255; 0 if no bound is known or needed
 };
 
 // The choice of "target": "auto" for slicing: the target with the fewest bytes a pixel whose
 // compositing error is within target_share of max_error.
 TargetChoice choose_target(const Scene& scene, const Facts& facts, const SampleTrials& trials);
 TargetChoice choose_target(const Scene& scene, double max_color, int slabs);
-// The same for projected tetrahedra.
+// Chooses the target of projected tetrahedra.
 TargetChoice choose_project_target(const Scene& scene);
 
-// The scene with the target set. Where a target smaller than float32 was chosen for slicing without
-// a tree, the scene also gets a tree, because the bound of the choice is the bound of a tree.
+// Gives the scene a target. If a target smaller than float32 was chosen for slicing without a
+// tree, the scene also gets a tree, because the bound of the choice is the bound of a tree.
 Scene with_target(Scene scene, Target target);
 
 }  // namespace lamina

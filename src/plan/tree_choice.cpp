@@ -39,7 +39,7 @@ double storage_error(const TreeQuestion& question) {
     unreachable_enum();
 }
 
-// How far a slab's opacity may be from its value, in storage errors: half a code where it is
+// How far a slab's opacity may be from its value, in storage errors: half a code if it is
 // rounded to nearest, else up to a code.
 double opacity_roundings(const TreeQuestion& question) {
     if (question.dither) return 2.0 * question.dither->increment;
@@ -70,7 +70,7 @@ double scaled_for_color(const TreeQuestion& question, double bound) {
     return full_scale * std::min(scaled, largest);
 }
 
-// What one level of inner nodes may add, of colours up to 1 (docs/numerics.md, section 4): the
+// Error that one level of inner nodes may add to colours up to 1 (docs/numerics.md, section 4): the
 // bound on a channel that follows from a code h off in each node of this share of the ray, and the
 // rounding of the nodes' colours.
 double level_rounding(const TreeQuestion& question, const TreePlan& tree, double share) {
@@ -82,14 +82,14 @@ double level_rounding(const TreeQuestion& question, const TreePlan& tree, double
     return storage + (lost < 1 ? std::min(-std::log1p(-lost), 1.0) : 1.0);
 }
 
-// By a node, which emulated buffers do not have, or by blending.
+// Bound of a node, which emulated buffers do not have, or of blending.
 double best_error_bound(const TreeQuestion& question) {
     const double straight = straight_error_bound(question);
     if (question.target == Target::emulated) return straight;
     return std::min(straight, one_level_error_bound(question));
 }
 
-// The others that would keep max_error, "" where none does.
+// Names the targets that would keep max_error; "" if none does.
 std::string targets_that_keep(TreeQuestion question) {
     std::vector<const char*> names;
     for (const Target target :

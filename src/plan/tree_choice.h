@@ -23,14 +23,14 @@ struct TreePlan {
     friend bool operator==(const TreePlan&, const TreePlan&) = default;
 };
 
-// What the choice of "tree": "auto" depends on.
+// Facts that the choice of "tree": "auto" depends on.
 struct TreeQuestion {
     Target target = Target::float32;
     Emulation emulation;
     int slabs = 1;
     int visible_slabs = 1;  // most slabs of one ray that are composited and can be seen
     Order order = Order::back_to_front;
-    std::optional<Dither> dither;  // of opacity codes
+    std::optional<Dither> dither;  // rounds opacity to codes
     double largest_color = 1;      // largest colour component of what is composited
     double max_error = 1;          // in 1/255, as the scene has it
     double slab_error = 0;  // the part of max_error that the slabs were found to use, in 1/255
@@ -47,22 +47,22 @@ struct TreeChoice {
 double straight_error_bound(const TreeQuestion& question);
 double one_level_error_bound(const TreeQuestion& question);
 
-// The same of what a plan composites with, by blending (no tree) or any tree whose nodes' code has
-// such a bound: the minimax code of shader nodes. Else none.
+// Bounds the error of what a plan composites with, by blending (no tree) or any tree whose nodes'
+// code has such a bound: the minimax code of shader nodes. Else none.
 std::optional<double> rounding_bound(const TreeQuestion& question,
                                      const std::optional<TreePlan>& tree);
 
 // Chooses between blending and a tree: the cheaper one whose error bound fits into what the slabs
-// leave of max_error, or, where neither fits, the one with the smaller bound. Throws Error where
+// leave of max_error, or, if neither fits, the one with the smaller bound. Throws Error if
 // compositing alone exceeds max_error and the scene asks for another target than float32.
 TreeChoice choose_tree(const TreeQuestion& question);
 
-// Throws Error where a tree whose factors the scene gives cannot be drawn. `single_color`: whether
+// Throws Error if a tree whose factors the scene gives cannot be drawn. `single_color`: whether
 // all that can be seen has one colour.
 void check_slice_tree(const Scene& scene, bool single_color);
 void check_project_tree(const Scene& scene, bool single_color);
 
-// Throws Error where a leaf has more than `most` slabs, the limit of the context's loops
+// Throws Error if a leaf has more than `most` slabs, the limit of the context's loops
 // (plan/march_limit.h).
 void check_leaves(const Scene& scene, const TreeShape& shape, int most,
                   const Capabilities& capabilities);

@@ -23,12 +23,12 @@ namespace {
 
 constexpr int rays_along_side = 48, most_steps = 192;
 
-// What a ray costs in each part that shows something on it, in cells: it is set up there, and its
+// Cost of a ray in each part that shows something on it, in cells: it is set up there, and its
 // pixel is composited once more.
 constexpr double cells_of_ray = 8;
 
-// What it costs to read a brick of the cache: measured 130 us from a file that the system has in
-// its memory, where a cell takes 68 ns.
+// Cost of reading a brick of the cache: measured 130 us from a file that the system has in
+// its memory, beside 68 ns for a cell.
 constexpr double cells_of_page = 1900;
 
 int columns_of(const View& view) {
@@ -66,7 +66,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 // Boxes of this many cells or more are cut between bricks: their ranges say no more.
 constexpr double cells_to_cut_finely = 16 * MinMaxBricks::edge;
 
-// Where nothing shows, halves of the box are equal parts.
+// Cost of a box that shows nothing: then halves of it are equal parts.
 constexpr double cost_of_emptiness = 1e-6;
 
 // The number of boxes with smaller coordinates than the cut that divides `count` boxes.
@@ -76,7 +76,7 @@ int below_of(int count) {
 
 }  // namespace
 
-// What it costs to draw parts of a volume, estimated on rays all over the view from the ranges of
+// Costs of drawing parts of a volume, estimated on rays all over the view from the ranges of
 // bricks alone, in cells that rays walk through. In each part rays end once the part by itself is
 // opaque.
 class ShareCosts {
@@ -231,7 +231,7 @@ VolumeShares::Cut VolumeShares::best_cut(const ShareCosts& costs, const IndexBox
     const glm::dvec3 size = between.max - between.min;
     std::array<int, 3> axes{0, 1, 2};
     std::ranges::stable_sort(axes, std::greater(), [&](int axis) { return size[axis]; });
-    // Where nothing can be cut, all is below.
+    // All is below if nothing can be cut.
     Cut best{axes[0], between.max[axes[0]] + 1};
     double least = endless;
     for (const int axis : axes) {

@@ -22,7 +22,7 @@ class VolumeShares {
                  int count);
 
     // In the volume's index space, endless where they reach the volume's border. Boxes are empty
-    // where there were too few samples to cut between.
+    // if there were too few samples to cut between.
     const std::vector<IndexBox>& boxes() const { return boxes_; }
 
     // The numbers of the boxes, sorted so that along every ray of a view nearer ones come first.

@@ -18,7 +18,7 @@ namespace lamina {
 // uses are dropped. Meshes with cell scalars cannot be cut.
 MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip);
 
-// The same of a scene's mesh: the mesh itself where nothing is cut away, null where nothing is
+// Cuts a scene's mesh: gives the mesh itself if nothing is cut away, null if nothing is
 // left. `lit`: the gradients of the mesh before it was clipped are kept, interpolated linearly, as
 // they are in its tets.
 std::shared_ptr<const SceneMesh> clipped_mesh(const std::shared_ptr<const SceneMesh>& mesh,

@@ -15,9 +15,9 @@ struct HalfSpace {
     glm::dvec3 point, normal;
 };
 
-// What a clip keeps lies in all of these: one for each plane, then six for the box. Normals are
-// the clip's own times powers of two, so nothing is rounded. Throws Error where a normal is zero or
-// a number is none.
+// Gives the half-spaces that hold all that a clip keeps: one for each plane, then six for the box.
+// Normals are the clip's own times powers of two, so nothing is rounded. Throws Error if a normal
+// is zero or a number is none.
 std::vector<HalfSpace> half_spaces(const Clip& clip);
 
 }  // namespace lamina

@@ -14,7 +14,7 @@ struct Scene;
 // Squares of distances far beyond this, in world units, would overflow.
 inline constexpr double largest_scene_coordinate = 1e100;
 
-// What cannot be drawn of a lighting.
+// A part of a lighting that cannot be drawn.
 struct LightingMistake {
     std::string key;      // "power", "lights.2.direction"
     std::string message;  // "found 0, expected ..."

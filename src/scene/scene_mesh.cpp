@@ -22,7 +22,7 @@ std::string list_names(const MeshData& data) {
     return names.empty() ? "none" : names;
 }
 
-// Where the name of a vector stands for its length, NAME.magnitude is another word for that.
+// NAME.magnitude is another word for a vector's NAME, which stands for its length.
 bool is_called(const MeshScalar& scalar, const std::vector<MeshScalar>& all,
                const std::string& name) {
     if (scalar.name == name) return true;

@@ -22,8 +22,8 @@ struct SceneMesh {
     MeshScalar scalar;      // one value a point
     bool averaged = false;  // the file has the scalar at cells; it was averaged to points
     std::optional<MeshReport> report;  // only for a mesh made from the scene's volume
-    // Of a clipped mesh that is lit: at the points, those of the mesh before it was clipped, in
-    // scalar units per world unit. Else empty.
+    // Gradients, at the points, of the mesh before it was clipped, in scalar units per world unit;
+    // empty unless it is lit and was clipped.
     std::vector<glm::dvec3> gradients_before_clip = {};
 };
 
@@ -40,7 +40,7 @@ std::string name_of_mesh(const Scene& scene);
 // file has no such scalar.
 SceneMesh load_mesh(const Scene& scene);
 
-// The same of a mesh, or of a mesh made from a volume, that is in memory already.
+// Take data that are in memory already: a mesh, or a volume from which one is made.
 SceneMesh scene_mesh(const Scene& scene, MeshData data);
 SceneMesh scene_mesh(const Scene& scene, const Volume& volume);
 
