@@ -1,19 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
+// The cells along a chord, front to back (Amanatides and Woo 1987; docs/numerics.md, section 9.4):
+//
+//   cell = the cell in which the chord begins; from = 0
+//   crossing[a] = the parameter at which the chord leaves the cell along axis a               (9.7)
+//   loop:
+//       to = min(least crossing, the chord's length)
+//       visit (cell, from, to) if from < to
+//       end if to is the chord's length
+//       from = to; step to the next cell along the axis of the least crossing
+//
+// Every crossing is computed from its own plane, so errors do not accumulate. If it is known which
+// cells show something (VisibleCells), a packet of chords goes side by side and first crosses
+// blocks of cells that show nothing, in the same way.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
 
 #include "lamina/grid.h"
-#include "reference/axis_start.h"
-#include "reference/cell_index.h"
+#include "reference/cells.h"
 #include "reference/chord.h"
+#include "reference/visible_cells.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
+
+// Where a chord begins along one axis of a grid, and the last cell that it can come to. Numbers of
+// cells are whole numbers.
+struct AxisStart {
+    double cell, last_cell;
+    double inverse;  // 1 / direction, but finite, so that it gives 0 on the plane itself
+
+    // `lowest` and `highest` bound the grid's box.
+    AxisStart(double lowest, double highest, double entry, double direction) {
+        const double first = std::floor(lowest), last = std::ceil(highest) - 1;
+        constexpr double largest = std::numeric_limits<double>::max();
+        inverse = std::clamp(1 / direction, -largest, largest);
+        // On a plane between two cells the ray belongs to the cell that it enters.
+        cell = std::clamp(direction < 0 ? std::ceil(entry) - 1 : std::floor(entry), first, last);
+        last_cell = direction < 0 ? first : direction > 0 ? last : cell;
+    }
+};
 
 // The cells along a chord, front to back (Amanatides and Woo 1987). Every crossing is computed from
 // its own plane, so errors do not accumulate. The first and the last cell of an axis reach to the
@@ -76,5 +108,34 @@ class CellWalk {
     std::array<double, 3> crossing_;
     std::array<double, 3> inverse_;  // of the direction
 };
+
+// Chords of rays on their way through cells, side by side. Each passes the same cells as CellWalk,
+// with the same parameters, but for cells that show nothing.
+struct CellLanes {
+    static constexpr std::size_t width = longest_vector;
+    // Numbers of cells are whole numbers in doubles, whose products and comparisons are quicker
+    // than those of 64-bit integers. Volumes in memory have less than 2^53 cells.
+    struct Axis {
+        LaneRow entry, direction;
+        LaneRow cell, last_cell, inverse;  // AxisStart
+        // Where the chord leaves the cell along this axis, in lanes that are in a block.
+        LaneRow crossing;
+    };
+
+    std::array<Axis, 3> axes;
+    LaneRow from, length;  // parameters: where the chord enters the cell, and its end
+    LaneSet walking = 0;
+    LaneSet in_block = 0;  // those whose cell is in a block that may show something
+
+    void stop(std::size_t lane) { walking &= ~lane_bit(lane); }
+};
+
+// A lane gets the cell in which its chord, of length > 0, begins. The lane walks from then on.
+void enter_cells(CellLanes& lanes, std::size_t lane, const GridAxes& grid, const Chord& chord);
+
+// Appends cells that may show something to the lanes' batches, until a batch is complete or some
+// chords have ended. Returns those lanes; none, where none walks. `visible` must not be empty.
+LaneSet walk_cells(CellLanes& lanes, const VisibleCells& visible,
+                   const std::array<CellBatch*, CellLanes::width>& batches);
 
 }  // namespace lamina

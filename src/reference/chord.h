@@ -1,17 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
+// Chords: what of viewing rays lies in a grid's box, and in the half-spaces of a clip. Places in
+// the box are computed in twice the precision of double, because eyes may be far away.
+//
+//   for each axis of the grid, with position p and slope q of the ray along it, in index space:
+//       the ray is inside between the z at which p + q z meets the box's two faces      (9.7)
+//   cut the range of z that is left by the clip (clip.h)
+//   entry = the place of its front end, exactly on the face by which the ray enters
 #pragma once
 
+#include <array>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
-
 #include <span>
 
+#include "base/double_double.h"
 #include "lamina/grid.h"
-#include "reference/grid_axes.h"
 #include "scene/camera.h"
 #include "scene/half_space.h"
 
 namespace lamina {
+
+// This holds what clip_to_box() needs of a grid, so that it is computed once for all rays.
+struct GridAxes {
+    // A step of the grid, scaled by a power of two so that its square does not underflow.
+    struct Axis {
+        glm::dvec3 scaled;
+        DoubleDouble inverse_square;  // of the scaled one
+        double unscale;               // the power of two
+    };
+
+    explicit GridAxes(const Grid& grid);
+
+    glm::dvec3 origin;
+    glm::dvec3 lowest, highest;  // corners of the box, in index space
+    std::array<Axis, 3> axes;
+};
 
 // The segment of a viewing ray (z >= 0) inside a grid's box: entry + s * direction, 0 <= s <=
 // length_z, in index space. Because it starts at the entry, the distance of a far eye does not

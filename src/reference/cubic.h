@@ -16,6 +16,9 @@ struct Cubic {
     bool constant() const { return c[1] == 0 && c[2] == 0 && c[3] == 0; }
 };
 
+// A gradient along a ray, component by component, in world space.
+using GradientAlong = std::array<Cubic, 3>;
+
 // The ends of the intervals of [0, 1] on which the cubic is monotone: t[0] = 0 < ... < t[count] =
 // 1.
 struct MonotoneParts {

@@ -7,7 +7,7 @@
 #define LAMINA_TARGET_FILE "reference/emission_lanes.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/cubic_lanes-inl.h"
+#include "reference/cubic-inl.h"
 #include "reference/depth_lanes-inl.h"
 #include "reference/patterson_rules.h"
 

@@ -4,8 +4,8 @@
 #include <glm/vec3.hpp>
 
 #include "optics/ray_lights.h"
+#include "reference/cells.h"
 #include "reference/emission_integral.h"
-#include "reference/gradient_samples.h"
 
 namespace lamina {
 

@@ -11,10 +11,10 @@
 #define LAMINA_TARGET_FILE "reference/linear_parts.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/cubic_lanes-inl.h"
+#include "reference/cubic-inl.h"
 #include "reference/depth_lanes-inl.h"
-#include "reference/interval_search-inl.h"
 #include "reference/rounds-inl.h"
+#include "reference/transfer_intervals-inl.h"
 #include "simd/members-inl.h"
 
 LAMINA_SIMD_BEGIN

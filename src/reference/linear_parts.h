@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "reference/interval_columns.h"
 #include "reference/linear_batch.h"
 #include "reference/linear_round.h"
+#include "reference/transfer_intervals.h"
 
 namespace lamina {
 

@@ -11,8 +11,7 @@
 #include "lamina/transfer_function.h"
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
-#include "reference/trace_options.h"
-#include "reference/trace_tiles.h"
+#include "reference/tiles.h"
 #include "scene/camera.h"
 
 namespace lamina {

@@ -9,9 +9,9 @@
 
 #include "base/compensated_sum.h"
 #include "optics/ray_lights.h"
-#include "reference/gradient_samples.h"
+#include "reference/cells.h"
+#include "reference/cut.h"
 #include "reference/piece_batch.h"
-#include "reference/segment_batch.h"
 #include "reference/transfer_intervals.h"
 
 namespace lamina {

@@ -12,11 +12,11 @@
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
 #include "reference/cell_walk.h"
+#include "reference/cells.h"
 #include "reference/chord.h"
+#include "reference/clip.h"
 #include "reference/ray_integrator.h"
-#include "reference/seen_segment.h"
 #include "reference/transfer_intervals.h"
-#include "reference/trilinear.h"
 
 namespace lamina {
 namespace {

@@ -7,9 +7,9 @@
 #define LAMINA_TARGET_FILE "reference/segment_pieces.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/cubic_lanes-inl.h"
-#include "reference/interval_search-inl.h"
+#include "reference/cubic-inl.h"
 #include "reference/rounds-inl.h"
+#include "reference/transfer_intervals-inl.h"
 
 LAMINA_SIMD_BEGIN
 namespace reference {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "reference/cut.h"
 #include "reference/piece_batch.h"
-#include "reference/segment_batch.h"
 #include "reference/transfer_intervals.h"
 
 namespace lamina {

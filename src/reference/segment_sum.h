@@ -10,7 +10,7 @@
 #include "base/compensated_sum.h"
 #include "lamina/transfer_function.h"
 #include "optics/ray_lights.h"
-#include "reference/gradient_samples.h"
+#include "reference/cells.h"
 #include "reference/linear_batch.h"
 #include "reference/linear_parts.h"
 #include "reference/ray_integrator.h"

@@ -7,11 +7,10 @@
 
 #include "lamina/volume.h"
 #include "mesh/box_corners.h"
-#include "reference/gradient_samples.h"
-#include "reference/grid_axes.h"
-#include "reference/trace_options.h"
+#include "reference/cells.h"
+#include "reference/chord.h"
+#include "reference/tiles.h"
 #include "reference/transfer_intervals.h"
-#include "reference/trilinear.h"
 #include "reference/visible_cells.h"
 
 namespace lamina {

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "optics/ray_lights.h"
-#include "reference/cell_batch.h"
 #include "reference/cell_walk.h"
+#include "reference/cells.h"
 #include "reference/chord.h"
+#include "reference/cut.h"
 #include "reference/ray_integrator.h"
-#include "reference/segment_batch.h"
 #include "reference/traced_ray.h"
 #include "reference/traced_volume.h"
 #include "scene/camera.h"
@@ -46,7 +46,7 @@ class VolumeRay {
         make_segments(cells_, chord_, traced_.transfer.columns(), segments_);
         if (traced_.options.lighting)
             integrator_.add_lit(segments_, [&](std::size_t segment) {
-                return gradient(static_cast<std::size_t>(cells_.seen[segment]));
+                return gradient(static_cast<std::size_t>(segments_.cell[segment]));
             });
         else
             integrator_.add(segments_);

@@ -10,11 +10,9 @@
 #include <vector>
 
 #include "lamina/image.h"
-#include "reference/cell_lanes.h"
+#include "reference/cell_walk.h"
 #include "reference/chord.h"
-#include "reference/pixels_in_turn.h"
-#include "reference/seen_pixels.h"
-#include "reference/trace_tiles.h"
+#include "reference/tiles.h"
 #include "reference/traced_ray.h"
 #include "reference/traced_volume.h"
 #include "reference/volume_ray.h"

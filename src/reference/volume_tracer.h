@@ -12,8 +12,7 @@
 #include "lamina/image.h"
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
-#include "reference/trace_options.h"
-#include "reference/trace_tiles.h"
+#include "reference/tiles.h"
 #include "scene/camera.h"
 
 namespace lamina {

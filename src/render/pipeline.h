@@ -15,7 +15,7 @@
 #include "lamina/context_choice.h"
 #include "lamina/frame_statistics.h"
 #include "lamina/image.h"
-#include "reference/trace_tiles.h"
+#include "reference/tiles.h"
 #include "render/draw_context.h"
 #include "render/frames.h"
 #include "render/picture_share.h"

@@ -5,7 +5,7 @@
 
 #include "lamina/image.h"
 #include "lamina/scene.h"
-#include "reference/trace_tiles.h"
+#include "reference/tiles.h"
 #include "render/scene_data.h"
 
 namespace lamina {

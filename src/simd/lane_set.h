@@ -18,6 +18,9 @@ constexpr LaneSet lane_bit(std::size_t lane) {
     return LaneSet{1} << lane;
 }
 
+// A number for each lane of a packet of rays.
+struct alignas(64) LaneRow : std::array<double, longest_vector> {};
+
 template <typename Visit>
 void for_each_lane(LaneSet lanes, const Visit& visit) {
     for (LaneSet left = lanes; left != 0; left &= left - 1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/cell_batch.h"
+#include "reference/cells.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 
 #include "fixtures.h"
 #include "reference/transfer_intervals.h"
-#include "reference/trilinear.h"
 
 namespace lamina {
 namespace {
@@ -73,7 +72,7 @@ void test_batches(const std::vector<std::pair<double, double>>& ranges, Random& 
                 continue;
             if (!meets(corners[i], ranges)) continue;
             ASSERT_LT(segment, segments.count);
-            EXPECT_EQ(cells.seen[segment], static_cast<std::int64_t>(i));
+            EXPECT_EQ(segments.cell[segment], static_cast<std::int64_t>(i));
             const glm::dvec3 corner(cells.cell[0][i], cells.cell[1][i], cells.cell[2][i]);
             const double along = cells.to[i] - cells.from[i];
             const Cubic expected = corners[i].along(chord.place_in_cell(corner, cells.from[i]),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/cell_lanes.h"
+#include "reference/cell_walk.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "fixtures.h"
-#include "reference/cell_walk.h"
 #include "reference/transfer_intervals.h"
 #include "support/each_instruction_set.h"
 #include "visible_bits.h"

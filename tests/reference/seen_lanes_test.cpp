@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/seen_lanes.h"
+#include "reference/clip.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <string>
 
 #include "fixtures.h"
-#include "reference/seen_segment.h"
 #include "reference/transfer_intervals.h"
 #include "support/each_instruction_set.h"
 

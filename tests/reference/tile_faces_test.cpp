@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/tile_faces.h"
+#include "reference/tiles.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,6 @@
 #include "mesh/box_corners.h"
 #include "mesh/ray_walk.h"
 #include "reference/chord.h"
-#include "reference/seen_pixels.h"
 #include "support/split_box.h"
 
 namespace lamina {

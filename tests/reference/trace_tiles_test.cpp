@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/trace_tiles.h"
+#include "reference/tiles.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "reference/cell_index.h"
+#include "reference/cells.h"
 #include "reference/visible_cells.h"
 
 namespace lamina::reference_test {

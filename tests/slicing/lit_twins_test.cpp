@@ -9,7 +9,7 @@
 #include "gl/full_screen.h"
 #include "optics/ray_lights.h"
 #include "plan/brick_cuts.h"
-#include "reference/gradient_samples.h"
+#include "reference/cells.h"
 #include "reference/lit_fixtures.h"
 #include "slicing/gl_volume_textures.h"
 #include "slicing/gradient_map.h"

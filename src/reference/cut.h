@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "reference/cubic.h"
 
@@ -15,6 +16,8 @@ struct SegmentBatch {
     alignas(64) double lo[capacity];         // the scalar stays inside [lo, hi] up to rounding
     alignas(64) double hi[capacity];
     alignas(64) double length[capacity];  // > 0, in world units
+    // Its number in the CellBatch that make_segments() made it from.
+    alignas(64) std::int64_t cell[capacity];
     std::size_t count = 0;
 
     void add(const Cubic& cubic, double least, double most, double world_length) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of RayWalk::step() (mesh/ray_walk.cpp): the same numbers, rounded in the same way.
-#include "reference/walk_lanes.h"
+#include "reference/mesh_walk.h"
 
 #include <limits>
 
-#include "mesh/ray_walk.h"
+#include "mesh/scalar_range.h"
 
 #undef LAMINA_TARGET_FILE
-#define LAMINA_TARGET_FILE "reference/walk_lanes.cpp"
+#define LAMINA_TARGET_FILE "reference/mesh_walk.cpp"
 #include "simd/foreach_target.h"
 
 #include "simd/double_doubles-inl.h"
@@ -15,6 +14,8 @@
 LAMINA_SIMD_BEGIN
 namespace reference {
 
+// Takes a step as RayWalk::step() (mesh/ray_walk.cpp), with the same numbers rounded in the same
+// way.
 class WalkStep {
   public:
     WalkStep(WalkLanes& lanes, std::size_t first) : lanes_(lanes), first_(first) {}
@@ -51,7 +52,7 @@ class WalkStep {
     LAMINA_INLINE Long get(const WalkLanes::Numbers& row) const {
         return load<Long>(row.data() + first_);
     }
-    // In lanes that are settled.
+    // Sets the lanes that are settled.
     LAMINA_INLINE void put(Row& row, Double values) const {
         store(select(settled_, values, get(row)), row.data() + first_);
     }
@@ -68,8 +69,8 @@ class WalkStep {
                 RayWalk::place_error * distance};
     }
 
-    // Twice the area of the triangle of the line and the edge from a corner to the top. Where its
-    // sign is not certain, the lane is not settled.
+    // Returns twice the area of the triangle of the line and the edge from a corner to the top. A
+    // lane in which its sign is not certain is not settled.
     LAMINA_INLINE Double area_to(std::size_t corner, const Seen& top) {
         const WalkLanes::Corner& row = lanes_.front[corner];
         const Double x = get(row.x), y = get(row.y), reach = get(row.reach);
@@ -93,7 +94,7 @@ class WalkStep {
         store(max(max(a, b), max(c, top)), lanes_.most.data() + first_);
     }
 
-    // Puts the top in place of a corner where that is left behind.
+    // Replaces the corner that a line leaves behind by the tet's fourth one.
     LAMINA_INLINE void replace(std::size_t corner, DoubleMask left, const Seen& top) const {
         const DoubleMask replaced = settled_ & left;
         WalkLanes::Corner& row = lanes_.front[corner];
@@ -110,7 +111,7 @@ class WalkStep {
         store(select(replaced, get(lanes_.top_point), point), row.point.data() + first_);
     }
 
-    // As RayWalk::crossing().
+    // Finds the crossing as RayWalk::crossing() does.
     LAMINA_INLINE void cross(const Double (&areas)[3]) const {
         WalkLanes::Crossing& out = lanes_.out();
         const Double sum = areas[0] + areas[1] + areas[2];
@@ -130,12 +131,15 @@ class WalkStep {
 
     WalkLanes& lanes_;
     std::size_t first_;
-    // Without fused multiplication and addition, areas are not as accurate as RayWalk has them.
+    // Says that the step is done. No lane is settled without fused multiplication and addition:
+    // areas are not as accurate then as RayWalk has them.
     DoubleMask settled_ = DoubleMask(fuses);
 };
 
 }  // namespace reference
 
+// Takes every line through its tet: from `front`, `top` and in() to out(), and to `front` behind.
+// They stay as they are in lanes in which floats do not decide the face.
 inline void step_lanes_of(WalkLanes& lanes) {
     using namespace reference;
     for (std::size_t first = 0; first < WalkLanes::width; first += Double::lanes)
@@ -146,11 +150,127 @@ LAMINA_SIMD_END
 
 #if LAMINA_ONCE
 namespace lamina {
+namespace {
+
+void set_vector(std::array<WalkLanes::Row, 3>& rows, std::size_t lane, const glm::dvec3& v) {
+    for (int axis = 0; axis < 3; ++axis) rows[static_cast<std::size_t>(axis)][lane] = v[axis];
+}
+
+}  // namespace
 
 LAMINA_EXPORT(step_lanes_of);
 
-void step_lanes(WalkLanes& lanes) {
-    LAMINA_DISPATCH(step_lanes_of)(lanes);
+PacketWalk::PacketWalk(const TetMesh& mesh, const FaceTree& open_faces,
+                       std::span<const double> values)
+    : mesh_(mesh), values_(values), rays_(width, RayWalk(mesh, open_faces)) {}
+
+void PacketWalk::enter(std::size_t lane, const RayWalk::Entry& entry) {
+    const LineFrame& line = rays_[lane].line();
+    set_vector(lanes_.origin, lane, line.origin);
+    set_vector(lanes_.direction, lane, line.direction);
+    set_vector(lanes_.across_x, lane, line.across_x);
+    set_vector(lanes_.across_y, lane, line.across_y);
+    lanes_.direction_square[lane] = line.direction_square;
+    const RayFront front = rays_[lane].front_of(entry.face);
+    set_front(lane, front);
+    set_crossing(lane, RayWalk::crossing(front));
+    walking_ |= lane_bit(lane);
+    steps_[lane] = 0;
+    move(lane, entry.face.tet);
+}
+
+void PacketWalk::step() {
+    lanes_.entry = 1 - lanes_.entry;
+    LAMINA_DISPATCH(step_lanes_of)(lanes_);
+    for_each_lane(walking_, [&](std::size_t lane) {
+        passed_[lane] = tets_[lane];
+        move(lane, lanes_.settled[lane] != 0 ? tet_behind(lane) : step_alone(lane));
+    });
+}
+
+std::int32_t PacketWalk::tet_behind(std::size_t lane) const {
+    const auto number = static_cast<std::size_t>(tets_[lane]);
+    const Tet& tet = mesh_.tets()[number];
+    const auto left = static_cast<std::int32_t>(lanes_.left_behind[lane]);
+    const int face = (tet[1] == left) + 2 * (tet[2] == left) + 3 * (tet[3] == left);
+    return mesh_.neighbors()[number][static_cast<std::size_t>(face)];
+}
+
+// Each tet is passed at most once. The limit ends walks in meshes that are not valid.
+void PacketWalk::move(std::size_t lane, std::int32_t tet) {
+    if (tet == TetMesh::no_neighbor || ++steps_[lane] > mesh_.tets().size()) return stop(lane);
+    tets_[lane] = tet;
+    const auto in_front = [&](std::size_t i) {
+        return static_cast<std::int32_t>(lanes_.front[i].point[lane]);
+    };
+    const std::int32_t top = corner_opposite(mesh_.tets()[static_cast<std::size_t>(tet)],
+                                             in_front(0), in_front(1), in_front(2));
+    const auto point = static_cast<std::size_t>(top);
+    set_vector(lanes_.top, lane, mesh_.points()[point]);
+    lanes_.top_value[lane] = values_[point];
+    lanes_.top_point[lane] = top;
+}
+
+// Takes a step that vectors of floats did not decide.
+std::int32_t PacketWalk::step_alone(std::size_t lane) {
+    const auto [least, most] =
+        range_in(values_, mesh_.tets()[static_cast<std::size_t>(tets_[lane])]);
+    lanes_.least[lane] = least;
+    lanes_.most[lane] = most;
+    TetSegment segment{tets_[lane], crossing(lanes_.in(), lane), {}};
+    RayFront front = front_of(lane);
+    const std::int32_t behind = rays_[lane].step(segment, front);
+    set_front(lane, front);
+    set_crossing(lane, segment.out);
+    return behind;
+}
+
+TetSegment PacketWalk::segment(std::size_t lane) const {
+    return {passed_[lane], crossing(lanes_.in(), lane), crossing(lanes_.out(), lane)};
+}
+
+FaceCrossing PacketWalk::crossing(const WalkLanes::Crossing& rows, std::size_t lane) {
+    FaceCrossing result;
+    for (std::size_t i = 0; i < 3; ++i) {
+        result.corners[i] = static_cast<std::int32_t>(rows.corners[i][lane]);
+        result.weights[i] = rows.weights[i][lane];
+    }
+    result.at = rows.at[lane];
+    return result;
+}
+
+void PacketWalk::set_crossing(std::size_t lane, const FaceCrossing& crossing) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        lanes_.out().corners[i][lane] = crossing.corners[i];
+        lanes_.out().weights[i][lane] = crossing.weights[i];
+    }
+    lanes_.out().at[lane] = crossing.at;
+    lanes_.out().value[lane] = crossing.interpolate(values_);
+}
+
+RayFront PacketWalk::front_of(std::size_t lane) const {
+    RayFront front;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const WalkLanes::Corner& rows = lanes_.front[i];
+        front.corners[i] = {static_cast<std::int32_t>(rows.point[lane]), rows.x[lane], rows.y[lane],
+                            rows.at[lane], rows.reach[lane]};
+        front.areas[i] = lanes_.areas[i][lane];
+    }
+    return front;
+}
+
+void PacketWalk::set_front(std::size_t lane, const RayFront& front) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const RayFront::Corner& corner = front.corners[i];
+        WalkLanes::Corner& rows = lanes_.front[i];
+        rows.point[lane] = corner.point;
+        rows.x[lane] = corner.x;
+        rows.y[lane] = corner.y;
+        rows.at[lane] = corner.at;
+        rows.reach[lane] = corner.reach;
+        rows.value[lane] = values_[static_cast<std::size_t>(corner.point)];
+        lanes_.areas[i][lane] = front.areas[i];
+    }
 }
 
 }  // namespace lamina

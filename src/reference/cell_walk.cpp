@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/cell_lanes.h"
-
-#include "reference/axis_start.h"
+#include "reference/cell_walk.h"
 
 #undef LAMINA_TARGET_FILE
-#define LAMINA_TARGET_FILE "reference/cell_lanes.cpp"
+#define LAMINA_TARGET_FILE "reference/cell_walk.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/interval_search-inl.h"
+#include "reference/transfer_intervals-inl.h"
 #include "simd/members-inl.h"
 
 LAMINA_SIMD_BEGIN

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/cell_batch.h"
+#include "reference/cells.h"
 
 #undef LAMINA_TARGET_FILE
-#define LAMINA_TARGET_FILE "reference/cell_batch.cpp"
+#define LAMINA_TARGET_FILE "reference/cells.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/cubic_lanes-inl.h"
-#include "reference/visible_ranges-inl.h"
+#include "reference/cubic-inl.h"
+#include "reference/transfer_intervals-inl.h"
 #include "simd/members-inl.h"
 
 LAMINA_SIMD_BEGIN
@@ -76,8 +76,8 @@ LAMINA_INLINE Cubics field_along(const CornerLanes& corners, const PathLanes& pa
 }  // namespace reference
 
 // LAMINA_EXPORT takes functions of this namespace alone.
-inline void make_segments_of(CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
-                             SegmentBatch& segments) {
+inline void make_segments_of(const CellBatch& cells, const Chord& chord,
+                             const IntervalColumns& intervals, SegmentBatch& segments) {
     using namespace reference;
     const VisibleRanges visible(intervals);
     segments.count = 0;
@@ -96,7 +96,7 @@ inline void make_segments_of(CellBatch& cells, const Chord& chord, const Interva
         kept.store(lo, segments.lo + first);
         kept.store(hi, segments.hi + first);
         kept.store(path.along * chord.world_per_z, segments.length + first);
-        kept.store(iota<Long>(static_cast<std::int64_t>(i)), cells.seen + first);
+        kept.store(iota<Long>(static_cast<std::int64_t>(i)), segments.cell + first);
         segments.count += kept.count();
     }
 }
@@ -108,7 +108,7 @@ namespace lamina {
 
 LAMINA_EXPORT(make_segments_of);
 
-void make_segments(CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
+void make_segments(const CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
                    SegmentBatch& segments) {
     LAMINA_DISPATCH(make_segments_of)(cells, chord, intervals, segments);
 }

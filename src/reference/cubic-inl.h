@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vectors of doubles, and of cubics. Vector forms of cubic.h.
-#if defined(LAMINA_REFERENCE_CUBIC_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LAMINA_REFERENCE_CUBIC_LANES_INL_H_
-#undef LAMINA_REFERENCE_CUBIC_LANES_INL_H_
+#if defined(LAMINA_REFERENCE_CUBIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_REFERENCE_CUBIC_INL_H_
+#undef LAMINA_REFERENCE_CUBIC_INL_H_
 #else
-#define LAMINA_REFERENCE_CUBIC_LANES_INL_H_
+#define LAMINA_REFERENCE_CUBIC_INL_H_
 #endif
 
 #include <cstddef>

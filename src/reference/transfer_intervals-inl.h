@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vectors of values and the intervals of a transfer function that they lie in.
-#if defined(LAMINA_REFERENCE_INTERVAL_SEARCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LAMINA_REFERENCE_INTERVAL_SEARCH_INL_H_
-#undef LAMINA_REFERENCE_INTERVAL_SEARCH_INL_H_
+#if defined(LAMINA_REFERENCE_TRANSFER_INTERVALS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_REFERENCE_TRANSFER_INTERVALS_INL_H_
+#undef LAMINA_REFERENCE_TRANSFER_INTERVALS_INL_H_
 #else
-#define LAMINA_REFERENCE_INTERVAL_SEARCH_INL_H_
+#define LAMINA_REFERENCE_TRANSFER_INTERVALS_INL_H_
 #endif
 
 #include <bit>
 #include <cstdint>
 #include <vector>
 
-#include "reference/interval_columns.h"
+#include "reference/transfer_intervals.h"
 #include "simd/vectors-inl.h"
 
 LAMINA_SIMD_BEGIN
@@ -101,6 +101,27 @@ class IntervalSearch {
     const IntervalColumns& columns_;
     const double* bounds_;
     bool in_a_vector_;
+};
+
+// Finds ranges of values that may show something: TransferIntervals::visible() of vectors.
+class VisibleRanges {
+  public:
+    LAMINA_INLINE explicit VisibleRanges(const IntervalColumns& columns)
+        : lo_(columns.visible_lo.data()),
+          hi_(columns.visible_hi.data()),
+          count_(columns.visible_count) {}
+
+    LAMINA_INLINE DoubleMask meet(Double lo, Double hi) const {
+        // Most functions have one.
+        if (count_ <= 1) return (lo_[0] <= hi) & (lo <= hi_[0]);
+        const Long below =
+            count_first(hi_, count_, [&](Double end) LAMINA_LAMBDA { return end < lo; });
+        return gather(lo_, below) <= hi;
+    }
+
+  private:
+    const double *lo_, *hi_;
+    std::size_t count_;
 };
 
 }  // namespace reference

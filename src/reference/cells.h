@@ -1,20 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
+// The cells of a volume along a ray, and what the ray sees of the field in them, some cells at a
+// time:
+//
+//   for each cell that the ray crosses from `from` to `to`:
+//       v = the samples at its eight corners
+//       if one of them is not finite, or no interval of the transfer function that their range
+//           touches has extinction: the cell shows nothing
+//       otherwise it has a segment: the length, the range of v, and the cubic s(t) along it   (9.1)
+//
+// Lit segments have the field's gradient, too, whose components are such cubics (docs/numerics.md,
+// section 10.2).
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <type_traits>
 
 #include "lamina/grid.h"
-#include "reference/cell_batch.h"
-#include "reference/cell_index.h"
+#include "reference/chord.h"
 #include "reference/cubic.h"
+#include "reference/cut.h"
+#include "reference/transfer_intervals.h"
 #include "volume/sample_access.h"
 
 namespace lamina {
+
+// Cell i of an axis lies between samples i and i+1. On `cell` axes the cells -1 and size-1 are the
+// half voxels outside the samples.
+using CellIndex = std::array<std::int64_t, 3>;
+
+// Consecutive cells of a chord, front to back.
+struct CellBatch {
+    static constexpr std::size_t capacity = SegmentBatch::capacity;
+
+    alignas(64) std::int64_t cell[3][capacity];
+    alignas(64) double from[capacity];  // parameters of the chord
+    alignas(64) double to[capacity];
+    std::size_t count = 0;
+    std::size_t wanted = capacity;  // the batch is complete with so many cells
+
+    // The samples at the corners, at index x + 2y + 4z. CellSamples::fetch() sets them.
+    alignas(64) double corners[8][capacity];
+
+    bool complete() const { return count >= wanted; }
+    void add(const CellIndex& index, double begin, double end) {
+        for (std::size_t axis = 0; axis < 3; ++axis) cell[axis][count] = index[axis];
+        from[count] = begin;
+        to[count] = end;
+        ++count;
+    }
+};
+
+// Sets the segments to the chord's inside those cells that may show something, of the trilinear
+// field. Cells with a NaN or infinite corner are transparent. In vectors: CellCorners::along() does
+// one.
+void make_segments(const CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
+                   SegmentBatch& segments);
 
 // The eight samples at the corners of a cell, at index x + 2y + 4z.
 struct CellCorners {
@@ -111,6 +157,66 @@ class CellSamples {
     Samples samples_;
     std::array<std::int64_t, 3> last_;
     std::int64_t row_, slice_;
+};
+
+// The gradient field of a volume (docs/numerics.md, section 10): differences of neighbours at the
+// samples, trilinear between them, in scalar units per world unit.
+template <typename Samples>
+class GradientSamples {
+  public:
+    GradientSamples(const Grid& grid, const Samples& samples)
+        : samples_(samples), size_(grid.size) {
+        stride_ = {1, size_[0], size_[0] * size_[1]};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            axes_[axis] = grid.step[axis] / glm::dot(grid.step[axis], grid.step[axis]);
+    }
+
+    // The field in a cell along from + t * step, 0 <= t <= 1, in coordinates of the cell (0..1).
+    // Outside the samples the border's gradient repeats.
+    GradientAlong along(const CellIndex& cell, const glm::dvec3& from,
+                        const glm::dvec3& step) const {
+        std::array<CellCorners, 3> corners;
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 gradient = at({cell[0] + static_cast<std::int64_t>(corner & 1),
+                                            cell[1] + static_cast<std::int64_t>(corner >> 1 & 1),
+                                            cell[2] + static_cast<std::int64_t>(corner >> 2)});
+            for (int c = 0; c < 3; ++c)
+                corners[static_cast<std::size_t>(c)].v[corner] = gradient[c];
+        }
+        return {corners[0].along(from, step), corners[1].along(from, step),
+                corners[2].along(from, step)};
+    }
+
+  private:
+    glm::dvec3 at(CellIndex index) const {
+        std::int64_t offset = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            index[axis] = std::clamp<std::int64_t>(index[axis], 0, size_[axis] - 1);
+            offset += index[axis] * stride_[axis];
+        }
+        glm::dvec3 gradient(0);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            gradient += difference(offset, index[axis], axis) * axes_[axis];
+        return gradient;
+    }
+
+    // Per step of the axis, from the neighbours on both sides; from one side where the other is
+    // outside or no number; 0 where both are.
+    double difference(std::int64_t offset, std::int64_t index, std::size_t axis) const {
+        const auto value = [&](std::int64_t steps) {
+            return static_cast<double>(samples_[offset + steps * stride_[axis]]);
+        };
+        const bool below = index > 0 && std::isfinite(value(-1));
+        const bool above = index + 1 < size_[axis] && std::isfinite(value(1));
+        if (below && above) return 0.5 * (value(1) - value(-1));
+        if (above) return value(1) - value(0);
+        if (below) return value(0) - value(-1);
+        return 0;
+    }
+
+    Samples samples_;
+    std::array<std::int64_t, 3> size_, stride_;
+    std::array<glm::dvec3, 3> axes_;
 };
 
 }  // namespace lamina

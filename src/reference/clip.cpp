@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of seen_segment() (reference/seen_segment.cpp).
-#include "reference/seen_lanes.h"
+#include "reference/clip.h"
 
 #undef LAMINA_TARGET_FILE
-#define LAMINA_TARGET_FILE "reference/seen_lanes.cpp"
+#define LAMINA_TARGET_FILE "reference/clip.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/visible_ranges-inl.h"
+#include "reference/transfer_intervals-inl.h"
 
 LAMINA_SIMD_BEGIN
 namespace reference {
 
-// Returns a bit for each lane that shows something.
+// Cuts a vector of segments as seen_segment() does. Returns a bit for each lane that shows
+// something.
 LAMINA_INLINE LaneSet find_seen_from(const WalkLanes& walk, const VisibleRanges& visible,
                                      std::size_t lane, SeenLanes& seen) {
     const auto get = [&](const WalkLanes::Row& row)
@@ -54,6 +54,58 @@ LAMINA_SIMD_END
 
 #if LAMINA_ONCE
 namespace lamina {
+
+void clip_span(std::span<const HalfSpace> clip, const View::Ray& ray, RaySpan& span) {
+    for (const HalfSpace& half : clip) {
+        DoubleDouble distance, slope;  // of the ray's origin, and its change with z
+        for (int axis = 0; axis < 3; ++axis) {
+            const DoubleDouble normal{half.normal[axis], 0};
+            distance = distance + normal * exact_sum(ray.origin[axis], -half.point[axis]);
+            slope = slope + normal * DoubleDouble{ray.direction[axis], 0};
+        }
+        if (slope.hi == 0) {
+            if (distance < DoubleDouble{}) span.to = span.from;
+            continue;
+        }
+        const DoubleDouble at = -distance / slope;
+        if (!at.finite()) {  // the ray as good as runs along the plane
+            if (distance < DoubleDouble{}) span.to = span.from;
+        } else if (slope.hi > 0) {
+            if (span.from < at) span.from = at;
+        } else {
+            if (at < span.to) span.to = at;
+        }
+    }
+}
+
+SeenRange seen_range(std::span<const HalfSpace> clip, const View::Ray& ray) {
+    RaySpan span{{0, 0}, {INFINITY, 0}};
+    clip_span(clip, ray, span);
+    return {span.from.rounded(), span.to.hi == INFINITY ? INFINITY : span.to.rounded()};
+}
+
+SeenSegment seen_segment(const SeenSegment& whole, const SeenRange& seen) {
+    if (whole.from >= seen.from && whole.to <= seen.to) return whole;
+    if (whole.to <= seen.from || whole.from >= seen.to || seen.from >= seen.to) return {0, 0, 0, 0};
+    SeenSegment part = whole;
+    const double slope = (part.back - part.front) / (part.to - part.from);
+    if (part.to > seen.to) {
+        part.back -= slope * (part.to - seen.to);
+        part.to = seen.to;
+    }
+    if (part.from < seen.from) {
+        part.front += slope * (seen.from - part.from);
+        part.from = seen.from;
+    }
+    return part;
+}
+
+SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
+                         std::span<const double> scalar) {
+    return seen_segment({segment.in.at, segment.out.at, segment.in.interpolate(scalar),
+                         segment.out.interpolate(scalar)},
+                        seen);
+}
 
 LAMINA_EXPORT(find_seen_of);
 

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/tiles.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <mutex>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "mesh/box_corners.h"
+#include "mesh/face_tree.h"
+#include "mesh/norm1.h"
+#include "mesh/tet_mesh.h"
+
+namespace lamina {
+namespace {
+
+// Points whose tangent from the middle of the view is larger than this may be anywhere.
+constexpr double widest = 1e3;
+
+// A coordinate of a point, or of a line's place and direction, is off by at most some 8 epsilon of
+// the distances (1-norm) between point, eye and origin. The rest is to spare.
+constexpr double place_error = 64 * std::numeric_limits<double>::epsilon(), spare_pixels = 1e-6;
+constexpr double least_error = 64 * std::numeric_limits<double>::denorm_min();
+
+// Returns how far the view's axes are from orthonormal: 1e-8 if `up` is nearly parallel to the view
+// direction.
+double skew_of(const View& view) {
+    const auto off = [](const glm::dvec3& a, const glm::dvec3& b, double expected) {
+        return std::abs(glm::dot(a, b) - expected);
+    };
+    return std::max({off(view.right, view.forward, 0), off(view.up, view.forward, 0),
+                     off(view.right, view.up, 0), off(view.right, view.right, 1),
+                     off(view.up, view.up, 1), off(view.forward, view.forward, 1)});
+}
+
+// More are not listed: searching the tree is then better.
+constexpr std::size_t most_listed = 1 << 16;
+
+}  // namespace
+
+void check(const TraceOptions& options) {
+    if (!(options.tolerance >= TraceOptions::smallest_tolerance && options.tolerance <= 1)) {
+        fail("render.trace.tolerance: {} is out of range, expected {} to 1", options.tolerance,
+             TraceOptions::smallest_tolerance);
+    }
+    if (options.lighting && options.lighting->smallest_gradient.is_automatic()) {
+        fail(
+            "lighting.smallest_gradient: is \"auto\", expected a number: it has not been chosen "
+            "from the data");
+    }
+}
+
+std::vector<PictureTile> tiles_to_trace(int width, int height) {
+    constexpr int edge = 32;
+    std::vector<PictureTile> tiles;
+    for (int row = 0; row < height; row += edge)
+        for (int column = 0; column < width; column += edge)
+            tiles.push_back(
+                {column, row, std::min(edge, width - column), std::min(edge, height - row)});
+    // Twice the distance of the middles, squared.
+    const auto distance = [&](const PictureTile& tile) {
+        const std::int64_t across = 2 * tile.column + tile.width - width;
+        const std::int64_t down = 2 * tile.row + tile.height - height;
+        return across * across + down * down;
+    };
+    std::ranges::stable_sort(tiles, {}, distance);
+    return tiles;
+}
+
+void trace_tiles(const std::vector<PictureTile>& tiles,
+                 const std::function<void(const PictureTile&, std::size_t, const RowDone&)>& trace,
+                 const PreciseImage& picture, const TileDone& done) {
+    std::int64_t rows = 0;
+    for (const PictureTile& tile : tiles) rows += tile.height;
+    Progress progress("tracing", rows);
+    std::atomic<std::size_t> next{0};  // the loop's own numbers come in no order
+    std::mutex telling;
+    parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t) {
+        const std::size_t number = next++;
+        // Rows are counted, because a tile of thousands of lit segments a ray takes minutes. Those
+        // that show nothing are left out.
+        std::int64_t left = tiles[number].height;
+        trace(tiles[number], number, [&] {
+            if (left == 0) return;
+            --left;
+            progress.advance();
+        });
+        if (done) {
+            const std::lock_guard lock(telling);
+            done(tiles[number], picture);
+        }
+        progress.advance(left);
+    });
+}
+
+TileSight::TileSight(const View& view, const PictureTile& tile)
+    : view_(view),
+      size_(tile.width, tile.height),
+      middle_(0.5 * view.width - 0.5 - tile.column, 0.5 * view.height - 0.5 - tile.row),
+      error_(place_error + 8 * skew_of(view)),
+      eye_norm_(norm1(view.eye)) {}
+
+// Points behind the eye are seen mirrored, so what lies on both sides of it may be anywhere.
+SeenPixels TileSight::around(std::span<const glm::dvec3> points) const {
+    const SeenPixels all{{0, 0}, size_ - 1};
+    const bool perspective = view_.projection == Projection::perspective;
+    glm::dvec2 least(INFINITY), most(-INFINITY);
+    std::size_t behind = 0;
+    for (const glm::dvec3& point : points) {
+        const glm::dvec3 from = point - view_.eye;
+        const double distance = norm1(from), depth = glm::dot(from, view_.forward);
+        glm::dvec2 place(glm::dot(from, view_.right), -glm::dot(from, view_.up));
+        double slack = error_ * (distance + eye_norm_) + least_error;
+        if (perspective) {
+            if (!(std::abs(depth) * widest > distance)) return all;
+            behind += depth < 0;
+            place /= depth;
+            slack *= (1 + distance / std::abs(depth)) / std::abs(depth);
+        }
+        place = place / view_.pixel + middle_;
+        slack = slack / view_.pixel + spare_pixels;
+        if (!std::isfinite(place.x + place.y + slack)) return all;
+        least = glm::min(least, place - slack);
+        most = glm::max(most, place + slack);
+    }
+    if (behind != 0 && behind != points.size()) return all;
+    return {glm::ivec2(glm::ceil(glm::clamp(least, glm::dvec2(0), glm::dvec2(size_)))),
+            glm::ivec2(glm::floor(glm::clamp(most, glm::dvec2(-1), glm::dvec2(size_ - 1))))};
+}
+
+template <typename Visit>
+void TileFaces::for_each_pixel(const Visit& visit) const {
+    for (const auto& [face, pixels] : faces_) {
+        for (int row = pixels.first.y; row <= pixels.last.y; ++row) {
+            for (int column = pixels.first.x; column <= pixels.last.x; ++column)
+                visit(face, static_cast<std::size_t>(row * tile_.width + column));
+        }
+    }
+}
+
+bool TileFaces::list(const PictureTile& tile) {
+    tile_ = tile;
+    faces_.clear();
+    std::size_t count = 0;
+    const TileSight sight(view_, tile);
+    const auto meets = [&](const FaceTree::Box& box) {
+        return count <= most_listed && !sight.around(box_corners(box.min, box.max)).empty();
+    };
+    const auto add = [&](std::int32_t face) {
+        const SeenPixels pixels =
+            sight.around(mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(face)]));
+        if (pixels.empty()) return;
+        faces_.push_back({face, pixels});
+        const glm::ivec2 size = pixels.last - pixels.first + 1;
+        count += static_cast<std::size_t>(size.x * size.y);
+    };
+    tree_.visit(meets, add);
+    if (count > most_listed) return false;
+    const auto pixels = static_cast<std::size_t>(tile.width * tile.height);
+    std::vector<std::size_t> lengths(pixels, 0), filled(pixels, 0);
+    for_each_pixel([&](std::int32_t, std::size_t pixel) { ++lengths[pixel]; });
+    begins_.assign(1, 0);
+    for (const std::size_t length : lengths) begins_.push_back(begins_.back() + length);
+    listed_.resize(count);
+    for_each_pixel([&](std::int32_t face, std::size_t pixel) {
+        listed_[begins_[pixel] + filled[pixel]++] = face;
+    });
+    return true;
+}
+
+std::span<const std::int32_t> TileFaces::of(const glm::ivec2& pixel) const {
+    const auto number =
+        static_cast<std::size_t>((pixel.y - tile_.row) * tile_.width + (pixel.x - tile_.column));
+    return std::span(listed_).subspan(begins_[number], begins_[number + 1] - begins_[number]);
+}
+
+}  // namespace lamina

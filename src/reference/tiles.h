@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture is traced in tiles, each by one thread, which knows what of it sees nothing:
+//
+//   for each tile of the picture, from its middle to its edges, on all cores:
+//       find the pixels whose lines may meet the volume's box, or for each pixel the open faces of
+//           the mesh that its line may meet
+//       for each of these pixels, row by row:
+//           trace its ray (volume_tracer.cpp, mesh_tracer.cpp)
+//       tell that the tile is done
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/interrupt.h"
+#include "lamina/image.h"
+#include "lamina/lighting.h"
+#include "lamina/picture_tile.h"
+#include "scene/camera.h"
+#include "scene/half_space.h"
+
+namespace lamina {
+
+class FaceTree;
+class TetMesh;
+
+struct TraceOptions {
+    // Largest error of every channel, as a share of full scale (1.0); 1e-12 .. 1. Of meshes it
+    // bounds the error of light: all else is in closed form.
+    double tolerance = 1e-5;
+    // Free of mistakes (scene/lighting_check.h). Throws Error without its smallest gradient.
+    std::optional<Lighting> lighting = {};
+    std::vector<HalfSpace> clip = {};  // what is drawn lies in all of them
+
+    static constexpr double smallest_tolerance = 1e-12;  // below it rounding dominates
+};
+
+// Throws Error for options out of range.
+void check(const TraceOptions& options);
+
+// Called as a row of pixels is done.
+using RowDone = std::function<void()>;
+
+// Hears which tile of the picture is complete. It is called by one thread at a time; the other
+// pixels of the picture have no meaning yet, or are being written.
+using TileDone = std::function<void(const PictureTile&, const PreciseImage&)>;
+
+// Returns tiles of 32 x 32 pixels, and smaller ones at the edges, those nearest the middle first.
+std::vector<PictureTile> tiles_to_trace(int width, int height);
+
+// Calls trace(tile, its number, row done) for each of them on all cores, in their order, and then
+// `done`.
+void trace_tiles(const std::vector<PictureTile>& tiles,
+                 const std::function<void(const PictureTile&, std::size_t, const RowDone&)>& trace,
+                 const PreciseImage& picture, const TileDone& done);
+
+// Gives the pixels of a rectangle, row by row. It throws when the user interrupts.
+class PixelsInTurn {
+  public:
+    // `first` and `last` are the rectangle's corners.
+    PixelsInTurn(const glm::ivec2& first, const glm::ivec2& last, RowDone row_done)
+        : first_(first), last_(last), next_(first), row_done_(std::move(row_done)) {}
+
+    bool any() const { return next_.x <= last_.x && next_.y <= last_.y; }
+    glm::ivec2 take() {
+        const glm::ivec2 pixel = next_;
+        check_interrupt();
+        if (pixel.x == first_.x && pixel.y > first_.y) row_done_();
+        next_ = pixel.x < last_.x ? pixel + glm::ivec2(1, 0) : glm::ivec2(first_.x, pixel.y + 1);
+        return pixel;
+    }
+
+  private:
+    glm::ivec2 first_, last_, next_;
+    RowDone row_done_;
+};
+
+// Some pixels of a tile, counted from its first: those from `first` to `last`.
+struct SeenPixels {
+    glm::ivec2 first, last;
+
+    bool empty() const { return first.x > last.x || first.y > last.y; }
+};
+
+// Finds the pixels of a tile that may see something.
+class TileSight {
+  public:
+    TileSight(const View& view, const PictureTile& tile);
+
+    // Returns the pixels whose lines, which go on behind the eye, may meet the convex hull of some
+    // points: all of them, and perhaps others.
+    SeenPixels around(std::span<const glm::dvec3> points) const;
+
+  private:
+    const View& view_;
+    glm::ivec2 size_;
+    glm::dvec2 middle_;  // the picture's, in pixels from the middle of the tile's first
+    double error_;       // bounds that of places, as a share of distances
+    double eye_norm_;
+};
+
+// The open faces that the lines of a tile's pixels may meet: they are found once for the tile, so
+// that each line need not search the tree.
+class TileFaces {
+  public:
+    TileFaces(const TetMesh& mesh, const FaceTree& open_faces, const View& view)
+        : mesh_(mesh), tree_(open_faces), view_(view) {}
+
+    // Lists the faces of a tile. Returns false if there are too many to be listed.
+    bool list(const PictureTile& tile);
+
+    // Indices into the mesh's open faces, of a pixel of the picture in the tile that was listed.
+    std::span<const std::int32_t> of(const glm::ivec2& pixel) const;
+
+  private:
+    struct ListedFace {
+        std::int32_t face;
+        SeenPixels pixels;
+    };
+    template <typename Visit>
+    void for_each_pixel(const Visit& visit) const;
+
+    const TetMesh& mesh_;
+    const FaceTree& tree_;
+    const View& view_;
+    PictureTile tile_{};
+    std::vector<ListedFace> faces_;
+    std::vector<std::int32_t> listed_;  // pixel by pixel
+    std::vector<std::size_t> begins_;   // the places of the pixels' lists; last their total length
+};
+
+}  // namespace lamina
