@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of doubles, and of cubics. Vector forms of cubic.h.
+// Vectors of cubics: the functions of cubic.h.
 #if defined(LAMINA_REFERENCE_CUBIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_REFERENCE_CUBIC_INL_H_
 #undef LAMINA_REFERENCE_CUBIC_INL_H_
@@ -29,7 +29,7 @@ struct Cubics {
     LAMINA_INLINE DoubleMask constant() const { return (c[1] == 0) & ((c[2] == 0) & (c[3] == 0)); }
 };
 
-// Where cubics turn, 0 < first < second < 1; 1 where they do not.
+// The places at which cubics turn, 0 < first < second < 1; 1 in lanes in which they do not.
 struct Turns {
     Double first, second;
 };
@@ -44,7 +44,7 @@ LAMINA_INLINE Turns turns_of(const Cubics& cubics) {
     const DoubleMask real = discriminant > 0;
     const Double root = sqrt(zero_unless(real, discriminant));
     const Double q = -(b + copy_sign(root, b));
-    // Infinite, or no number, where there is no second power: not kept.
+    // A root is infinite, or no number, if there is no second power: not kept.
     const auto inside = [&](Double at) LAMINA_LAMBDA {
         const DoubleMask kept = real & ((at > 0) & (at < 1));
         return select(kept, at, 1);
@@ -54,7 +54,7 @@ LAMINA_INLINE Turns turns_of(const Cubics& cubics) {
     return {first, select(second > first, second, 1)};
 }
 
-// As solve_monotone(), of the lanes in `wanted`.
+// Solves the lanes in `wanted` as the scalar solve_monotone() does.
 LAMINA_INLINE Double solve_monotone(const Cubics& cubics, Double value, Double from, Double to,
                                     DoubleMask wanted) {
     Cubics shifted = cubics;
@@ -90,18 +90,18 @@ LAMINA_INLINE Double solve_monotone(const Cubics& cubics, Double value, Double f
     return t;
 }
 
-// As part_of().
-LAMINA_INLINE Cubics part_of(const Cubics& cubics, Double from, Double to, Double start,
-                             Double end) {
+// Does what the scalar restricted() does.
+LAMINA_INLINE Cubics restricted(const Cubics& cubics, Double from, Double to, Double start,
+                                Double end) {
     const Double h = to - from, h2 = h * h;
-    Cubics part;
-    part.c[0] = start;
-    part.c[1] = cubics.slope(from) * h;
-    part.c[2] = fma(3 * cubics.c[3], from, cubics.c[2]) * h2;
-    part.c[3] = cubics.c[3] * (h2 * h);
-    const Double sum = part.c[1] + (part.c[2] + part.c[3]);
-    part.c[1] += end - start - sum;
-    return part;
+    Cubics inside;
+    inside.c[0] = start;
+    inside.c[1] = cubics.slope(from) * h;
+    inside.c[2] = fma(3 * cubics.c[3], from, cubics.c[2]) * h2;
+    inside.c[3] = cubics.c[3] * (h2 * h);
+    const Double sum = inside.c[1] + (inside.c[2] + inside.c[3]);
+    inside.c[1] += end - start - sum;
+    return inside;
 }
 
 }  // namespace reference

@@ -6,7 +6,7 @@
 
 namespace lamina {
 
-MonotoneParts monotone_parts(const Cubic& cubic) {
+CubicTurns turns_of(const Cubic& cubic) {
     // Derivative a t^2 + 2 b t + c, scaled so that no square of a coefficient underflows; the
     // quotient form has no cancellation (Press et al., Numerical Recipes, 5.6).
     double a = 3 * cubic.c[3], b = cubic.c[2], c = cubic.c[1];
@@ -15,25 +15,25 @@ MonotoneParts monotone_parts(const Cubic& cubic) {
     b /= largest;
     c /= largest;
     const double discriminant = b * b - a * c;
-    MonotoneParts parts;
-    if (!(discriminant > 0)) return parts;
+    CubicTurns turns;
+    if (!(discriminant > 0)) return turns;
     const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-    const auto [first, second] = std::minmax({q / a, c / q});  // infinite where a = 0: not kept
+    const auto [first, second] = std::minmax({q / a, c / q});  // infinite if a = 0: not kept
     for (const double root : {first, second}) {
-        if (!(root > parts.t[parts.count - 1] && root < 1)) continue;
-        parts.t[parts.count] = root;
-        parts.t[++parts.count] = 1;
+        if (!(root > turns.t[turns.count - 1] && root < 1)) continue;
+        turns.t[turns.count] = root;
+        turns.t[++turns.count] = 1;
     }
-    return parts;
+    return turns;
 }
 
-// Uses Newton's method inside a bracket. The bracket is bisected where Newton's step would leave it
-// or shrinks it too slowly. A step is the last one where what it leaves, which is at most its
-// square times half of the second derivative by the slope, is less than a rounding of t.
+// Uses Newton's method inside a bracket. The bracket is bisected if Newton's step would leave it or
+// shrinks it too slowly. A step is the last one if what it leaves, which is at most its square
+// times half of the second derivative by the slope, is less than a rounding of t.
 double solve_monotone(const Cubic& cubic, double value, double from, double to) {
     Cubic shifted = cubic;
     shifted.c[0] -= value;
-    double below = from, above = to;  // where the shifted cubic is negative and positive
+    double below = from, above = to;  // there the shifted cubic is negative, and positive
     const double at_from = shifted(from), at_to = shifted(to);
     if (at_from > at_to) std::swap(below, above);
     double t = from + (to - from) * (at_from / (at_from - at_to));  // as if it were straight
@@ -60,15 +60,15 @@ double solve_monotone(const Cubic& cubic, double value, double from, double to) 
     return t;
 }
 
-Cubic part_of(const Cubic& cubic, double from, double to, double start, double end) {
+Cubic restricted(const Cubic& cubic, double from, double to, double start, double end) {
     const double h = to - from;
-    Cubic part;
-    part.c[0] = start;
-    part.c[1] = cubic.slope(from) * h;
-    part.c[2] = (cubic.c[2] + 3 * cubic.c[3] * from) * h * h;
-    part.c[3] = cubic.c[3] * h * h * h;
-    part.c[1] += (end - start) - (part.c[1] + part.c[2] + part.c[3]);
-    return part;
+    Cubic inside;
+    inside.c[0] = start;
+    inside.c[1] = cubic.slope(from) * h;
+    inside.c[2] = (cubic.c[2] + 3 * cubic.c[3] * from) * h * h;
+    inside.c[3] = cubic.c[3] * h * h * h;
+    inside.c[1] += (end - start) - (inside.c[1] + inside.c[2] + inside.c[3]);
+    return inside;
 }
 
 }  // namespace lamina

@@ -1,4 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+// A scalar along a ray in a cell is a cubic (docs/numerics.md, section 9.1). This finds where it is
+// monotone, and where it has a value:
+//
+//   turns: the roots of the derivative inside (0, 1), in the form that does not cancel
+//
+//   solve(value, from, to), between two turns:
+//       t = the place in from .. to as if the cubic were straight
+//       loop: keep the bracket's end whose sign is that of f = cubic(t) - value at t
+//           next = t - f / slope, by Newton; the bracket's middle if that is outside or too slow
+//           end if what the step leaves, bend / slope * step^2 / 2, is below a rounding of t
+//
+// reference/cubic-inl.h has the same for vectors.
 #pragma once
 
 #include <array>
@@ -19,25 +31,26 @@ struct Cubic {
 // A gradient along a ray, component by component, in world space.
 using GradientAlong = std::array<Cubic, 3>;
 
-// The ends of the intervals of [0, 1] on which the cubic is monotone: t[0] = 0 < ... < t[count] =
-// 1.
-struct MonotoneParts {
+// The places at which a cubic turns, between 0 and 1: t[0] = 0 < ... < t[count] = 1. It is monotone
+// between two of them.
+struct CubicTurns {
     std::array<double, 4> t{0, 1, 1, 1};
     int count = 1;
 };
-MonotoneParts monotone_parts(const Cubic& cubic);
+CubicTurns turns_of(const Cubic& cubic);
 
-// Newton's method for solve_monotone(): steps at most, and the share of t to which it is found.
+// Newton's method takes so many steps at most, and finds t to this share of it.
 inline constexpr int most_newton_steps = 200;
 inline constexpr double root_precision = 0.5 * std::numeric_limits<double>::epsilon();
 
-// The t in [from, to] where the cubic equals `value`. The cubic must be monotone there, and `value`
-// must lie between its values at the ends. The result has full precision for all slopes.
+// Returns the t in [from, to] at which the cubic equals `value`. The cubic must be monotone there,
+// and `value` must lie between its values at the ends. The result has full precision for all
+// slopes.
 double solve_monotone(const Cubic& cubic, double value, double from, double to);
 
-// The cubic restricted to `from` .. `to`, as a cubic on [0, 1]. `start` and `end` are its values at
-// the ends, which the caller knows better than they can be computed here. The result is exactly
+// Returns the cubic between `from` and `to` as a cubic on [0, 1]. `start` and `end` are its values
+// at the ends, which the caller knows better than they can be computed here. The result is exactly
 // `start` at 0 and, up to one rounding, `end` at 1.
-Cubic part_of(const Cubic& cubic, double from, double to, double start, double end);
+Cubic restricted(const Cubic& cubic, double from, double to, double start, double end);
 
 }  // namespace lamina

@@ -1,10 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
+// Segments of a ray are cut at the knots of the transfer function into pieces, on each of which
+// extinction and colour are linear functions of the scalar s (docs/numerics.md, section 9.3):
+//
+//   t = 0; interval = the one into which s goes from s(0)
+//   while t < 1:
+//       turn = the next place at which s turns, or 1
+//       knot = the end of the interval that s reaches on its way to s(turn)
+//       to   = the t at which s is the knot, if that is before the turn; otherwise the turn
+//       if the interval has extinction and t < to: append the piece t .. to
+//       t = to; interval = the one behind the knot, if s crosses it
+//
+// In a cell s is a cubic, whose crossings Newton's method finds. In a tet s is linear and does not
+// turn. Vectors have a segment in each lane, and each step takes a piece of all of them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "reference/cubic.h"
+#include "reference/transfer_intervals.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
 
@@ -28,5 +45,147 @@ struct SegmentBatch {
         ++count;
     }
 };
+
+// A piece of a ray, on which extinction and colour are linear functions of one position x. With t
+// from 0 (towards the eye) to 1, x(t) and the optical depth per unit of t are cubics.
+struct EmissionPiece {
+    Cubic position;    // 0 <= x <= 1 up to rounding
+    Cubic extinction;  // extinction times the length of the piece, >= 0 up to rounding
+
+    // Returns the optical depth from the front to t (9.2).
+    double depth(double t) const {
+        const auto& e = extinction.c;
+        return t * (e[0] + t * (e[1] / 2 + t * (e[2] / 3 + t * (e[3] / 4))));
+    }
+};
+
+// A piece of each segment of a vector (PieceBatch), in lanes that have a bit in `kept`.
+struct CutStep {
+    alignas(64) std::int64_t interval[longest_vector];
+    alignas(64) double from[longest_vector];
+    alignas(64) double to[longest_vector];
+    alignas(64) double start[longest_vector];
+    alignas(64) double end[longest_vector];
+    std::uint8_t kept;
+};
+
+// Pieces of one ray's segments (SegmentBatch), front to back, on each of which the transfer
+// function is linear.
+struct PieceBatch {
+    using Column = std::vector<double>;
+
+    std::vector<std::int64_t> segment, interval;  // numbers
+    Column from, to;                              // parameters of the segment, 0 <= from < to <= 1
+    Column start, end;                            // the scalar there
+    Column position[4], extinction[4];            // EmissionPiece, coefficient by coefficient
+    Column depth;                                 // optical depth of the piece, >= 0
+    Column before;                                // that of what lies in front of it
+    Column color_span;                            // largest change of a colour
+    // The errors that are allowed to a channel of the ray: to each piece by its length, and to all
+    // of them by the opacity that is seen.
+    Column error_of_length;
+    double error_of_opacity = 0;
+
+    // These are the results of integrate_emission(): exp(-before), 1 - exp(-depth), and the members
+    // of EmissionIntegral.
+    Column transmittance, opacity, value, error;
+
+    std::size_t count = 0;
+
+    std::vector<CutStep> steps;  // memory of append_pieces()
+
+    // Makes sure that columns have room for so many pieces, and a vector of doubles more: vectors
+    // read and write beyond the last piece, and find numbers there that are valid.
+    void make_room(std::size_t pieces) {
+        if (pieces + longest_vector <= from.size()) return;
+        const std::size_t room = std::max(2 * from.size(), pieces + longest_vector);
+        segment.resize(room);
+        interval.resize(room);
+        for (Column* column : {&from, &to, &start, &end, &depth, &before, &color_span,
+                               &error_of_length, &transmittance, &opacity, &value, &error})
+            column->resize(room);
+        for (std::size_t power = 0; power < 4; ++power) {
+            position[power].resize(room);
+            extinction[power].resize(room);
+        }
+    }
+
+    EmissionPiece piece(std::size_t number) const {
+        EmissionPiece piece;
+        for (std::size_t power = 0; power < 4; ++power) {
+            piece.position.c[power] = position[power][number];
+            piece.extinction.c[power] = extinction[power][number];
+        }
+        return piece;
+    }
+};
+
+// Appends the pieces that have extinction, front to back. It sets neither `before` nor the results.
+// `error_per_length`: allowed to a channel of the ray.
+void append_pieces(const SegmentBatch& segments, const TransferIntervals& transfer,
+                   double error_per_length, PieceBatch& pieces);
+
+// Consecutive segments of one ray, front to back, on each of which the scalar is linear.
+struct LinearSegments {
+    static constexpr std::size_t capacity = 32;
+
+    alignas(64) double front[capacity];  // scalars
+    alignas(64) double back[capacity];
+    alignas(64) double length[capacity];  // > 0, in world units
+    std::size_t count = 0;
+
+    void add(double at_front, double at_back, double world_length) {
+        front[count] = at_front;
+        back[count] = at_back;
+        length[count] = world_length;
+        ++count;
+    }
+};
+
+// A piece of each segment of a vector (LinearPieces), in lanes that have a bit in `kept`.
+struct LinearStep {
+    alignas(64) std::int64_t interval[longest_vector];
+    alignas(64) double start[longest_vector];
+    alignas(64) double end[longest_vector];
+    alignas(64) double share[longest_vector];
+    std::uint8_t kept;
+};
+
+// Pieces of linear segments of one ray, front to back, on each of which extinction and colour are
+// linear, too.
+struct LinearPieces {
+    using Column = std::vector<double>;
+
+    std::vector<std::int64_t> segment, interval;  // numbers
+    Column start, end;                            // the scalar at the front and at the back
+    Column share;                                 // of the segment's length
+    Column from, to;  // the ends' places in the interval, 0 at its lower knot, 1 at its upper one
+    Column p, q;      // extinction * length there
+    Column depth;     // optical depth, >= 0
+    Column before;    // that of what lies in front: set by the caller
+
+    // These are the results of weigh_pieces(): exp(-before), and the weights of the colour of the
+    // interval's lower knot, and of the change from there to the upper one
+    // (TransferIntervals::color()).
+    Column transmittance, opacity, change;
+
+    std::size_t count = 0;
+    std::vector<LinearStep> steps;  // memory of append_linear_pieces()
+
+    // Makes sure that columns have room for so many pieces, and a vector of doubles more.
+    void make_room(std::size_t pieces) {
+        if (pieces + longest_vector <= from.size()) return;
+        const std::size_t room = std::max(2 * from.size(), pieces + longest_vector);
+        segment.resize(room);
+        interval.resize(room);
+        for (Column* column : {&start, &end, &share, &from, &to, &p, &q, &depth, &before,
+                               &transmittance, &opacity, &change})
+            column->resize(room);
+    }
+};
+
+// Appends the pieces that have extinction, front to back, with their depths.
+void append_linear_pieces(const LinearSegments& segments, const IntervalColumns& intervals,
+                          LinearPieces& pieces);
 
 }  // namespace lamina

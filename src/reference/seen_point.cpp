@@ -15,7 +15,7 @@
 #include "reference/cells.h"
 #include "reference/chord.h"
 #include "reference/clip.h"
-#include "reference/ray_integrator.h"
+#include "reference/composite.h"
 #include "reference/transfer_intervals.h"
 
 namespace lamina {

@@ -1,21 +1,273 @@
 // SPDX-License-Identifier: Apache-2.0
+// The rays of a volume's picture:
+//
+//   for each ray of a tile:
+//       chord = what of the ray lies in the box and in the clip (chord.h)
+//       for each cell along the chord (cell_walk.h), a batch of cells at a time:
+//           fetch the samples, and make segments of the cells that show something (cells.h)
+//           composite the segments (composite.h); end if what follows is hidden
+//
+// If it is known which cells show something, a packet of rays walks side by side. A lane whose ray
+// ends takes the tile's next ray.
 #include "reference/volume_tracer.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "reference/traced_volume.h"
+#include "mesh/box_corners.h"
+#include "optics/ray_lights.h"
+#include "reference/cell_walk.h"
+#include "reference/cells.h"
+#include "reference/chord.h"
+#include "reference/composite.h"
 #include "reference/transfer_intervals.h"
 #include "reference/visible_cells.h"
-#include "reference/volume_ray.h"
-#include "reference/volume_tile.h"
+#include "simd/lane_set.h"
 
 namespace lamina {
 namespace {
+
+// The result of a ray.
+struct TracedRay {
+    glm::dvec4 rgba{0};  // associated
+    double error_estimate = 0;
+    std::int64_t segments = 0;
+};
+
+// These are totals over the rays of a volume's picture.
+struct VolumeTotals {
+    double error_estimate = 0;  // the largest
+    std::int64_t segments = 0;
+};
+
+// This holds what all rays of a picture share. `Samples` are as in CellSamples.
+template <typename Samples>
+struct TracedVolume {
+    TracedVolume(const Volume& volume, const Samples& first_sample,
+                 const TransferIntervals& intervals, const VisibleCells& visible_cells,
+                 const TraceOptions& how)
+        : grid(volume.grid()),
+          axes(grid),
+          samples(grid, first_sample),
+          gradients(grid, first_sample),
+          transfer(intervals),
+          visible(visible_cells),
+          options(how) {
+        // A share of the diagonal to spare, for axes that are not quite orthogonal (by 1e-5 at
+        // most, volume_files/grid_check.cpp), and for rounding.
+        const double spare =
+            1e-4 * glm::distance(grid.to_world(axes.lowest), grid.to_world(axes.highest));
+        glm::dvec3 steps;
+        for (int axis = 0; axis < 3; ++axis)
+            steps[axis] = spare / glm::length(grid.step[static_cast<std::size_t>(axis)]);
+        corners = box_corners(axes.lowest - steps, axes.highest + steps);
+        for (glm::dvec3& corner : corners) corner = grid.to_world(corner);
+    }
+
+    const Grid& grid;
+    GridAxes axes;
+    std::array<glm::dvec3, 8> corners;  // around the box, in the world
+    CellSamples<Samples> samples;
+    GradientSamples<Samples> gradients;
+    const TransferIntervals& transfer;
+    const VisibleCells& visible;  // empty where it is not known
+    const TraceOptions& options;
+};
+
+// One ray through a volume, whose cells are integrated some at a time: the first are few, in case
+// that they hide the others. It serves for one ray after the other.
+template <typename Samples>
+class VolumeRay {
+  public:
+    explicit VolumeRay(const TracedVolume<Samples>& traced)
+        : traced_(traced), integrator_(traced.transfer, traced.options.tolerance) {}
+
+    // Begins a ray with its chord, which is not empty.
+    void begin(const View::Ray& ray, const Chord& chord) {
+        chord_ = chord;
+        lights_.reset();
+        if (traced_.options.lighting) lights_.emplace(*traced_.options.lighting, -ray.direction);
+        integrator_.begin(chord.world_length(), lights_ ? &*lights_ : nullptr);
+        cells_.wanted = first_together;
+    }
+
+    // The cells along the chord are to be added here, front to back. Where they are complete(),
+    // integrate() is to be called.
+    CellBatch& cells() { return cells_; }
+
+    // Returns whether what follows is seen, as far as is known.
+    bool integrate() {
+        traced_.samples.fetch(cells_);
+        make_segments(cells_, chord_, traced_.transfer.columns(), segments_);
+        if (traced_.options.lighting)
+            integrator_.add_lit(segments_, [&](std::size_t segment) {
+                return gradient(static_cast<std::size_t>(segments_.cell[segment]));
+            });
+        else
+            integrator_.add(segments_);
+        cells_.count = 0;
+        cells_.wanted = std::min(2 * cells_.wanted, CellBatch::capacity);
+        return !integrator_.opaque();
+    }
+
+    TracedRay finish() {
+        integrate();
+        return {glm::dvec4(integrator_.color(), integrator_.alpha()), integrator_.error_estimate(),
+                integrator_.pieces()};
+    }
+
+    // Traces a ray through all of its cells.
+    TracedRay trace(const View::Ray& ray) {
+        const Chord chord = clip_to_box(traced_.axes, ray, traced_.options.clip);
+        if (!(chord.length_z > 0)) return {};
+        begin(ray, chord);
+        CellWalk(traced_.grid, chord_).run([&](const CellIndex& cell, double from, double to) {
+            cells_.add(cell, from, to);
+            return !cells_.complete() || integrate();
+        });
+        return finish();
+    }
+
+  private:
+    static constexpr std::size_t first_together = 8;
+
+    GradientAlong gradient(std::size_t number) const {
+        const CellIndex cell{cells_.cell[0][number], cells_.cell[1][number],
+                             cells_.cell[2][number]};
+        const glm::dvec3 corner(cell[0], cell[1], cell[2]);
+        const double from = cells_.from[number], to = cells_.to[number];
+        return traced_.gradients.along(cell, chord_.place_in_cell(corner, from),
+                                       (to - from) * chord_.direction);
+    }
+
+    const TracedVolume<Samples>& traced_;
+    Chord chord_;
+    std::optional<RayLights> lights_;
+    RayIntegrator integrator_;
+    CellBatch cells_;
+    SegmentBatch segments_;
+};
+
+// Traces one tile of a volume's picture.
+template <typename Samples>
+class VolumeTile {
+  public:
+    VolumeTile(const TracedVolume<Samples>& traced, const View& view, const PictureTile& tile,
+               PreciseImage& image, const RowDone& row_done)
+        : traced_(traced),
+          view_(view),
+          image_(image),
+          pixels_(pixels_of(tile, TileSight(view, tile).around(traced.corners), row_done)) {}
+
+    VolumeTotals trace() {
+        if (!pixels_.any()) return {};
+        if (traced_.visible.empty()) {
+            trace_one_by_one();
+        } else {
+            trace_side_by_side();
+        }
+        return totals_;
+    }
+
+  private:
+    static constexpr std::size_t width = CellLanes::width;
+
+    static PixelsInTurn pixels_of(const PictureTile& tile, const SeenPixels& seen,
+                                  const RowDone& row_done) {
+        const glm::ivec2 first(tile.column, tile.row);
+        return {first + seen.first, first + seen.last, row_done};
+    }
+
+    void trace_one_by_one() {
+        VolumeRay ray(traced_);
+        while (pixels_.any()) {
+            const glm::ivec2 pixel = pixels_.take();
+            add(pixel, ray.trace(view_.ray(pixel.x, pixel.y)));
+        }
+    }
+
+    void trace_side_by_side() {
+        rays_.reserve(width);
+        while (rays_.size() < width) {
+            rays_.emplace_back(traced_);
+            batches_[rays_.size() - 1] = &rays_.back().cells();
+        }
+        for (std::size_t lane = 0; lane < width; ++lane) begin(lane);
+        while (lanes_.walking != 0) {
+            for_each_lane(walk_cells(lanes_, traced_.visible, batches_),
+                          [&](std::size_t lane) { go_on(lane); });
+        }
+    }
+
+    // Begins the next ray that meets the box, if there is one.
+    void begin(std::size_t lane) {
+        while (clip_next()) {
+            const std::size_t next = begun_++;
+            if (!(chords_[next].length_z > 0)) continue;
+            pixel_of_[lane] = clipped_pixels_[next];
+            rays_[lane].begin(clipped_[next], chords_[next]);
+            enter_cells(lanes_, lane, traced_.axes, chords_[next]);
+            return;
+        }
+    }
+
+    // Clips the next rays where all that are clipped have begun. Returns whether one has not.
+    bool clip_next() {
+        if (begun_ < clipped_count_) return true;
+        begun_ = clipped_count_ = 0;
+        for (; clipped_count_ < width && pixels_.any(); ++clipped_count_) {
+            const glm::ivec2 pixel = pixels_.take();
+            clipped_pixels_[clipped_count_] = pixel;
+            clipped_[clipped_count_] = view_.ray(pixel.x, pixel.y);
+        }
+        clip_to_box(traced_.axes, std::span(clipped_).first(clipped_count_), traced_.options.clip,
+                    std::span(chords_).first(clipped_count_));
+        return clipped_count_ > 0;
+    }
+
+    // Goes on after a lane's cells are complete or its chord has ended.
+    void go_on(std::size_t lane) {
+        const bool walks = (lanes_.walking & lane_bit(lane)) != 0;
+        if (walks && rays_[lane].integrate()) return;
+        lanes_.stop(lane);
+        add(pixel_of_[lane], rays_[lane].finish());
+        begin(lane);
+    }
+
+    void add(const glm::ivec2& pixel, const TracedRay& ray) {
+        for (int channel = 0; channel < 4; ++channel)
+            image_.pixel(pixel.x, pixel.y)[channel] = ray.rgba[channel];
+        totals_.error_estimate = std::max(totals_.error_estimate, ray.error_estimate);
+        totals_.segments += ray.segments;
+    }
+
+    const TracedVolume<Samples>& traced_;
+    const View& view_;
+    PreciseImage& image_;
+    PixelsInTurn pixels_;
+    CellLanes lanes_{};
+    std::array<CellBatch*, width> batches_{};
+    std::vector<VolumeRay<Samples>> rays_;  // one a lane
+    std::array<glm::ivec2, width> pixel_of_{};
+    // The next rays, of which some have begun.
+    std::array<glm::ivec2, width> clipped_pixels_{};
+    std::array<View::Ray, width> clipped_{};
+    std::array<Chord, width> chords_;
+    std::size_t clipped_count_ = 0, begun_ = 0;
+    VolumeTotals totals_;
+};
 
 // To find them takes a look at every sample. That pays where rays meet as many cells: one
 // through a cube meets about as many as an edge of it has, and rays through thin volumes fewer.

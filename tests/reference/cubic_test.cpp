@@ -17,17 +17,17 @@ Cubic random_cubic(Random& random) {
     return cubic;
 }
 
-TEST(Cubic, PartsAreMonotone) {
+TEST(Cubic, IsMonotoneBetweenTurns) {
     Random random(1);
     for (int i = 0; i < 5000; ++i) {
         Cubic cubic = random_cubic(random);
         const double scale = i % 3 == 0 ? 1 : i % 3 == 1 ? 1e-290 : 1e290;
         for (double& c : cubic.c) c *= scale;
-        const MonotoneParts parts = monotone_parts(cubic);
-        ASSERT_EQ(parts.t[0], 0);
-        ASSERT_EQ(parts.t[parts.count], 1);
-        for (int part = 0; part < parts.count; ++part) {
-            const double from = parts.t[part], to = parts.t[part + 1];
+        const CubicTurns turns = turns_of(cubic);
+        ASSERT_EQ(turns.t[0], 0);
+        ASSERT_EQ(turns.t[turns.count], 1);
+        for (int number = 0; number < turns.count; ++number) {
+            const double from = turns.t[number], to = turns.t[number + 1];
             ASSERT_LT(from, to);
             const double direction = cubic(to) - cubic(from);
             for (int k = 0; k < 20; ++k) {
@@ -43,9 +43,9 @@ TEST(Cubic, SolveFindsTheValue) {
     Random random(2);
     for (int i = 0; i < 5000; ++i) {
         const Cubic cubic = random_cubic(random);
-        const MonotoneParts parts = monotone_parts(cubic);
-        const int part = random.below(parts.count);
-        const double from = parts.t[part], to = parts.t[part + 1];
+        const CubicTurns turns = turns_of(cubic);
+        const int number = random.below(turns.count);
+        const double from = turns.t[number], to = turns.t[number + 1];
         const double value = cubic(random.uniform(from, to));
         const double t = solve_monotone(cubic, value, from, to);
         EXPECT_GE(t, from);
@@ -69,15 +69,15 @@ TEST(Cubic, SolveNearATangency) {
     EXPECT_NEAR(t, 0.5, 1e-5);  // cube root of the rounding of the value, 1e-16
 }
 
-TEST(Cubic, PartHasTheGivenEnds) {
+TEST(Cubic, HasTheGivenEndsWhenRestricted) {
     Random random(4);
     for (int i = 0; i < 1000; ++i) {
         const Cubic cubic = random_cubic(random);
         const double from = random.uniform(0, 0.5), to = random.uniform(0.5, 1);
-        const Cubic part = part_of(cubic, from, to, cubic(from), cubic(to));
-        EXPECT_EQ(part(0), cubic(from));
+        const Cubic inside = restricted(cubic, from, to, cubic(from), cubic(to));
+        EXPECT_EQ(inside(0), cubic(from));
         for (const double t : {0.25, 0.5, 1.0}) {
-            EXPECT_NEAR(part(t), cubic(from + t * (to - from)), 1e-14);  // sums of up to 16
+            EXPECT_NEAR(inside(t), cubic(from + t * (to - from)), 1e-14);  // sums of up to 16
         }
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/emission_integral.h"
+#include "reference/integrate.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "fixtures.h"
 #include "optics/segment_integral.h"
-#include "reference/piece_batch.h"
+#include "reference/cut.h"
 
 namespace lamina {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/segment_pieces.h"
+#include "reference/cut.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "fixtures.h"
 #include "optics/segment_integral.h"
-#include "reference/ray_integrator.h"
+#include "reference/composite.h"
 
 namespace lamina {
 namespace {

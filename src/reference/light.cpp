@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/light_integral.h"
+#include "reference/light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "reference/patterson_rules.h"
+#include "reference/integrate.h"
 
 namespace lamina {
 namespace {
@@ -121,9 +121,9 @@ class LightIntegrator {
 
     void append_roots(const glm::dvec3& direction, std::vector<double>& roots) const {
         const Cubic cosine = dot(piece_.gradient, direction);
-        const MonotoneParts parts = monotone_parts(cosine);
-        for (int i = 0; i < parts.count; ++i) {
-            const double from = parts.t[i], to = parts.t[i + 1];
+        const CubicTurns turns = turns_of(cosine);
+        for (int i = 0; i < turns.count; ++i) {
+            const double from = turns.t[i], to = turns.t[i + 1];
             const double start = cosine(from), end = cosine(to);
             if (!(std::min(start, end) < 0 && std::max(start, end) > 0)) continue;
             roots.push_back(std::clamp(solve_monotone(cosine, 0, from, to), from, to));

@@ -5,7 +5,7 @@
 
 #include "optics/ray_lights.h"
 #include "reference/cells.h"
-#include "reference/emission_integral.h"
+#include "reference/integrate.h"
 
 namespace lamina {
 

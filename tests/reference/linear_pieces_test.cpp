@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/linear_parts.h"
+#include "reference/integrate.h"
 
 #include <gtest/gtest.h>
 
@@ -31,25 +31,25 @@ struct SegmentResult {
     glm::dvec3 color{0};
 };
 
-// Each segment alone, from its parts.
-std::vector<SegmentResult> results_of(const LinearBatch& segments,
+// Each segment alone, from its pieces.
+std::vector<SegmentResult> results_of(const LinearSegments& segments,
                                       const TransferIntervals& intervals) {
-    LinearParts parts;
-    append_parts(segments, intervals.columns(), parts);
+    LinearPieces pieces;
+    append_linear_pieces(segments, intervals.columns(), pieces);
     std::vector<SegmentResult> results(segments.count);
-    for (std::size_t i = 0; i < parts.count; ++i) {
-        double& depth = results[static_cast<std::size_t>(parts.segment[i])].depth;
-        parts.before[i] = depth;
-        depth += parts.depth[i];
+    for (std::size_t i = 0; i < pieces.count; ++i) {
+        double& depth = results[static_cast<std::size_t>(pieces.segment[i])].depth;
+        pieces.before[i] = depth;
+        depth += pieces.depth[i];
         if (i > 0) {
-            EXPECT_LE(parts.segment[i - 1], parts.segment[i]);
+            EXPECT_LE(pieces.segment[i - 1], pieces.segment[i]);
         }
     }
-    weigh_parts(parts);
-    for (std::size_t i = 0; i < parts.count; ++i) {
-        const auto& [color, change] = intervals.color(static_cast<std::size_t>(parts.interval[i]));
-        results[static_cast<std::size_t>(parts.segment[i])].color +=
-            parts.transmittance[i] * (parts.opacity[i] * color + parts.change[i] * change);
+    weigh_pieces(pieces);
+    for (std::size_t i = 0; i < pieces.count; ++i) {
+        const auto& [color, change] = intervals.color(static_cast<std::size_t>(pieces.interval[i]));
+        results[static_cast<std::size_t>(pieces.segment[i])].color +=
+            pieces.transmittance[i] * (pieces.opacity[i] * color + pieces.change[i] * change);
     }
     return results;
 }
@@ -63,8 +63,8 @@ void test_segments(const std::vector<double>& knots, Random& random) {
         return random.below(3) == 0 ? knot : knots.front() + width * random.uniform(-.2, 1.2);
     };
     for (int batch = 0; batch < 100; ++batch) {
-        LinearBatch segments;
-        const int count = 1 + random.below(static_cast<int>(LinearBatch::capacity));
+        LinearSegments segments;
+        const int count = 1 + random.below(static_cast<int>(LinearSegments::capacity));
         for (int i = 0; i < count; ++i) {
             const double front = value();
             segments.add(front, i % 4 == 0 ? front : value(), std::pow(10, random.uniform(-9, 3)));
@@ -86,7 +86,7 @@ void test_segments(const std::vector<double>& knots, Random& random) {
     }
 }
 
-TEST(LinearParts, AreThoseOfSingleSegments) {
+TEST(LinearPieces, AreThoseOfSingleSegments) {
     Random random(5);
     std::vector<double> many;
     for (int i = 0; i < 300; ++i) many.push_back(random.uniform(-1, 1));
@@ -104,7 +104,7 @@ TEST(LinearParts, AreThoseOfSingleSegments) {
 
 // A function of one interval: depths from 1e-300 to 1e3, up to where the weights have a closed
 // form.
-TEST(LinearParts, WeightsAreThoseOfThePiece) {
+TEST(LinearPieces, WeightsAreThoseOfThePiece) {
     Random random(6);
     for (int i = 0; i < 5000; ++i) {
         const double p = i % 7 == 0 ? 0 : std::pow(10, random.uniform(-300, 3));
@@ -114,38 +114,38 @@ TEST(LinearParts, WeightsAreThoseOfThePiece) {
         if (p + q == 0) continue;
         const TransferIntervals intervals(
             TransferFunction::linear({{0, {{0, 0, 0}, p}}, {1, {{1, 1, 1}, q}}}));
-        LinearBatch segments;
+        LinearSegments segments;
         segments.add(0, 1, 1);
-        LinearParts parts;
-        append_parts(segments, intervals.columns(), parts);
-        ASSERT_EQ(parts.count, 1U);
-        weigh_parts(parts);
+        LinearPieces pieces;
+        append_linear_pieces(segments, intervals.columns(), pieces);
+        ASSERT_EQ(pieces.count, 1U);
+        weigh_pieces(pieces);
         const PieceWeights expected = piece_weights(p, q);
         // The exponential functions of vectors are good to 4 units in the last place, and all terms
         // are >= 0; before the closed form the sum of both weights is one of two numbers < 1.
-        EXPECT_NEAR(parts.change[0], expected.back, 3e-15 * expected.back);
-        EXPECT_NEAR(parts.opacity[0], expected.front + expected.back,
+        EXPECT_NEAR(pieces.change[0], expected.back, 3e-15 * expected.back);
+        EXPECT_NEAR(pieces.opacity[0], expected.front + expected.back,
                     4e-15 * (expected.front + expected.back));
-        EXPECT_EQ(parts.depth[0], p / 2 + q / 2);
+        EXPECT_EQ(pieces.depth[0], p / 2 + q / 2);
     }
 }
 
 // Interpolation may overflow: such ends lie behind the last knot.
-TEST(LinearParts, InfiniteScalarsLieOutside) {
+TEST(LinearPieces, InfiniteScalarsLieOutside) {
     for (const int count : {2, 24, 25, 256}) {
         std::vector<TransferKnot> knots;
         for (int i = 0; i < count; ++i) knots.push_back({1. * i, {{1, .1 * (i % 2), 1}, 2}});
         const TransferIntervals intervals(TransferFunction::linear(knots));
-        LinearBatch segments;
+        LinearSegments segments;
         segments.add(INFINITY, INFINITY, 3);
         segments.add(-INFINITY, -INFINITY, 3);
-        LinearParts parts;
-        append_parts(segments, intervals.columns(), parts);
-        ASSERT_EQ(parts.count, 2U);
-        EXPECT_EQ(parts.interval[0], count);
-        EXPECT_EQ(parts.interval[1], 0);
-        EXPECT_EQ(parts.depth[0], 6);
-        EXPECT_EQ(parts.depth[1], 6);
+        LinearPieces pieces;
+        append_linear_pieces(segments, intervals.columns(), pieces);
+        ASSERT_EQ(pieces.count, 2U);
+        EXPECT_EQ(pieces.interval[0], count);
+        EXPECT_EQ(pieces.interval[1], 0);
+        EXPECT_EQ(pieces.depth[0], 6);
+        EXPECT_EQ(pieces.depth[1], 6);
     }
 }
 

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/composite.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "optics/opacity.h"
+#include "reference/integrate.h"
+#include "reference/light.h"
+
+namespace lamina {
+namespace {
+
+// Early termination may cost this share of the tolerance. The rest of the ray's colour is at most
+// its transmittance times the brightest colour.
+constexpr double termination_share = 1e-3;
+
+// Pieces are integrated when there are so many, so that vectors are full.
+constexpr std::size_t pieces_together = 32;
+
+// Hidden pieces get this optical depth in front of them: exp(-x) of it is 0, so they add nothing.
+constexpr double hidden_depth = 1e4;
+
+GradientAlong restricted(const GradientAlong& gradient, double from, double to) {
+    GradientAlong part;
+    for (std::size_t c = 0; c < 3; ++c)
+        part[c] = restricted(gradient[c], from, to, gradient[c](from), gradient[c](to));
+    return part;
+}
+
+// Light from behind this transmittance, times the brightest colour, is lost in rounding.
+constexpr double least_transmittance = 1e-17;
+// The relative error of a piece's colour and opacity (weigh_pieces()), and of its interpolations.
+constexpr double piece_error = 1e-13;
+// So many segments are summed first: they may hide the others.
+constexpr std::size_t first_together = 8;
+
+}  // namespace
+
+// The errors allowed to pieces, by their share of the length and by their share of the opacity, add
+// up to half of the tolerance, because the shares of either kind add up to at most 1. Those allowed
+// to light add up to half of that.
+RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance)
+    : transfer_(transfer), tolerance_(tolerance), error_per_opacity_(tolerance / 4) {
+    batch_.error_of_opacity = error_per_opacity_;
+}
+
+void RayIntegrator::begin(double ray_length, const RayLights* lights) {
+    lights_ = lights;
+    brightest_ = std::max(1.0, lights != nullptr ? lights->brightest_lit(transfer_.brightest())
+                                                 : transfer_.brightest());
+    depth_limit_ = std::log(brightest_ / (termination_share * tolerance_));
+    error_per_length_ = tolerance_ / 4 / ray_length;
+    depth_ = {};
+    color_ = light_ = glm::dvec3(0);
+    error_ = light_error_ = 0;
+    pieces_ = 0;
+    batch_.count = 0;
+}
+
+void RayIntegrator::add(const SegmentBatch& segments, const GradientOf* gradient_of) {
+    const std::size_t first = batch_.count;
+    std::int64_t lit_segment = -1;
+    GradientAlong gradient;
+    append_pieces(segments, transfer_, error_per_length_, batch_);
+    // A local sum: a member would be written to memory with every piece.
+    CompensatedSum depth = depth_;
+    for (std::size_t piece = first; piece < batch_.count; ++piece) {
+        const double before = depth.value();
+        const bool hidden = before >= depth_limit_;
+        batch_.before[piece] = hidden ? hidden_depth : before;
+        if (hidden) continue;
+        ++pieces_;
+        if (gradient_of != nullptr) {
+            const std::int64_t segment = batch_.segment[piece];
+            if (segment != lit_segment)
+                gradient = (*gradient_of)(static_cast<std::size_t>(segment));
+            lit_segment = segment;
+            add_light(piece, gradient);
+        }
+        depth.add(batch_.depth[piece]);
+    }
+    depth_ = depth;
+    if (batch_.count >= pieces_together) finish_batch();
+}
+
+void RayIntegrator::finish_batch() {
+    integrate_emission(batch_);
+    glm::dvec3 sum = color_;
+    double error = error_;
+    for (std::size_t i = 0; i < batch_.count; ++i) {
+        const double transmittance = batch_.transmittance[i];
+        if (!(transmittance > 0)) continue;
+        const auto& [color, change] = transfer_.color(static_cast<std::size_t>(batch_.interval[i]));
+        sum += transmittance * batch_.opacity[i] * color;
+        if (!(batch_.color_span[i] > 0)) continue;
+        sum += transmittance * batch_.value[i] * change;
+        error += transmittance * batch_.color_span[i] * batch_.error[i];
+    }
+    color_ = sum;
+    error_ = error;
+    batch_.count = 0;
+}
+
+void RayIntegrator::add_light(std::size_t piece, const GradientAlong& gradient) {
+    const auto& [color, change] = transfer_.color(static_cast<std::size_t>(batch_.interval[piece]));
+    const double transmittance = std::exp(-batch_.before[piece]);
+    const LightIntegral light = integrate_light(
+        {batch_.piece(piece), color, change,
+         restricted(gradient, batch_.from[piece], batch_.to[piece])},
+        *lights_, 0.5 * batch_.error_of_length[piece] / transmittance, 0.5 * error_per_opacity_);
+    light_ += transmittance * light.value;
+    light_error_ += transmittance * light.error;
+}
+
+glm::dvec3 RayIntegrator::color() {
+    finish_batch();
+    return glm::max(color_ + light_,
+                    glm::dvec3(0));  // rounding may leave -1e-17 of a colour that fades to 0
+}
+
+double RayIntegrator::alpha() const {
+    return opacity_from_depth(depth_.value());
+}
+
+double RayIntegrator::error_estimate() {
+    finish_batch();
+    return error_ + light_error_ + hidden();
+}
+
+SegmentSum::SegmentSum(const TransferFunction& transfer_function,
+                       const TransferIntervals& intervals, double place_error, double tolerance)
+    : transfer_function_(transfer_function),
+      intervals_(intervals),
+      place_error_(place_error),
+      light_(intervals, tolerance) {
+    begin();
+}
+
+void SegmentSum::begin(const RayLights* lights) {
+    lights_ = lights;
+    brightest_ = std::max(1.0, lights != nullptr ? lights->brightest_lit(intervals_.brightest())
+                                                 : intervals_.brightest());
+    depth_limit_ = std::log(brightest_ / least_transmittance);
+    together_ = first_together;
+    forget_waiting();
+    depth_ = {};
+    color_ = glm::dvec3(0);
+    error_ = 0;
+    segments_ = 0;
+}
+
+// What the result would change by if the scalar of a segment that is all but constant were
+// elsewhere in [lo, hi]: its rounding may choose the side of a step of the transfer function.
+void SegmentSum::note_side_error(double lo, double hi, double length) {
+    side_errors_[waiting_.count] = side_error(lo, hi, length);
+    has_side_errors_ = true;
+}
+
+void SegmentSum::finish() {
+    pieces_.count = 0;
+    append_linear_pieces(waiting_, intervals_.columns(), pieces_);
+    sum_depths();
+    weigh_pieces(pieces_);
+    add_colors();
+    forget_waiting();
+}
+
+void SegmentSum::forget_waiting() {
+    waiting_.count = 0;
+    if (has_side_errors_) std::ranges::fill(side_errors_, 0);
+    has_side_errors_ = false;
+}
+
+// Sums are kept in local variables: members would be written to memory with every piece.
+void SegmentSum::sum_depths() {
+    CompensatedSum depth = depth_;
+    std::size_t segment = 0;  // the first whose side error is not added
+    for (std::size_t i = 0; i < pieces_.count; ++i) {
+        const auto end = static_cast<std::size_t>(pieces_.segment[i]) + 1;
+        if (has_side_errors_) add_side_errors(depth.value(), segment, end);
+        pieces_.before[i] = depth.value();
+        depth.add(pieces_.depth[i]);
+    }
+    if (has_side_errors_) add_side_errors(depth.value(), segment, waiting_.count);
+    depth_ = depth;
+}
+
+void SegmentSum::add_side_errors(double depth, std::size_t& segment, std::size_t end) {
+    for (; segment < end; ++segment) {
+        if (side_errors_[segment] > 0) error_ += std::exp(-depth) * side_errors_[segment];
+    }
+}
+
+void SegmentSum::add_colors() {
+    glm::dvec3 sum = color_;
+    double error = 0;
+    for (std::size_t i = 0; i < pieces_.count; ++i) {
+        const double transmittance = pieces_.transmittance[i];
+        if (!(transmittance > 0)) continue;
+        const auto interval = static_cast<std::size_t>(pieces_.interval[i]);
+        const auto& [color, change] = intervals_.color(interval);
+        sum += transmittance * pieces_.opacity[i] * color;
+        if (intervals_.columns().color_span[interval] > 0)
+            sum += transmittance * pieces_.change[i] * change;
+        // Where an end is off, this much depth moves from one side of it to the other.
+        const double length = waiting_.length[static_cast<std::size_t>(pieces_.segment[i])];
+        const double moved = std::min(1.0, 2 * place_error_ * pieces_.depth[i] / length);
+        error += transmittance * (piece_error * pieces_.opacity[i] + moved);
+    }
+    color_ = sum;
+    error_ += brightest_ * error;
+}
+
+// The unlit segment stays what it is, in closed form: light is added to it.
+void SegmentSum::add_lit(double front, double back, const GradientAlong& gradient, double length,
+                         double slack) {
+    const auto [lo, hi] = std::minmax(front, back);
+    if (intervals_.visible(lo, hi)) add_light(front, back, gradient, length);
+    add(front, back, length, slack);
+}
+
+void SegmentSum::add_light(double front, double back, const GradientAlong& gradient,
+                           double length) {
+    finish();
+    constexpr double unknown_length = std::numeric_limits<double>::infinity();
+    light_.begin(unknown_length, lights_);
+    const auto [lo, hi] = std::minmax(front, back);
+    SegmentBatch alone;
+    alone.add({{front, back - front}}, lo, hi, length);
+    light_.add_lit(alone, [&](std::size_t) { return gradient; });
+    const double transmittance = std::exp(-depth_.value());
+    color_ += transmittance * light_.light();
+    error_ += transmittance * light_.light_error();
+}
+
+double SegmentSum::side_error(double lo, double hi, double length) const {
+    const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
+    const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);
+    const double middle = transfer_function_.at(0.5 * lo + 0.5 * hi).extinction;
+    const double alpha =
+        opacity_from_depth(std::max({above.extinction, middle, below.extinction}) * length);
+    const double lit = lights_ != nullptr ? lights_->largest_factor() : 1;
+    const glm::dvec3 color = lit * glm::abs(above.color - below.color);
+    return brightest_ * depth + std::max({color.r, color.g, color.b}) * std::max(alpha, depth);
+}
+
+double SegmentSum::alpha() const {
+    return opacity_from_depth(depth_.value());
+}
+
+double SegmentSum::error_estimate() const {
+    const double hidden = opaque() ? brightest_ * std::exp(-depth_.value()) : 0;
+    return std::min(brightest_, error_ + hidden);  // no channel can be farther off
+}
+
+}  // namespace lamina

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/integrate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optics/gauss_rules.h"
+#include "optics/segment_integral.h"
+
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "reference/integrate.cpp"
+#include "simd/foreach_target.h"
+
+#include "reference/cubic-inl.h"
+#include "simd/math-inl.h"
+
+LAMINA_SIMD_BEGIN
+namespace reference {
+
+// With so many terms, Taylor's series of (exp(-depth) - 1) / depth is good up to this depth: the
+// remainder is below depth^(terms + 1) / (terms + 2)! = 7e-18, 1e-16 and 5e-16.
+template <std::size_t terms>
+inline constexpr double series_limit = terms == 6   ? 0.016
+                                       : terms == 8 ? 0.09
+                                                    : 0.25;
+
+// (exp(-depth) - 1) / depth.
+template <std::size_t terms>
+LAMINA_INLINE Double short_expm1_share(Double depth) {
+    static_assert(terms == 6 || terms == 8 || terms == 10, "series_limit");
+    constexpr double inverse_factorials[] = {1. / 2,       1. / 6,       1. / 24,    1. / 120,
+                                             1. / 720,     1. / 5040,    1. / 40320, 1. / 362880,
+                                             1. / 3628800, 1. / 39916800};
+    Double sum = inverse_factorials[terms - 1];
+    for (std::size_t i = terms - 1; i-- > 0;) sum = fnma(depth, sum, inverse_factorials[i]);
+    return fms(depth, sum, 1);
+}
+
+// Transmittance exp(-depth) and opacity 1 - exp(-depth) of any depths.
+struct AnyDepth {
+    LAMINA_INLINE Double transmittance(Double depth) const { return exp(-depth); }
+    LAMINA_INLINE Double opacity(Double depth) const { return -expm1(-depth); }
+};
+
+// The same of depths up to series_limit<terms>.
+template <std::size_t terms>
+struct ShortDepth {
+    LAMINA_INLINE Double transmittance(Double depth) const {
+        return fma(depth, short_expm1_share<terms>(depth), 1);
+    }
+    LAMINA_INLINE Double opacity(Double depth) const {
+        return -(depth * short_expm1_share<terms>(depth));
+    }
+};
+
+// Depths up to this are short.
+constexpr std::size_t most_terms = 10;
+constexpr double short_depth = series_limit<most_terms>;
+
+// The same of short depths in some lanes: each lane's result does not depend on the other lanes.
+struct MixedDepth {
+    DoubleMask is_short;
+
+    LAMINA_INLINE Double transmittance(Double depth) const {
+        return select(is_short, ShortDepth<most_terms>().transmittance(depth),
+                      AnyDepth().transmittance(depth));
+    }
+    LAMINA_INLINE Double opacity(Double depth) const {
+        return select(is_short, ShortDepth<most_terms>().opacity(depth), AnyDepth().opacity(depth));
+    }
+};
+
+LAMINA_INLINE Cubics load_cubics(const PieceBatch::Column (&from)[4], std::size_t i) {
+    Cubics cubics;
+    for (std::size_t power = 0; power < 4; ++power)
+        cubics.c[power] = load_unaligned<Double>(from[power].data() + i);
+    return cubics;
+}
+
+// Sums of the rules so far: of w = extinction exp(-depth), and of x w.
+struct RuleSum {
+    Double w, xw;
+
+    LAMINA_INLINE void add(double weight, Double node_w, Double node_xw) {
+        w = fma(weight, node_w, w);
+        xw = fma(weight, node_xw, xw);
+    }
+};
+
+LAMINA_INLINE RuleSum no_sum() {
+    return {0, 0};
+}
+
+template <typename Depth>
+class PieceLanes {
+  public:
+    LAMINA_INLINE PieceLanes(const PieceBatch& batch, std::size_t i, const Depth& depth)
+        : depth_(depth),
+          position_(load_cubics(batch.position, i)),
+          extinction_(load_cubics(batch.extinction, i)),
+          mean_depth_(extinction_) {
+        for (std::size_t power = 1; power < 4; ++power)
+            mean_depth_.c[power] = extinction_.c[power] / static_cast<double>(power + 1);
+    }
+
+    // Sets w and x w to their sums over a pair of nodes.
+    LAMINA_INLINE void evaluate(int pair, Double& w, Double& xw) const {
+        const double distance = patterson::node[pair];
+        w = weight_at(0.5 - distance);
+        xw = position_.at(0.5 - distance) * w;
+        if (pair == 0) return;
+        const Double right = weight_at(0.5 + distance);
+        w += right;
+        xw = fma(position_.at(0.5 + distance), right, xw);
+    }
+
+    LAMINA_INLINE Double middle() const { return position_.at(0.5); }
+
+  private:
+    LAMINA_INLINE Double weight_at(double place) const {
+        const Double t(place);
+        const Double depth = t * mean_depth_.at(t);
+        return extinction_.at(t) * depth_.transmittance(depth);
+    }
+
+    Depth depth_;
+    Cubics position_, extinction_, mean_depth_;  // mean_depth_ t is the depth up to t
+};
+
+LAMINA_INLINE Double difference(const RuleSum& fine, const RuleSum& coarse, Double opacity) {
+    return max(abs(fine.xw - coarse.xw), abs(fine.w - opacity));
+}
+
+LAMINA_INLINE DoubleMask given(const PieceBatch& batch, std::size_t i) {
+    return first_lanes<DoubleMask>(batch.count - i);
+}
+
+// Returns the lanes that a rule has integrated.
+template <typename Depth>
+LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const Depth& kind) {
+    using namespace patterson;
+    const PieceLanes<Depth> pieces(batch, i, kind);
+    const Double depth = load_unaligned<Double>(batch.depth.data() + i);
+    const Double opacity = kind.opacity(depth);
+    const Double transmittance = exp(-load_unaligned<Double>(batch.before.data() + i));
+    const Double span = load_unaligned<Double>(batch.color_span.data() + i);
+    const Double allowed = fma(batch.error_of_opacity, opacity * transmittance,
+                               load_unaligned<Double>(batch.error_of_length.data() + i)) /
+                           (transmittance * span);
+    const Double enough = max(allowed, emission_rounding * depth);
+
+    Double w[8], xw[8];
+    RuleSum three = no_sum(), seven = no_sum(), fifteen = no_sum();
+    for (int pair = 0; pair < 4; ++pair) {
+        pieces.evaluate(pair, w[pair], xw[pair]);
+        if (pair < 2) three.add(weight3[pair], w[pair], xw[pair]);
+        seven.add(weight7[pair], w[pair], xw[pair]);
+    }
+    Double value = seven.xw, error = difference(seven, three, opacity);
+    const DoubleMask beyond = !given(batch, i);
+    DoubleMask done = (error <= enough) | beyond;
+    if (!all_of(done)) {
+        for (int pair = 0; pair < 8; ++pair) {
+            if (pair >= 4) pieces.evaluate(pair, w[pair], xw[pair]);
+            fifteen.add(weight15[pair], w[pair], xw[pair]);
+        }
+        value = select(done, value, fifteen.xw);
+        error = select(done, error, difference(fifteen, seven, opacity));
+        done = error <= enough;
+    }
+    done = done & (depth < resolvable_depth);
+    // x is somewhere in [0, 1], so any of its values is within `opacity` of the integral.
+    const DoubleMask faint = opacity <= negligible_opacity * allowed;
+    value = select(faint, pieces.middle() * opacity, value);
+    error = select(faint, opacity, error);
+    store_unaligned(transmittance, batch.transmittance.data() + i);
+    store_unaligned(opacity, batch.opacity.data() + i);
+    store_unaligned(value, batch.value.data() + i);
+    store_unaligned(error, batch.error.data() + i);
+    return done | faint | beyond;
+}
+
+// A piece that the rules on the whole of it do not integrate.
+inline void integrate_bisected(PieceBatch& batch, std::size_t i) {
+    if (!(batch.color_span[i] > 0) || !(batch.transmittance[i] > 0)) return;
+    const double reach = batch.transmittance[i] * batch.color_span[i];
+    const EmissionIntegral emission =
+        integrate_emission(batch.piece(i), batch.error_of_length[i] / reach,
+                           batch.error_of_opacity / batch.color_span[i]);
+    batch.value[i] = emission.value;
+    batch.error[i] = emission.error;
+}
+
+struct WeightLanes {
+    Double front, back;
+};
+
+// Vector form of the sums in optics/segment_integral.cpp, which says why they are written so.
+template <typename Depth>
+LAMINA_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Double p, Double q,
+                                          const Depth& kind) {
+    WeightLanes sum{0, 0};
+    for (std::size_t i = 0; i < rule.points; ++i) {
+        const double x = rule.x[i], rest = 1 - x;
+        const Double before = fma(x * (1 - x / 2), p, x * x / 2 * q);
+        const Double behind = fma(rest * rest / 2, p, rest * (1 + x) / 2 * q);
+        const Double absorbed = kind.opacity(before), weight(rule.weight[i]);
+        sum.front = fma(weight, absorbed, sum.front);
+        sum.back = fma(weight * (1 - absorbed), kind.opacity(behind), sum.back);
+    }
+    return sum;
+}
+
+LAMINA_INLINE WeightLanes closed_weights(Double p, Double q) {
+    alignas(64) double ps[longest_vector], qs[longest_vector], fronts[longest_vector],
+        backs[longest_vector];
+    store(p, ps);
+    store(q, qs);
+    for (std::size_t lane = 0; lane < Double::lanes; ++lane) {
+        const PieceWeights weights = piece_weights(ps[lane], qs[lane]);
+        fronts[lane] = weights.front;
+        backs[lane] = weights.back;
+    }
+    return {load<Double>(fronts), load<Double>(backs)};
+}
+
+// As piece_weights().
+LAMINA_INLINE WeightLanes weights_of(Double p, Double q, Double depth) {
+    const double most = largest_of(depth);
+    if (!(most < largest_gauss_depth)) return closed_weights(p, q);
+    const GaussRule& rule = gauss_rule(most);
+    if (most <= series_limit<6>) return weights_by_rule(rule, p, q, ShortDepth<6>());
+    if (most <= series_limit<8>) return weights_by_rule(rule, p, q, ShortDepth<8>());
+    if (most <= series_limit<10>) return weights_by_rule(rule, p, q, ShortDepth<10>());
+    return weights_by_rule(rule, p, q, AnyDepth());
+}
+
+LAMINA_INLINE void weigh(LinearPieces& pieces, std::size_t i) {
+    // Lanes behind the last piece hold anything.
+    const DoubleMask given = first_lanes<DoubleMask>(pieces.count - i);
+    const auto row = [&](const LinearPieces::Column& column)
+                         LAMINA_LAMBDA { return load_unaligned<Double>(column.data() + i); };
+    const Double depth = zero_unless(given, row(pieces.depth));
+    const WeightLanes weights =
+        weights_of(zero_unless(given, row(pieces.p)), zero_unless(given, row(pieces.q)), depth);
+    store_unaligned(exp(-row(pieces.before)), pieces.transmittance.data() + i);
+    store_unaligned(weights.front + weights.back, pieces.opacity.data() + i);
+    store_unaligned(fma(weights.front, row(pieces.from), weights.back * row(pieces.to)),
+                    pieces.change.data() + i);
+}
+
+}  // namespace reference
+
+// LAMINA_EXPORT takes functions of this namespace alone.
+inline void integrate_batch(PieceBatch& batch) {
+    using namespace reference;
+    const std::size_t lanes = Double::lanes;
+    for (std::size_t i = 0; i < batch.count; i += lanes) {
+        const Double depth = load_unaligned<Double>(batch.depth.data() + i);
+        const DoubleMask is_short = depth <= short_depth;
+        // Lanes behind the last piece hold anything.
+        const bool all_short = all_of(is_short | !given(batch, i));
+        const DoubleMask done = all_short ? integrate_lanes(batch, i, ShortDepth<most_terms>())
+                                          : integrate_lanes(batch, i, MixedDepth{is_short});
+        if (all_of(done)) continue;
+        for_each_lane(bits_of(!done),
+                      [&](std::size_t lane) { integrate_bisected(batch, i + lane); });
+    }
+}
+
+inline void weigh_pieces_of(LinearPieces& pieces) {
+    using namespace reference;
+    for (std::size_t i = 0; i < pieces.count; i += Double::lanes) weigh(pieces, i);
+}
+
+LAMINA_SIMD_END
+
+#if LAMINA_ONCE
+namespace lamina {
+namespace {
+
+using namespace patterson;
+
+// Sums over a pair of nodes of w = extinction exp(-depth) and of x w. The integral of w is known in
+// closed form, which shows where a rule misses a boundary layer.
+struct NodeValues {
+    double w[8], xw[8];
+};
+
+void evaluate(const EmissionPiece& piece, double from, double to, int first, int last,
+              NodeValues& values) {
+    const double middle = 0.5 * (from + to), length = to - from;
+    const auto weight_at = [&](double t) {
+        return piece.extinction(t) * std::exp(-piece.depth(t));
+    };
+    for (int i = first; i < last; ++i) {
+        const double left = middle - node[i] * length, right = middle + node[i] * length;
+        const double w_left = weight_at(left), w_right = i == 0 ? 0 : weight_at(right);
+        values.w[i] = w_left + w_right;
+        values.xw[i] = piece.position(left) * w_left + piece.position(right) * w_right;
+    }
+}
+
+struct RuleResult {
+    double w = 0, xw = 0;
+};
+
+template <int Count>
+RuleResult apply_rule(const double (&weights)[Count], const NodeValues& values, double length) {
+    RuleResult sum;
+    for (int i = 0; i < Count; ++i) {
+        sum.w += weights[i] * values.w[i];
+        sum.xw += weights[i] * values.xw[i];
+    }
+    return {sum.w * length, sum.xw * length};
+}
+
+double estimate(const RuleResult& fine, const RuleResult& coarse, double exact_w) {
+    return std::max(std::abs(fine.xw - coarse.xw), std::abs(fine.w - exact_w));
+}
+
+class Integrator {
+  public:
+    Integrator(const EmissionPiece& piece, double error_per_t, double error_per_opacity)
+        : piece_(piece), error_per_t_(error_per_t), error_per_opacity_(error_per_opacity) {}
+
+    EmissionIntegral run() {
+        add(0, 1, 0, piece_.depth(1));
+        return result_;
+    }
+
+  private:
+    void accept(double value, double error) {
+        result_.value += value;
+        result_.error += error;
+    }
+
+    void add(double from, double to, double depth_from, double depth_to) {
+        const double in_front = std::exp(-depth_from);
+        const double opacity = in_front * -std::expm1(depth_from - depth_to);
+        const double allowed = error_per_t_ * (to - from) + error_per_opacity_ * opacity;
+        const double middle = 0.5 * (from + to);
+        // x is somewhere in [0, 1], so any of its values is within `opacity` of the integral.
+        const bool exhausted = --budget_ <= 0 || !(from < middle && middle < to);
+        if (opacity <= negligible_opacity * allowed || exhausted) {
+            return accept(piece_.position(middle) * opacity, opacity);
+        }
+        if (depth_to - depth_from < resolvable_depth) {
+            const double rounding = emission_rounding * in_front * depth_to;
+            if (try_rules(from, to, opacity, std::max(allowed, rounding))) return;
+        }
+        const double depth_middle = piece_.depth(middle);
+        add(from, middle, depth_from, depth_middle);
+        add(middle, to, depth_middle, depth_to);
+    }
+
+    bool try_rules(double from, double to, double opacity, double allowed) {
+        NodeValues values;
+        evaluate(piece_, from, to, 0, 4, values);
+        const RuleResult three = apply_rule(weight3, values, to - from);
+        const RuleResult seven = apply_rule(weight7, values, to - from);
+        double error = estimate(seven, three, opacity);
+        if (error <= allowed) {
+            accept(seven.xw, error);
+            return true;
+        }
+        evaluate(piece_, from, to, 4, 8, values);
+        const RuleResult fifteen = apply_rule(weight15, values, to - from);
+        error = estimate(fifteen, seven, opacity);
+        if (error > allowed) return false;
+        accept(fifteen.xw, error);
+        return true;
+    }
+
+    const EmissionPiece& piece_;
+    double error_per_t_, error_per_opacity_;
+    EmissionIntegral result_;
+    int budget_ = 2000;  // pieces; a boundary layer of optical depth 1e7 takes some 60
+};
+
+}  // namespace
+
+EmissionIntegral integrate_emission(const EmissionPiece& piece, double error_per_t,
+                                    double error_per_opacity) {
+    return Integrator(piece, error_per_t, error_per_opacity).run();
+}
+
+LAMINA_EXPORT(integrate_batch);
+LAMINA_EXPORT(weigh_pieces_of);
+
+void integrate_emission(PieceBatch& batch) {
+    LAMINA_DISPATCH(integrate_batch)(batch);
+}
+
+void weigh_pieces(LinearPieces& pieces) {
+    LAMINA_DISPATCH(weigh_pieces_of)(pieces);
+}
+
+}  // namespace lamina
+#endif
