@@ -51,8 +51,8 @@ class AxisLanes {
     LAMINA_INLINE Double leaving() const { return leaving_; }
     // The cell's place in its block, 0 to edge - 1.
     LAMINA_INLINE Double place_in_block() const { return cell_ - first_cell(); }
-    // How far the next cell's place lies from a cell's, if the place of its upper neighbour lies
-    // `above` places from it.
+    // Returns the distance from a cell's place to that of the next cell, if its upper neighbour's
+    // place lies `above` places from it.
     LAMINA_INLINE Long stride(std::int64_t above) const {
         return select(falls_, Long(-above), above);
     }
@@ -82,8 +82,8 @@ class AxisLanes {
         const Double hi = min(last, select(falls_, cell_, last_cell_));
         const Double nearest = select(falls_, hi, lo);
         // A rounded place may lie in the cell before the right one: pass_cells() steps over that,
-        // because the chord's part in it has no length. It must not lie in a later one, so cells
-        // are told apart by the crossings of their planes, as CellWalk does.
+        // because the chord has no length in it. It must not lie in a later one, so cells
+        // are distinguished by the crossings of their planes, as CellWalk does.
         const Double place = floor(fma(from, direction_, entry_));
         Double cell = clamp(place, lo, hi);
         while (true) {
@@ -120,7 +120,7 @@ class AxisLanes {
     DoubleMask falls_;
     Double step_, ahead_;
     Double block_, next_block_cell_;
-    Double leaving_ = 0;  // where the chord leaves the block along this axis
+    Double leaving_ = 0;  // parameter at which the chord leaves the block along this axis
 };
 
 // The lanes that go on along x, y and z: those whose crossings there are the least of the three.
@@ -176,7 +176,7 @@ class ChordWalk {
     }
 
   private:
-    // With fewer it is quicker to look for blocks of the others.
+    // It is quicker to look for blocks of the others if fewer are in blocks.
     LAMINA_INLINE bool most_are_in_blocks() const {
         return 4 * count_of(in_block_) > count_of(walking_);
     }

@@ -30,8 +30,8 @@
 
 namespace lamina {
 
-// Where a chord begins along one axis of a grid, and the last cell that it can come to. Numbers of
-// cells are whole numbers.
+// The cell in which a chord begins, along one axis of a grid, and the last one that it can come to.
+// Numbers of cells are whole numbers.
 struct AxisStart {
     double cell, last_cell;
     double inverse;  // 1 / direction, but finite, so that it gives 0 on the plane itself
@@ -47,8 +47,7 @@ struct AxisStart {
     }
 };
 
-// The cells along a chord, front to back (Amanatides and Woo 1987). Every crossing is computed from
-// its own plane, so errors do not accumulate. The first and the last cell of an axis reach to the
+// The cells along a chord, front to back. The first and the last cell of an axis reach to the
 // end of the box, so the lengths of all cells add up to the chord.
 class CellWalk {
   public:
@@ -67,7 +66,7 @@ class CellWalk {
     }
 
     // Calls visit(cell, from, to) for every cell that the chord crosses, with its parameters from <
-    // to. It ends early where visit returns false.
+    // to. It ends early if visit returns false.
     template <typename Visit>
     void run(const Visit& visit) {
         double from = 0;
@@ -103,7 +102,7 @@ class CellWalk {
     CellIndex cell_;
     CellIndex final_;  // the last cell in the ray's direction
     CellIndex step_;   // -1 or 1
-    // How far the plane through which the chord leaves a cell lies from the cell's number.
+    // The distance of the plane through which the chord leaves a cell from the cell's number.
     CellIndex ahead_;
     std::array<double, 3> crossing_;
     std::array<double, 3> inverse_;  // of the direction
@@ -118,23 +117,24 @@ struct CellLanes {
     struct Axis {
         LaneRow entry, direction;
         LaneRow cell, last_cell, inverse;  // AxisStart
-        // Where the chord leaves the cell along this axis, in lanes that are in a block.
+        // The parameter at which the chord leaves the cell along this axis, in lanes that are in a
+        // block.
         LaneRow crossing;
     };
 
     std::array<Axis, 3> axes;
-    LaneRow from, length;  // parameters: where the chord enters the cell, and its end
+    LaneRow from, length;  // parameters at which the chord enters the cell, and ends
     LaneSet walking = 0;
     LaneSet in_block = 0;  // those whose cell is in a block that may show something
 
     void stop(std::size_t lane) { walking &= ~lane_bit(lane); }
 };
 
-// A lane gets the cell in which its chord, of length > 0, begins. The lane walks from then on.
+// Gives a lane the cell in which its chord, of length > 0, begins. The lane walks from then on.
 void enter_cells(CellLanes& lanes, std::size_t lane, const GridAxes& grid, const Chord& chord);
 
 // Appends cells that may show something to the lanes' batches, until a batch is complete or some
-// chords have ended. Returns those lanes; none, where none walks. `visible` must not be empty.
+// chords have ended. Returns those lanes; none if none walks. `visible` must not be empty.
 LaneSet walk_cells(CellLanes& lanes, const VisibleCells& visible,
                    const std::array<CellBatch*, CellLanes::width>& batches);
 

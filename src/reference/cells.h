@@ -136,7 +136,7 @@ class CellSamples {
         for (std::size_t i = 0; i < 8; ++i) found.v[i] = static_cast<double>(samples[i]);
         return found;
     }
-    // Whether all corners are samples.
+    // Says whether all corners are samples.
     bool inside(const CellIndex& cell) const {
         const auto number = [](std::int64_t i) { return static_cast<std::uint64_t>(i); };
         return number(cell[0]) < number(last_[0]) && number(cell[1]) < number(last_[1]) &&
@@ -200,8 +200,8 @@ class GradientSamples {
         return gradient;
     }
 
-    // Per step of the axis, from the neighbours on both sides; from one side where the other is
-    // outside or no number; 0 where both are.
+    // Returns the difference per step of the axis, from the neighbours on both sides; from one side
+    // if the other is outside or no number; 0 if both are.
     double difference(std::int64_t offset, std::int64_t index, std::size_t axis) const {
         const auto value = [&](std::int64_t steps) {
             return static_cast<double>(samples_[offset + steps * stride_[axis]]);

@@ -22,12 +22,13 @@ struct Coordinates {
     DoubleDoubles position, slope;
 };
 
-// A part of rays, as in RaySpan.
+// Ranges of rays, as RaySpan.
 struct RaySpans {
     DoubleDoubles from, to;
 };
 
-// The dot product, in twice the precision of double. Axes of most grids are along the world's.
+// Returns the dot product, in twice the precision of double. Axes of most grids are along the
+// world's.
 LAMINA_INLINE DoubleDoubles dot(const DoubleDoubles (&a)[3], const glm::dvec3& b) {
     DoubleDoubles sum = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -46,7 +47,7 @@ LAMINA_INLINE DoubleDoubles project(const DoubleDoubles (&vector)[3], const Grid
            DoubleDoubles(axis.unscale);
 }
 
-// Where a coordinate meets two planes.
+// Returns the z at which a coordinate meets two planes.
 LAMINA_INLINE RaySpans meet(const Coordinates& rays, double first, double second) {
     const DoubleDoubles to_first = DoubleDoubles(first) - rays.position;
     const DoubleDoubles to_second = DoubleDoubles(second) - rays.position;
@@ -88,7 +89,7 @@ class RayLanes {
         }
     }
 
-    // The part of z >= 0 where every coordinate is inside its closed range.
+    // Finds the range of z >= 0 in which every coordinate is inside its closed range.
     LAMINA_INLINE void clip_to_faces() {
         inside_ = {0.0, std::numeric_limits<double>::infinity()};
         for (int axis = 0; axis < 3; ++axis) {

@@ -68,7 +68,7 @@ void clip_span(std::span<const HalfSpace> clip, const View::Ray& ray, RaySpan& s
             continue;
         }
         const DoubleDouble at = -distance / slope;
-        if (!at.finite()) {  // the ray as good as runs along the plane
+        if (!at.finite()) {  // the ray goes along the plane, as good as
             if (distance < DoubleDouble{}) span.to = span.from;
         } else if (slope.hi > 0) {
             if (span.from < at) span.from = at;
@@ -87,17 +87,17 @@ SeenRange seen_range(std::span<const HalfSpace> clip, const View::Ray& ray) {
 SeenSegment seen_segment(const SeenSegment& whole, const SeenRange& seen) {
     if (whole.from >= seen.from && whole.to <= seen.to) return whole;
     if (whole.to <= seen.from || whole.from >= seen.to || seen.from >= seen.to) return {0, 0, 0, 0};
-    SeenSegment part = whole;
-    const double slope = (part.back - part.front) / (part.to - part.from);
-    if (part.to > seen.to) {
-        part.back -= slope * (part.to - seen.to);
-        part.to = seen.to;
+    SeenSegment cut = whole;
+    const double slope = (cut.back - cut.front) / (cut.to - cut.from);
+    if (cut.to > seen.to) {
+        cut.back -= slope * (cut.to - seen.to);
+        cut.to = seen.to;
     }
-    if (part.from < seen.from) {
-        part.front += slope * (seen.from - part.from);
-        part.from = seen.from;
+    if (cut.from < seen.from) {
+        cut.front += slope * (seen.from - cut.from);
+        cut.from = seen.from;
     }
-    return part;
+    return cut;
 }
 
 SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,

@@ -27,7 +27,7 @@
 
 namespace lamina {
 
-// The part from <= z <= to of a viewing ray; none where !(from < to).
+// The range from <= z <= to of a viewing ray. It is empty if !(from < to).
 struct RaySpan {
     DoubleDouble from, to;
 };
@@ -36,24 +36,24 @@ struct RaySpan {
 // exact. A ray in a plane is kept.
 void clip_span(std::span<const HalfSpace> clip, const View::Ray& ray, RaySpan& span);
 
-// The part of a ray in front of the eye, or of the eye's plane, that a clip keeps.
+// The range of a ray in front of the eye, or of the eye's plane, that a clip keeps.
 struct SeenRange {
     double from, to;
 };
 SeenRange seen_range(std::span<const HalfSpace> clip, const View::Ray& ray);
 
-// The part of a tet's segment that is seen: parameters of the ray, and the scalar at both ends,
-// between which it is linear. None where !(from < to).
+// A tet's segment as far as it is seen: parameters of the ray, and the scalar at both ends, between
+// which it is linear. It is empty if !(from < to).
 struct SeenSegment {
     double from, to;
     double front, back;
 };
-// `whole`: the segment from where the ray enters the tet to where it leaves.
+// `whole`: the segment from the ray's entry into the tet to its exit.
 SeenSegment seen_segment(const SeenSegment& whole, const SeenRange& seen);
 SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
                          std::span<const double> scalar);
 
-// The parts that are seen of a packet's segments (SeenSegment), one a lane.
+// The segments of a packet as far as they are seen (SeenSegment), one a lane.
 struct SeenLanes {
     using Row = LaneRow;
 
@@ -65,11 +65,11 @@ struct SeenLanes {
     Row from, to, front, back;  // SeenSegment
     Row length;                 // in world units
     Row slack;                  // scalar_slack()
-    LaneSet shown = 0;          // the part is not empty and may show something
+    LaneSet shown = 0;          // those that are not empty and may show something
 };
 
-// How far the interpolation of scalars inside a tet may be off, by the range of the scalars at its
-// corners: 64 epsilons of the larger. Constant scalars are exact.
+// Returns how far the interpolation of scalars inside a tet may be off, by the range of the scalars
+// at its corners: 64 epsilons of the larger. Constant scalars are exact.
 inline constexpr double scalar_epsilons = 64;
 inline double scalar_slack(double least, double most) {
     if (least == most) return 0;

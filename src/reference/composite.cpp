@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/composite.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 
@@ -24,20 +22,35 @@ constexpr std::size_t pieces_together = 32;
 constexpr double hidden_depth = 1e4;
 
 GradientAlong restricted(const GradientAlong& gradient, double from, double to) {
-    GradientAlong part;
+    GradientAlong inside;
     for (std::size_t c = 0; c < 3; ++c)
-        part[c] = restricted(gradient[c], from, to, gradient[c](from), gradient[c](to));
-    return part;
+        inside[c] = restricted(gradient[c], from, to, gradient[c](from), gradient[c](to));
+    return inside;
 }
 
 // Light from behind this transmittance, times the brightest colour, is lost in rounding.
-constexpr double least_transmittance = 1e-17;
+constexpr double rounded_transmittance = 1e-17;
 // The relative error of a piece's colour and opacity (weigh_pieces()), and of its interpolations.
 constexpr double piece_error = 1e-13;
 // So many segments are summed first: they may hide the others.
 constexpr std::size_t first_together = 8;
 
 }  // namespace
+
+void CompositedRay::begin(const TransferIntervals& transfer, const RayLights* lights,
+                          double least_transmittance) {
+    lights_ = lights;
+    brightest_ = std::max(1.0, lights != nullptr ? lights->brightest_lit(transfer.brightest())
+                                                 : transfer.brightest());
+    depth_limit_ = std::log(brightest_ / least_transmittance);
+    depth_ = {};
+    color_ = glm::dvec3(0);
+    error_ = 0;
+}
+
+double CompositedRay::alpha() const {
+    return opacity_from_depth(depth_.value());
+}
 
 // The errors allowed to pieces, by their share of the length and by their share of the opacity, add
 // up to half of the tolerance, because the shares of either kind add up to at most 1. Those allowed
@@ -48,14 +61,10 @@ RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance
 }
 
 void RayIntegrator::begin(double ray_length, const RayLights* lights) {
-    lights_ = lights;
-    brightest_ = std::max(1.0, lights != nullptr ? lights->brightest_lit(transfer_.brightest())
-                                                 : transfer_.brightest());
-    depth_limit_ = std::log(brightest_ / (termination_share * tolerance_));
+    CompositedRay::begin(transfer_, lights, termination_share * tolerance_);
     error_per_length_ = tolerance_ / 4 / ray_length;
-    depth_ = {};
-    color_ = light_ = glm::dvec3(0);
-    error_ = light_error_ = 0;
+    light_ = glm::dvec3(0);
+    light_error_ = 0;
     pieces_ = 0;
     batch_.count = 0;
 }
@@ -117,12 +126,8 @@ void RayIntegrator::add_light(std::size_t piece, const GradientAlong& gradient) 
 
 glm::dvec3 RayIntegrator::color() {
     finish_batch();
-    return glm::max(color_ + light_,
-                    glm::dvec3(0));  // rounding may leave -1e-17 of a colour that fades to 0
-}
-
-double RayIntegrator::alpha() const {
-    return opacity_from_depth(depth_.value());
+    // Rounding may leave -1e-17 of a colour that fades to 0.
+    return glm::max(color_ + light_, glm::dvec3(0));
 }
 
 double RayIntegrator::error_estimate() {
@@ -140,19 +145,13 @@ SegmentSum::SegmentSum(const TransferFunction& transfer_function,
 }
 
 void SegmentSum::begin(const RayLights* lights) {
-    lights_ = lights;
-    brightest_ = std::max(1.0, lights != nullptr ? lights->brightest_lit(intervals_.brightest())
-                                                 : intervals_.brightest());
-    depth_limit_ = std::log(brightest_ / least_transmittance);
+    CompositedRay::begin(intervals_, lights, rounded_transmittance);
     together_ = first_together;
     forget_waiting();
-    depth_ = {};
-    color_ = glm::dvec3(0);
-    error_ = 0;
     segments_ = 0;
 }
 
-// What the result would change by if the scalar of a segment that is all but constant were
+// Notes what the result would change by if the scalar of a segment that is all but constant were
 // elsewhere in [lo, hi]: its rounding may choose the side of a step of the transfer function.
 void SegmentSum::note_side_error(double lo, double hi, double length) {
     side_errors_[waiting_.count] = side_error(lo, hi, length);
@@ -205,7 +204,7 @@ void SegmentSum::add_colors() {
         sum += transmittance * pieces_.opacity[i] * color;
         if (intervals_.columns().color_span[interval] > 0)
             sum += transmittance * pieces_.change[i] * change;
-        // Where an end is off, this much depth moves from one side of it to the other.
+        // If an end is off, this much depth moves from one side of it to the other.
         const double length = waiting_.length[static_cast<std::size_t>(pieces_.segment[i])];
         const double moved = std::min(1.0, 2 * place_error_ * pieces_.depth[i] / length);
         error += transmittance * (piece_error * pieces_.opacity[i] + moved);
@@ -247,13 +246,8 @@ double SegmentSum::side_error(double lo, double hi, double length) const {
     return brightest_ * depth + std::max({color.r, color.g, color.b}) * std::max(alpha, depth);
 }
 
-double SegmentSum::alpha() const {
-    return opacity_from_depth(depth_.value());
-}
-
 double SegmentSum::error_estimate() const {
-    const double hidden = opaque() ? brightest_ * std::exp(-depth_.value()) : 0;
-    return std::min(brightest_, error_ + hidden);  // no channel can be farther off
+    return std::min(brightest_, error_ + hidden());  // no channel can be farther off
 }
 
 }  // namespace lamina

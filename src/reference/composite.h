@@ -28,39 +28,56 @@
 
 namespace lamina {
 
-// Emission and absorption along rays, accumulated front to back in double precision
-// (docs/numerics.md, section 1). Optical depth is exact up to rounding. Colour is integrated to a
-// tolerance, with an estimate of its error.
-class RayIntegrator {
+// A ray as far as it is composited.
+class CompositedRay {
   public:
-    // The gradient along a segment of a batch, from its front to its back in world space.
+    // Says whether all that follows is hidden, as far as is known, so that it need not be added.
+    bool opaque() const { return depth_.value() >= depth_limit_; }
+    double alpha() const;
+
+  protected:
+    // Begins a ray. Light from behind `least_transmittance`, times the brightest colour, may be
+    // lost.
+    void begin(const TransferIntervals& transfer, const RayLights* lights,
+               double least_transmittance);
+    // Returns the error of leaving out what is hidden.
+    double hidden() const { return opaque() ? brightest_ * std::exp(-depth_.value()) : 0; }
+
+    const RayLights* lights_ = nullptr;
+    double brightest_ = 1;  // largest component of a colour; at least 1, for alpha
+    CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits
+    glm::dvec3 color_{0};
+    double error_ = 0;
+    double depth_limit_ = 0;  // what lies deeper is hidden
+};
+
+// Composites cubic segments. Optical depth is exact up to rounding. Colour is integrated to a
+// tolerance, with an estimate of its error.
+class RayIntegrator : public CompositedRay {
+  public:
+    // Returns the gradient along a segment of a batch, from its front to its back in world space.
     using GradientOf = std::function<GradientAlong(std::size_t segment)>;
 
     // `tolerance`: largest error of every channel of a whole ray, as a share of full scale.
     RayIntegrator(const TransferIntervals& transfer, double tolerance);
 
-    // Begins the next ray. `ray_length` > 0: world length of all segments; infinite where it is not
+    // Begins the next ray. `ray_length` > 0: world length of all segments; infinite if it is not
     // known. `lights`: for segments that are lit, must outlive the ray.
     void begin(double ray_length, const RayLights* lights = nullptr);
 
     // Adds the next segments; those that are hidden may be among them.
     void add(const SegmentBatch& segments) { add(segments, nullptr); }
-    // The same of segments that are lit. `gradient_of` is called for those that are seen.
+    // Adds segments that are lit. `gradient_of` is called for those that are seen.
     void add_lit(const SegmentBatch& segments, const GradientOf& gradient_of) {
         add(segments, &gradient_of);
     }
 
-    // Whether all that follows is hidden, so that no more segments need to be added.
-    bool opaque() const { return depth_.value() >= depth_limit_; }
-
     glm::dvec3 color();  // associated
-    double alpha() const;
     double optical_depth() const { return depth_.value(); }
-    // Error of the worst channel, from quadrature and early termination.
-    double error_estimate();
+    double error_estimate();  // of the worst channel, from quadrature and early termination
     std::int64_t pieces() const { return pieces_; }
 
-    // The share of light in color(), which may be negative, and in error_estimate().
+    // These are the shares of light in color(), which may be negative, and in error_estimate().
     const glm::dvec3& light() const { return light_; }
     double light_error() const { return light_error_ + hidden(); }
 
@@ -68,27 +85,19 @@ class RayIntegrator {
     void add(const SegmentBatch& segments, const GradientOf* gradient_of);
     void add_light(std::size_t piece, const GradientAlong& gradient);
     void finish_batch();
-    double hidden() const { return opaque() ? brightest_ * std::exp(-depth_.value()) : 0; }
 
     const TransferIntervals& transfer_;
     double tolerance_;
     double error_per_opacity_;
-    const RayLights* lights_ = nullptr;
-    double brightest_ = 1;  // at least 1, for alpha
-    double depth_limit_ = 0;
     double error_per_length_ = 0;
-    CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits
-    glm::dvec3 color_{0};
-    double error_ = 0;
     glm::dvec3 light_{0};
     double light_error_ = 0;
     std::int64_t pieces_ = 0;
     PieceBatch batch_;  // the last pieces, which are not in color_ and error_
 };
 
-// Composites segments of rays, each with a linear scalar, front to back in double precision. They
-// are summed some at a time.
-class SegmentSum {
+// Composites linear segments, some at a time.
+class SegmentSum : public CompositedRay {
   public:
     // `place_error`: bound on the error of every end of a segment, in world units.
     // `transfer_function` and `intervals` are the same function, and must outlive the sum.
@@ -111,19 +120,15 @@ class SegmentSum {
         finish();
         together_ = std::min(2 * together_, LinearSegments::capacity);
     }
-    // The same of a segment that is lit, with its gradient from front to back in world space.
+    // Adds a segment that is lit, with its gradient from front to back in world space.
     void add_lit(double front, double back, const GradientAlong& gradient, double length,
                  double slack);
-    // To be called before color(), alpha() and error_estimate(): until then these lack the last
+    // Is to be called before color(), alpha() and error_estimate(): until then these lack the last
     // segments.
     void finish();
 
-    // Whether all that follows is lost in rounding, as far as is known.
-    bool opaque() const { return depth_.value() >= depth_limit_; }
-
     const glm::dvec3& color() const { return color_; }  // associated
-    double alpha() const;
-    double error_estimate() const;  // error of the worst channel
+    double error_estimate() const;                      // error of the worst channel
     std::int64_t segments() const { return segments_; }
 
   private:
@@ -138,18 +143,12 @@ class SegmentSum {
     const TransferFunction& transfer_function_;
     const TransferIntervals& intervals_;
     double place_error_;
-    const RayLights* lights_ = nullptr;
-    RayIntegrator light_;  // of one segment at a time
-    double brightest_ = 1;
-    double depth_limit_ = 0;
+    RayIntegrator light_;                             // that of one segment at a time
     LinearSegments waiting_;                          // segments that are not in the results
     double side_errors_[LinearSegments::capacity]{};  // theirs, if nothing lay in front of them
     bool has_side_errors_ = false;                    // whether one of them is not 0
     std::size_t together_ = 0;
     LinearPieces pieces_;
-    CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits
-    glm::dvec3 color_{0};
-    double error_ = 0;
     std::int64_t segments_ = 0;
 };
 

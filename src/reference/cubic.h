@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scalar along a ray in a cell is a cubic (docs/numerics.md, section 9.1). This finds where it is
-// monotone, and where it has a value:
+// A scalar along a ray in a cell is a cubic (docs/numerics.md, section 9.1). This finds the places
+// at which it turns, and those at which it has a value:
 //
 //   turns: the roots of the derivative inside (0, 1), in the form that does not cancel
 //

@@ -25,8 +25,8 @@ LAMINA_INLINE std::size_t take_steps(Segments& segments, Steps& steps) {
     return count;
 }
 
-// Appends the pieces of some steps, one segment after the other. store(i, step, lane) stores a
-// piece at place i.
+// Appends the pieces of some steps, one segment after the other. store(i, step, lane) stores what
+// a piece has beside the common columns at place i.
 template <typename Pieces, typename Store>
 LAMINA_INLINE void append_steps(std::size_t count, std::size_t first_segment, Pieces& pieces,
                                 const Store& store) {
@@ -38,8 +38,12 @@ LAMINA_INLINE void append_steps(std::size_t count, std::size_t first_segment, Pi
             // A piece that is not kept is overwritten by the next: a branch would often be
             // mispredicted.
             const auto& step = steps[number];
-            pieces.segment[pieces.count] = static_cast<std::int64_t>(first_segment + lane);
-            store(pieces.count, step, lane);
+            const std::size_t i = pieces.count;
+            pieces.segment[i] = static_cast<std::int64_t>(first_segment + lane);
+            pieces.interval[i] = step.interval[lane];
+            pieces.start[i] = step.start[lane];
+            pieces.end[i] = step.end[lane];
+            store(i, step, lane);
             pieces.count += step.kept >> lane & 1;
         }
     }
@@ -72,7 +76,7 @@ class SegmentLanes {
     LAMINA_INLINE bool active() const { return any_of(active_); }
 
     // Goes on to the next knots or turns. The step gets the pieces up to there.
-    LAMINA_INLINE void advance(CutStep& step) {
+    LAMINA_INLINE void advance(CubicStep& step) {
         const Double knot = search_.knot_ahead(interval_, rises_);
         const DoubleMask before_turn =
             (rises_ & (knot < turn_value_)) | without(knot > turn_value_, rises_);
@@ -114,7 +118,7 @@ class SegmentLanes {
         aim();
     }
 
-    LAMINA_INLINE void fill(CutStep& step, Double to, Double end) const {
+    LAMINA_INLINE void fill(CubicStep& step, Double to, Double end) const {
         const DoubleMask kept = active_ & search_.shows(interval_) & (at_ < to);
         step.kept = static_cast<std::uint8_t>(bits_of(kept));
         store(interval_, step.interval);
@@ -271,8 +275,8 @@ LAMINA_INLINE void set_depths(const LinearSegments& segments, const IntervalColu
     const PlaceLanes from(load_unaligned<Double>(pieces.start.data() + i), lo, hi);
     const PlaceLanes to(load_unaligned<Double>(pieces.end.data() + i), lo, hi);
     const Double p = depth(from), q = depth(to);
-    store_unaligned(from.from_lo, pieces.from.data() + i);
-    store_unaligned(to.from_lo, pieces.to.data() + i);
+    store_unaligned(from.from_lo, pieces.start_place.data() + i);
+    store_unaligned(to.from_lo, pieces.end_place.data() + i);
     store_unaligned(p, pieces.p.data() + i);
     store_unaligned(q, pieces.q.data() + i);
     store_unaligned(fma(0.5, p, 0.5 * q), pieces.depth.data() + i);
@@ -285,12 +289,9 @@ inline void append_pieces_of(const SegmentBatch& segments, const IntervalColumns
                              double error_per_length, PieceBatch& pieces) {
     using namespace reference;
     const std::size_t lanes = Double::lanes, first = pieces.count;
-    const auto put = [&](std::size_t i, const CutStep& step, std::size_t lane) {
-        pieces.interval[i] = step.interval[lane];
+    const auto put = [&](std::size_t i, const CubicStep& step, std::size_t lane) {
         pieces.from[i] = step.from[lane];
         pieces.to[i] = step.to[lane];
-        pieces.start[i] = step.start[lane];
-        pieces.end[i] = step.end[lane];
     };
     for (std::size_t i = 0; i < segments.count; i += lanes) {
         SegmentLanes on_their_way(segments, i, columns);
@@ -305,9 +306,6 @@ inline void append_linear_pieces_of(const LinearSegments& segments, const Interv
     using namespace reference;
     const std::size_t lanes = Double::lanes, first = pieces.count;
     const auto put = [&](std::size_t i, const LinearStep& step, std::size_t lane) {
-        pieces.interval[i] = step.interval[lane];
-        pieces.start[i] = step.start[lane];
-        pieces.end[i] = step.end[lane];
         pieces.share[i] = step.share[lane];
     };
     for (std::size_t i = 0; i < segments.count; i += lanes) {

@@ -10,13 +10,14 @@
 //       if the interval has extinction and t < to: append the piece t .. to
 //       t = to; interval = the one behind the knot, if s crosses it
 //
-// In a cell s is a cubic, whose crossings Newton's method finds. In a tet s is linear and does not
+// Cells have a cubic s, whose crossings Newton's method finds. Tets have a linear s, which does not
 // turn. Vectors have a segment in each lane, and each step takes a piece of all of them.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "reference/cubic.h"
@@ -59,55 +60,65 @@ struct EmissionPiece {
     }
 };
 
-// A piece of each segment of a vector (PieceBatch), in lanes that have a bit in `kept`.
+// A piece of each segment of a vector (PieceColumns), in lanes that have a bit in `kept`.
 struct CutStep {
     alignas(64) std::int64_t interval[longest_vector];
-    alignas(64) double from[longest_vector];
-    alignas(64) double to[longest_vector];
     alignas(64) double start[longest_vector];
     alignas(64) double end[longest_vector];
     std::uint8_t kept;
 };
+struct CubicStep : CutStep {
+    alignas(64) double from[longest_vector];
+    alignas(64) double to[longest_vector];
+};
+struct LinearStep : CutStep {
+    alignas(64) double share[longest_vector];
+};
 
-// Pieces of one ray's segments (SegmentBatch), front to back, on each of which the transfer
-// function is linear.
-struct PieceBatch {
+// Pieces of one ray's segments, front to back, on each of which the transfer function is linear.
+struct PieceColumns {
     using Column = std::vector<double>;
 
     std::vector<std::int64_t> segment, interval;  // numbers
-    Column from, to;                              // parameters of the segment, 0 <= from < to <= 1
-    Column start, end;                            // the scalar there
-    Column position[4], extinction[4];            // EmissionPiece, coefficient by coefficient
+    Column start, end;                            // the scalar at the front and at the back
     Column depth;                                 // optical depth of the piece, >= 0
-    Column before;                                // that of what lies in front of it
-    Column color_span;                            // largest change of a colour
+    Column before;                                // that of what lies in front: set by the caller
+    Column transmittance, opacity;                // results: exp(-before), 1 - exp(-depth)
+
+    std::size_t count = 0;
+
+  protected:
+    // Makes sure that columns have room for so many pieces, and a vector of doubles more: vectors
+    // read and write beyond the last piece, and find numbers there that are valid.
+    void make_room(std::size_t pieces, std::initializer_list<Column*> others) {
+        if (pieces + longest_vector <= start.size()) return;
+        const std::size_t room = std::max(2 * start.size(), pieces + longest_vector);
+        segment.resize(room);
+        interval.resize(room);
+        for (Column* column : {&start, &end, &depth, &before, &transmittance, &opacity})
+            column->resize(room);
+        for (Column* column : others) column->resize(room);
+    }
+};
+
+// Pieces of cubic segments (SegmentBatch).
+struct PieceBatch : PieceColumns {
+    Column from, to;                    // parameters of the segment, 0 <= from < to <= 1
+    Column position[4], extinction[4];  // EmissionPiece, coefficient by coefficient
+    Column color_span;                  // largest change of a colour
     // The errors that are allowed to a channel of the ray: to each piece by its length, and to all
     // of them by the opacity that is seen.
     Column error_of_length;
     double error_of_opacity = 0;
+    Column value, error;  // results: EmissionIntegral
 
-    // These are the results of integrate_emission(): exp(-before), 1 - exp(-depth), and the members
-    // of EmissionIntegral.
-    Column transmittance, opacity, value, error;
+    std::vector<CubicStep> steps;  // memory of append_pieces()
 
-    std::size_t count = 0;
-
-    std::vector<CutStep> steps;  // memory of append_pieces()
-
-    // Makes sure that columns have room for so many pieces, and a vector of doubles more: vectors
-    // read and write beyond the last piece, and find numbers there that are valid.
     void make_room(std::size_t pieces) {
-        if (pieces + longest_vector <= from.size()) return;
-        const std::size_t room = std::max(2 * from.size(), pieces + longest_vector);
-        segment.resize(room);
-        interval.resize(room);
-        for (Column* column : {&from, &to, &start, &end, &depth, &before, &color_span,
-                               &error_of_length, &transmittance, &opacity, &value, &error})
-            column->resize(room);
-        for (std::size_t power = 0; power < 4; ++power) {
-            position[power].resize(room);
-            extinction[power].resize(room);
-        }
+        PieceColumns::make_room(
+            pieces, {&from, &to, &color_span, &error_of_length, &value, &error, &position[0],
+                     &position[1], &position[2], &position[3], &extinction[0], &extinction[1],
+                     &extinction[2], &extinction[3]});
     }
 
     EmissionPiece piece(std::size_t number) const {
@@ -142,45 +153,19 @@ struct LinearSegments {
     }
 };
 
-// A piece of each segment of a vector (LinearPieces), in lanes that have a bit in `kept`.
-struct LinearStep {
-    alignas(64) std::int64_t interval[longest_vector];
-    alignas(64) double start[longest_vector];
-    alignas(64) double end[longest_vector];
-    alignas(64) double share[longest_vector];
-    std::uint8_t kept;
-};
+// Pieces of linear segments. Extinction and colour are linear on them, too.
+struct LinearPieces : PieceColumns {
+    Column share;                   // of the segment's length
+    Column start_place, end_place;  // in the interval, 0 at its lower knot, 1 at its upper one
+    Column p, q;                    // extinction * length there
+    // The result beside `opacity`, which weighs the colour of the interval's lower knot: the weight
+    // of the change from there to the upper one (TransferIntervals::color()).
+    Column change;
 
-// Pieces of linear segments of one ray, front to back, on each of which extinction and colour are
-// linear, too.
-struct LinearPieces {
-    using Column = std::vector<double>;
-
-    std::vector<std::int64_t> segment, interval;  // numbers
-    Column start, end;                            // the scalar at the front and at the back
-    Column share;                                 // of the segment's length
-    Column from, to;  // the ends' places in the interval, 0 at its lower knot, 1 at its upper one
-    Column p, q;      // extinction * length there
-    Column depth;     // optical depth, >= 0
-    Column before;    // that of what lies in front: set by the caller
-
-    // These are the results of weigh_pieces(): exp(-before), and the weights of the colour of the
-    // interval's lower knot, and of the change from there to the upper one
-    // (TransferIntervals::color()).
-    Column transmittance, opacity, change;
-
-    std::size_t count = 0;
     std::vector<LinearStep> steps;  // memory of append_linear_pieces()
 
-    // Makes sure that columns have room for so many pieces, and a vector of doubles more.
     void make_room(std::size_t pieces) {
-        if (pieces + longest_vector <= from.size()) return;
-        const std::size_t room = std::max(2 * from.size(), pieces + longest_vector);
-        segment.resize(room);
-        interval.resize(room);
-        for (Column* column : {&start, &end, &share, &from, &to, &p, &q, &depth, &before,
-                               &transmittance, &opacity, &change})
-            column->resize(room);
+        PieceColumns::make_room(pieces, {&share, &start_place, &end_place, &p, &q, &change});
     }
 };
 

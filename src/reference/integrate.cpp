@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/integrate.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "optics/gauss_rules.h"
 #include "optics/segment_integral.h"
 
@@ -17,8 +14,8 @@
 LAMINA_SIMD_BEGIN
 namespace reference {
 
-// With so many terms, Taylor's series of (exp(-depth) - 1) / depth is good up to this depth: the
-// remainder is below depth^(terms + 1) / (terms + 2)! = 7e-18, 1e-16 and 5e-16.
+// Largest depth up to which so many terms of Taylor's series of (exp(-depth) - 1) / depth are
+// enough: the remainder is below depth^(terms + 1) / (terms + 2)! = 7e-18, 1e-16 and 5e-16.
 template <std::size_t terms>
 inline constexpr double series_limit = terms == 6   ? 0.016
                                        : terms == 8 ? 0.09
@@ -42,7 +39,7 @@ struct AnyDepth {
     LAMINA_INLINE Double opacity(Double depth) const { return -expm1(-depth); }
 };
 
-// The same of depths up to series_limit<terms>.
+// Transmittance and opacity of depths up to series_limit<terms>.
 template <std::size_t terms>
 struct ShortDepth {
     LAMINA_INLINE Double transmittance(Double depth) const {
@@ -57,7 +54,8 @@ struct ShortDepth {
 constexpr std::size_t most_terms = 10;
 constexpr double short_depth = series_limit<most_terms>;
 
-// The same of short depths in some lanes: each lane's result does not depend on the other lanes.
+// Transmittance and opacity of depths that are short in some lanes. Each lane's result does not
+// depend on the other lanes.
 struct MixedDepth {
     DoubleMask is_short;
 
@@ -224,7 +222,7 @@ LAMINA_INLINE WeightLanes closed_weights(Double p, Double q) {
     return {load<Double>(fronts), load<Double>(backs)};
 }
 
-// As piece_weights().
+// Weighs pieces as piece_weights() does.
 LAMINA_INLINE WeightLanes weights_of(Double p, Double q, Double depth) {
     const double most = largest_of(depth);
     if (!(most < largest_gauss_depth)) return closed_weights(p, q);
@@ -245,8 +243,9 @@ LAMINA_INLINE void weigh(LinearPieces& pieces, std::size_t i) {
         weights_of(zero_unless(given, row(pieces.p)), zero_unless(given, row(pieces.q)), depth);
     store_unaligned(exp(-row(pieces.before)), pieces.transmittance.data() + i);
     store_unaligned(weights.front + weights.back, pieces.opacity.data() + i);
-    store_unaligned(fma(weights.front, row(pieces.from), weights.back * row(pieces.to)),
-                    pieces.change.data() + i);
+    store_unaligned(
+        fma(weights.front, row(pieces.start_place), weights.back * row(pieces.end_place)),
+        pieces.change.data() + i);
 }
 
 }  // namespace reference
@@ -279,110 +278,34 @@ LAMINA_SIMD_END
 namespace lamina {
 namespace {
 
-using namespace patterson;
+// The position x of a piece, which lies in [0, 1]: any of its values is within an interval's
+// opacity of the integral.
+struct PiecePosition {
+    using Value = double;
+    const EmissionPiece& piece;
 
-// Sums over a pair of nodes of w = extinction exp(-depth) and of x w. The integral of w is known in
-// closed form, which shows where a rule misses a boundary layer.
-struct NodeValues {
-    double w[8], xw[8];
-};
-
-void evaluate(const EmissionPiece& piece, double from, double to, int first, int last,
-              NodeValues& values) {
-    const double middle = 0.5 * (from + to), length = to - from;
-    const auto weight_at = [&](double t) {
-        return piece.extinction(t) * std::exp(-piece.depth(t));
-    };
-    for (int i = first; i < last; ++i) {
-        const double left = middle - node[i] * length, right = middle + node[i] * length;
-        const double w_left = weight_at(left), w_right = i == 0 ? 0 : weight_at(right);
-        values.w[i] = w_left + w_right;
-        values.xw[i] = piece.position(left) * w_left + piece.position(right) * w_right;
+    double at(double t) const { return piece.position(t); }
+    QuantityRange over(double, double) const { return {1, true}; }
+    bool is_faint(double opacity, double allowed, double) const {
+        return opacity <= negligible_opacity * allowed;
     }
-}
-
-struct RuleResult {
-    double w = 0, xw = 0;
-};
-
-template <int Count>
-RuleResult apply_rule(const double (&weights)[Count], const NodeValues& values, double length) {
-    RuleResult sum;
-    for (int i = 0; i < Count; ++i) {
-        sum.w += weights[i] * values.w[i];
-        sum.xw += weights[i] * values.xw[i];
+    double spread(double opacity, double) const { return opacity; }
+    double rounding(double in_front, double depth_to, double) const {
+        return emission_rounding * in_front * depth_to;
     }
-    return {sum.w * length, sum.xw * length};
-}
-
-double estimate(const RuleResult& fine, const RuleResult& coarse, double exact_w) {
-    return std::max(std::abs(fine.xw - coarse.xw), std::abs(fine.w - exact_w));
-}
-
-class Integrator {
-  public:
-    Integrator(const EmissionPiece& piece, double error_per_t, double error_per_opacity)
-        : piece_(piece), error_per_t_(error_per_t), error_per_opacity_(error_per_opacity) {}
-
-    EmissionIntegral run() {
-        add(0, 1, 0, piece_.depth(1));
-        return result_;
-    }
-
-  private:
-    void accept(double value, double error) {
-        result_.value += value;
-        result_.error += error;
-    }
-
-    void add(double from, double to, double depth_from, double depth_to) {
-        const double in_front = std::exp(-depth_from);
-        const double opacity = in_front * -std::expm1(depth_from - depth_to);
-        const double allowed = error_per_t_ * (to - from) + error_per_opacity_ * opacity;
-        const double middle = 0.5 * (from + to);
-        // x is somewhere in [0, 1], so any of its values is within `opacity` of the integral.
-        const bool exhausted = --budget_ <= 0 || !(from < middle && middle < to);
-        if (opacity <= negligible_opacity * allowed || exhausted) {
-            return accept(piece_.position(middle) * opacity, opacity);
-        }
-        if (depth_to - depth_from < resolvable_depth) {
-            const double rounding = emission_rounding * in_front * depth_to;
-            if (try_rules(from, to, opacity, std::max(allowed, rounding))) return;
-        }
-        const double depth_middle = piece_.depth(middle);
-        add(from, middle, depth_from, depth_middle);
-        add(middle, to, depth_middle, depth_to);
-    }
-
-    bool try_rules(double from, double to, double opacity, double allowed) {
-        NodeValues values;
-        evaluate(piece_, from, to, 0, 4, values);
-        const RuleResult three = apply_rule(weight3, values, to - from);
-        const RuleResult seven = apply_rule(weight7, values, to - from);
-        double error = estimate(seven, three, opacity);
-        if (error <= allowed) {
-            accept(seven.xw, error);
-            return true;
-        }
-        evaluate(piece_, from, to, 4, 8, values);
-        const RuleResult fifteen = apply_rule(weight15, values, to - from);
-        error = estimate(fifteen, seven, opacity);
-        if (error > allowed) return false;
-        accept(fifteen.xw, error);
-        return true;
-    }
-
-    const EmissionPiece& piece_;
-    double error_per_t_, error_per_opacity_;
-    EmissionIntegral result_;
-    int budget_ = 2000;  // pieces; a boundary layer of optical depth 1e7 takes some 60
+    double largest(double x) const { return std::abs(x); }
 };
 
 }  // namespace
 
 EmissionIntegral integrate_emission(const EmissionPiece& piece, double error_per_t,
                                     double error_per_opacity) {
-    return Integrator(piece, error_per_t, error_per_opacity).run();
+    // A boundary layer of optical depth 1e7 takes some 60 intervals.
+    constexpr int most_intervals = 2000;
+    const PiecePosition position{piece};
+    NestedIntegral integral(piece, position, error_per_t, error_per_opacity, most_intervals);
+    integral.add(0, 1, 0, piece.depth(1));
+    return integral.result();
 }
 
 LAMINA_EXPORT(integrate_batch);

@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
+// The colour that light adds to a piece (docs/numerics.md, section 10.3):
+//
+//   cut the piece at the kinks: the roots of g.l and g.h, for the gradient g and each light's l and
+//   h for each interval between two of them:
+//       ball = one that g stays in, around its value in the middle
+//       if the most that light can do there (10.2) is below what is allowed: its value in the
+//       middle if g grows and turns by little in the ball: Patterson's rules (integrate.h), as soon
+//       as two
+//           that follow each other agree
+//       otherwise halve the interval
+//
+// Dips and peaks of the effect are narrow if the gradient is small and turns quickly. In a ball
+// that is small beside the gradient's length no dip and no peak fits between the nodes of a rule.
 #pragma once
 
 #include <glm/vec3.hpp>
 
 #include "optics/ray_lights.h"
-#include "reference/cells.h"
+#include "reference/cubic.h"
 #include "reference/integrate.h"
 
 namespace lamina {
@@ -17,18 +30,11 @@ struct LitPiece {
     GradientAlong gradient;
 };
 
-struct LightIntegral {
-    glm::dvec3 value{0};
-    double error = 0;  // estimate of the largest component's error; the true one is smaller
-};
+using LightIntegral = Integral<glm::dvec3>;
 
-// What light adds to the emission of the piece: the integral of RayLights::Effect::on(colour)
-// extinction(t) exp(-depth(t)) over [0, 1]. The allowed errors are those of integrate_emission().
-//
-// The integrand has kinks where the gradient is perpendicular to a light or a halfway vector:
-// intervals end there. It may have dips and peaks that are narrow where the gradient is small and
-// turns quickly: rules are trusted only where the gradient turns and grows by so little in an
-// interval that their nodes cannot miss any.
+// Returns the integral over [0, 1] of the effect of light on the colour,
+// RayLights::Effect::on(colour), times extinction(t) exp(-depth(t)). The allowed errors are those
+// of integrate_emission().
 LightIntegral integrate_light(const LitPiece& piece, const RayLights& lights, double error_per_t,
                               double error_per_opacity);
 

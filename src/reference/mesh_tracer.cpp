@@ -8,21 +8,19 @@
 //               cut its segment to what is seen (clip.h)
 //               composite it, if it may show something (composite.h)
 //
-// A ray on which the mesh overlaps itself is not walked: its tets are listed, by where it enters
-// them. A lane whose ray ends takes the tile's next ray.
+// A ray on which the mesh overlaps itself is not walked: its tets are listed, by the places at
+// which it enters them. A lane whose ray ends takes the tile's next ray.
 #include "reference/mesh_tracer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "mesh/point_gradients.h"
@@ -75,7 +73,7 @@ class MeshTile {
     void add_overlapping(std::size_t lane);
     void add_shown(std::size_t lane);
     template <typename Segment>
-    void add(std::size_t lane, std::int32_t tet, const SeenSegment& part, double length,
+    void add(std::size_t lane, std::int32_t tet, const SeenSegment& seen, double length,
              double slack, const Segment& segment);
     GradientAlong gradient_along(const TetSegment& segment, double from, double to) const;
     glm::dvec3 gradient_at(const FaceCrossing& crossing) const;
@@ -177,34 +175,34 @@ void MeshTile::add_overlapping(std::size_t lane) {
     for (const TetSegment& segment : overlapping_) {
         const Tet& tet = picture_.mesh.tets()[static_cast<std::size_t>(segment.tet)];
         const auto [least, most] = range_in(picture_.scalar, tet);
-        const SeenSegment part = seen_segment(segment, range, picture_.scalar);
+        const SeenSegment seen = seen_segment(segment, range, picture_.scalar);
         const double slack = scalar_slack(least, most);
-        const auto [lo, hi] = std::minmax(part.front, part.back);
-        if (part.from < part.to && picture_.intervals.visible(lo - slack, hi + slack))
-            add(lane, segment.tet, part, (part.to - part.from) * seen_.world_per_z[lane], slack,
+        const auto [lo, hi] = std::minmax(seen.front, seen.back);
+        if (seen.from < seen.to && picture_.intervals.visible(lo - slack, hi + slack))
+            add(lane, segment.tet, seen, (seen.to - seen.from) * seen_.world_per_z[lane], slack,
                 [&] { return segment; });
     }
 }
 
 void MeshTile::add_shown(std::size_t lane) {
-    const SeenSegment part{seen_.from[lane], seen_.to[lane], seen_.front[lane], seen_.back[lane]};
-    add(lane, walk_.tet(lane), part, seen_.length[lane], seen_.slack[lane],
+    const SeenSegment seen{seen_.from[lane], seen_.to[lane], seen_.front[lane], seen_.back[lane]};
+    add(lane, walk_.tet(lane), seen, seen_.length[lane], seen_.slack[lane],
         [&] { return walk_.segment(lane); });
 }
 
-// Adds a part of segment(), which is in that tet.
+// Adds what is seen of segment(), which is in that tet.
 template <typename Segment>
-void MeshTile::add(std::size_t lane, std::int32_t tet, const SeenSegment& part, double length,
+void MeshTile::add(std::size_t lane, std::int32_t tet, const SeenSegment& seen, double length,
                    double slack, const Segment& segment) {
     const auto& no_value = picture_.no_value;
     if (!no_value.empty() && no_value[static_cast<std::size_t>(tet)] != 0) return;
     MeshRay& ray = rays_[lane];
-    if (!ray.lights) return ray.sum.add(part.front, part.back, length, slack);
-    const GradientAlong gradient = gradient_along(segment(), part.from, part.to);
-    ray.sum.add_lit(part.front, part.back, gradient, length, slack);
+    if (!ray.lights) return ray.sum.add(seen.front, seen.back, length, slack);
+    const GradientAlong gradient = gradient_along(segment(), seen.from, seen.to);
+    ray.sum.add_lit(seen.front, seen.back, gradient, length, slack);
 }
 
-// Between two parameters of the ray: linear.
+// Returns the gradient between two parameters of the ray, which is linear.
 GradientAlong MeshTile::gradient_along(const TetSegment& segment, double from, double to) const {
     const glm::dvec3 in = gradient_at(segment.in), out = gradient_at(segment.out);
     const double length = segment.out.at - segment.in.at;
@@ -224,13 +222,13 @@ glm::dvec3 MeshTile::gradient_at(const FaceCrossing& crossing) const {
     return first + (crossing.weights[1] * (at(1) - first) + crossing.weights[2] * (at(2) - first));
 }
 
-// No point of the mesh is farther from the eye.
+// Returns a distance: no point of the mesh is farther from the eye.
 double reach_of(const TetMesh& mesh, const View& view) {
     const glm::dvec3 lo = mesh.bounds().min - view.eye, hi = mesh.bounds().max - view.eye;
     return glm::length(glm::max(glm::abs(lo), glm::abs(hi)));
 }
 
-// Marks tets with a value that is not finite. The list is empty where there are none.
+// Marks tets with a value that is not finite. The list is empty if there are none.
 std::vector<char> tets_without_value(const TetMesh& mesh, std::span<const double> scalar) {
     if (std::all_of(scalar.begin(), scalar.end(), [](double s) { return std::isfinite(s); }))
         return {};

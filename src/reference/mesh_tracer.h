@@ -29,7 +29,7 @@ struct MeshTraceResult {
 };
 
 // `scalar`: one value a point. Tets with a corner whose value is NaN or infinite are transparent.
-// `open_faces`: tree of the mesh's open faces. Runs on all cores; the result does not depend on
+// `open_faces`: tree of the mesh's open faces. It uses all cores; the result does not depend on
 // their number. Throws Error for options out of range.
 MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                            std::span<const double> scalar,

@@ -4,7 +4,7 @@
 //   front = the corners of the face by which the line enters, and the areas of the triangles that
 //           the line makes with its edges, seen along the line
 //   while there is a tet behind the face:
-//       top = the tet's corner that is not in front; in = where the line entered
+//       top = the tet's corner that is not in front; in = the crossing by which the line entered
 //       area_to[i] = the triangle of the line and the edge from front[i] to the top
 //       the line leaves by the top and the two corners between which area_to turns from - to +
 //       replace the third corner in front by the top; out = the crossing of this face
@@ -75,7 +75,7 @@ class PacketWalk {
 
     // Returns a lane's line, to be aimed before the lane enters.
     RayWalk& ray(std::size_t lane) { return rays_[lane]; }
-    // The lane's line enters the mesh, and takes part in step() until it leaves or stops.
+    // Lets the lane's line enter the mesh. step() moves it on until it leaves or stops.
     void enter(std::size_t lane, const RayWalk::Entry& entry);
     void stop(std::size_t lane) { walking_ &= ~lane_bit(lane); }
     LaneSet walking() const { return walking_; }
@@ -83,7 +83,7 @@ class PacketWalk {
     // Takes every line that walks through one more tet.
     void step();
 
-    // These tell of the last step: which tets the lines passed, and where they entered and left
+    // These describe the last step: which tets the lines passed, and where they entered and left
     // them.
     std::int32_t tet(std::size_t lane) const { return passed_[lane]; }
     const WalkLanes& lanes() const { return lanes_; }

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double visible = 1e-12;  // share of the ray's way: see the header
 
-// The part of a ray in one tet.
-struct Part {
+// A segment of a ray in a tet, in front of the eye.
+struct DrawnSegment {
     std::int32_t tet;
     double in, out;
 };
@@ -23,8 +23,8 @@ struct Part {
 struct Judged {
     const VisibilityOrder* order;
     std::vector<std::int32_t> places;
-    std::int32_t place(const Part& part) const {
-        return places[static_cast<std::size_t>(part.tet)];
+    std::int32_t place(const DrawnSegment& segment) const {
+        return places[static_cast<std::size_t>(segment.tet)];
     }
 };
 
@@ -39,23 +39,24 @@ class PixelJudge {
   public:
     PixelJudge(const TetMesh& mesh, const FaceTree& open_faces) : walk_(mesh, open_faces) {}
 
-    // Collects the tets on the ray in front of the eye, by where it enters them.
+    // Collects the tets on the ray in front of the eye, by the places at which it enters them.
+    // Returns whether there are any.
     bool look(const View::Ray& ray) {
         walk_.aim(ray.origin, ray.direction);
         walk_.list(listed_);
         double end = 0;
         for (const TetSegment& segment : listed_) end = std::max(end, segment.out.at);
         shortest_ = visible * end;
-        parts_.clear();
+        segments_.clear();
         for (const TetSegment& segment : listed_) {
             const double in = std::max(segment.in.at, 0.0);
             if (segment.out.at - in > shortest_)
-                parts_.push_back({segment.tet, in, segment.out.at});
+                segments_.push_back({segment.tet, in, segment.out.at});
         }
-        by_end_ = parts_;
+        by_end_ = segments_;
         std::sort(by_end_.begin(), by_end_.end(),
-                  [](const Part& a, const Part& b) { return a.out < b.out; });
-        return !parts_.empty();
+                  [](const DrawnSegment& a, const DrawnSegment& b) { return a.out < b.out; });
+        return !segments_.empty();
     }
 
     // Returns whether a tet is drawn before one that lies wholly behind it. One pass suffices: of
@@ -63,17 +64,17 @@ class PixelJudge {
     bool wrong(const Judged& judged) const {
         std::int32_t first_drawn = std::numeric_limits<std::int32_t>::max();
         std::size_t left = 0;
-        for (const Part& part : parts_) {
-            while (left < by_end_.size() && is_behind(part, by_end_[left]))
+        for (const DrawnSegment& segment : segments_) {
+            while (left < by_end_.size() && is_behind(segment, by_end_[left]))
                 first_drawn = std::min(first_drawn, judged.place(by_end_[left++]));
-            if (first_drawn < judged.place(part)) return true;
+            if (first_drawn < judged.place(segment)) return true;
         }
         return false;
     }
 
     bool wrong_outside_cycles(const Judged& judged) const {
-        for (const Part& far : parts_) {
-            for (const Part& near : by_end_) {
+        for (const DrawnSegment& far : segments_) {
+            for (const DrawnSegment& near : by_end_) {
                 if (!is_behind(far, near)) break;
                 if (judged.place(near) > judged.place(far)) continue;
                 const std::int32_t cycle = judged.order->cycle_of(near.tet);
@@ -86,13 +87,13 @@ class PixelJudge {
     bool overlapping() const { return walk_.overlapping(); }
 
   private:
-    bool is_behind(const Part& far, const Part& near) const {
+    bool is_behind(const DrawnSegment& far, const DrawnSegment& near) const {
         return near.out <= far.in + 0.5 * shortest_;
     }
 
     RayWalk walk_;
     std::vector<TetSegment> listed_;
-    std::vector<Part> parts_, by_end_;
+    std::vector<DrawnSegment> segments_, by_end_;
     double shortest_ = 0;
 };
 

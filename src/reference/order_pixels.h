@@ -21,12 +21,12 @@ struct OrderPixels {
     std::int64_t wrong = 0;    // covered pixels that are wrong
     // Wrong pixels with a wrong pair that is not within one reported cycle.
     std::int64_t outside_cycles = 0;
-    // Of those outside cycles: pixels on whose ray the mesh overlaps itself.
+    // Those outside cycles on whose ray the mesh overlaps itself.
     std::int64_t overlapping = 0;
 };
 
 // Checks the last result of each order, which must have been sorted for eye_of(view), against the
-// exact list of the tets on each ray. A segment of a ray counts where it is longer than 1e-12 of
+// exact list of the tets on each ray. A segment of a ray counts if it is longer than 1e-12 of
 // the distance from the eye to the end of the mesh. Positions on a ray have errors of some 1e-15 of
 // that distance, and shorter segments cannot be seen. `open_faces`: tree of the mesh's open faces.
 // Calls `row_done` after each row, from any thread. Parallel; the result does not depend on the

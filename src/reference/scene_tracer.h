@@ -13,8 +13,8 @@ namespace lamina {
 // Traces to the scene's trace_tolerance; as trace_volume() otherwise.
 TraceResult trace(const Scene& scene, const Volume& volume, const TileDone& tile_done = {});
 
-// As trace_mesh(). `open_faces`: the tree of the mesh's open faces, for callers who trace several
-// pictures; it is built where it is not given.
+// Does as trace_mesh(). `open_faces`: the tree of the mesh's open faces, for callers who trace
+// several pictures; it is built if it is not given.
 MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const TileDone& tile_done = {});
 MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces,
                       const TileDone& tile_done = {});

@@ -21,21 +21,22 @@
 namespace lamina {
 namespace {
 
-// A part of the ray, with the optical depth in front of its end.
-template <typename Piece>
+// A segment of the ray, with the optical depths in front of its ends.
+template <typename Segment>
 struct RayStep {
-    Piece piece;
+    Segment segment;
     double from, to;
     double depth_before, depth_after;
 };
 
-// Where in its step the depth is reached: depth_of(piece, from, to) is that of a part of it.
-template <typename Piece, typename DepthOf>
-double place_of_depth(const RayStep<Piece>& step, double depth, const DepthOf& depth_of) {
+// Returns the place in its step at which the depth is reached: depth_of(segment, from, to) is that
+// between two places.
+template <typename Segment, typename DepthOf>
+double place_of_depth(const RayStep<Segment>& step, double depth, const DepthOf& depth_of) {
     double before = step.from, after = step.to;
     for (double middle = std::midpoint(before, after); before < middle && middle < after;
          middle = std::midpoint(before, after)) {
-        const double reached = step.depth_before + depth_of(step.piece, step.from, middle);
+        const double reached = step.depth_before + depth_of(step.segment, step.from, middle);
         (reached < depth ? before : after) = middle;
     }
     return after;
@@ -46,18 +47,18 @@ double depth_of_half(double whole) {
     return -std::log1p(-opacity_from_depth(whole) / 2);
 }
 
-// Finds the point in the steps of a ray. value_of(piece, place) is of the data.
-template <typename Piece, typename DepthOf, typename ValueOf>
-std::optional<SeenPoint> point_in(const std::vector<RayStep<Piece>>& steps, const View::Ray& ray,
+// Finds the point in the steps of a ray. value_of(segment, place) is of the data.
+template <typename Segment, typename DepthOf, typename ValueOf>
+std::optional<SeenPoint> point_in(const std::vector<RayStep<Segment>>& steps, const View::Ray& ray,
                                   double first_z, const DepthOf& depth_of,
                                   const ValueOf& value_of) {
     if (steps.empty() || !(steps.back().depth_after > 0)) return {};
     const double depth = depth_of_half(steps.back().depth_after);
     const auto step = std::ranges::lower_bound(
-        steps, depth, {}, [](const RayStep<Piece>& a) { return a.depth_after; });
-    const RayStep<Piece>& there = step == steps.end() ? steps.back() : *step;
+        steps, depth, {}, [](const RayStep<Segment>& a) { return a.depth_after; });
+    const RayStep<Segment>& there = step == steps.end() ? steps.back() : *step;
     const double place = place_of_depth(there, depth, depth_of);
-    return SeenPoint{ray.origin + (first_z + place) * ray.direction, value_of(there.piece, place),
+    return SeenPoint{ray.origin + (first_z + place) * ray.direction, value_of(there.segment, place),
                      opacity_from_depth(steps.back().depth_after)};
 }
 
@@ -77,7 +78,7 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
         make_segments(alone, chord, transfer.columns(), segment);
         integrator.add(segment);
     };
-    RayIntegrator whole(transfer, scene.trace_tolerance), part(transfer, scene.trace_tolerance);
+    RayIntegrator whole(transfer, scene.trace_tolerance), within(transfer, scene.trace_tolerance);
     whole.begin(chord.world_length());
     std::vector<RayStep<CellIndex>> steps;
     CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
@@ -87,9 +88,9 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
         return !whole.opaque();
     });
     const auto depth_of = [&](const CellIndex& cell, double from, double to) {
-        part.begin(chord.world_length());
-        integrate(cell, from, to, part);
-        return part.optical_depth();
+        within.begin(chord.world_length());
+        integrate(cell, from, to, within);
+        return within.optical_depth();
     };
     const auto value_of = [&](const CellIndex& cell, double place) {
         const glm::dvec3 corner(cell[0], cell[1], cell[2]);
@@ -122,28 +123,30 @@ std::optional<SeenPoint> seen_point(const Scene& scene, const SceneMesh& mesh,
     walk.aim(ray.origin, ray.direction);
     std::vector<TetSegment> listed;
     walk.list(listed);
-    const auto depth_of = [&](const SeenSegment& part, double from, double to) {
-        const double slope = (part.back - part.front) / (part.to - part.from);
-        return integrate_segment(*scene.transfer_function, part.front + slope * (from - part.from),
-                                 part.front + slope * (to - part.from), (to - from) * world_per_z)
+    const auto depth_of = [&](const SeenSegment& segment, double from, double to) {
+        const double slope = (segment.back - segment.front) / (segment.to - segment.from);
+        return integrate_segment(
+                   *scene.transfer_function, segment.front + slope * (from - segment.from),
+                   segment.front + slope * (to - segment.from), (to - from) * world_per_z)
             .optical_depth;
     };
     std::vector<RayStep<SeenSegment>> steps;
     double depth = 0;
-    for (const TetSegment& segment : listed) {
-        const SeenSegment part = seen_segment(segment, seen, scalar);
+    for (const TetSegment& whole : listed) {
+        const SeenSegment segment = seen_segment(whole, seen, scalar);
         // A tet without a value at one of its corners is transparent.
-        const Tet& tet = mesh.mesh.tets()[static_cast<std::size_t>(segment.tet)];
+        const Tet& tet = mesh.mesh.tets()[static_cast<std::size_t>(whole.tet)];
         const auto finite = [&](std::int32_t corner) {
             return std::isfinite(scalar[static_cast<std::size_t>(corner)]);
         };
-        if (!(part.from < part.to) || !std::ranges::all_of(tet, finite)) continue;
+        if (!(segment.from < segment.to) || !std::ranges::all_of(tet, finite)) continue;
         const double before = depth;
-        depth += depth_of(part, part.from, part.to);
-        steps.push_back({part, part.from, part.to, before, depth});
+        depth += depth_of(segment, segment.from, segment.to);
+        steps.push_back({segment, segment.from, segment.to, before, depth});
     }
-    const auto value_of = [&](const SeenSegment& part, double place) {
-        return part.front + (part.back - part.front) / (part.to - part.from) * (place - part.from);
+    const auto value_of = [&](const SeenSegment& segment, double place) {
+        return segment.front + (segment.back - segment.front) / (segment.to - segment.from) *
+                                   (place - segment.from);
     };
     return point_in(steps, ray, 0, depth_of, value_of);
 }

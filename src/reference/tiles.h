@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture is traced in tiles, each by one thread, which knows what of it sees nothing:
+// A picture is traced in tiles, each by one thread, which leaves out what sees nothing:
 //
 //   for each tile of the picture, from its middle to its edges, on all cores:
 //       find the pixels whose lines may meet the volume's box, or for each pixel the open faces of
 //           the mesh that its line may meet
 //       for each of these pixels, row by row:
 //           trace its ray (volume_tracer.cpp, mesh_tracer.cpp)
-//       tell that the tile is done
+//       report that the tile is done
 #pragma once
 
 #include <cstddef>

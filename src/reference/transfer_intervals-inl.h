@@ -54,26 +54,26 @@ class IntervalSearch {
     LAMINA_INLINE DoubleMask shows(Long interval) const {
         return of(columns_.transparent, interval) == 0;
     }
-    // The knot at which a scalar that rises, or falls, leaves the interval.
+    // Returns the knot at which a scalar that rises, or falls, leaves the interval.
     LAMINA_INLINE Double knot_ahead(Long interval, DoubleMask rises) const {
         return select(rises, upper(interval), lower(interval));
     }
-    // The interval behind that knot.
+    // Returns the interval behind that knot.
     LAMINA_INLINE Long beyond(Long interval, DoubleMask rises) const {
         return select(rises, interval + 1, interval - 1);
     }
-    // The interval for values at and above each value.
+    // Returns the interval for values at and above each value.
     LAMINA_INLINE Long above(Double value) const {
         return count_passed([&](Double knot) LAMINA_LAMBDA { return knot <= value; });
     }
 
-    // The interval for values at and above each value where the scalar rises from there; where it
-    // falls, the one for values at and below.
+    // Returns the interval for values at and above each value in lanes in which the scalar rises
+    // from there; in others the one for values at and below.
     LAMINA_INLINE Long ahead(Double value, DoubleMask rises) const {
         return count_passed([&](Double knot) LAMINA_LAMBDA { return passed(knot, value, rises); });
     }
 
-    // The same, from an interval on that does not lie above it.
+    // Does the same from an interval on that does not lie above it.
     LAMINA_INLINE Long onwards(Long interval, Double value, DoubleMask rises) const {
         while (true) {
             const DoubleMask further = passed(upper(interval), value, rises);

@@ -2,10 +2,8 @@
 #include "reference/transfer_intervals.h"
 #include "simd/lane_set.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <glm/common.hpp>
 #include <limits>
 
@@ -44,7 +42,7 @@ void TransferIntervals::add(const TransferKnot& from, const TransferKnot& to) {
     colors_.push_back(color);
     columns_.lo.push_back(from.value);
     columns_.hi.push_back(to.value);
-    // No value lies between the knots of a step. Of other knots the nearest are told apart as if
+    // No value lies between the knots of a step. The nearest other knots are treated as if
     // they were 1e-300 apart, so that nothing becomes infinite.
     constexpr double largest_inverse = 1e300;
     columns_.inverse_width.push_back(std::min(1 / (to.value - from.value), largest_inverse));

@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// What vectors of pieces need of TransferIntervals, field by field. In interval i extinction is
+// The intervals of TransferIntervals, field by field, for vectors. In interval i extinction is
 // linear in the position x = (value - lo) * inverse_width, 0 <= x <= 1; outside the outermost knots
 // it is constant (change = 0). Columns have room for the longest vector at least.
 struct IntervalColumns {
@@ -46,7 +46,7 @@ class TransferIntervals {
     const IntervalColor& color(std::size_t interval) const { return colors_[interval]; }
     const IntervalColumns& columns() const { return columns_; }
 
-    // Whether any interval that touches [lo, hi] has extinction.
+    // Says whether any interval that touches [lo, hi] has extinction.
     bool visible(double lo, double hi) const {
         const std::vector<double>&lows = columns_.visible_lo, &highs = columns_.visible_hi;
         // Most functions have one, and this is asked for every segment of a mesh.

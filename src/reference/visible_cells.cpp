@@ -2,7 +2,6 @@
 #include "reference/visible_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -37,7 +36,7 @@ class SampleRange {
         }
     }
 
-    // Whether all samples are on one side of it. Otherwise a cell may meet it without a sample
+    // Says whether all samples are on one side of it. Otherwise a cell may meet it without a sample
     // inside, so integral ranges may end before they begin.
     bool out_of_reach() const { return out_of_reach_; }
     // Bit 0: not below the range, bit 1: not above it.
@@ -63,7 +62,7 @@ class SampleRows {
         sides_.resize(static_cast<std::size_t>((edge + 1) * (edge + 1) * (width_ + 1)));
     }
 
-    // Sets the bits of the rows of cells, block by block: 1 where a cell may have a value of the
+    // Sets the bits of the rows of cells, block by block: 1 if a cell may have a value of the
     // range. A sample that is no number sets none: its cells are transparent.
     void mark(const SampleRange<Sample>& range, std::uint8_t* rows) {
         for (std::int64_t z = 0; z <= edge; ++z) {

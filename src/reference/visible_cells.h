@@ -28,7 +28,7 @@ class VisibleCells {
 
     // Blocks along each axis.
     const std::array<std::int64_t, 3>& count() const { return count_; }
-    // A bit for each block, 1 where it has such a cell: x fastest, in lines of line_bits().
+    // A bit for each block, 1 if it has such a cell: x fastest, in lines of line_bits().
     const std::uint64_t* blocks() const { return blocks_.data(); }
     std::int64_t line_bits() const { return line_words_ * 64; }
     // A bit for each cell, block by block (x fastest), x fastest in a block.

@@ -14,14 +14,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "base/memory_limit.h"
 #include "base/parallel.h"
@@ -82,7 +77,7 @@ struct TracedVolume {
     CellSamples<Samples> samples;
     GradientSamples<Samples> gradients;
     const TransferIntervals& transfer;
-    const VisibleCells& visible;  // empty where it is not known
+    const VisibleCells& visible;  // empty if it is not known
     const TraceOptions& options;
 };
 
@@ -103,8 +98,8 @@ class VolumeRay {
         cells_.wanted = first_together;
     }
 
-    // The cells along the chord are to be added here, front to back. Where they are complete(),
-    // integrate() is to be called.
+    // The cells along the chord are to be added here, front to back. As soon as they are
+    // complete(), integrate() is to be called.
     CellBatch& cells() { return cells_; }
 
     // Returns whether what follows is seen, as far as is known.
@@ -223,7 +218,7 @@ class VolumeTile {
         }
     }
 
-    // Clips the next rays where all that are clipped have begun. Returns whether one has not.
+    // Clips the next rays if all that are clipped have begun. Returns whether one has not.
     bool clip_next() {
         if (begun_ < clipped_count_) return true;
         begun_ = clipped_count_ = 0;
@@ -269,8 +264,9 @@ class VolumeTile {
     VolumeTotals totals_;
 };
 
-// To find them takes a look at every sample. That pays where rays meet as many cells: one
-// through a cube meets about as many as an edge of it has, and rays through thin volumes fewer.
+// Says whether it pays to find them, which takes a look at every sample. It does if rays meet as
+// many cells: one through a cube meets about as many as an edge of it has, and rays through thin
+// volumes fewer.
 bool worth_visible_cells(const Volume& volume, const View& view) {
     const std::int64_t pixels = std::int64_t{view.width} * view.height;
     const std::int64_t cells_a_ray = std::ranges::min(volume.grid().size);
@@ -316,9 +312,9 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
         const VisibleCells all;
         const TracedVolume traced(volume, first_sample, transfer, all, options);
         constexpr std::size_t together = 64;
-        const std::size_t parts = (pixels.size() + together - 1) / together;
-        parallel_for(static_cast<std::int64_t>(parts), 1, [&](std::int64_t part) {
-            const std::size_t first = static_cast<std::size_t>(part) * together;
+        const std::size_t batches = (pixels.size() + together - 1) / together;
+        parallel_for(static_cast<std::int64_t>(batches), 1, [&](std::int64_t batch) {
+            const std::size_t first = static_cast<std::size_t>(batch) * together;
             const std::size_t end = std::min(first + together, pixels.size());
             VolumeRay ray(traced);
             for (std::size_t i = first; i < end; ++i) {

@@ -27,13 +27,13 @@ struct TraceResult {
     std::int64_t segments = 0;
 };
 
-// Traces a volume. Cells with a NaN or infinite corner are transparent. Runs on all cores; the
+// Traces a volume. Cells with a NaN or infinite corner are transparent. It uses all cores; the
 // result does not depend on their number. Throws Error for options out of range.
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
                          const View& view, const TraceOptions& options,
                          const TileDone& tile_done = {});
 
-// The same for some pixels of the view, given as (column, row).
+// Some pixels of the view, given as (column, row), traced as a whole picture is.
 struct TracedPixels {
     std::vector<glm::dvec4> rgba;  // as in TraceResult::image, in the order of the pixels
     double error_estimate = 0;     // as in TraceResult
