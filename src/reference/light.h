@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The colour that light adds to a piece (docs/numerics.md, section 10.3):
 //
-//   cut the piece at the kinks: the roots of g.l and g.h, for the gradient g and each light's l and
-//   h for each interval between two of them:
+//   kinks = the roots of g.l and g.h, for the gradient g and each light's l and h
+//   for each interval of the piece between two kinks:
 //       ball = one that g stays in, around its value in the middle
-//       if the most that light can do there (10.2) is below what is allowed: its value in the
-//       middle if g grows and turns by little in the ball: Patterson's rules (integrate.h), as soon
-//       as two
-//           that follow each other agree
-//       otherwise halve the interval
+//       if the most that light can do in the ball (10.2) is below what is allowed:
+//           its value in the middle
+//       else if g grows and turns by little in the ball:
+//           Patterson's rules (integrate.h), as soon as two that follow each other agree
+//       else halve the interval
 //
 // Dips and peaks of the effect are narrow if the gradient is small and turns quickly. In a ball
 // that is small beside the gradient's length no dip and no peak fits between the nodes of a rule.
