@@ -79,10 +79,10 @@ class TetVectors {
     void see() {
         const View& view = view_.view;
         for (std::size_t i = 0; i < 4; ++i) {
-            const Points p{get(lanes_.x[i]) - view.eye.x, get(lanes_.y[i]) - view.eye.y,
-                           get(lanes_.z[i]) - view.eye.z};
+            const SeenPoints p{get(lanes_.x[i]) - view.eye.x, get(lanes_.y[i]) - view.eye.y,
+                               get(lanes_.z[i]) - view.eye.z};
             const auto along = [&](const glm::dvec3& axis) LAMINA_LAMBDA {
-                return dot(p, Points{axis.x, axis.y, axis.z});
+                return dot(p, SeenPoints{axis.x, axis.y, axis.z});
             };
             seen_[i] = {along(view.right), along(view.up), along(view.forward)};
             values_[i] = get(lanes_.value[i]);
@@ -90,7 +90,7 @@ class TetVectors {
     }
 
     void place_center() {
-        const auto bounds = tet_.place_center(std::span<const Points>(seen_));
+        const auto bounds = tet_.place_center(std::span<const SeenPoints>(seen_));
         nearest_ = bounds.nearest;
         farthest_ = bounds.farthest;
         set_bounds(bounds.lo_x, bounds.hi_x, bounds.lo_y, bounds.hi_y);
@@ -118,21 +118,21 @@ class TetVectors {
     // Returns true if the signs are certain and float32 is good enough.
     DoubleMask find_faces() {
         Double reach = 0, size = 0, steepest = 0, rounding = 0;
-        for (const Points& p : seen_) {
+        for (const SeenPoints& p : seen_) {
             reach = max(reach, largest_of(p));
             size = max(size, largest_of(p - seen_[0]));
         }
         const Double least_divisor =
             doubtful_sign * (reach * reach * (tet_.perspective() ? reach : 1));
-        // Points at distance `reach` are rounded, and so are their edges. The normals of slivers
-        // are small differences of products of edges.
+        // SeenPoints at distance `reach` are rounded, and so are their edges. The normals of
+        // slivers are small differences of products of edges.
         const Double least_across = doubtful_sign * (reach * (size * size));
         DoubleMask good = nearest_ > view_.near_depth;
         FacePlanes planes;
         for (std::size_t face = 0; face < 4; ++face) {
-            const Points &a = seen_[face == 0 ? 1 : 0], &b = seen_[face <= 1 ? 2 : 1],
-                         &c = seen_[face == 3 ? 2 : 3];
-            const Points normal = cross(b - a, c - a);
+            const SeenPoints &a = seen_[face == 0 ? 1 : 0], &b = seen_[face <= 1 ? 2 : 1],
+                             &c = seen_[face == 3 ? 2 : 3];
+            const SeenPoints normal = cross(b - a, c - a);
             const Double distance = dot(normal, a), across = dot(normal, seen_[face] - a);
             const Double divisor = tet_.divisor(normal, distance);
             good = good & ((abs(divisor) > least_divisor) & (abs(across) > least_across));
@@ -166,17 +166,18 @@ class TetVectors {
         largest_ = max(max(values_[0], values_[1]), max(values_[2], values_[3]));
         return largest_of(gradient_) <= 1e30 * (largest_ - least_);
     }
-    static Points gradient_of(const TetSlopes<Double>& slopes,
-                              const std::array<Double, 4>& values) {
-        const Points numerator =
+    static SeenPoints gradient_of(const TetSlopes<Double>& slopes,
+                                  const std::array<Double, 4>& values) {
+        const SeenPoints numerator =
             slopes.numerator(values[1] - values[0], values[2] - values[0], values[3] - values[0]);
         return scaled(numerator, 1 / slopes.determinant);
     }
 
-    Double scalar_at(const Points& point) const {
+    Double scalar_at(const SeenPoints& point) const {
         return values_[0] + dot(gradient_, point - seen_[0]);
     }
-    void put_linear(TetSetup::Lanes::Group& group, Double at_center, const Points& gradient) const {
+    void put_linear(TetSetup::Lanes::Group& group, Double at_center,
+                    const SeenPoints& gradient) const {
         const auto linear = tet_.linear(at_center, gradient);
         for (std::size_t i = 0; i < 4; ++i) put(group[i], finite(linear[i]));
     }
@@ -191,7 +192,7 @@ class TetVectors {
     // Sets the components of the gradient as set_scalars() sets the scalar.
     void set_gradients() {
         const TetSlopes<Double> slopes(seen_);
-        const Points from_corner = tet_.center() - seen_[0];
+        const SeenPoints from_corner = tet_.center() - seen_[0];
         Double largest = 0;
         for (const auto& corners : lanes_.gradient) {
             for (const Row& corner : corners) largest = max(largest, abs(get(corner)));
@@ -202,7 +203,7 @@ class TetVectors {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             std::array<Double, 4> values;
             for (std::size_t i = 0; i < 4; ++i) values[i] = get(lanes_.gradient[axis][i]) * scale;
-            const Points slope = gradient_of(slopes, values);
+            const SeenPoints slope = gradient_of(slopes, values);
             put_linear(lanes_.lit[axis], values[0] + dot(slope, from_corner), slope);
         }
     }
@@ -271,10 +272,10 @@ class TetVectors {
     TetSetup::Lanes& lanes_;
     std::size_t first_;
     TetView<Double> tet_;
-    std::array<Points, 4> seen_;
+    std::array<SeenPoints, 4> seen_;
     std::array<Double, 4> values_;
     Double fronts_, nearest_, farthest_, least_, largest_;
-    Points gradient_;
+    SeenPoints gradient_;
     DoubleMask visible_;
 };
 

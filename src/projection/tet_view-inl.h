@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A tet as the eye sees it: one tet (Number: double; TetProjector) or a vector of tets (Double;
-// TetSetup). Points are relative to the eye, along right, up and forward.
+// TetSetup). SeenPoints are relative to the eye, along right, up and forward.
 //
 //   center = the pixel centre in the middle of the corners' bounds, at the mean of their depths
 //   for each face A, B, C: n = (B - A) x (C - A), and the depth on the plane n.P = n.A (6.2) scalar
@@ -30,23 +30,23 @@
 LAMINA_SIMD_BEGIN
 
 // Points of several tets.
-struct Points {
+struct SeenPoints {
     Double x, y, z;
 };
 
-LAMINA_INLINE Points operator-(const Points& a, const Points& b) {
+LAMINA_INLINE SeenPoints operator-(const SeenPoints& a, const SeenPoints& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-LAMINA_INLINE Double dot(const Points& a, const Points& b) {
+LAMINA_INLINE Double dot(const SeenPoints& a, const SeenPoints& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-LAMINA_INLINE Points cross(const Points& a, const Points& b) {
+LAMINA_INLINE SeenPoints cross(const SeenPoints& a, const SeenPoints& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
 }
 
 template <typename Number>
 struct PointTraits {
-    using Point = Points;
+    using Point = SeenPoints;
     using Mask = DoubleMask;
 };
 template <>

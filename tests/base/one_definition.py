@@ -78,7 +78,8 @@ def functions_in_header(path, room, text):
     """Free functions that a header defines: such definitions begin a line in this code."""
     text = re.sub(r"//.*", "", text)
     namespace, found = "", []
-    function = r"(?:inline|constexpr|HWY_INLINE)\b[^\n;{}()=]*?\b([a-z_]\w*)\(([^;{]*?)\)\s*(?:noexcept\s*)?\{"
+    function = r"(?:inline|constexpr|LAMINA_INLINE)\b[^\n;{}()=]*?\b([a-z_]\w*)\(([^;{]*?)\)\s*(?:noexcept\s*)?\{"
+    text = text.replace("LAMINA_SIMD_BEGIN", "namespace lamina::one_instruction_set {")
     for match in re.finditer(rf"^(?:namespace ([\w:]+) \{{|{function})", text, re.MULTILINE):
         if match[1]:
             namespace = match[1] if match[1].startswith("lamina") else f"{namespace}::{match[1]}"
@@ -202,7 +203,7 @@ def main():
         for path in sorted((options.source / folder).rglob("*.h")):
             place = path.relative_to(options.source)
             headers += functions_in_header(str(place), place.parts[1], path.read_text())
-    if len(symbols) < 1000 or len(headers) < 100:  # an empty answer would hide everything
+    if len(symbols) < 1000 or len(headers) < 250:  # an empty answer would hide everything
         print(f"found {len(symbols)} symbols of lamina and {len(headers)} definitions in headers, expected more")
         return 1
     findings = findings_in(symbols, headers)
