@@ -151,6 +151,10 @@ class TetCoverage {
         };
         const float first_in = column_of(area.first_column), last_in = column_of(area.last_column);
         const float highest = row_of(area.first_row), lowest = row_of(area.last_row);
+        // Read before the loop, because what the loop writes could overwrite the record for all
+        // that the compiler knows.
+        const Float scalar_per_column(record.seen().scalar_per_column),
+            scalar_per_row(record.seen().scalar_per_row);
         const float* const slants = tile_.slants;
         const Depths depths(fragments_, record);
         const PartCuts cuts(cut, record.fragment);
@@ -179,8 +183,7 @@ class TetCoverage {
                     continue;
                 }
                 const Float slant = slants != nullptr ? load<Float>(slants + place) : Float(1);
-                const Float aside =
-                    columns * record.seen().scalar_per_column + rows * record.seen().scalar_per_row;
+                const Float aside = columns * scalar_per_column + rows * scalar_per_row;
                 writer.add(place, SlantedRay{span, aside, slant}, inside);
             }
         }

@@ -49,9 +49,9 @@ class TetDrawing {
     template <class Shader>
     LAMINA_INLINE void draw_parts(const Shader& shader, std::size_t first, std::uint64_t parts) {
         std::size_t count = 0;
-        for_each_member(first, parts, [&](std::size_t part) LAMINA_LAMBDA {
-            blocks_[count++] = {coverage_.blocks(batch_.area(part)), part};
-        });
+        for_each_member(first, parts, [&](std::size_t part) { blocks_[count++].part = part; });
+        for (std::size_t i = 0; i < count; ++i)
+            blocks_[i].blocks = coverage_.blocks(batch_.area(blocks_[i].part));
         for (std::size_t i = 0; i < count; ++i) {
             const auto [blocks, part] = blocks_[i];
             coverage_.find<Shader::lit>(shader.cut, batch_.record(part), batch_.area(part), blocks,
