@@ -82,20 +82,20 @@ class TilePicture : public gl::GlTest {
         TableCache tables;
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
             for (const Thickness thickness : {Thickness::exact, Thickness::dz}) {
+                scene.camera->projection = projection;
+                scene.project.thickness = thickness;
+                ProjectPlan plan = plan_of(mesh_, scene, tile_capabilities()).project;
+                if (source == SegmentSource::cut_table) {
+                    plan.source = source;
+                    plan.table.request = {
+                        plan.range.lo,     plan.range.hi, 0.5, 200, plan.single_color ? 1 : 8,
+                        !plan.single_color};
+                    plan.table.built = tables.get(in_units(*scene.transfer_function, plan.unit),
+                                                  plan.table.request);
+                }
+                ASSERT_EQ(plan.source, source) << name;
                 for (const bool plain : {false, true}) {
-                    scene.camera->projection = projection;
-                    scene.project.thickness = thickness;
-                    ProjectPlan plan = plan_of(mesh_, scene, tile_capabilities()).project;
-                    if (source == SegmentSource::cut_table) {
-                        plan.source = source;
-                        plan.table.request = {
-                            plan.range.lo,     plan.range.hi, 0.5, 200, plan.single_color ? 1 : 8,
-                            !plan.single_color};
-                        plan.table.built = tables.get(in_units(*scene.transfer_function, plan.unit),
-                                                      plan.table.request);
-                    }
                     plan.plain = plain;
-                    ASSERT_EQ(plan.source, source) << name;
                     expect_same(scene, plan,
                                 name +
                                     (projection == Projection::perspective ? ", perspective"
