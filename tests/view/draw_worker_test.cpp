@@ -171,7 +171,7 @@ TEST_F(DrawWorkers, TheTracerReplacesThePictureAndMeasuresIt) {
     // As `lamina compare` has it of two EXR files, which are in float32.
     const ErrorNorms error = error_of(picture, to_float(truth));
     EXPECT_EQ(end->error.linf, error.linf);
-    EXPECT_EQ(end->error.l1, error.l1);
+    EXPECT_EQ(end->error.mean, error.mean);
     EXPECT_EQ(end->error.l2, error.l2);
     EXPECT_GT(end->error.linf, 0);
     EXPECT_EQ(end->screen->rgb, screen_codes(to_float(truth)));
