@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How two pictures differ."""
+"""Differences of pictures."""
 from __future__ import annotations
 
 import os
@@ -36,7 +36,7 @@ class Norms(NamedTuple):
 
 
 class Comparison:
-    """How a picture A differs from a picture B: e = A - B in units of 1/255.
+    """Difference of a picture A from a picture B: e = A - B in units of 1/255.
 
     ``linf``, ``mean``, ``l2``: the ``Norms`` over all pixels and channels; ``l1`` is the same as ``mean``. ``channels``: the
     ``Norms`` of each channel, by its name. ``worst``: column, row and channel of the largest |e|. ``array``: e itself,
@@ -45,7 +45,7 @@ class Comparison:
 
     def __init__(self, found: tuple[Any, ...], a: np.ndarray | None = None, b: np.ndarray | None = None) -> None:
         everything, channels, worst = found
-        self.linf, self.l1, self.l2 = everything
+        self.linf, self.l1, self.l2 = Norms(*everything)
         self.channels = {name: Norms(*norms) for name, norms in channels.items()}
         column, row, channel = worst
         self.worst: tuple[int, int, str] = (column, row, channel)
@@ -85,7 +85,7 @@ class Comparison:
 
 
 def compare(a: Any, b: Any) -> Comparison:
-    """How a picture A differs from a picture B.
+    """Compares a picture A with a picture B.
 
     Each is a ``Picture``, an array (height, width, 4) or a file: EXR and NPY compare with everything but PNG, PNG with
     PNG alone, as codes. Raises ``lamina.Error`` for sizes that differ, numbers that are none, and linear light beside
@@ -109,7 +109,7 @@ def _is_png(picture: Any) -> bool:
 
 
 def _pixels(name: str, picture: Any) -> tuple[np.ndarray, str | None]:
-    """Numbers and, where it is known, colour space."""
+    """Returns the numbers and, if it is known, the colour space."""
     if isinstance(picture, (str, os.PathLike)):
         pixels, space = _lamina.load_picture(pathlib.Path(picture))
         return pixels, space

@@ -16,8 +16,8 @@ class Held:
 
     ``vtk``: (height, width, 3) float64, display values 0..1 over the background, row 0 on top. ``picture``: lamina's.
     ``shown``: the same as ``vtk``, of lamina's picture. ``difference``: vtk - shown in 1/255. ``linf``, ``mean``, ``l2``:
-    its ``lamina.Norms`` over all pixels and channels; ``l1`` is the same as ``mean``. In a notebook it is the difference in false colour, from blue (VTK is darker)
-    over white to red.
+    its ``lamina.Norms`` over all pixels and channels; ``l1`` is the same as ``mean``. A notebook shows the difference in
+    false colour, from blue (VTK is darker) over white to red.
     """
 
     def __init__(self, vtk: np.ndarray, picture: Picture, background: Sequence[float]) -> None:
