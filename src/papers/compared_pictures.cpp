@@ -188,9 +188,9 @@ Json error_row(const KrausSubject& subject, const VariantErrors& errors) {
             {"tets", subject.mesh.tets().tets().size()},
             {"picture", errors.name},
             {"linf", errors.all.linf},
-            {"l1", errors.all.l1},
+            {"l1", errors.all.mean},
             {"l2", errors.all.l2},
-            {"opacity_l1", errors.opacity.l1},
+            {"opacity_l1", errors.opacity.mean},
             {"opacity_l2", errors.opacity.l2}};
 }
 

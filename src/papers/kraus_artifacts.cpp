@@ -114,7 +114,7 @@ void judge(Judged& judged, const KrausSubject& subject, const std::vector<Varian
     }
     add_chain(judged.alpha, on, errors, {"fixed8 buffer", "fixed8 buffer, alpha"});
     add_chain(judged.float_buffer, on, errors, {"fixed8 buffer, alpha", all_remedies});
-    const double bias = find(errors, "fixed8 buffer, after_blend").all.l1;
+    const double bias = find(errors, "fixed8 buffer, after_blend").all.mean;
     judged.after_blend.add(on, std::abs(bias) <= 0.3, fmt::format("L1 {:.3f}", bias));
 }
 

@@ -110,7 +110,7 @@ class Bonsai {
         const Leaves leaves = leaves_of(picture, exact_);
         rows_.push_back({{"picture", name},
                          {"linf", e.linf},
-                         {"l1", e.l1},
+                         {"l1", e.mean},
                          {"l2", e.l2},
                          {"leaves_kept", leaves.kept},
                          {"leaves_black", leaves.black},

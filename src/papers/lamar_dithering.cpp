@@ -25,7 +25,7 @@ constexpr int increments[] = {1, 2, 4, 8, 16};
 
 void append(Json& row, const ErrorNorms& e) {
     row["linf"] = e.linf;
-    row["l1"] = e.l1;
+    row["l1"] = e.mean;
     row["l2"] = e.l2;
 }
 

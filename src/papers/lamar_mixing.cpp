@@ -53,8 +53,8 @@ double mean_on_the_left(const Image& image, std::size_t channel) {
 }
 
 Json row_of(int period, const ErrorNorms& red, const ErrorNorms& green) {
-    return {{"period", period},    {"red_linf", red.linf},     {"red_l1", red.l1},
-            {"red_l2", red.l2},    {"green_linf", green.linf}, {"green_l1", green.l1},
+    return {{"period", period},    {"red_linf", red.linf},     {"red_l1", red.mean},
+            {"red_l2", red.l2},    {"green_linf", green.linf}, {"green_l1", green.mean},
             {"green_l2", green.l2}};
 }
 
@@ -96,10 +96,10 @@ void judge_table4(Findings& findings, const DitheredMixing& mixing,
         fmt::format("longer periods change the red error little, L2 {:.2f}, {:.2f}, {:.2f}, {:.2f}",
                     rows[1].red.l2, rows[2].red.l2, rows[3].red.l2, rows[4].red.l2));
     findings.add_untestable(
-        "DP 256: Red L1 -16.00, Green L1 12.66", rows[4].red.l1 < 0 && rows[4].green.l1 > 0,
+        "DP 256: Red L1 -16.00, Green L1 12.66", rows[4].red.mean < 0 && rows[4].green.mean > 0,
         fmt::format("red stays too dark, green becomes too bright: L1 is {:.2f} "
                     "in red and {:.2f} in green",
-                    rows[4].red.l1, rows[4].green.l1));
+                    rows[4].red.mean, rows[4].green.mean));
 }
 
 void judge_figure6(Findings& findings, const DitheredMixing& mixing) {
@@ -222,10 +222,10 @@ Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
                                 {"period", samples},
                                 {"over", name_of(over)},
                                 {"ftb_linf", errors[0].linf},
-                                {"ftb_l1", errors[0].l1},
+                                {"ftb_l1", errors[0].mean},
                                 {"ftb_l2", errors[0].l2},
                                 {"btf_linf", errors[1].linf},
-                                {"btf_l1", errors[1].l1},
+                                {"btf_l1", errors[1].mean},
                                 {"btf_l2", errors[1].l2}});
             }
         }

@@ -31,7 +31,7 @@ Dither paper_dither() {
 }
 
 std::string brief(const ErrorNorms& e) {
-    return fmt::format("Linf {:.1f}, L1 {:.2f}, L2 {:.2f}", e.linf, e.l1, e.l2);
+    return fmt::format("Linf {:.1f}, L1 {:.2f}, L2 {:.2f}", e.linf, e.mean, e.l2);
 }
 
 ErrorNorms error_of(const NamedCurve& named, const std::vector<NamedCurve>& curves) {

@@ -59,11 +59,11 @@ ErrorNorms error_of(const Curve& measured, const Curve& exact) {
     for (std::size_t i = 0; i < exact.size(); ++i) {
         const double e = measured[i] - exact[i];
         norms.linf = std::max(norms.linf, std::abs(e));
-        norms.l1 += e;
+        norms.mean += e;
         squares += e * e;
     }
     const auto count = static_cast<double>(exact.size());
-    norms.l1 /= count;
+    norms.mean /= count;
     norms.l2 = std::sqrt(squares / count);
     return norms;
 }

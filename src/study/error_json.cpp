@@ -4,7 +4,7 @@
 namespace lamina::study {
 
 nlohmann::ordered_json to_json(const ErrorNorms& norms) {
-    return {{"linf", norms.linf}, {"l1", norms.l1}, {"l2", norms.l2}};
+    return {{"linf", norms.linf}, {"l1", norms.mean}, {"l2", norms.l2}};
 }
 
 nlohmann::ordered_json to_json(const ImageError& error) {

@@ -40,7 +40,7 @@ void add_times(const std::vector<double>& times, std::vector<std::string>& cells
 }
 
 void add_norms(const ErrorNorms& norms, std::vector<std::string>& cells) {
-    for (const double value : {norms.linf, norms.l1, norms.l2}) cells.push_back(number(value));
+    for (const double value : {norms.linf, norms.mean, norms.l2}) cells.push_back(number(value));
 }
 
 std::vector<std::string> cells_of(const RunList& list, const RunResult& result,

@@ -114,6 +114,7 @@ Grid generated_grid(const GeneratorRequest& request) {
                  fmt::join(grid.size, ","), largest_generated_axis);
         }
     }
+    grid.centering.fill(Centering::cell);
     if (request.name == "ramp") return grid;  // voxels of edge 1
     for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t size = grid.size[static_cast<std::size_t>(axis)];

@@ -30,7 +30,8 @@ struct CompareOptions {
 };
 
 std::string table_row(const std::string& label, const ErrorNorms& norms) {
-    return fmt::format("{:<8}{:>12.6g}{:>14.6g}{:>12.6g}\n", label, norms.linf, norms.l1, norms.l2);
+    return fmt::format("{:<8}{:>12.6g}{:>14.6g}{:>12.6g}\n", label, norms.linf, norms.mean,
+                       norms.l2);
 }
 
 std::string table_text(const ImageError& error) {

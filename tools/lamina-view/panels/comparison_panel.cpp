@@ -113,7 +113,7 @@ void ComparisonPanel::draw(PanelContext& context) {
     wrapped(ImGui::GetStyleColorVec4(ImGuiCol_Text),
             fmt::format("B - {}: Linf {:.4g}, L2 {:.4g}, mean {:+.4g} / 255",
                         comparison.with == CompareWith::truth ? "truth" : "A", norms.linf, norms.l2,
-                        norms.l1));
+                        norms.mean));
 }
 
 }  // namespace lamina::view
