@@ -8,9 +8,13 @@
 #include <stop_token>
 #include <string>
 
-#include "base/warning.h"
-
 namespace lamina {
+
+// Something in a user's data that is no error and that no result shows: the text names the file,
+// what was found and what was expected. It goes to the client that this thread works for
+// (base/client.h). Safe from any thread; a taker is called in one thread at a time.
+using WarningTaker = std::function<void(const std::string&)>;
+void warn(const std::string& text);
 
 // Hears how far long work is. `report` gets what is done ("slicing") and its share from 0 to 1,
 // from one thread at a time. Of several pieces of work within each other only the outermost
@@ -21,13 +25,13 @@ struct ProgressListener {
 };
 
 // Whom a thread works for. The client of a program is its user: signals request the stop
-// (base/signal_stop.h), and the terminal shows warnings and, without a listener, progress. Nobody
+// (base/process.h), and the terminal shows warnings and, without a listener, progress. Nobody
 // hears warnings of a client without a taker.
 struct Client {
     std::stop_token stop;
     const WarningTaker* warnings = nullptr;
     ProgressListener* progress = nullptr;
-    // The folder that data must be in, by its canonical name (base/file_bytes.h): anywhere if null.
+    // The folder that data must be in, by its canonical name (base/input_file.h): anywhere if null.
     std::shared_ptr<const std::filesystem::path> only_below = nullptr;
 };
 
@@ -69,5 +73,10 @@ class OwnFilesScope {
   private:
     ClientScope scope_;
 };
+
+// Throws Interrupted once the client that this thread works for (base/client.h) has requested a
+// stop: the caller of a library's function, or a signal (base/process.h). Long loops call it;
+// safe from any thread.
+void check_interrupt();
 
 }  // namespace lamina

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/json_text.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -9,10 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "base/interrupt.h"
-#include "base/shortened.h"
+#include "base/client.h"
+#include "base/text.h"
 
 namespace lamina {
+
 namespace {
 
 using Json = nlohmann::json;
@@ -156,6 +163,45 @@ nlohmann::json load_json(const std::filesystem::path& file) {
         return parse_json(bytes_of(file));
     } catch (const Error& problem) {
         fail("{}: {}", file.string(), problem.what());
+    }
+}
+
+namespace {
+
+constexpr int milliseconds_between_checks = 100;
+
+// Waits until something can be read, or the other end is closed.
+void wait_for_input() {
+    for (;;) {
+        check_interrupt();
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        const int ready = poll(&input, 1, milliseconds_between_checks);
+        if (ready > 0 || (ready < 0 && errno != EINTR)) return;
+    }
+}
+
+std::string text_of_stdin() {
+    std::string text;
+    std::array<char, 1 << 16> bytes{};
+    for (;;) {
+        wait_for_input();
+        const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail("cannot read: {}", std::strerror(errno));
+        if (count == 0) return text;
+        text.append(bytes.data(), static_cast<std::size_t>(count));
+        if (text.size() > most_json_bytes)
+            fail("found more than {} bytes, expected at most as many of JSON", most_json_bytes);
+    }
+}
+
+}  // namespace
+
+nlohmann::json load_json_from_stdin() {
+    try {
+        return parse_json(text_of_stdin());
+    } catch (const Error& problem) {
+        fail("{}: {}", stdin_name, problem.what());
     }
 }
 

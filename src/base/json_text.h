@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include "base/error.h"
 
 namespace lamina {
@@ -37,5 +38,12 @@ template <typename Json>
 std::string json_text(const Json& json, int indent = -1) {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
+
+// Messages call a JSON text from stdin by this name, like a file.
+inline constexpr const char* stdin_name = "stdin";
+
+// Parses all that comes from stdin, within the limits of base/json_text.h. Error messages begin
+// with stdin_name. Throws Interrupted once a stop is requested, also while nothing comes.
+nlohmann::json load_json_from_stdin();
 
 }  // namespace lamina

@@ -5,6 +5,7 @@
 #include <cassert>
 
 namespace lamina {
+
 namespace {
 
 // The spans of some thousand frames fit without taking more memory.

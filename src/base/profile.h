@@ -2,15 +2,31 @@
 #pragma once
 
 #include <array>
+#include <cassert>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
-#include "base/stopwatch.h"
-
 namespace lamina {
+
+class Stopwatch {
+  public:
+    double seconds() const { return 1e-9 * static_cast<double>(now() - start_ns_); }
+    double milliseconds() const { return 1e3 * seconds(); }
+
+    // The current time of the clock that measurements use: nanoseconds since some moment.
+    static std::int64_t now() {
+        using std::chrono::duration_cast, std::chrono::nanoseconds, std::chrono::steady_clock;
+        return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
+    }
+
+  private:
+    std::int64_t start_ns_ = now();
+};
 
 // A record of what happened when in this process, as spans of time on rows. There is one row for
 // each thread that has a Stage, and one for OpenGL. A Profile records while it exists, and only one
@@ -59,6 +75,38 @@ class Profile {
     std::vector<Span> spans_;
     std::int64_t left_out_ = 0;
     std::map<std::thread::id, int> rows_;
+};
+
+// A stage of the work. It is timed, and recorded where a Profile exists. It must end in the thread
+// that began it, and stages of one thread must end in reverse order.
+class Stage {
+  public:
+    explicit Stage(const char* name) : name_(name) {}  // a literal
+    ~Stage() { end(); }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    // Adds a number to the stage before its end; at most as many as Profile::Counts holds.
+    void count(const char* name, double value) {
+        assert(count_ < counts_.size());
+        counts_[count_++] = {name, value};
+    }
+
+    // Ends the stage at the first call. Returns its duration in milliseconds.
+    double end() {
+        if (end_ns_) return 1e-6 * static_cast<double>(*end_ns_ - begin_ns_);
+        end_ns_ = Stopwatch::now();
+        if (Profile* const profile = Profile::recording())
+            profile->add(name_, begin_ns_, *end_ns_, counts_);
+        return 1e-6 * static_cast<double>(*end_ns_ - begin_ns_);
+    }
+
+  private:
+    const char* name_;
+    std::int64_t begin_ns_ = Stopwatch::now();
+    std::optional<std::int64_t> end_ns_;
+    Profile::Counts counts_{};
+    std::size_t count_ = 0;
 };
 
 }  // namespace lamina

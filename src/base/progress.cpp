@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/standard_streams.h"
+#include "base/process.h"
 
 namespace lamina {
 namespace {

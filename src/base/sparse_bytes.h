@@ -9,10 +9,19 @@
 #include <memory>
 #include <span>
 
-#include "base/all_zero.h"
-#include "base/reserved_memory.h"
+#include "base/memory.h"
 
 namespace lamina {
+
+// `count`: 1 or more.
+inline bool all_equal(const void* bytes, std::size_t count, std::uint8_t value) {
+    const auto* const first = static_cast<const std::uint8_t*>(bytes);
+    return *first == value && std::memcmp(first, first + 1, count - 1) == 0;
+}
+
+inline bool all_zero(const void* bytes, std::size_t count) {
+    return all_equal(bytes, count, 0);
+}
 
 // Bytes of which most have one value, the background: pages that hold nothing else take no memory.
 // Copies share the bytes. Different ones may be set from several threads.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "lamina/emulation.h"
 
 namespace lamina {

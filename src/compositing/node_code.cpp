@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 
 namespace lamina {
 namespace {

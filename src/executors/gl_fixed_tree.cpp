@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "executors/gl_compositing.h"
 #include "executors/swizzle.h"
 #include "gl/api.h"

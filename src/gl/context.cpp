@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/unreachable.h"
 #include "gl/api.h"
 #include "gl/check.h"
 #include "gl/context_backends.h"

@@ -6,7 +6,7 @@
 #include <cctype>
 
 #include "base/error.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "gl/api.h"
 #include "gl/check.h"
 

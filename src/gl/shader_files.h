@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/embedded_file.h"
+#include "base/input_file.h"
 
 namespace lamina::gl {
 

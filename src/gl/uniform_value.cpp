@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "gl/api.h"
 
 namespace lamina::gl {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/double_double.h"
+#include "base/arithmetic.h"
 
 namespace lamina {
 namespace {

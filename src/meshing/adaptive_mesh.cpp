@@ -10,7 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "base/compensated_sum.h"
+#include "base/arithmetic.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"

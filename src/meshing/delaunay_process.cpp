@@ -16,10 +16,10 @@
 #include <string>
 #include <thread>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/find_program.h"
-#include "base/interrupt.h"
-#include "base/temporary_file.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "meshing/tetrahedralize_protocol.h"
 
 extern char** environ;

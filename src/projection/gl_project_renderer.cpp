@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "base/enum_words.h"
 #include "base/parallel.h"
-#include "base/stage.h"
-#include "base/unreachable.h"
+#include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "executors/gl_lights.h"
 #include "facts/world_unit.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "executors/light_cuts.h"
 #include "facts/world_unit.h"
 #include "scene/window_view.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "compositing/random_bits.h"
 #include "projection/part_field.h"
 

@@ -18,7 +18,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/box_corners.h"

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <utility>
 
-#include "base/stage.h"
-#include "base/warning.h"
+#include "base/client.h"
+#include "base/profile.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
 #include "facts/finite_check.h"

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "base/stage.h"
+#include "base/profile.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
 #include "mesh/scalar_range.h"

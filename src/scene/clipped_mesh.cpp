@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "mesh/norm1.h"
 
 namespace lamina {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "lamina/project_settings.h"
 
 namespace lamina {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "mesh/cell_average.h"
 #include "mesh/point_gradients.h"
 #include "mesh_files/mesh_file.h"

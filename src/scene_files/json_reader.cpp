@@ -4,8 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/shortened.h"
-#include "base/suggestion.h"
+#include "base/text.h"
 
 namespace lamina {
 namespace {

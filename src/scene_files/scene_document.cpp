@@ -6,7 +6,7 @@
 
 #include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
 #include "mesh_files/mesh_file.h"
 #include "scene_files/data_keys.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.h"
 #include "base/client.h"
 #include "base/json_text.h"
+#include "base/output_file.h"
 #include "lamina/scene.h"
 #include "scene_files/scene_document.h"
 #include "scene_files/scene_json.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "base/shortened.h"
+#include "base/text.h"
 #include "scene/camera.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/scene_keys.h"

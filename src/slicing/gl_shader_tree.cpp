@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "executors/gl_compositing.h"
 #include "gl/api.h"
 #include "gl/full_screen.h"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/stage.h"
-#include "base/unreachable.h"
+#include "base/enum_words.h"
+#include "base/profile.h"
 #include "executors/gl_lights.h"
 #include "executors/shader_intervals.h"
 #include "executors/smallest_gradient.h"

@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "base/interrupt.h"
-#include "base/stage.h"
+#include "base/client.h"
+#include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "lamina/volume.h"
 #include "plan/plan.h"
 #include "slicing/gradient_map.h"

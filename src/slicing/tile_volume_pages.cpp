@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "facts/drawn_range.h"
 #include "slicing/tile_volume.h"
 #include "volume/brick_runs.h"

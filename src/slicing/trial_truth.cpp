@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/stage.h"
+#include "base/profile.h"
 #include "compositing/random_bits.h"
 
 namespace lamina {

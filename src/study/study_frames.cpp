@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "base/stopwatch.h"
+#include "base/profile.h"
 #include "gl/memory.h"
 
 namespace lamina::study {

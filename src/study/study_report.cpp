@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/median.h"
+#include "base/arithmetic.h"
 #include "image/exr.h"
 #include "image/false_color.h"
 #include "study/error_json.h"

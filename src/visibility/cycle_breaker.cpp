@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 
 namespace lamina {
 CycleBreaker::Order CycleBreaker::order(std::size_t nodes, std::span<const Edge> edges,

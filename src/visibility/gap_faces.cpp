@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "mesh/norm1.h"
 #include "mesh/rounded_plane.h"
 

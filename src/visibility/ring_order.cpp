@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "scene/window_view.h"
 
 namespace lamina {

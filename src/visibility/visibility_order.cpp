@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "mesh/mesh_shape.h"
 #include "visibility/view_distance.h"
 

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "base/reserved_memory.h"
+#include "base/memory.h"
 
 namespace lamina {
 

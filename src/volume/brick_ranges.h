@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "base/all_zero.h"
-#include "base/reserved_memory.h"
+#include "base/memory.h"
+#include "base/sparse_bytes.h"
 #include "lamina/volume.h"
 
 namespace lamina {

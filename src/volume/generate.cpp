@@ -9,12 +9,12 @@
 #include <memory>
 #include <type_traits>
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/filled_memory.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "base/shortened.h"
-#include "base/unreachable.h"
+#include "base/text.h"
 #include "volume/analytic_generators.h"
 #include "volume/mixing_generator.h"
 #include "volume/nrrd_writer.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/number_text.h"
+#include "base/text.h"
 #include "image/pixel_text.h"
 
 namespace lamina {

@@ -9,13 +9,13 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "base/all_zero.h"
-#include "base/atomic_file.h"
 #include "base/client.h"
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/printable.h"
+#include "base/input_file.h"
+#include "base/output_file.h"
+#include "base/sparse_bytes.h"
+#include "base/text.h"
 
 namespace lamina {
 namespace {

@@ -3,7 +3,7 @@
 // for bit.
 #pragma once
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "lamina/volume.h"
 
 namespace lamina {

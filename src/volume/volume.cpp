@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/volume.h"
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 
 namespace lamina {
 

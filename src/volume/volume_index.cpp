@@ -9,13 +9,13 @@
 #include <mutex>
 #include <type_traits>
 
+#include "base/client.h"
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/folder.h"
+#include "base/input_file.h"
+#include "base/output_file.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "base/warning.h"
 #include "volume/index_file.h"
 #include "volume/volume_store.h"
 #include "volume/with_sample_type.h"

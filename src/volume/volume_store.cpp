@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume/volume_store.h"
 
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "volume/brick_runs.h"
 #include "volume/with_sample_type.h"
 

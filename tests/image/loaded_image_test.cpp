@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "image/exr.h"
 #include "image/metrics.h"
 #include "image/npy.h"

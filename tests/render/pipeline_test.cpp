@@ -6,7 +6,7 @@
 #include <fstream>
 #include <memory>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "image/metrics.h"
 #include "mesh_files/mesh_file.h"
 #include "scene/given_transfer.h"

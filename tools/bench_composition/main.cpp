@@ -9,8 +9,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/arithmetic.h"
 #include "base/json_text.h"
-#include "base/median.h"
 #include "icet_compositor.h"
 #include "parallel/picture_composer.h"
 #include "parallel/rank_resources.h"

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "base/standard_streams.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "different_files.h"
 #include "image/difference_picture.h"
 #include "image/loaded_image.h"

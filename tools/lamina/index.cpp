@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
 #include "memory_option.h"
 #include "only_below_option.h"
 #include "raw_options.h"

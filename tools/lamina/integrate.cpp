@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/standard_streams.h"
-#include "base/warning.h"
+#include "base/process.h"
 #include "different_files.h"
 #include "named_output.h"
 #include "optics/segment_integral.h"

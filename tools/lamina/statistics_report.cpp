@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/number_text.h"
+#include "base/text.h"
 #include "image/pixel_text.h"
 #include "volume/histogram_picture.h"
 

@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "file_report.h"
 #include "image/png.h"
 #include "json_vector.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/file_hash.h"
+#include "base/content_hash.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -7,10 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "base/content_hash.h"
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/interrupt.h"
+#include "base/input_file.h"
 
 namespace lamina {
 

@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace lamina {
+
+// A sum of many numbers. Its rounding error does not grow with their count (Neumaier 1974).
+class CompensatedSum {
+  public:
+    void add(double term) {
+        const double sum = sum_ + term;
+        rest_ += std::abs(sum_) >= std::abs(term) ? (sum_ - sum) + term : (term - sum) + sum_;
+        sum_ = sum;
+    }
+    double value() const { return sum_ + rest_; }
+
+  private:
+    double sum_ = 0;
+    double rest_ = 0;
+};
 
 // The unevaluated sum hi + lo with |lo| <= ulp(hi)/2, which has about 31 digits (Dekker 1971; Hida,
 // Li and Bailey 2001). It is used for the few operations of a ray whose rounding would decide
@@ -57,6 +74,14 @@ inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
 
 inline bool operator<(DoubleDouble a, DoubleDouble b) {
     return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
+}
+
+// The median of at least one value. For an even number of values it is the mean of the two in the
+// middle.
+inline double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 }  // namespace lamina

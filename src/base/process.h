@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
+#include <signal.h>
 
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace lamina {
 
@@ -34,5 +41,36 @@ template <typename... Args>
 void print_message(fmt::format_string<Args...> format, Args&&... args) {
     write_message(fmt::format(format, std::forward<Args>(args)...));
 }
+
+// While it exists, SIGINT, SIGTERM and SIGHUP do not end the process but request a stop of its
+// token. Signals that were set to be ignored before (nohup, a shell's background) stay ignored.
+// Programs make one and work within a ClientScope with its token. Only one may exist at a time.
+// Throws std::system_error where its thread cannot be started.
+class SignalStop {
+  public:
+    SignalStop();
+    ~SignalStop();
+    SignalStop(const SignalStop&) = delete;
+    SignalStop& operator=(const SignalStop&) = delete;
+
+    std::stop_token token() const { return source_.get_token(); }
+
+    // 128 and the signal's number, as shells have it: 130 for Ctrl-C. Valid once a stop is
+    // requested.
+    int exit_code() const;
+
+  private:
+    static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+
+    std::stop_source source_;
+    // stop_source::request_stop() takes a lock, which a signal handler must not do: this thread
+    // calls it.
+    std::jthread waiter_;
+    std::array<struct sigaction, signals.size()> before_{};
+};
+
+// Where the program is that was built or installed with this one: beside the program that runs,
+// where the library's programs are installed, else in the PATH.
+std::optional<std::filesystem::path> find_program(const std::string& name);
 
 }  // namespace lamina
