@@ -9,7 +9,7 @@
 #include "executors/gl_compositing.h"
 #include "executors/swizzle.h"
 #include "gl/api.h"
-#include "gl/full_screen.h"
+#include "gl/framebuffer.h"
 
 namespace lamina {
 namespace {

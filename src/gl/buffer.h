@@ -5,8 +5,7 @@
 #include <span>
 #include <type_traits>
 
-#include "gl/handle.h"
-#include "gl/memory.h"
+#include "gl/api.h"
 
 namespace lamina::gl {
 
@@ -48,6 +47,30 @@ class Buffer {
     Handle<ObjectKind::buffer> handle_;
     AllocatedBytes bytes_;
     std::byte* mapped_ = nullptr;
+};
+
+// The sources of vertex attributes and indices. Without attributes it serves shaders that need only
+// gl_VertexID. The buffers must outlive the draws.
+class VertexArray {
+  public:
+    VertexArray();
+
+    // Sets attribute `location` to `components` floats, or 32-bit integers, at `byte_offset` of
+    // every `byte_stride` bytes.
+    void set_floats(unsigned location, const Buffer& buffer, int components,
+                    std::size_t byte_stride, std::size_t byte_offset);
+    void set_integers(unsigned location, const Buffer& buffer, int components,
+                      std::size_t byte_stride, std::size_t byte_offset);
+    void set_indices(const Buffer& buffer);  // 32-bit unsigned
+
+    void bind() const;
+    unsigned id() const { return handle_.id(); }
+
+  private:
+    void set_source(unsigned location, const Buffer& buffer, std::size_t byte_stride,
+                    std::size_t byte_offset);
+
+    Handle<ObjectKind::vertex_array> handle_;
 };
 
 }  // namespace lamina::gl

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// The two ways to make a context. Each throws Error with the reason where it fails.
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <thread>
 
 #include "gl/api.h"
-#include "gl/context_counts.h"
-#include "gl/program_cache.h"
+#include "gl/program.h"
 #include "plan/capabilities.h"
 
 namespace lamina::gl {
+
+// Of one context.
+struct ContextCounts {
+    std::int64_t bytes_allocated = 0;  // of buffers and textures, now
+    std::int64_t bytes_uploaded = 0;   // to textures, until now
+};
 
 // any: a GPU through EGL where there is one, else OSMesa, else EGL with a software renderer.
 // gpu: a GPU through EGL.
@@ -18,7 +25,7 @@ namespace lamina::gl {
 enum class ContextKind { any, gpu, osmesa, egl };
 
 // An OpenGL 4.5 core context without a window or a display server. Several may be there, each is
-// current in one thread at a time (gl/current_context.h). Every object of this room belongs to the
+// current in one thread at a time (gl/context.h). Every object of this room belongs to the
 // context that was current when it was made: that is current, too, when it is used and when it
 // goes, and goes later.
 class Context {
@@ -60,5 +67,52 @@ class Context {
     std::atomic<std::thread::id> thread_{};  // whose CurrentContexts are there; none: nobody's
     int scopes_ = 0;                         // so many of them
 };
+
+enum class EglDevices { hardware, any };
+
+std::unique_ptr<Context> create_osmesa_context();
+std::unique_ptr<Context> create_egl_context(EglDevices devices);
+
+// What a library has current in this thread, whoever made it; `context` is null where nothing is.
+struct EglBinding {
+    unsigned api = 0;  // that eglBindAPI() chose; 0 where EGL is not loaded
+    void *display = nullptr, *draw = nullptr, *read = nullptr, *context = nullptr;
+};
+struct OsmesaBinding {
+    void *context = nullptr, *buffer = nullptr;
+    unsigned type = 0;  // of the buffer's components
+    int width = 0, height = 0;
+};
+
+// They return what was current and is so no longer, and make it current again. They load nothing.
+EglBinding release_egl();
+void restore(const EglBinding& binding);
+OsmesaBinding release_osmesa();
+void restore(const OsmesaBinding& binding);
+
+// A context is current in this thread while this lives, and what was current before it is so again
+// afterwards: another context of this room, or one that the caller has made with EGL or OSMesa. Of
+// GLX it knows nothing: where a context of GLX is current, the caller takes another thread.
+// Scopes of a thread end in the reverse order of their beginnings.
+class CurrentContext {
+  public:
+    // An Error where the context is current in another thread.
+    explicit CurrentContext(Context& context);
+    ~CurrentContext();
+    CurrentContext(const CurrentContext&) = delete;
+    CurrentContext& operator=(const CurrentContext&) = delete;
+
+  private:
+    void take();
+    void give_back() const;
+
+    Context& context_;
+    Context* const before_;  // of this room; null where none was current
+    EglBinding egl_;         // of anybody, like the next
+    OsmesaBinding osmesa_;
+};
+
+// Null where none of this room is.
+Context* current_context();
 
 }  // namespace lamina::gl

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 

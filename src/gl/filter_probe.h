@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gl/texture_format.h"
+#include "gl/texture.h"
 
 namespace lamina::gl {
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec4.hpp>
-
 #include <cstddef>
 #include <initializer_list>
 #include <vector>
 
-#include "gl/handle.h"
+#include <glm/vec4.hpp>
+#include "gl/api.h"
+#include "gl/buffer.h"
+#include "gl/program.h"
 #include "gl/texture.h"
 #include "lamina/image.h"
 
@@ -53,5 +54,11 @@ class LayerFramebuffer {
     Handle<ObjectKind::framebuffer> handle_;
     int bound_ = 0;
 };
+
+// Runs the program, whose vertex shader is "gl/full_screen.vert", once for every pixel of the bound
+// framebuffer.
+void draw_full_screen(const Program& program);
+// The same with a given vertex array, so that frames need not make one.
+void draw_full_screen(const Program& program, const VertexArray& any);
 
 }  // namespace lamina::gl

@@ -1,26 +1,114 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
+#include <cstddef>
 #include <cstdint>
+#include <list>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "gl/linked_program.h"
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include "gl/api.h"
 #include "gl/shader_source.h"
 
 namespace lamina::gl {
 
+enum class UniformKind {
+    float1,
+    float2,
+    float3,
+    float4,
+    double1,
+    double2,
+    double3,
+    double4,
+    int1,
+    int2,
+    int3,
+    matrix4
+};
+
+// What a uniform holds: one value, or those of an array.
+class UniformValue {
+  public:
+    UniformValue() = default;
+    // Copies `count` values.
+    void assign(UniformKind kind, int count, const void* data);
+    void clear();  // to 0
+
+    friend void upload(unsigned program, int location, const UniformValue& value);
+
+  private:
+    UniformKind kind_ = UniformKind::float1;
+    int count_ = 0;
+    std::vector<std::byte> bytes_;
+};
+
+void upload(unsigned program, int location, const UniformValue& value);
+
+// A vertex and a fragment shader, compiled and linked, which the Programs of a context share that
+// have the same text: each has uniforms of its own, and OpenGL has those of one of them at a time.
+class LinkedProgram {
+  public:
+    // Compile and link errors are Errors with the shader's name, the file and line, and the
+    // defines.
+    LinkedProgram(const ShaderSource& vertex, const ShaderSource& fragment);
+
+    bool is_of(const ShaderSource& vertex, const ShaderSource& fragment) const;
+    // -1 where the source names the uniform but this specialisation does not use it; a name that is
+    // nowhere in the source is an Error.
+    int location(std::string_view name);
+    void set(int location, const UniformValue& value);
+    // From now on OpenGL has the values of user number `user`, and 0 where it has set none.
+    void give_to(std::uint64_t user, const std::map<int, UniformValue>& values);
+    bool belongs_to(std::uint64_t user) const { return user_ == user; }
+
+    unsigned id() const { return handle_.id(); }
+    // Its context ends, which deletes it.
+    void abandon() { handle_.release(); }
+
+  private:
+    Handle<ObjectKind::program> handle_;
+    std::string names_;                        // of both shaders, for messages
+    std::string vertex_text_, fragment_text_;  // to tell an unused uniform from a misspelt one, too
+    std::map<std::string, int, std::less<>> locations_;
+    std::map<int, UniformValue> values_;  // that OpenGL has, by location
+    std::uint64_t user_ = 0;              // whose these are; 0: nobody's
+};
+
+// The linked programs that a context has lately used: what is made again is not compiled again.
+class ProgramCache {
+  public:
+    static constexpr std::size_t most_programs = 64;
+
+    ProgramCache() = default;
+    // Its context ends, which deletes them.
+    ~ProgramCache();
+    ProgramCache(const ProgramCache&) = delete;
+    ProgramCache& operator=(const ProgramCache&) = delete;
+
+    // Compiles it where it is not there; the one used longest ago goes where there are too many.
+    std::shared_ptr<LinkedProgram> get(const ShaderSource& vertex, const ShaderSource& fragment);
+    std::uint64_t new_user() { return ++last_user_; }
+
+    int compiled() const { return compiled_; }  // so many until now
+
+  private:
+    std::list<std::shared_ptr<LinkedProgram>> programs_;  // last used first
+    std::uint64_t last_user_ = 0;
+    int compiled_ = 0;
+};
+
 // A linked vertex and fragment shader with uniforms of its own, 0 at first. Compile and link errors
 // are Errors with the shader's name, the file and line, and the defines. Where the context has
-// lately had one with the same text, nothing is compiled (gl/program_cache.h).
+// lately had one with the same text, nothing is compiled (gl/program.h).
 class Program {
   public:
     // `vertex_name`, `fragment_name`: files in shaders/. Both are specialised by the same defines.

@@ -6,7 +6,7 @@
 #include "compositing/dither.h"
 #include "compositing/random_bits.h"
 #include "executors/gl_compositing.h"
-#include "gl/full_screen.h"
+#include "gl/framebuffer.h"
 
 namespace lamina::papers {
 namespace {

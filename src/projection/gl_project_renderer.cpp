@@ -16,7 +16,6 @@
 #include "executors/gl_lights.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
-#include "gl/check.h"
 #include "projection/fan_geometry.h"
 #include "projection/tet_geometry.h"
 #include "scene/window_view.h"

@@ -10,7 +10,6 @@
 #include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "gl/api.h"
-#include "gl/check.h"
 #include "projection/visible_parts.h"
 
 namespace lamina {

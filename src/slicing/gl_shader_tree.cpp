@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "executors/gl_compositing.h"
 #include "gl/api.h"
-#include "gl/full_screen.h"
+#include "gl/framebuffer.h"
 #include "slicing/gl_slab_pass.h"
 #include "slicing/texture_bricks.h"
 

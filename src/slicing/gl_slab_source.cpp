@@ -20,7 +20,6 @@
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
-#include "gl/check.h"
 #include "optics/linear_pieces.h"
 #include "slicing/texture_bricks.h"
 

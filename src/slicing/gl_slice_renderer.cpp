@@ -10,7 +10,6 @@
 #include "executors/gl_compositing.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
-#include "gl/check.h"
 
 namespace lamina {
 

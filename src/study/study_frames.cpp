@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/profile.h"
-#include "gl/memory.h"
+#include "gl/api.h"
 
 namespace lamina::study {
 

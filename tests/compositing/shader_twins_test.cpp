@@ -11,7 +11,6 @@
 #include "compositing/over.h"
 #include "compositing/random_bits.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl/gl_fixture.h"
 
 namespace lamina {
