@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits that are checked before memory is taken for an image.
 #pragma once
 
+// Limits that are checked before memory is taken for an image.
 #include <cstdint>
 #include <filesystem>
 #include <string>
+
+#include "lamina/image.h"
 
 namespace lamina {
 
@@ -23,5 +25,14 @@ std::uint64_t length_of_file(const std::filesystem::path& path);
 // compression, `ratio` : 1.
 void check_file_can_hold(const std::string& name, std::uint64_t image_bytes,
                          std::uint64_t file_bytes, std::uint64_t ratio);
+
+// Throws Error, which names pixel and channel, where a component is NaN, infinite or beyond the
+// range of float32. Such pictures are neither written nor compared. `name`: the beginning of the
+// message.
+template <typename Real>
+void require_finite(const std::string& name, const RgbaImage<Real>& image);
+
+extern template void require_finite(const std::string&, const Image&);
+extern template void require_finite(const std::string&, const PreciseImage&);
 
 }  // namespace lamina

@@ -13,7 +13,6 @@
 #include <memory>
 
 #include "base/error.h"
-#include "image/finite.h"
 #include "image/image_limits.h"
 #include "image/srgb.h"
 

@@ -8,7 +8,7 @@
 
 #include "compositing/dither.h"
 #include "compositing/fixed_ray.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 
 namespace lamina::papers {
 

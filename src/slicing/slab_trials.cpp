@@ -11,7 +11,7 @@
 
 #include "base/profile.h"
 #include "base/progress.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "plan/classification_choice.h"
 #include "plan/light_choice.h"
 #include "plan/planners.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/arithmetic.h"
+#include "image/difference_picture.h"
 #include "image/exr.h"
-#include "image/false_color.h"
 #include "study/error_json.h"
 #include "study/study_findings.h"
 #include "study/thumbnail.h"

@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/profile.h"
+#include "image/difference.h"
 #include "image/exr.h"
-#include "image/metrics.h"
 #include "study/error_json.h"
 
 namespace lamina::study {

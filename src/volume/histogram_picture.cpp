@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "image/pixel_text.h"
+#include "image/coded_image.h"
 
 namespace lamina {
 namespace {

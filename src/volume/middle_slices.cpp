@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "image/pixel_text.h"
+#include "image/coded_image.h"
 #include "volume/sample_access.h"
 
 namespace lamina {

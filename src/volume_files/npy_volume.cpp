@@ -9,7 +9,7 @@
 #include "base/input_file.h"
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "image/npy_header.h"
+#include "image/npy.h"
 #include "volume_files/plain_grid.h"
 #include "volume_files/stored_data.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "base/output_file.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "mesh_files/mesh_file.h"
 #include "scene/given_transfer.h"
 #include "support/expect_error.h"

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "base/text.h"
-#include "image/pixel_text.h"
+#include "image/coded_image.h"
 #include "volume/histogram_picture.h"
 
 namespace lamina {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image/pixel_text.h"
+#include "image/coded_image.h"
 
 #include <algorithm>
 #include <cassert>
 
 namespace lamina {
+
 namespace {
 
 constexpr int glyph_columns = 5, advance = 6;
