@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "volume/sample_source.h"
 #include "volume/volume_store.h"
-#include "volume/with_sample_type.h"
 
 namespace lamina {
 namespace {

@@ -13,7 +13,7 @@
 #include "slicing/gradient_map.h"
 #include "slicing/tile_pages.h"
 #include "volume/min_max_bricks.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 

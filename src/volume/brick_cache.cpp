@@ -10,6 +10,7 @@
 #include "base/progress.h"
 
 namespace lamina {
+
 namespace {
 
 // Bricks read at a time ahead of their use.

@@ -15,8 +15,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "volume/analytic_generators.h"
-#include "volume/mixing_generator.h"
+#include "volume/generators.h"
 #include "volume/nrrd_writer.h"
 
 namespace lamina {

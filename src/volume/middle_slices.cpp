@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "image/coded_image.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 namespace {

@@ -7,9 +7,10 @@
 #include <type_traits>
 
 #include "base/parallel.h"
-#include "volume/volume_index.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
+
 namespace {
 
 constexpr std::int64_t edge = MinMaxBricks::edge;

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 namespace lamina {
+
 namespace {
 
 // Enough that a share of 1e-4 of the samples is known to 7 percent.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <string>
 
 #include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
@@ -9,9 +11,48 @@
 
 namespace lamina {
 
+// What a pass over all samples of a volume tells, kept in a file for volumes that stay in theirs.
+struct VolumeIndex {
+    MinMaxBricks bricks;
+    ValueCounts values;
+};
+
+// Of a volume that stays in its files: from the index file beside them, or from that in the user's
+// cache folder, if it is of these samples as they are now; else by a pass over the samples, on all
+// cores, whose result is kept in the cache folder. A warning says what is wrong
+// with an index that is there.
+VolumeIndex index_of(const Volume& volume);
+
+// The pass alone.
+VolumeIndex measure_index(const Volume& volume);
+
+// The index file beside a volume's files.
+std::filesystem::path index_file_of(const Volume& volume);
+void write_index(const Volume& volume, const VolumeIndex& index, const std::filesystem::path& file);
+
+// A volume's index in a file: a line that names the format; a header of one line, in JSON; the
+// values' counts or values; the ranges of bricks in pieces, each behind a byte that is 0 where the
+// piece is 0 and left out; and a hash of all that follows the first line. Binary numbers are those
+// of a little-endian machine. `identity`: of the samples (SampleSource).
+void write_index_file(const std::filesystem::path& file, const std::string& identity,
+                      const Grid& grid, SampleType type, const VolumeIndex& index);
+
+// Throws Error if there is something at `file` that is no index: it must not be replaced. A link is
+// never followed, neither here nor by write_index_file().
+void expect_index_or_nothing(const std::filesystem::path& file);
+
+// No index if the file is not there, is damaged, or is of other samples. `wrong` then says what is
+// wrong with a file that is there; otherwise it is empty.
+struct FoundIndex {
+    std::optional<VolumeIndex> index;
+    std::string wrong;
+};
+FoundIndex read_index_file(const std::filesystem::path& file, const std::string& identity,
+                           const Grid& grid, SampleType type);
+
 // A volume that is drawn, with its min/max bricks, which are measured once. For a volume that stays
 // in its files that is a pass over all of them, or over an index that an earlier one has left
-// (volume/volume_index.h).
+// (volume/volume_data.h).
 struct VolumeData {
     explicit VolumeData(Volume opened);
 

@@ -11,8 +11,7 @@
 #include "only_below_option.h"
 #include "raw_options.h"
 #include "verbs.h"
-#include "volume/index_file.h"
-#include "volume/volume_index.h"
+#include "volume/volume_data.h"
 #include "volume_files/bricked_copy.h"
 #include "volume_files/volume_file.h"
 

@@ -11,7 +11,6 @@
 #include "mesh/scalar_range.h"
 #include "mesh_files/mesh_file.h"
 #include "statistics_report.h"
-#include "volume/histogram_picture.h"
 #include "volume/value_statistics.h"
 
 namespace lamina {

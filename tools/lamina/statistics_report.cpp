@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 #include "image/coded_image.h"
-#include "volume/histogram_picture.h"
+#include "volume/value_statistics.h"
 
 namespace lamina {
 namespace {

@@ -7,7 +7,6 @@
 #include "image/png.h"
 #include "json_vector.h"
 #include "statistics_report.h"
-#include "volume/histogram_picture.h"
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
 #include "volume/value_statistics.h"
