@@ -8,6 +8,7 @@
 #include "base/arithmetic.h"
 
 namespace lamina {
+
 namespace {
 
 // Half an ulp of 1, which Shewchuk calls epsilon.

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "mesh/norm1.h"
 #include "mesh/predicates.h"
 
 // LAMINA_CLONE_FOR_FMA before a function compiles it for processors with fused multiply-add, too,
@@ -23,6 +22,7 @@
 #endif
 
 namespace lamina {
+
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();

@@ -1,22 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the tets that a line passes, from open face to open face through the neighbours. Every face
-// is decided exactly, so that no line leaks between two tets, through an edge or through a point.
 #pragma once
 
-#include <glm/vec3.hpp>
-
+// Finds the tets that a line passes, from open face to open face through the neighbours. Every face
+// is decided exactly, so that no line leaks between two tets, through an edge or through a point.
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
+#include "lamina/tet.h"
 #include "mesh/face_tree.h"
-#include "mesh/line_frame.h"
-#include "mesh/ray_front.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina {
+
+// A line origin + t * direction for all real t, taken as exact, and axes across it.
+struct LineFrame {
+    glm::dvec3 origin{0}, direction{0};
+    glm::dvec3 across_x{0}, across_y{0};  // unit vectors; x, y, direction are right-handed
+    double direction_square = 1;
+};
+
+// A face through which a line enters a tet, as it is seen along the line.
+struct RayFront {
+    // A corner: its position in the plane across the line, and the line's parameter there.
+    struct Corner {
+        std::int32_t point;
+        double x, y, at;
+        double reach;  // bounds the rounding of x and y
+    };
+    std::array<Corner, 3> corners;  // counter-clockwise
+    // Twice the areas of the triangles of the line and the edges 01, 12 and 20. None is negative;
+    // it is 0 where rounding alone gave a negative one.
+    std::array<double, 3> areas;
+};
+
+// The corner of a tet that is not among three of its corners.
+inline std::int32_t corner_opposite(const Tet& tet, std::int32_t a, std::int32_t b,
+                                    std::int32_t c) {
+    return tet[0] ^ tet[1] ^ tet[2] ^ tet[3] ^ a ^ b ^ c;  // the others cancel
+}
 
 // The crossing of a line with a face.
 struct FaceCrossing {

@@ -7,7 +7,7 @@
 
 #include "compositing/tree_shape.h"
 #include "facts/tet_pieces.h"
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "projection/tet_record.h"
 #include "scene/camera.h"

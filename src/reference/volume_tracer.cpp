@@ -21,7 +21,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "mesh/box_corners.h"
+#include "mesh/predicates.h"
 #include "optics/ray_lights.h"
 #include "reference/cell_walk.h"
 #include "reference/cells.h"

@@ -11,7 +11,7 @@
 #include "facts/finite_check.h"
 #include "gl/api.h"
 #include "gl/timeline.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "render/context_choice.h"
 #include "render/warnings.h"
 #include "scene/given_transfer.h"

@@ -13,7 +13,7 @@
 
 #include "base/client.h"
 #include "base/text.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "scene/camera.h"
 #include "scene/half_space.h"
 

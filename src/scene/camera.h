@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "lamina/camera.h"
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 

@@ -15,7 +15,7 @@
 
 #include "base/parallel.h"
 #include "base/profile.h"
-#include "mesh/norm1.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 namespace {

@@ -5,8 +5,7 @@
 
 #include "base/error.h"
 #include "base/profile.h"
-#include "mesh/cell_average.h"
-#include "mesh/point_gradients.h"
+#include "mesh/tet_mesh.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
 

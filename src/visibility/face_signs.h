@@ -6,7 +6,6 @@
 #include <span>
 
 #include "lamina/tet.h"
-#include "mesh/eye.h"
 #include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 
 #include "base/client.h"
-#include "mesh/norm1.h"
-#include "mesh/rounded_plane.h"
+#include "mesh/face_tree.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 namespace {

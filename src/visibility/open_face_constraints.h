@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "mesh/eye.h"
 #include "mesh/face_tree.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "visibility/seen_triangle.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "visibility/face_signs.h"
 #include "visibility/open_face_constraints.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 #include "visibility/seen_triangle.h"
 
 namespace lamina {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "mesh/norm1.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 namespace {

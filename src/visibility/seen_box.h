@@ -3,9 +3,8 @@
 
 #include <glm/mat3x3.hpp>
 
-#include "mesh/eye.h"
 #include "mesh/face_tree.h"
-#include "mesh/rounded_plane.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 

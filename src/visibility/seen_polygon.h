@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <span>
 
-#include "mesh/rounded_plane.h"
+#include "mesh/face_tree.h"
 #include "scene/window_view.h"
 
 namespace lamina {

@@ -4,8 +4,8 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-#include "mesh/eye.h"
-#include "mesh/rounded_plane.h"
+#include "mesh/face_tree.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 

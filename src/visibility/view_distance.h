@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "scene/camera.h"
 #include "visibility/draw_order.h"

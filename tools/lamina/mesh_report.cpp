@@ -8,7 +8,7 @@
 #include "json_vector.h"
 #include "mesh/mesh_picture.h"
 #include "mesh/mesh_shape.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "mesh_files/mesh_file.h"
 #include "statistics_report.h"
 #include "volume/value_statistics.h"
