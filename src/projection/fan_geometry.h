@@ -13,7 +13,7 @@
 #include "projection/tet_geometry.h"
 #include "scene/scene_mesh.h"
 #include "scene/window_view.h"
-#include "visibility/face_signs.h"
+#include "visibility/order_graph.h"
 
 namespace lamina {
 

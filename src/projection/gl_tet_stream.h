@@ -13,7 +13,7 @@
 #include "gl/timeline.h"
 #include "plan/compositing_plan.h"
 #include "projection/tet_geometry.h"
-#include "visibility/draw_order.h"
+#include "visibility/ring_order.h"
 
 namespace lamina {
 

@@ -11,7 +11,7 @@
 #include "mesh/tet_mesh.h"
 #include "projection/tet_record.h"
 #include "scene/camera.h"
-#include "visibility/draw_order.h"
+#include "visibility/ring_order.h"
 #include "visibility/visibility_order.h"
 
 namespace lamina {

@@ -8,9 +8,17 @@
 #include "mesh/face_tree.h"
 #include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
-#include "visibility/seen_triangle.h"
+#include "visibility/seen_shapes.h"
 
 namespace lamina {
+
+// Finds the open faces at which gaps of a mesh may begin or end as seen from some eye. Returns
+// indices into TetMesh::open_faces() in ascending order. A face is left out where no other part of
+// the mesh lies outside of it or touches it from there: a ray that leaves the mesh through such a
+// face does not come back, and a ray that enters by it has not met the mesh before. The result is
+// exact, except where that would take too long, as on finely faceted surfaces that are flat up to
+// rounding. There it contains some other faces, too.
+std::vector<std::int32_t> gap_faces(const TetMesh& mesh);
 
 // Some ray leaves the mesh through open face `exit` and comes back later through open face `entry`.
 // So the tet of the exit is nearer than that of the entry. Both are indices into

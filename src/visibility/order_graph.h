@@ -1,17 +1,81 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include <glm/geometric.hpp>
+#include "lamina/tet.h"
 #include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
-#include "visibility/face_signs.h"
 #include "visibility/open_face_constraints.h"
 
 namespace lamina {
+
+// So many tets are looked at in one task.
+inline constexpr std::int64_t tets_per_task = 4096;
+
+// On which side of a tet's faces the eye is. Bit f: the eye is on the outer side of face f, so the
+// tet across that face is nearer to the eye. Bit 4 + f: the eye is on the inner side, so the tet
+// across is farther. A face that is seen edge-on has neither bit and hides nothing.
+using FaceSigns = std::uint32_t;
+constexpr FaceSigns nearer_bit(std::size_t face) {
+    return FaceSigns{1} << face;
+}
+constexpr FaceSigns farther_bit(std::size_t face) {
+    return FaceSigns{16} << face;
+}
+
+// Whether sorting the corners of a face by their numbers reverses its orientation. This is true for
+// one of the two tets that share the face.
+inline bool turned_by_sorting(const Tet& tet, std::size_t face) {
+    const auto [a, b, c] = corners_of_face(tet, face);
+    return (a > b) != ((b > c) != (a > c));
+}
+
+// Whether the eye is in front of a face. Where the face is seen edge-on, the eye counts as in front
+// for one of its two tets.
+inline bool is_front(const Tet& tet, std::size_t face, FaceSigns signs) {
+    const bool nearer = (signs & nearer_bit(face)) != 0, farther = (signs & farther_bit(face)) != 0;
+    return nearer || (!farther && turned_by_sorting(tet, face));
+}
+
+// The exact sign of the solid angle (for an eye at infinity, of the projected area) of the triangle
+// a, b, c. It is positive where the eye sees the corners clockwise. So for a face whose corners are
+// counter-clockwise from outside its tet, it is positive where the eye is on the inner side.
+inline int sign_as_seen(const Eye& eye, const glm::dvec3& a, const glm::dvec3& b,
+                        const glm::dvec3& c) {
+    const glm::dvec3& e = eye.position;
+    if (eye.at_infinity) return sign_of_determinant(e, glm::dvec3(0), b, a, c, a);
+    return sign_of_determinant(a, e, b, e, c, e);
+}
+
+// Finds the signs of a mesh's tets for one eye. Signs are computed in floating point where an error
+// bound decides them, and exactly elsewhere, so that the two tets of a face always agree. Safe from
+// many threads.
+class FaceSigner {
+  public:
+    FaceSigner(const TetMesh& mesh, const Eye& eye)
+        : points_(mesh.points()), tets_(mesh.tets()), eye_(eye) {}
+
+    FaceSigns signs(std::size_t tet) const;
+
+  private:
+    struct Rounded {
+        std::array<double, 4> determinants;
+        double error;
+    };
+    Rounded rounded(const Tet& tet) const;
+    Rounded rounded_at_infinity(const Tet& tet) const;
+    int exact(const Tet& tet, std::size_t face) const;
+
+    std::span<const glm::dvec3> points_;
+    std::span<const Tet> tets_;
+    Eye eye_;
+};
 
 // Which tets hide which, for one eye after the other. It is a graph with an edge from each tet to
 // every tet that is nearer and must therefore be drawn after it. Edges lead across shared faces
@@ -80,6 +144,46 @@ class OrderGraph {
     std::span<const OpenFaceConstraint> gap_edges_;
     std::vector<std::int32_t> first_gap_;  // first gap edge of each tet, or -1; empty without gaps
     std::vector<std::int32_t> next_gap_;   // next gap edge of the same tet, or -1
+};
+
+// A number that grows with the distance of a point from the eye, for comparisons: the squared
+// distance, or for an eye at infinity the distance along the view.
+inline double view_distance(const Eye& eye, const glm::dvec3& point) {
+    if (eye.at_infinity) return glm::dot(eye.position, point);
+    const glm::dvec3 ray = point - eye.position;
+    return glm::dot(ray, ray);
+}
+
+// MPVO for nonconvex meshes (Williams, Visibility ordering meshed polyhedra, 1992; Kraus et al.
+// 2004 draw with it). It is a depth-first search that draws a tet when all tets behind it across
+// shared faces are drawn. It starts at the tets with open faces towards the eye, in descending
+// order of the distance of the face's centroid. That order is a guess at what lies behind what
+// across gaps. It takes its memory once.
+class FarthestFirst {
+  public:
+    explicit FarthestFirst(const TetMesh& mesh);
+
+    // Fills `order`, one place a tet, back to front. Returns how many edges of the graph are
+    // broken, because there is no order without cycles.
+    std::int64_t sort(const OrderGraph& graph, std::span<std::int32_t> order);
+
+  private:
+    struct Start {
+        double distance;
+        std::int32_t tet;
+        bool operator<(const Start& other) const {  // farthest first
+            return distance != other.distance ? distance > other.distance : tet < other.tet;
+        }
+    };
+    void find_starts(const Eye& eye);
+    void draw(const OrderGraph& graph, std::int32_t root, std::span<std::int32_t> order);
+
+    const TetMesh& mesh_;
+    std::vector<Start> starts_;
+    // Next face of each tet to look across (farthest_first.cpp).
+    std::vector<std::uint8_t> next_face_;
+    std::size_t drawn_ = 0;
+    std::int64_t broken_ = 0;
 };
 
 }  // namespace lamina

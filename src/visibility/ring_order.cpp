@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 
+#include <glm/geometric.hpp>
 #include "base/client.h"
 #include "scene/window_view.h"
 
 namespace lamina {
+
 namespace {
 
 constexpr PixelArea no_pixels{0, -1, 0, -1};

@@ -11,13 +11,16 @@
 #include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "scene/camera.h"
-#include "visibility/draw_order.h"
-#include "visibility/farthest_first.h"
 #include "visibility/order_cycles.h"
 #include "visibility/order_graph.h"
 #include "visibility/ring_order.h"
 
 namespace lamina {
+
+// Counts the shared faces that an order gets wrong, because the tet on the far side does not come
+// first. Signs are exact. `order`: every tet once, back to front; otherwise throws Error. Parallel.
+std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
+                             std::span<const std::int32_t> order);
 
 enum class OrderMethod {
     mpvo,  // Williams 1992: keeps the order across shared faces; on nonconvex meshes with his guess

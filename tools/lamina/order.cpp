@@ -28,7 +28,6 @@
 #include "scene/scene_mesh.h"
 #include "scene_files/scene_document.h"
 #include "verbs.h"
-#include "visibility/order_check.h"
 #include "visibility/visibility_order.h"
 
 namespace lamina {
