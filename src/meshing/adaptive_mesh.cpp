@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "meshing/kuhn_mesh.h"
+#include "meshing/volume_mesh.h"
 
 namespace lamina {
 namespace {

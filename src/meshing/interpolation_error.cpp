@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "meshing/cell_pieces.h"
+#include "meshing/trilinear_field.h"
 
 namespace lamina {
 namespace {

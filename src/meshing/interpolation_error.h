@@ -8,7 +8,6 @@
 
 #include "lamina/tet.h"
 #include "lamina/transfer_function.h"
-#include "meshing/cell_ranges.h"
 #include "meshing/trilinear_field.h"
 
 namespace lamina {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "meshing/delaunay_process.h"
+#include "meshing/delaunay.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "meshing/delaunay_process.h"
+#include "meshing/delaunay.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -25,6 +25,7 @@
 extern char** environ;
 
 namespace lamina {
+
 namespace {
 
 void write_points(TemporaryFile& file, std::span<const glm::dvec3> points) {
