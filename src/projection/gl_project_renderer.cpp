@@ -18,7 +18,7 @@
 #include "gl/api.h"
 #include "projection/fan_geometry.h"
 #include "projection/tet_geometry.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {

@@ -15,7 +15,6 @@
 #include "projection/screen_polygon.h"
 #include "projection/tet_record.h"
 #include "scene/camera.h"
-#include "scene/window_view.h"
 #include "visibility/order_graph.h"
 #include "volume/min_max_bricks.h"
 

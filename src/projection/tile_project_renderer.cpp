@@ -12,7 +12,7 @@
 #include "base/profile.h"
 #include "executors/light_cuts.h"
 #include "facts/world_unit.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 
+#include <glm/geometric.hpp>
 #include "base/enum_words.h"
 #include "base/error.h"
 
 namespace lamina {
+
 namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;

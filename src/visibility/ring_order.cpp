@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 #include "base/client.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 

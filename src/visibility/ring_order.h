@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "scene/camera.h"
-#include "scene/window_view.h"
 #include "visibility/order_cycles.h"
 #include "visibility/order_graph.h"
 #include "visibility/seen_shapes.h"

@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 #include "mesh/face_tree.h"
 #include "mesh/predicates.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 
