@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <filesystem>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
 #include "base/error.h"
 #include "base/json_text.h"
 #include "lamina/image_color_space.h"
@@ -92,5 +91,9 @@ class JsonReader {
     std::string path_;
     std::set<std::string> asked_;
 };
+
+// Reads a colour (docs/scene.md): three numbers of the reader's colour space, or display values,
+// which are converted to it: "#rrggbb", a CSS name, or {"srgb": [r, g, b]}. Throws KeyError.
+glm::dvec3 read_color(JsonReader& reader, const std::string& key);
 
 }  // namespace lamina

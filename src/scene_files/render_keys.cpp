@@ -5,7 +5,7 @@
 #include "compositing/tree_shape.h"
 #include "scene/coloring.h"
 #include "scene_files/data_keys.h"
-#include "scene_files/forms.h"
+#include "scene_files/keys.h"
 #include "scene_files/scene_keys.h"
 
 namespace lamina {

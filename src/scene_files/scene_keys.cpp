@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scene_files/data_keys.h"
-#include "scene_files/forms.h"
+#include "scene_files/keys.h"
 #include "scene_files/transfer_keys.h"
 
 namespace lamina {

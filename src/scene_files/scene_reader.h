@@ -2,12 +2,27 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+#include "lamina/data_files.h"
 #include "lamina/scene.h"
 
 namespace lamina {
+
+// The JSON of a scene file; of a data file, a scene that draws it: all else is automatic, and cells
+// with NaN are transparent. `request`: what of a volume's file is wanted.
+nlohmann::json scene_document(const std::filesystem::path& file, const VolumeRequest& request = {});
+
+// A scene file (docs/scene.md) with every key written out, from which read_scene() makes the same
+// scene: paths are absolute, numbers have all their digits, the transfer function is its points,
+// whatever they were made from, but for a colour map that is to be stretched over the data.
+// save_scene() writes it.
+nlohmann::ordered_json scene_json(const Scene& scene);
+
+// The two keys of these names.
+nlohmann::ordered_json transfer_function_json(const TransferFunction& transfer_function);
+nlohmann::ordered_json camera_json(const Camera& camera);
 
 // Data in memory, which a scene draws instead of what it names.
 enum class GivenData { none, volume, mesh };

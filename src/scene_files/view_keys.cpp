@@ -3,7 +3,7 @@
 
 #include "image/image_limits.h"
 #include "scene/lighting_check.h"
-#include "scene_files/forms.h"
+#include "scene_files/keys.h"
 #include "scene_files/scene_keys.h"
 
 namespace lamina {

@@ -15,7 +15,6 @@
 #include "parallel/picture_composer.h"
 #include "parallel/rank_resources.h"
 #include "render/pipeline.h"
-#include "scene_files/scene_document.h"
 #include "scene_files/scene_reader.h"
 
 namespace {

@@ -13,8 +13,8 @@
 #include "different_files.h"
 #include "named_output.h"
 #include "optics/segment_integral.h"
-#include "scene_files/integration_case.h"
 #include "scene_files/json_reader.h"
+#include "scene_files/transfer_keys.h"
 #include "verbs.h"
 
 namespace lamina {

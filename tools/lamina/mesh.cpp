@@ -21,7 +21,7 @@
 #include "raw_options.h"
 #include "render/pipeline.h"
 #include "scene_files.h"
-#include "scene_files/scene_document.h"
+#include "scene_files/scene_reader.h"
 #include "verbs.h"
 #include "volume_files/volume_file.h"
 

@@ -26,7 +26,7 @@
 #include "reference/order_pixels.h"
 #include "render/pipeline.h"
 #include "scene/scene_mesh.h"
-#include "scene_files/scene_document.h"
+#include "scene_files/scene_reader.h"
 #include "verbs.h"
 #include "visibility/visibility_order.h"
 

@@ -10,8 +10,6 @@
 #include "base/text.h"
 #include "named_output.h"
 #include "scene_files/json_reader.h"
-#include "scene_files/scene_document.h"
-#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {

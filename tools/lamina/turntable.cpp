@@ -13,7 +13,7 @@
 #include "git_commit.h"
 #include "output_folder.h"
 #include "scene_files.h"
-#include "scene_files/scene_json.h"
+#include "scene_files/scene_reader.h"
 
 namespace lamina {
 namespace {

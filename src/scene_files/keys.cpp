@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_files/forms.h"
+#include "scene_files/keys.h"
 
 #include <algorithm>
 
-#include "scene_files/color_json.h"
+#include "scene_files/json_reader.h"
 
 namespace lamina {
+
 namespace {
 
 KeyJson triple(const glm::dvec3& v) {
