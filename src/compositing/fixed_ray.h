@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "compositing/tree_shape.h"
 #include "lamina/emulation.h"
 #include "lamina/order.h"

@@ -3,8 +3,7 @@
 
 #include <span>
 
-#include "compositing/dither.h"
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 #include "executors/gl_compositing.h"
 #include "gl/framebuffer.h"
 

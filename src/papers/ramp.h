@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "compositing/fixed_ray.h"
 #include "image/difference.h"
 

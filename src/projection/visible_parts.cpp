@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/profile.h"
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 #include "projection/part_field.h"
 
 namespace lamina {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "compositing/tree_shape.h"
 #include "scene/coloring.h"
 #include "scene_files/data_keys.h"

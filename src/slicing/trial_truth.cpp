@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/profile.h"
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 
 namespace lamina {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 #include "gl/api.h"
 #include "gl/framebuffer.h"
 #include "gl/gl_fixture.h"

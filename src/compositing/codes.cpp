@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 
 #include <numeric>
 #include <utility>
-
-#include "compositing/random_bits.h"
 
 namespace lamina {
 
