@@ -22,9 +22,11 @@ class CompensatedSum {
     double rest_ = 0;
 };
 
-// The unevaluated sum hi + lo with |lo| <= ulp(hi)/2, which has about 31 digits (Dekker 1971; Hida,
-// Li and Bailey 2001). It is used for the few operations of a ray whose rounding would decide
-// whether, and at what length, the ray meets the box.
+// The unevaluated sum hi + lo with
+// lo
+// <= ulp(hi)/2, which has about 31 digits (Dekker 1971; Hida, Li and Bailey 2001). It serves the
+// few operations of a ray whose rounding would decide whether, and over what length, the ray meets
+// the box.
 struct DoubleDouble {
     double hi = 0;
     double lo = 0;
@@ -76,7 +78,7 @@ inline bool operator<(DoubleDouble a, DoubleDouble b) {
     return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
 }
 
-// The median of at least one value. For an even number of values it is the mean of the two in the
+// Returns the median of one value or more; of an even number of values, the mean of the two in the
 // middle.
 inline double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());

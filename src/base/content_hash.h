@@ -46,8 +46,8 @@ class ContentHash {
     std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 
-// A hash of a file's bytes (base/content_hash.h), read a piece at a time. Throws Error where it is
-// no regular file or cannot be read.
+// Returns the ContentHash of a file's bytes, which are read in pieces. Throws Error if it is no
+// regular file or cannot be read.
 std::string hash_of_file(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -24,12 +24,12 @@ template <typename... Args>
     throw Error(fmt::format(format, std::forward<Args>(args)...));
 }
 
-// `text` on one line: newlines and other control characters become single spaces.
+// Returns a text on one line: newlines and other control characters become single spaces.
 std::string one_line(const std::string& text);
 
-// The message of an exception, for people: one line in which no library speaks. Errors that a user
-// can cause have their own words. What the file system refuses is named with the system's reason.
-// Any other exception is a mistake of the program, and the line says what to report.
+// Returns the message of an exception, for people: one line in lamina's own words. Errors that a
+// user can cause have their message. A refusal of the file system is named with the system's
+// reason. Any other exception is a mistake of the program, and the line says what to report.
 std::string error_text(const std::exception& error);
 
 }  // namespace lamina

@@ -89,7 +89,8 @@ ByteBuffer read_large_file(const std::filesystem::path& path) {
 }
 
 std::string read_file_bytes(const std::filesystem::path& path) {
-    constexpr std::uint64_t most = std::uint64_t{1} << 30;  // bytes, far above journals and pages
+    // Bytes; far more than any page or journal has.
+    constexpr std::uint64_t most = std::uint64_t{1} << 30;
     const RandomAccessFile file(path);
     if (file.size() > most)
         fail("{}: found {} bytes, expected at most {}", path.string(), file.size(), most);

@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-// Bytes that are filled right after they are made: memory for gigabytes is not zeroed before.
+// Memory for bytes that are filled right after it is made, and so is not zeroed before.
 class ByteBuffer {
   public:
     ByteBuffer() = default;
@@ -29,7 +29,7 @@ class ByteBuffer {
     std::size_t size_ = 0;
 };
 
-// A regular file of which any part can be read. Throws Error where it is none or cannot be read.
+// A regular file of which any part can be read. Throws Error if it is none or cannot be read.
 class RandomAccessFile {
   public:
     explicit RandomAccessFile(const std::filesystem::path& path);
@@ -38,13 +38,14 @@ class RandomAccessFile {
     ~RandomAccessFile();
 
     std::uint64_t size() const { return size_; }  // in bytes, when it was opened
-    // Returns how many of the bytes from `begin` on there are; fewer than `count` at the file's
-    // end.
+    // Reads up to `count` bytes from `begin` on, and returns how many there were: fewer at the
+    // file's end.
     std::size_t read_some(std::uint64_t begin, char* to, std::size_t count) const;
     void read(std::uint64_t begin, char* to, std::size_t count) const;  // all of them
-    // For who reads from first to last alone: the system then reads further ahead.
+    // Tells the system that reads go from the first byte to the last: it then reads further ahead.
     void expect_in_order() const;
-    // For reads of single places: the system then reads nothing but what is asked for.
+    // Tells the system that reads are of single places: it then reads nothing but what is asked
+    // for.
     void expect_single_reads() const;
 
   private:
@@ -60,15 +61,15 @@ void expect_allowed(const std::filesystem::path& path);
 // Tells whether this thread's client allows some files only.
 bool is_restricted();
 
-// Throws Error unless `path` is a regular file, because opening a pipe may never end, and allowed.
+// Throws Error unless `path` is allowed and is a regular file: opening a pipe may never end.
 void expect_regular_file(const std::filesystem::path& path);
 
-// Reads all bytes of a regular file. Throws Error where it is not one or cannot be read.
+// Reads all bytes of a regular file. Throws Error if it is not one or cannot be read.
 ByteBuffer read_large_file(const std::filesystem::path& path);
-std::string read_file_bytes(const std::filesystem::path& path);  // of a small one
+std::string read_file_bytes(const std::filesystem::path& path);  // of at most 1 GiB
 
-// Up to so many bytes of the file's beginning; none where it is not a regular file or cannot be
-// read.
+// Returns the first `most` bytes of a file, or fewer if it is shorter; none if it is not a regular
+// file or cannot be read.
 std::string file_beginning(const std::filesystem::path& path, std::size_t most);
 
 // A file of the source tree that the build embeds into the program (cmake/EmbedFiles.cmake).

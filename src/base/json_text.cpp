@@ -24,8 +24,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// An iterator over a text. It reports how far it has come, because parsers copy their iterators,
-// and checks for a requested stop.
+// An iterator over a text that checks for a requested stop. Parsers copy their iterators, so it
+// reports to the outside how far it has come.
 class Cursor {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -49,8 +49,8 @@ class Cursor {
     const char** farthest_;
 };
 
-// Builds the document from the parser's events. The library's own builder, with a callback, looks
-// through a whole list again after each object in it, which takes quadratic time.
+// Builds the document from the parser's events. The library's own builder, with a callback,
+// searches the whole list again after each object in it, which takes quadratic time.
 class Builder : public nlohmann::json_sax<Json> {
   public:
     explicit Builder(std::string_view text) : text_(text), farthest_(text.data()) {}
@@ -132,7 +132,7 @@ class Builder : public nlohmann::json_sax<Json> {
     const char* farthest_;
     Json root_;
     std::vector<Json*> open_;  // lists and objects that have not ended, each in the one before
-    Json* member_ = nullptr;   // of the innermost object: the one whose key was read last
+    Json* member_ = nullptr;   // the value of the key that was read last, in the innermost object
     std::size_t values_ = 0;
 };
 

@@ -22,7 +22,7 @@ std::atomic<std::uint64_t> told_limit{0}, default_limit{0};  // 0: none
 std::uint64_t measure_machine_memory() {
     const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
     std::uint64_t bytes = page * static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES));
-    // "max", or no such file, where the control group has no limit.
+    // The file has "max", or does not exist, if the control group has no limit.
     std::uint64_t group = 0;
     if (std::ifstream("/sys/fs/cgroup/memory.max") >> group) bytes = std::min(bytes, group);
     return bytes;
@@ -80,10 +80,11 @@ std::shared_ptr<void> filled_memory(std::size_t bytes) {
 }
 
 void prefer_huge_pages(void* memory, std::size_t bytes) {
-    // Less may lie in the heap of malloc(), where what is asked would outlive the memory.
+    // Bytes. Smaller blocks may lie in the heap of malloc(), and advice for them would outlive
+    // them.
     constexpr std::size_t least = (std::size_t{1} << 25) + 1;
     if (bytes < least) return;
-    // Whole pages alone. Where there are no huge ones, the system refuses, and nothing is lost.
+    // Advice is for whole pages. A system without huge pages refuses it, and nothing is lost.
     const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     const auto first = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t begin = (first + page - 1) / page * page;

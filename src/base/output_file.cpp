@@ -34,8 +34,8 @@ namespace {
 
 constexpr int most_links = 40;  // Linux follows as many
 
-// Follows symbolic links, so that the file that a link leads to is written and the link stays. That
-// file need not exist yet.
+// Returns the file that symbolic links lead to, which need not exist yet: that file is written, and
+// the links stay.
 std::filesystem::path without_links(std::filesystem::path path) {
     std::error_code failure;
     for (int links = 0; std::filesystem::is_symlink(path, failure); ++links) {
@@ -54,7 +54,7 @@ std::filesystem::path name_beside(const std::filesystem::path& path, int number)
     return path.parent_path() / (name.substr(0, NAME_MAX - suffix.size()) + suffix);
 }
 
-// Returns true also where the file system has no locks.
+// Returns true if the file is locked now, and also if its file system has no locks.
 bool lock(int descriptor) {
     return flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
@@ -66,8 +66,8 @@ bool is_at(int descriptor, const std::filesystem::path& path) {
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-// Removes what a killed process left under this name, which nobody has locked. Returns false where
-// the file is in use or is not one of ours.
+// Removes the file of this name if a killed process left it, which nobody has locked. Returns false
+// if the file is in use or is not one of ours.
 bool remove_abandoned(const std::filesystem::path& path) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return errno == ENOENT;
@@ -108,7 +108,7 @@ bool AtomicFile::open_nameless() {
     descriptor_ = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor_ < 0) return false;
     lock(descriptor_);
-    // Without /proc the open file could not be given a name.
+    // A file without a name gets one through /proc alone.
     if (access(descriptor_path(descriptor_).c_str(), F_OK) == 0) return true;
     close(descriptor_);
     return false;
@@ -130,8 +130,8 @@ void AtomicFile::open_named() {
     }
 }
 
-// Takes over who may read and write the file that is replaced, before anything is written: what was
-// private stays so. A file system without modes refuses, and then there is none to keep.
+// Gives the new file the permissions of the file that it replaces, before anything is written:
+// private data stay private. A file system without modes refuses, and then there is none to keep.
 void AtomicFile::keep_mode() const {
     struct stat replaced = {};
     if (stat(path_.c_str(), &replaced) != 0) return;
@@ -160,7 +160,8 @@ void AtomicFile::close_stream() {
     if (broken) give_up(EIO);
 }
 
-// linkat() cannot give a name that exists. rename() replaces files, but needs one that has a name.
+// linkat() cannot replace a file, so the new file gets a temporary name first; rename() then
+// replaces the old file.
 void AtomicFile::give_name() {
     const std::string unnamed = descriptor_path(descriptor_);
     for (int number = 0; temporary_.empty();) {
@@ -280,8 +281,8 @@ std::set<std::string> OwnFiles::listed() const {
 }
 
 void OwnFiles::expect_own(const std::vector<std::string>& names) const {
-    // The folder is read before the list, because another process that writes into the folder at
-    // the same time puts its files on the list before it makes them.
+    // The order matters: another process that writes into the folder at the same time puts its
+    // files on the list before it makes them, so the folder is read before the list.
     std::vector<std::string> there;
     for (const std::string& name : names) {
         if (is_there(folder_ / name)) there.push_back(name);

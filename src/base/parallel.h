@@ -29,8 +29,8 @@ namespace lamina {
 
 // Tells the thread sanitizer what oneTBB guarantees, which it cannot see in a library that was
 // built without it: a task runs after what its caller did before the loop, and the caller goes on
-// after all tasks. It claims no order between tasks, so that races among them are found. In every
-// other build it is empty.
+// after all tasks. No order between tasks is claimed, so that races among them are found. In every
+// other build it does nothing.
 class HandOver {
   public:
     HandOver() { release(&given_); }
@@ -38,8 +38,8 @@ class HandOver {
     HandOver(const HandOver&) = delete;
     HandOver& operator=(const HandOver&) = delete;
 
-    // Calls `work` as a task. The calling function reads the task's captures, which oneTBB may have
-    // copied on another core. So it must be marked LAMINA_UNSEEN_BY_THREAD_SANITIZER.
+    // Calls `work` as a task. The function that calls this reads the task's captures, which oneTBB
+    // may have copied on another core, so it must be marked LAMINA_UNSEEN_BY_THREAD_SANITIZER.
     template <typename Work>
     void task(const Work& work) {
         acquire(&given_);
@@ -104,8 +104,8 @@ void parallel_invoke(const First& first, const Second& second) {
 }
 
 // Sorts on all cores. Elements that `less` does not distinguish come in any order. Under the thread
-// sanitizer it sorts on one core, because oneTBB passes data between tasks inside its sort, where
-// HandOver cannot be called.
+// sanitizer it sorts on one core, because oneTBB passes data between tasks inside its sort, out of
+// HandOver's reach.
 template <typename Iterator, typename Less>
 void parallel_sort(Iterator begin, Iterator end, const Less& less) {
 #ifdef LAMINA_THREAD_SANITIZER

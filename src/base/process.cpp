@@ -35,7 +35,7 @@ void make_streams_safe() {
     std::signal(SIGXFSZ, SIG_IGN);
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-        // Opened the other way round, reading from stdin and writing to the others fails. open()
+        // /dev/null is opened so that reading from stdin and writing to the others fails. open()
         // returns the lowest free descriptor, which is this one.
         open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     }
@@ -63,8 +63,8 @@ void replace_line(const std::string& line) {
 
 namespace {
 
-// A handler has no argument but the signal, so what it uses is global. The semaphore is never
-// destroyed, because a handler may still run in another thread when a SignalStop ends.
+// Global, because a handler has no argument but the signal. The semaphore is never destroyed,
+// because a handler may still run in another thread when a SignalStop ends.
 struct Wake {
     Wake() { sem_init(&semaphore, 0, 0); }
     sem_t semaphore{};
@@ -122,7 +122,8 @@ bool is_program(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
 }
 
-// The folder of programs that was installed with the library, for other programs that load it.
+// Returns the folder of the programs that are installed with the library, for other programs that
+// load it.
 std::filesystem::path programs_of_library() {
     Dl_info info{};
     if (dladdr(reinterpret_cast<const void*>(&is_program), &info) == 0 || !info.dli_fname)

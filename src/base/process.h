@@ -17,19 +17,18 @@ namespace lamina {
 
 // Must be called at the start, before any file is opened. Afterwards writing into a pipe without a
 // reader, or beyond the limit on the size of files, is an error of the write and does not end the
-// process. It also occupies standard descriptors that the caller closed. Otherwise the first file
+// process. Standard descriptors that the caller has closed are occupied; otherwise the first file
 // that is opened would become stdout and receive the results. Using such a descriptor still fails.
 void make_streams_safe();
 
-// Writes a result to stdout. Throws Error where it cannot be written (a full disk, no reader).
+// Writes a result to stdout. Throws Error if it cannot be written (a full disk, no reader).
 void write_result(const std::string& text);
 void flush_results();  // writes out what is buffered; throws Error
 
-// Writes a message for people to stderr: one line with its newline, which is the only control
-// character that is not escaped as by printable(). Where it cannot be written, it is lost without
-// an error.
+// Writes a message for people to stderr: one line with its newline, the only control character that
+// is not escaped as by printable(). If it cannot be written, it is lost without an error.
 void write_message(const std::string& line);
-// The same, but it replaces the terminal's current line and does not end it.
+// Writes a message that replaces the terminal's current line and does not end it.
 void replace_line(const std::string& line);
 
 template <typename... Args>
@@ -42,10 +41,10 @@ void print_message(fmt::format_string<Args...> format, Args&&... args) {
     write_message(fmt::format(format, std::forward<Args>(args)...));
 }
 
-// While it exists, SIGINT, SIGTERM and SIGHUP do not end the process but request a stop of its
-// token. Signals that were set to be ignored before (nohup, a shell's background) stay ignored.
+// Makes SIGINT, SIGTERM and SIGHUP request a stop of its token while it exists; they do not end the
+// process. Signals that were set to be ignored before (nohup, a shell's background) stay ignored.
 // Programs make one and work within a ClientScope with its token. Only one may exist at a time.
-// Throws std::system_error where its thread cannot be started.
+// Throws std::system_error if its thread cannot be started.
 class SignalStop {
   public:
     SignalStop();
@@ -55,7 +54,7 @@ class SignalStop {
 
     std::stop_token token() const { return source_.get_token(); }
 
-    // 128 and the signal's number, as shells have it: 130 for Ctrl-C. Valid once a stop is
+    // Returns 128 plus the signal's number, as shells have it: 130 for Ctrl-C. Valid once a stop is
     // requested.
     int exit_code() const;
 
@@ -63,14 +62,13 @@ class SignalStop {
     static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
 
     std::stop_source source_;
-    // stop_source::request_stop() takes a lock, which a signal handler must not do: this thread
-    // calls it.
+    // This thread calls stop_source::request_stop(), which takes a lock: a signal handler must not.
     std::jthread waiter_;
     std::array<struct sigaction, signals.size()> before_{};
 };
 
-// Where the program is that was built or installed with this one: beside the program that runs,
-// where the library's programs are installed, else in the PATH.
+// Finds a program that was built or installed with this one: beside the running program, among the
+// programs installed with the library, or else in the PATH.
 std::optional<std::filesystem::path> find_program(const std::string& name);
 
 }  // namespace lamina

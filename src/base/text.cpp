@@ -21,7 +21,7 @@ unsigned byte_at(std::string_view text, std::size_t at) {
     return static_cast<unsigned char>(text[at]);
 }
 
-// Returns the length of the character that `text` begins with, or 0 where it is not valid UTF-8
+// Returns the length of the character that `text` begins with, or 0 if it is not valid UTF-8
 // (The Unicode Standard, table 3-7: no overlong forms, no surrogates, nothing above U+10FFFF).
 std::size_t character_length(std::string_view text) {
     const unsigned first = byte_at(text, 0);
@@ -71,7 +71,8 @@ std::string printable(std::string_view text) {
 }
 
 std::string number_text(double value, double fineness, int digits) {
-    // Beside others like it, 1000000 is easier to read than 1e+06.
+    // Numbers that are as large as this but close together are easier to compare as 1000000 than as
+    // 1e+06.
     if (fineness < 1e-4 * std::abs(value) && std::abs(value) < 1e15)
         digits = std::max(digits, static_cast<int>(std::log10(std::abs(value))) + 1);
     std::string text = fmt::format("{:.{}g}", value, digits);

@@ -17,7 +17,7 @@ struct SampleSpan {
 
 // The samples of child i of a node with k children and n samples (docs/numerics.md, section 3):
 // floor(i n / k) .. floor((i + 1) n / k). The children's sizes differ by at most one; some are
-// empty where k > n.
+// empty if k > n.
 SampleSpan child_span(const SampleSpan& node, int child, int children);
 
 // A compositing tree over N samples (LaMar 2004, section 6), given by bifurcation factors from the

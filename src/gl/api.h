@@ -12,7 +12,7 @@ namespace lamina::gl {
 // of EGL.
 const GladGLContext& api();
 
-// Throws Error where OpenGL has reported an error since the last call. `where` completes "OpenGL:
+// Throws Error if OpenGL has reported an error since the last call. `where` completes "OpenGL:
 // ... while ", for example "drawing the slabs". Does not wait for the GPU.
 void check(std::string_view where);
 
@@ -43,10 +43,10 @@ class Handle {
 };
 
 // Bytes of buffers and textures that this thread's current context holds now: what was asked for,
-// without the driver's padding. 0 where none is current.
+// without the driver's padding. 0 if none is current.
 std::int64_t bytes_allocated();
 
-// Throws Error where a limit on the process's memory (ulimit -v) leaves less than `bytes`. Mesa's
+// Throws Error if a limit on the process's memory (ulimit -v) leaves less than `bytes`. Mesa's
 // software renderers crash when they run out of memory and cannot be stopped earlier.
 void require_memory_left(std::int64_t bytes);
 

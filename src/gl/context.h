@@ -56,7 +56,7 @@ class Context {
     friend class CurrentContext;
     friend const GladGLContext& api();
 
-    // In this thread, in which the library has no other current one; an Error where it fails.
+    // In this thread, in which the library has no other current one; an Error if it fails.
     virtual void bind() = 0;
     virtual void release() = 0;
 
@@ -73,9 +73,9 @@ enum class EglDevices { hardware, any };
 std::unique_ptr<Context> create_osmesa_context();
 std::unique_ptr<Context> create_egl_context(EglDevices devices);
 
-// What a library has current in this thread, whoever made it; `context` is null where nothing is.
+// What a library has current in this thread, whoever made it; `context` is null if nothing is.
 struct EglBinding {
-    unsigned api = 0;  // that eglBindAPI() chose; 0 where EGL is not loaded
+    unsigned api = 0;  // that eglBindAPI() chose; 0 if EGL is not loaded
     void *display = nullptr, *draw = nullptr, *read = nullptr, *context = nullptr;
 };
 struct OsmesaBinding {
@@ -96,7 +96,7 @@ void restore(const OsmesaBinding& binding);
 // Scopes of a thread end in the reverse order of their beginnings.
 class CurrentContext {
   public:
-    // An Error where the context is current in another thread.
+    // An Error if the context is current in another thread.
     explicit CurrentContext(Context& context);
     ~CurrentContext();
     CurrentContext(const CurrentContext&) = delete;
@@ -107,7 +107,7 @@ class CurrentContext {
     void give_back() const;
 
     Context& context_;
-    Context* const before_;  // of this room; null where none was current
+    Context* const before_;  // of this room; null if none was current
     EglBinding egl_;         // of anybody, like the next
     OsmesaBinding osmesa_;
 };

@@ -175,7 +175,7 @@ struct Egl {
         library.function<decltype(&eglGetCurrentDisplay)>("eglGetCurrentDisplay");
     decltype(&eglGetCurrentSurface) current_surface =
         library.function<decltype(&eglGetCurrentSurface)>("eglGetCurrentSurface");
-    // These are extensions, and null where EGL lacks them.
+    // These are extensions, and null if EGL lacks them.
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
         extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     PFNEGLQUERYDEVICESEXTPROC query_devices =

@@ -18,7 +18,7 @@ namespace lamina::gl {
 // shader's output `location = i`.
 class Framebuffer {
   public:
-    // Throws Error where the driver cannot draw into these formats.
+    // Throws Error if the driver cannot draw into these formats.
     explicit Framebuffer(std::vector<Texture> colors);
     explicit Framebuffer(Texture color);
 

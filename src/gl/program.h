@@ -62,11 +62,11 @@ class LinkedProgram {
     LinkedProgram(const ShaderSource& vertex, const ShaderSource& fragment);
 
     bool is_of(const ShaderSource& vertex, const ShaderSource& fragment) const;
-    // -1 where the source names the uniform but this specialisation does not use it; a name that is
+    // -1 if the source names the uniform but this specialisation does not use it; a name that is
     // nowhere in the source is an Error.
     int location(std::string_view name);
     void set(int location, const UniformValue& value);
-    // From now on OpenGL has the values of user number `user`, and 0 where it has set none.
+    // From now on OpenGL has the values of user number `user`, and 0 if it has set none.
     void give_to(std::uint64_t user, const std::map<int, UniformValue>& values);
     bool belongs_to(std::uint64_t user) const { return user_ == user; }
 

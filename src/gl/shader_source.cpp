@@ -49,7 +49,7 @@ std::optional<std::string> find_shader(const std::string& name) {
 
 namespace {
 
-// Returns the word after the line's '#', such as "include" or "version". It is empty where the line
+// Returns the word after the line's '#', such as "include" or "version". It is empty if the line
 // is no directive.
 std::string directive_of(const std::string& line) {
     static const std::regex pattern("^\\s*#\\s*(\\w+)");

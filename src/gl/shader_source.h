@@ -19,7 +19,7 @@ std::span<const EmbeddedFile> embedded_shaders();
 // Names of all embedded files, included ones (.glsl) too.
 std::vector<std::string> shader_names();
 
-// The text of shader file `name`, or nothing where there is none. If the directory named by the
+// The text of shader file `name`, or nothing if there is none. If the directory named by the
 // environment variable LAMINA_SHADER_DIR has the file, it is read from there, so that shaders can
 // be edited without a build. Otherwise the embedded file is returned.
 std::optional<std::string> find_shader(const std::string& name);
@@ -34,7 +34,7 @@ struct Defines {
     friend bool operator==(const Defines&, const Defines&) = default;
 };
 
-// The text of a shader file, or nothing where there is none.
+// The text of a shader file, or nothing if there is none.
 using ShaderFinder = std::function<std::optional<std::string>(const std::string& name)>;
 
 // Where a line of a composed shader comes from.
@@ -56,7 +56,7 @@ struct ShaderSource {
 // Composes the shader `name`. Its first directive must be `#version 450 core`; a pragma
 // and the defines are inserted after it. A line `#include "compositing/over.glsl"`, which may be
 // under an #if, is replaced by that file (named from the root of shaders/), unless the compiler has
-// already seen it. Throws Error, which names file and line, where a file is missing, includes form
+// already seen it. Throws Error, which names file and line, if a file is missing, includes form
 // a cycle, or an include is malformed.
 ShaderSource compose_shader(const std::string& name, const Defines& defines = {});
 ShaderSource compose_shader(const std::string& name, const Defines& defines,

@@ -18,7 +18,7 @@ class Fence {
     Fence& operator=(const Fence&) = delete;
 
     void set();  // places the fence at the current point
-    // Waits until all commands before it are complete; returns at once where it was not set.
+    // Waits until all commands before it are complete; returns at once if it was not set.
     void wait();
 
   private:
@@ -45,7 +45,7 @@ class Query {
 };
 
 // OpenGL's row of a Profile (base/profile.h): when the context executed submitted commands. Does
-// nothing where no Profile records, or where the context has no clock of its own.
+// nothing if no Profile records, or where the context has no clock of its own.
 class Timeline {
   public:
     // begin() and end() enclose the commands of one span; spans do not nest. `name`: a literal.

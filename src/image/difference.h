@@ -20,7 +20,7 @@ struct Difference {
     std::vector<double> e;
 };
 
-// Both throw Error where the sizes differ (the message has both), and for PNGs where the channels
+// Both throw Error if the sizes differ (the message has both), and for PNGs where the channels
 // differ.
 template <typename RealA, typename RealB>
 Difference difference(const RgbaImage<RealA>& a, const RgbaImage<RealB>& b);
@@ -46,7 +46,7 @@ struct ImageError {
     Worst worst;  // the first component with |e| = all.linf
 };
 
-// Throws Error where some e is not finite.
+// Throws Error if some e is not finite.
 ImageError measure(const Difference& difference);
 
 template <typename RealA, typename RealB>

@@ -106,7 +106,7 @@ class HeaderWalk {
     }
 
   private:
-    // Checks the attributes of one header. Returns false where there are none, or the file ends.
+    // Checks the attributes of one header. Returns false if there are none, or the file ends.
     bool check_attributes() {
         window_.reset();
         tile_.reset();
@@ -185,7 +185,7 @@ class HeaderWalk {
     std::uint32_t chunks_ = 0;
 };
 
-// Checks the headers of an OpenEXR file before OpenEXR reads them. Throws Error where an attribute,
+// Checks the headers of an OpenEXR file before OpenEXR reads them. Throws Error if an attribute,
 // or the table of tiles, promises more bytes than the file has left, or where the length of an
 // attribute does not fit its type. OpenEXR 3.1 would take up to 2 GiB of memory for such an
 // attribute, or read beyond it. OpenEXR reports other defects of a header itself.

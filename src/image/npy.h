@@ -20,9 +20,9 @@ class NpyHeader {
   public:
     explicit NpyHeader(const std::filesystem::path& path);
 
-    std::string descr() const;  // "<f4"; empty where it is no string
+    std::string descr() const;  // "<f4"; empty if it is no string
     bool is_fortran_order() const;
-    std::vector<std::int64_t> shape() const;  // empty where it is no tuple of whole numbers
+    std::vector<std::int64_t> shape() const;  // empty if it is no tuple of whole numbers
     std::int64_t data_offset() const { return data_offset_; }
 
     // Throws the Error that tells what was found under a key.
@@ -37,7 +37,7 @@ class NpyHeader {
 };
 
 // Writes NumPy's format (NEP 1), version 1.0: float32 or float64 as the image has them, little
-// endian, C order, shape (height, width, 4). Throws Error where a component is not finite or the
+// endian, C order, shape (height, width, 4). Throws Error if a component is not finite or the
 // disk is full. The caller commits the file.
 void write_npy(OutputFile& file, const Image& image);
 void write_npy(OutputFile& file, const PreciseImage& image);

@@ -102,11 +102,11 @@ struct RoundedPlane {
 
     glm::dvec3 normal{0};
     double error = 0;  // error of its value at a point, per unit (1-norm) of distance
-    // The sign (1 or -1) of the true plane's value, or 0 where rounding leaves it unknown.
+    // The sign (1 or -1) of the true plane's value, or 0 if rounding leaves it unknown.
     int sign(const glm::dvec3& from_origin) const;
 };
 
-// The exact side of a triangle's plane on which a point lies: 1 where the corners are seen
+// The exact side of a triangle's plane on which a point lies: 1 if the corners are seen
 // counter-clockwise from it, -1 on the other side, 0 on the plane. `plane`: the plane through the
 // first corner along the edges from there.
 int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& point);
@@ -119,7 +119,7 @@ class PlaneSide {
     // `bounds`: a box around all boxes.
     PlaneSide(const RoundedPlane& plane, const glm::dvec3& origin, const FaceTree::Box& bounds);
     // Whether a box or a triangle may contain a point of the half space. Rounding never makes this
-    // false where it does contain one.
+    // false if it does contain one.
     bool reaches(const FaceTree::Box& box) const {
         // The corner of the box that is farthest along the normal.
         const auto most = [&](int axis) {

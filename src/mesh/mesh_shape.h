@@ -10,7 +10,7 @@ namespace lamina {
 
 struct EdgeLengths {
     double shortest = 0, longest = 0;
-    // Longest edge over shortest edge; infinite where two points coincide.
+    // Longest edge over shortest edge; infinite if two points coincide.
     double ratio() const {
         return shortest > 0 ? longest / shortest : std::numeric_limits<double>::infinity();
     }

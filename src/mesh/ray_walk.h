@@ -33,7 +33,7 @@ struct RayFront {
     };
     std::array<Corner, 3> corners;  // counter-clockwise
     // Twice the areas of the triangles of the line and the edges 01, 12 and 20. None is negative;
-    // it is 0 where rounding alone gave a negative one.
+    // it is 0 if rounding alone gave a negative one.
     std::array<double, 3> areas;
 };
 
@@ -120,7 +120,7 @@ class RayWalk {
     // The side of the line on which the edge from a to b passes, and twice the area of the triangle
     // of the line, a and b.
     struct Side {
-        double area;  // has the sign below, or is 0 where rounding gave the other sign
+        double area;  // has the sign below, or is 0 if rounding gave the other sign
         int sign;     // exact, never 0
     };
 

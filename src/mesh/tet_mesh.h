@@ -21,7 +21,7 @@ namespace lamina {
 // The tet across each face, found by corner indices alone. Faces of three or more tets have no tet
 // across.
 struct FaceMatching {
-    // Tet across face i; -1 where there is none.
+    // Tet across face i; -1 if there is none.
     std::vector<std::array<std::int32_t, 4>> neighbors;
     // Tets with the same corners as an earlier tet, ascending.
     std::vector<std::int32_t> duplicates;
@@ -129,7 +129,7 @@ struct ScalarRange {
     std::int64_t non_finite = 0;  // number of NaN or infinite values
 };
 
-// The range of a tet's corners; empty where one of them is not finite.
+// The range of a tet's corners; empty if one of them is not finite.
 inline ValueRange range_in(std::span<const double> values, const Tet& tet) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     ValueRange range{infinity, -infinity};

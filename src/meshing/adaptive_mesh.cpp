@@ -47,7 +47,7 @@ class Points {
   public:
     explicit Points(const TrilinearField& field) : field_(field) {}
 
-    // Returns false where there is such a point already.
+    // Returns false if there is such a point already.
     bool add(const glm::dvec3& point) {
         if (!places_.insert(place_of(point)).second) return false;
         points_.push_back(point);
@@ -297,7 +297,7 @@ void Refinement::add_points(const std::vector<std::int32_t>& violators, std::siz
     }
 }
 
-// Does one round. Returns false where nothing is left to do, or there is no room to do it.
+// Does one round. Returns false if nothing is left to do, or there is no room to do it.
 bool Refinement::refine(MeshReport& report) {
     const std::vector<std::int32_t> worst = violators();
     report.within_tolerance = worst.empty();

@@ -32,7 +32,7 @@ std::optional<std::filesystem::path> find_tetrahedralizer();
 std::filesystem::path require_tetrahedralizer();
 
 // Makes Delaunay tetrahedra with `program` (meshing/tetrahedralize_protocol.h), which runs as a
-// separate process with temporary files for its input and output. Throws Error where it cannot be
+// separate process with temporary files for its input and output. Throws Error if it cannot be
 // started, fails, or does not answer. Ctrl-C ends it.
 DelaunayTets delaunay_by_process(const std::filesystem::path& program,
                                  std::span<const glm::dvec3> points);

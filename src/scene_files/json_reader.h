@@ -50,7 +50,7 @@ class JsonReader {
     bool has(const std::string& key);
     JsonReader object(const std::string& key);  // an empty object when absent
     std::vector<JsonReader> objects(const std::string& key);
-    // Throws KeyError where the key is missing.
+    // Throws KeyError if the key is missing.
     const nlohmann::json& value(const std::string& key);
 
     double number(const std::string& key);

@@ -33,12 +33,12 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
                  GivenData given = GivenData::none);
 
 // Sets `key` ("render.slice.samples", list elements by number) to `value`, which is JSON where it
-// parses as JSON and a string otherwise; null removes the key. Throws UsageError where the path
+// parses as JSON and a string otherwise; null removes the key. Throws UsageError if the path
 // leads through a value that is neither an object nor a list.
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value);
 
 // Removes `key` from the object that contains it. A document without the key stays as it is. Throws
-// UsageError where the key has an empty component.
+// UsageError if the key has an empty component.
 void remove_key(nlohmann::json& document, const std::string& key);
 
 }  // namespace lamina

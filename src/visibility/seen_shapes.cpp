@@ -183,8 +183,8 @@ int SeenTriangle::face_sign(const glm::dvec3& point) const {
     return side_of(corners_, face_, point);
 }
 
-// Returns 1 where all corners of `other` are on or outside this triangle's plane, -1 where they are
-// on or inside, and 0 where they are on both sides.
+// Returns 1 if all corners of `other` are on or outside this triangle's plane, -1 if they are
+// on or inside, and 0 if they are on both sides.
 int SeenTriangle::all_on_one_side(const SeenTriangle& other) const {
     bool outside = false, inside = false;
     for (const glm::dvec3& point : other.corners_) {

@@ -114,7 +114,7 @@ class SeenThrough {
     // `bounds`: a box around all boxes.
     SeenThrough(const SeenTriangle& exit, const FaceTree::Box& bounds);
     // Whether a box or a triangle may contain a point of the region. Rounding never makes this
-    // false where it does contain one.
+    // false if it does contain one.
     template <typename Shape>
     bool reaches(const Shape& box_or_triangle) const {
         return sides_[0].reaches(box_or_triangle) && sides_[1].reaches(box_or_triangle) &&

@@ -29,7 +29,7 @@ class SampleSource {
     SampleSource& operator=(const SampleSource&) = delete;
 
     // Reads a box inside the volume, in the volume's type and native byte order, x fastest. Throws
-    // Error where the files do not have it any more.
+    // Error if the files do not have it any more.
     virtual void read(const SampleBox& box, void* to) const = 0;
 
     // Boxes of this size, and on multiples of it, are read at the least cost. 0: any size.
@@ -46,7 +46,7 @@ class SampleSource {
     // holes in sparse files.
     virtual bool known_as_zero(const SampleBox& /*box*/) const { return false; }
 
-    // Throws Error where the files have changed since they were opened.
+    // Throws Error if the files have changed since they were opened.
     virtual void check_unchanged() const = 0;
 
     // The file or folder that stands for them, and the names of all files with what of them is

@@ -22,7 +22,7 @@ struct Histogram {
 
     std::vector<double> edges;         // one more than counts, or none
     std::vector<std::int64_t> counts;  // sum: the finite values
-    double per_unit = 0;               // intervals per unit of value; 0 where that is no number
+    double per_unit = 0;               // intervals per unit of value; 0 if that is no number
 
     bool empty() const { return counts.empty(); }
 
@@ -59,7 +59,7 @@ struct ValueStatistics {
     static constexpr std::array<int, 9> places{1, 10, 50, 250, 500, 750, 950, 990, 999};
 
     std::int64_t count = 0;           // finite values
-    std::vector<double> percentiles;  // one a place; none where there is no value
+    std::vector<double> percentiles;  // one a place; none if there is no value
     Histogram histogram;              // likewise
 
     // A percentile is the smallest value that at least this share of the values does not exceed.

@@ -177,7 +177,7 @@ class IndexMaker {
 };
 
 // In the user's cache folder, by the names of the volume's files and what is taken of them; empty
-// where there is no such folder.
+// if there is no such folder.
 std::filesystem::path cached_index(const Volume& volume) {
     std::filesystem::path folder;
     if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != 0)

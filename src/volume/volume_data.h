@@ -31,7 +31,7 @@ std::filesystem::path index_file_of(const Volume& volume);
 void write_index(const Volume& volume, const VolumeIndex& index, const std::filesystem::path& file);
 
 // A volume's index in a file: a line that names the format; a header of one line, in JSON; the
-// values' counts or values; the ranges of bricks in pieces, each behind a byte that is 0 where the
+// values' counts or values; the ranges of bricks in pieces, each behind a byte that is 0 if the
 // piece is 0 and left out; and a hash of all that follows the first line. Binary numbers are those
 // of a little-endian machine. `identity`: of the samples (SampleSource).
 void write_index_file(const std::filesystem::path& file, const std::string& identity,

@@ -115,7 +115,7 @@ decltype(auto) visit_samples(const Volume& volume, const Visitor& visitor) {
     });
 }
 
-// Throws Error where the files of a volume that stays in them have changed since it was opened.
+// Throws Error if the files of a volume that stays in them have changed since it was opened.
 inline void check_unchanged(const Volume& volume) {
     if (!volume.in_memory()) volume.store().source().check_unchanged();
 }
