@@ -40,7 +40,7 @@ const char* name_of(GLenum error) {
     }
 }
 
-// Returns the driver's own words on the oldest error, and empties its log.
+// Returns the driver's own message about the oldest error, and empties its log.
 std::string take_debug_message() {
     std::string first;
     std::array<char, 1024> text;

@@ -8,12 +8,11 @@ struct GladGLContext;  // of <glad/gl.h>
 
 namespace lamina::gl {
 
-// OpenGL's functions, of the context that is current in this thread: those of OSMesa are not those
-// of EGL.
+// Returns OpenGL's functions of the context that is current in this thread: OSMesa's are not EGL's.
 const GladGLContext& api();
 
-// Throws Error if OpenGL has reported an error since the last call. `where` completes "OpenGL:
-// ... while ", for example "drawing the slabs". Does not wait for the GPU.
+// Throws Error if OpenGL has reported an error since the last call. `where` completes "OpenGL: ...
+// while ", as "drawing the slabs" does. Does not wait for the GPU.
 void check(std::string_view where);
 
 enum class ObjectKind { buffer, texture, vertex_array, framebuffer, query, shader, program };
@@ -42,16 +41,16 @@ class Handle {
     unsigned id_ = 0;
 };
 
-// Bytes of buffers and textures that this thread's current context holds now: what was asked for,
-// without the driver's padding. 0 if none is current.
+// Returns the bytes of buffers and textures that this thread's current context holds now: those
+// that were asked for, without the driver's padding. 0 if no context is current.
 std::int64_t bytes_allocated();
 
 // Throws Error if a limit on the process's memory (ulimit -v) leaves less than `bytes`. Mesa's
-// software renderers crash when they run out of memory and cannot be stopped earlier.
+// software renderers crash when they run out of memory, and nothing later could stop them.
 void require_memory_left(std::int64_t bytes);
 
 inline constexpr std::int64_t memory_for_context = std::int64_t{1} << 30;
-// Needed once the context exists.
+// Bytes that must be left beside what a draw takes itself, once the context exists.
 inline constexpr std::int64_t memory_for_drawing = std::int64_t{1} << 28;
 
 // The contribution of one object to bytes_allocated() during its lifetime.

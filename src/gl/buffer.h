@@ -9,14 +9,15 @@
 
 namespace lamina::gl {
 
-// GPU memory of a fixed size for vertices, indices or blocks of data. Contents are undefined until
-// written.
+// GPU memory of a fixed size for vertices, indices or blocks of data. Its contents are undefined
+// until written.
 class Buffer {
   public:
     Buffer() = default;
     explicit Buffer(std::size_t byte_count);
-    // Makes a buffer for a stream of data. It stays mapped, and draws see what was written through
-    // mapped() before them. The writer must not change data that a draw still reads (see Fence).
+    // Makes a buffer for a stream of data. It stays mapped, and a draw sees what was written
+    // through mapped() before it. The writer must not change data that a draw still reads (see
+    // Fence).
     static Buffer make_mapped(std::size_t byte_count);
 
     template <typename T, std::size_t extent>
@@ -35,7 +36,7 @@ class Buffer {
     void bind_uniform(unsigned binding) const;
     void bind_storage(unsigned binding) const;
 
-    // Null where the buffer is not mapped; slow to read.
+    // Returns the mapped memory, which is slow to read; null if the buffer is not mapped.
     std::byte* mapped() const { return mapped_; }
 
     unsigned id() const { return handle_.id(); }

@@ -154,7 +154,7 @@ CurrentContext::CurrentContext(Context& context) : context_(context), before_(cu
     current_of_thread = &context_;
 }
 
-// EGL's context goes first, because Mesa's EGL and OSMesa share one notion of what is current:
+// EGL's context is released first: Mesa's EGL and OSMesa share one notion of what is current, and
 // OSMesa would take a context of EGL for one of its own.
 void CurrentContext::take() {
     egl_ = release_egl();

@@ -26,7 +26,7 @@ namespace lamina::gl {
 
 namespace {
 
-// From GL/osmesa.h, which Mesa 25.1 and later no longer have.
+// Constants of GL/osmesa.h, which Mesa 25.1 and later lack.
 constexpr int osmesa_rgba = 0x1908;
 constexpr int osmesa_format = 0x22;
 constexpr int osmesa_profile = 0x33;
@@ -61,8 +61,8 @@ struct Osmesa {
         library.function<decltype(get_proc_address)>("OSMesaGetProcAddress");
 };
 
-// Checks the driver that the environment asks for. OSMesa crashes where it does not have that
-// driver, and only one driver has OpenGL 4.5.
+// Throws Error if the environment asks for a driver other than llvmpipe, the only one with OpenGL
+// 4.5: OSMesa crashes if it lacks the driver.
 void check_driver_asked_for() {
     const char* const driver = std::getenv("GALLIUM_DRIVER");
     if (driver != nullptr && std::string_view(driver) != "llvmpipe")
@@ -104,7 +104,7 @@ class OsmesaContext : public Context {
     void release() override { osmesa().make_current(nullptr, nullptr, 0, 0, 0); }
 
     OsmesaHandle context_ = nullptr;
-    std::array<std::uint8_t, 4> pixel_{};  // the default framebuffer, which nobody draws into
+    std::array<std::uint8_t, 4> pixel_{};  // the default framebuffer, into which nothing is drawn
 };
 
 }  // namespace
@@ -145,8 +145,8 @@ namespace {
 
 constexpr const char* library_name = "libEGL.so.1";
 
-// Mesa's loader reports every driver that it tries in vain on stderr. Failures reach the user
-// through Error instead.
+// Loads EGL so that Mesa's loader does not report every driver that it tries in vain on stderr.
+// Failures reach the user through Error.
 SharedLibrary load_quietly() {
     setenv("EGL_LOG_LEVEL", "fatal", 0);
     return SharedLibrary{library_name};
@@ -175,7 +175,7 @@ struct Egl {
         library.function<decltype(&eglGetCurrentDisplay)>("eglGetCurrentDisplay");
     decltype(&eglGetCurrentSurface) current_surface =
         library.function<decltype(&eglGetCurrentSurface)>("eglGetCurrentSurface");
-    // These are extensions, and null if EGL lacks them.
+    // Functions of extensions; null if EGL lacks them.
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
         extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     PFNEGLQUERYDEVICESEXTPROC query_devices =
@@ -216,7 +216,7 @@ std::string last_error() {
     return index < std::size(names) ? names[index] : fmt::format("error {:#x}", code);
 }
 
-// A way to a display: a device or, with no device, whatever Mesa finds without a display server.
+// A way to a display: a device, or the platform that Mesa has without a display server.
 struct Route {
     std::string name;
     EGLenum platform;
@@ -242,7 +242,7 @@ std::vector<Route> device_routes() {
     return hardware;
 }
 
-// Hardware comes first.
+// Lists all ways to a display, hardware first.
 std::vector<Route> all_routes() {
     std::vector<Route> routes;
     const char* extensions = egl().query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);

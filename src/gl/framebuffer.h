@@ -25,8 +25,8 @@ class Framebuffer {
     void bind() const;  // for drawing; the viewport covers all of it
     void clear(const glm::vec4& rgba, std::size_t target = 0);
 
-    // Target `target` as floats. OpenGL's row 0 is the bottom one, the image's row 0 the top one.
-    // Into `image`: without taking memory where that has the size.
+    // Reads a target as floats. OpenGL's row 0 is the bottom one, the image's row 0 the top one.
+    // Reading into `image` takes no memory if that has the target's size.
     Image read_back(std::size_t target = 0) const;
     void read_back(Image& image, std::size_t target = 0) const;
 
@@ -58,7 +58,7 @@ class LayerFramebuffer {
 // Runs the program, whose vertex shader is "gl/full_screen.vert", once for every pixel of the bound
 // framebuffer.
 void draw_full_screen(const Program& program);
-// The same with a given vertex array, so that frames need not make one.
+// Draws with a given vertex array, so that frames need not make one.
 void draw_full_screen(const Program& program, const VertexArray& any);
 
 }  // namespace lamina::gl

@@ -67,7 +67,7 @@ class Composer {
     }
 
   private:
-    // `wanted_by` begins the message where the file is missing.
+    // `wanted_by` begins the message if the file is missing.
     void append_file(const std::string& name, const std::string& wanted_by) {
         const std::optional<std::string> text = find_(name);
         if (!text) fail("{}: no such shader file: {}", wanted_by, name);
@@ -99,8 +99,8 @@ class Composer {
         if (!std::regex_match(line, pattern)) fail_without_version();
         has_version_ = true;
         append_text("#version 450 core", place);
-        // Without this NVIDIA's compiler makes 1 - (p + q) of (1 - p) - q, and small opacities lose
-        // their digits. Other compilers ignore it (GLSL 4.50, 3.3).
+        // Without this pragma NVIDIA's compiler turns (1 - p) - q into 1 - (p + q), and small
+        // opacities lose their digits. Other compilers ignore it (GLSL 4.50, 3.3).
         append_text("#pragma optionNV(fastmath off)", place);
         for (const auto& [name, value] : source_.defines.list) {
             append_text("#define " + name + ' ' + value, place);
@@ -122,7 +122,8 @@ class Composer {
         if (std::find(open_.begin(), open_.end(), name) != open_.end()) {
             fail("{}: {} includes itself: {} -> {}", where, name, fmt::join(open_, " -> "), name);
         }
-        // Repetitions are left to the preprocessor: only it knows which #if branches are alive.
+        // Repeated includes are left to the preprocessor: only it knows which #if branches are
+        // alive.
         const std::string guard = guard_of(name);
         append_text("#ifndef " + guard, place);
         append_text("#define " + guard, place);
@@ -165,7 +166,8 @@ ShaderSource compose_shader(const std::string& name, const Defines& defines,
 }
 
 std::string readable_log(const std::string& log, const ShaderSource& source) {
-    // Mesa "0:12(3): error: ...", NVIDIA "0(12) : error ...", glslang "ERROR: 0:12: ...".
+    // Positions look like "0:12(3): error: ..." (Mesa), "0(12) : error ..." (NVIDIA) or "ERROR:
+    // 0:12: ..." (glslang).
     static const std::regex place(
         "^(?:ERROR: |WARNING: )?\\d+[:(](\\d{1,8})(?:\\(\\d+\\)|\\))?\\s*:\\s*");
     std::string text;

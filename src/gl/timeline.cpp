@@ -75,8 +75,9 @@ bool is_recording() {
     return bits > 0;
 }
 
-// Returns what is added to OpenGL's clock to get the host's. OpenGL's clock is read between two
-// readings of the host's, several times, and the pair with the shortest time between them counts.
+// Returns the nanoseconds to add to OpenGL's clock to get the host's. OpenGL's clock is read
+// between two readings of the host's, several times, and the pair with the shortest time between
+// them counts.
 std::int64_t clock_offset() {
     constexpr int looks = 5;
     std::int64_t shortest = std::numeric_limits<std::int64_t>::max(), offset = 0;
@@ -94,8 +95,8 @@ std::int64_t clock_offset() {
 
 }  // namespace
 
-// A renderer that draws tile after tile (llvmpipe) meets a query once a tile and keeps the last
-// time. So what is submitted before and after the beginning of a span must not be drawn together.
+// Submits the commands before a span apart from those in it: a renderer that draws tile after tile
+// (llvmpipe) meets a query once a tile and keeps the last time.
 void Timeline::begin(const char* name) {
     if (!is_recording()) return;
     api().Flush();

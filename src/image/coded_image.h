@@ -29,13 +29,13 @@ struct CodedImage {
 
 using PixelColor = std::array<std::uint16_t, 3>;  // sRGB codes of 8 bits
 
-// Labels of pictures: ASCII in letters of 5 x 7 dots, each `dot` x `dot` pixels, 6 dots apart.
-// Other characters show as "?".
+// Height in dots of the letters of pictures' labels: ASCII in 5 x 7 dots, each `dot` x `dot`
+// pixels, 6 dots apart. Other characters show as "?".
 inline constexpr int text_dots_high = 7;
 int text_width(std::string_view text, int dot);  // pixels
 
-// Draws the text with its top left corner at (left, top). What lies outside the picture, which has
-// three channels of 8 bits, is cut off.
+// Draws the text with its top left corner at (left, top). Parts outside the picture, which must
+// have three channels of 8 bits, are cut off.
 void draw_text(CodedImage& image, int left, int top, std::string_view text, int dot,
                const PixelColor& color);
 

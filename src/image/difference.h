@@ -20,7 +20,7 @@ struct Difference {
     std::vector<double> e;
 };
 
-// Both throw Error if the sizes differ (the message has both), and for PNGs where the channels
+// Both throw Error if the sizes differ (the message has both); for PNGs also if the channels
 // differ.
 template <typename RealA, typename RealB>
 Difference difference(const RgbaImage<RealA>& a, const RgbaImage<RealB>& b);

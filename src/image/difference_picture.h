@@ -14,12 +14,12 @@ namespace lamina {
 // 1/255). With scale 0 all pixels with e = 0 are white.
 CodedImage false_color(const Difference& difference, double scale);
 
-// Its colour of e = share * scale, for -1 <= share <= 1: sRGB codes.
+// Returns the colour, in sRGB codes, of e = share * scale, for -1 <= share <= 1.
 std::array<std::uint16_t, 3> false_color_of(double share);
 
-// false_color() of a difference, pixel by pixel from the top left, and below it the colour bar from
-// -scale to scale with its ends in figures. Where differences beyond it are shown as dark as these,
-// the ends say so ("<=", ">="). White fills up what is narrower than the bar.
+// Draws false_color() of a difference and below it the colour bar from -scale to scale with the
+// numbers at its ends. If differences beyond the scale are clipped, the ends say so ("<=", ">=").
+// White fills up pictures that are narrower than the bar.
 CodedImage difference_picture(const Difference& difference, double scale);
 
 }  // namespace lamina

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// "OpenEXR File Layout": magic number, version, then headers. A header is a list of attributes,
-// each a name, a type (both end with a zero), a size and as many bytes, and ends where a name is
-// empty.
+// Headers are checked as "OpenEXR File Layout" describes them: magic number, version, then headers.
+// A header is a list of attributes, each a name, a type (both end with a zero), a size and as many
+// bytes, and ends with an empty name.
 #include "image/exr.h"
 
 #include <algorithm>
@@ -180,7 +180,7 @@ class HeaderWalk {
     std::string name_;
     std::ifstream stream_;
     std::uint64_t file_bytes_;
-    // These are of the header that was read last.
+    // Values of the header that was read last.
     std::optional<std::array<std::int64_t, 2>> window_, tile_;
     std::uint32_t chunks_ = 0;
 };
@@ -254,7 +254,7 @@ void write_pixels(FileStream& stream, const Image& image,
 }
 
 struct Contents {
-    std::string names;  // of all channels, for messages
+    std::string names;  // names of all channels, for messages
     std::uint64_t bytes_per_pixel = 0;
     bool rgb = false;
     bool grey = false;

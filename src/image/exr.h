@@ -25,7 +25,7 @@ void write_exr(OutputFile& file, const Image& image,
 // for damaged files and for sizes beyond image_limits.h.
 Image read_exr(const std::filesystem::path& path);
 
-// What the numbers of a file are that read_exr() reads.
+// Tells whether the numbers of a file that read_exr() reads are linear light or display values.
 ImageColorSpace color_space_of_exr(const std::filesystem::path& path);
 
 }  // namespace lamina

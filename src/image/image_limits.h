@@ -17,8 +17,8 @@ constexpr std::int64_t max_image_pixels = std::int64_t{1} << 26;  // 1 GiB of fl
 // `name`: the file or its component, with which the message begins.
 void check_image_size(const std::string& name, std::int64_t width, std::int64_t height);
 
-// The length of a file in bytes. Throws Error if there is no such file or it is not a regular
-// file.
+// Returns the length of a file in bytes. Throws Error if there is no such file or it is not a
+// regular file.
 std::uint64_t length_of_file(const std::filesystem::path& path);
 
 // Throws Error if a file of `file_bytes` cannot hold `image_bytes` even with the best

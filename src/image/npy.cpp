@@ -106,7 +106,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "the numbers are copied as they lie in memory");
 
-constexpr std::size_t alignment = 64;  // of the data, NEP 1
+constexpr std::size_t alignment = 64;  // bytes; the data begin at a multiple of it (NEP 1)
 
 struct Layout {
     bool is_double = true;

@@ -25,13 +25,13 @@ class NpyHeader {
     std::vector<std::int64_t> shape() const;  // empty if it is no tuple of whole numbers
     std::int64_t data_offset() const { return data_offset_; }
 
-    // Throws the Error that tells what was found under a key.
+    // Throws an Error about the value of a key: what was found and what was expected.
     [[noreturn]] void wrong(const char* key, std::string_view expected) const;
 
   private:
-    std::string_view value(std::string_view key) const;  // what follows the key
+    std::string_view value(std::string_view key) const;  // the text behind the key
 
-    std::string name_;  // of the file
+    std::string name_;  // name of the file
     std::string text_;
     std::int64_t data_offset_ = 0;
 };
