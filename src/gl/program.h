@@ -101,7 +101,7 @@ class ProgramCache {
     std::shared_ptr<LinkedProgram> get(const ShaderSource& vertex, const ShaderSource& fragment);
     std::uint64_t new_user() { return ++last_user_; }
 
-    int compiled() const { return compiled_; }  // so many until now
+    int compiled() const { return compiled_; }  // programs compiled so far
 
   private:
     std::list<std::shared_ptr<LinkedProgram>> programs_;  // last used first

@@ -61,9 +61,9 @@ double blend(double a, double b, double weight) {
 
 // The four lattice lines along x around (y, z).
 struct Lines {
-    std::uint64_t key[4];             // of their lattice points, without x
-    double offset_y[4], offset_z[4];  // of (y, z) from the line
-    double weight_y, weight_z;        // of the lines at larger y, at larger z
+    std::uint64_t key[4];             // keys of their lattice points, without x
+    double offset_y[4], offset_z[4];  // distance of (y, z) from the line
+    double weight_y, weight_z;        // weights of the lines at larger y, at larger z
 
     Lines(double y, double z) {
         const double cell_y = std::floor(y);
@@ -120,7 +120,7 @@ void GradientNoise::add_row(double first, double step, double y, double z, doubl
     const auto position = [=](int i) { return first + static_cast<double>(i) * step; };
     for (int begin = 0; begin < count;) {
         const double cell = std::floor(position(begin));
-        int end = begin + 1;  // of the samples in this cell
+        int end = begin + 1;  // end of the samples in this cell
         while (end < count && position(end) < cell + 1) ++end;
         const auto left_x = static_cast<std::int64_t>(cell);
         const Node left = left_x == right_x ? right : node(seed_, lines, left_x);
@@ -338,10 +338,11 @@ std::unique_ptr<Generator> make_sheets(const GridSize& size) {
 namespace {
 
 // All lengths are in units of the box.
-constexpr double layer_begin = 0.08;  // pure light fluid before, pure heavy fluid after layer_end
+// Begin of the layer; pure light fluid before, pure heavy fluid after layer_end.
+constexpr double layer_begin = 0.08;
 constexpr double layer_end = 0.92;
 constexpr double layer_margin = 0.20;     // over which stirring fades in and out
-constexpr double interface_reach = 0.34;  // of spikes and bubbles
+constexpr double interface_reach = 0.34;  // reach of spikes and bubbles
 constexpr double interface_width = 0.08;
 constexpr double stirring = 0.22;
 constexpr double entrainment = 0.7;
@@ -435,9 +436,9 @@ class Mixing final : public Generator {
     static constexpr std::uint64_t stirring_seed = 0x5eed1000;
 
     GridSize size_;
-    std::vector<double> frequencies_;  // of stirring, in cells a box
-    std::vector<double> position_;     // of samples along x
-    std::vector<double> strength_;     // of stirring, at every x: 0 outside the layer
+    std::vector<double> frequencies_;  // frequencies of stirring, in cells a box
+    std::vector<double> position_;     // positions of the samples along x
+    std::vector<double> strength_;     // strength of stirring at every x; 0 outside the layer
 };
 
 }  // namespace

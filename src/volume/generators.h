@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Functions that round in the same way on every machine with IEEE doubles, unlike those of libm. So
-// generated volumes are the same everywhere. Errors are a few units in the last place.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -48,16 +46,16 @@ class Generator {
     virtual void row(std::int64_t y, std::int64_t z, double* values) const = 0;
 };
 
-// The position of sample i of n in the unit box: 0 for the first, 1 for the last, 1/2 for a single
-// one.
+// Returns the position of sample i of n in the unit box: 0 for the first, 1 for the last, 1/2 for a
+// single one.
 inline double unit_position(std::int64_t i, std::int64_t n) {
     return n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);
 }
 
-// value = x / (size of x - 1): 0, 1, ..., 255 in 256 samples of uint8.
+// The value x / (size of x - 1): 0, 1, ..., 255 in 256 samples of uint8.
 std::unique_ptr<Generator> make_ramp(const GridSize& size);
 
-// 1/2 everywhere.
+// The value 1/2 everywhere.
 std::unique_ptr<Generator> make_constant(const GridSize& size);
 
 // The test signal of Marschner and Lobb, "An evaluation of reconstruction filters for volume

@@ -13,15 +13,15 @@
 
 namespace lamina {
 
-// A range of finite scalars in float32, which holds every sample type exactly; lo > hi where there
-// are none.
+// A range of finite scalars in float32, which holds every sample type exactly; lo > hi if there are
+// none.
 struct BrickRange {
     float lo = 1;
     float hi = 0;
 };
 
-// Ranges, two samples of the volume's type each: a 32nd of the volume's memory. At first all are
-// [0, 0], and take no memory.
+// The ranges of a volume's bricks, two samples of the volume's type each: a 32nd of the volume's
+// memory. At first all are [0, 0], and take no memory.
 class BrickRanges {
   public:
     BrickRanges() = default;
@@ -48,19 +48,19 @@ class BrickRanges {
         __builtin_unreachable();  // there is a case for every value
     }
 
-    // Whether `count` ranges, 1 or more, are [0, 0].
+    // Tells whether `count` ranges, 1 or more, are [0, 0].
     bool all_zero(std::size_t first, std::size_t count) const {
         const std::size_t each = 2 * bytes_of(type_);
         return lamina::all_zero(memory_.data() + first * each, count * each);
     }
 
-    // The range as one number, lo + 256 hi; of samples of 8 bits alone.
+    // Returns a range of 8-bit samples as one number, lo + 256 hi.
     std::size_t byte_pair(std::size_t i) const {
         const auto* const range = reinterpret_cast<const std::uint8_t*>(memory_.data()) + 2 * i;
         return range[0] + (std::size_t{range[1]} << 8);
     }
 
-    // T: the volume's type.
+    // Sets a range. T must be the volume's type.
     template <typename T>
     void set(std::size_t i, T lo, T hi) {
         const T range[2] = {lo, hi};
@@ -80,7 +80,7 @@ class BrickRanges {
     ReservedMemory memory_;
 };
 
-// A range of finite scalars; lo > hi where there are none.
+// A range of finite scalars; lo > hi if there are none.
 struct ValueRange {
     double lo = 1;
     double hi = 0;
@@ -101,7 +101,7 @@ struct MinMaxBricks {
     ValueRange whole;
     std::int64_t non_finite = 0;  // NaN and infinite samples in the volume
 
-    // Bricks of a volume, with ranges that are still to be set.
+    // Makes the bricks of a volume, whose ranges are still to be set.
     static MinMaxBricks of(const Grid& grid, SampleType type);
 
     ValueRange range(std::size_t number) const {

@@ -15,9 +15,9 @@ namespace lamina {
 
 using Counts = std::vector<std::int64_t>;
 
-// Adds up what `count_part(first, end, counts)` counts in the parts of [0, samples), in parallel. A
-// part takes much longer than to add its counts to those of the others, and 32-bit counters can
-// count it.
+// Adds up, in parallel, the counts that `count_part(first, end, counts)` makes of the parts of [0,
+// samples). Parts are so large that counting takes much longer than adding, and so small that
+// 32-bit counters suffice.
 template <typename CountPart>
 Counts count_in_parts(std::int64_t samples, std::size_t counters, const CountPart& count_part) {
     constexpr std::int64_t fewest = std::int64_t{1} << 20, most = std::int64_t{1} << 30;
@@ -34,7 +34,7 @@ Counts count_in_parts(std::int64_t samples, std::size_t counters, const CountPar
     return total;
 }
 
-// How many samples of 8 or 16 bits have each value that there is, from the lowest on.
+// Returns how many samples of 8 or 16 bits have each value of their type, from the lowest on.
 template <typename T>
 Counts count_codes(const T* samples, std::int64_t count) {
     constexpr int lowest = std::numeric_limits<T>::min();
@@ -46,13 +46,14 @@ Counts count_codes(const T* samples, std::int64_t count) {
         });
 }
 
-// Which values a volume has.
+// The values of a volume.
 struct ValueCounts {
-    Counts codes;             // of integers: how many samples have each value, from the lowest on
-    std::vector<float> some;  // of floats: every sample_step()-th sample, if it is finite
+    Counts codes;             // for integers: how many samples have each value, from the lowest on
+    std::vector<float> some;  // for floats: every sample_step()-th sample, if it is finite
 };
 
-// The step has no factor in common with the length of a row, so that all columns take part.
+// Returns a step that has no factor in common with the length of a row, so that all columns take
+// part.
 std::int64_t sample_step(const Grid& grid);
 
 ValueCounts count_values(const Volume& volume);  // in memory

@@ -20,8 +20,8 @@ namespace lamina {
 
 namespace {
 
-// Whole numbers that ascend with the finite values of float32. Percentiles are found by their
-// leading bits first, and then by the rest.
+// Whole numbers that ascend with the finite values of float32. Percentiles are found by the leading
+// bits of these first, and then by the rest.
 struct FloatKeys {
     static constexpr std::uint32_t negative = std::uint32_t{1} << 31;
     static constexpr int rest_bits = 12;
@@ -40,7 +40,7 @@ struct FloatKeys {
     }
 };
 
-// The key of the value with this rank, and its rank among those of its key.
+// The key of the value with a rank, and its rank among the values of that key.
 struct RankedKey {
     std::size_t key = 0;
     std::int64_t rank = 0;
@@ -54,8 +54,8 @@ std::size_t key_of_rank(const Counts& counts, std::int64_t rank) {
     return ranked_key(counts, rank).key;
 }
 
-// Adds up what `count_part(samples, count, counts)` counts in parts of the samples, in parallel: of
-// those that stay in their files, layer by layer.
+// Adds up, in parallel, the counts that `count_part(samples, count, counts)` makes of parts of the
+// samples: of layers, if the volume stays in its files.
 template <typename CountPart>
 Counts count_floats(const Volume& volume, std::size_t counters, const CountPart& count_part) {
     const Grid& grid = volume.grid();
@@ -82,12 +82,13 @@ Counts count_floats(const Volume& volume, std::size_t counters, const CountPart&
     return total;
 }
 
-// The values with these ranks. `leading`: how many samples have which leading bits.
+// Returns the values with these ranks, which ascend. `leading`: how many samples have which leading
+// bits.
 std::vector<double> values_of_ranks(const Volume& volume, std::span<const std::int64_t> leading,
                                     const std::vector<std::int64_t>& ranks) {
     std::vector<RankedKey> wanted;
     for (const std::int64_t rank : ranks) wanted.push_back(ranked_key(leading, rank));
-    // The rests of the samples with each of the leading bits that are wanted. Ranks ascend.
+    // Only the rests of samples are counted whose leading bits are wanted.
     std::vector<std::size_t> keys;
     for (const RankedKey& one : wanted) {
         if (keys.empty() || keys.back() != one.key) keys.push_back(one.key);

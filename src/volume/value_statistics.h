@@ -15,8 +15,8 @@
 
 namespace lamina {
 
-// How many values lie in intervals of equal width that follow one another: edges[i] <= value <
-// edges[i + 1], and the last interval has its upper edge, too.
+// Counts of values in intervals of equal width that follow one another: edges[i] <= value < edges[i
+// + 1]; the last interval includes its upper edge.
 struct Histogram {
     static constexpr std::int64_t most_intervals = 256;
 
@@ -26,7 +26,8 @@ struct Histogram {
 
     bool empty() const { return counts.empty(); }
 
-    // Cuts a range, which is not empty, into most_intervals, or one where it is a single value.
+    // Cuts a range, which must not be empty, into most_intervals, or into one if it is a single
+    // value.
     static Histogram of_range(const ValueRange& range) {
         const std::int64_t intervals = range.lo < range.hi ? most_intervals : 1;
         Histogram histogram;
@@ -41,8 +42,8 @@ struct Histogram {
         return histogram;
     }
 
-    // The interval of a value between the first and the last edge: a guess, then exactly by the
-    // edges.
+    // Returns the interval of a value between the first and the last edge: first a guess, then
+    // exactly by the edges.
     std::size_t place(double value) const {
         const auto last = static_cast<double>(counts.size() - 1);
         const double guess = per_unit > 0 ? per_unit * (value - edges.front()) : 0;
@@ -53,17 +54,17 @@ struct Histogram {
     }
 };
 
-// How the finite values of data are spread.
+// The distribution of the finite values of data.
 struct ValueStatistics {
-    // Of the percentiles, in thousandths of the values.
+    // The percentiles, in thousandths of the values.
     static constexpr std::array<int, 9> places{1, 10, 50, 250, 500, 750, 950, 990, 999};
 
     std::int64_t count = 0;           // finite values
     std::vector<double> percentiles;  // one a place; none if there is no value
     Histogram histogram;              // likewise
 
-    // A percentile is the smallest value that at least this share of the values does not exceed.
-    // This is its number in ascending order, from 1.
+    // Returns the number in ascending order, from 1, of a percentile: the smallest value that at
+    // least this share of the values does not exceed.
     static std::int64_t rank(int thousandths, std::int64_t count) {
         const std::int64_t rounded_up =
             (thousandths * (count / 1000)) + (thousandths * (count % 1000) + 999) / 1000;
@@ -71,16 +72,17 @@ struct ValueStatistics {
     }
 };
 
-// Exact. In one parallel pass for samples of 8 and 16 bits, where the histogram's edges are whole
-// numbers, and an interval as many values. For float32 in two, with 4 MiB a thread.
+// Measures exactly: samples of 8 and 16 bits in one parallel pass, with whole numbers as the
+// histogram's edges and equally many values in each interval; float32 in two passes, with 4 MiB a
+// thread.
 ValueStatistics measure_values(const VolumeData& data);
 
-// Exact; takes as much memory as the values.
+// Measures exactly, with as much memory as the values take.
 ValueStatistics measure_values(std::span<const double> values);
 
-// The histogram as a picture with white paper: a bar an interval, as high as the logarithm of 1 +
-// its count, the range of values below, and marks at the median and the outermost percentiles.
-// `width`: 200 pixels or more. An empty histogram is a line that says so.
+// Draws the histogram on white: a bar for each interval, as high as the logarithm of 1 + its count,
+// the range of values below, and marks at the median and the outermost percentiles. `width`: 200
+// pixels or more. An empty histogram is a line that says so.
 CodedImage histogram_picture(const ValueStatistics& statistics, int width);
 
 }  // namespace lamina

@@ -35,15 +35,15 @@ using Triple = std::array<std::int64_t, 3>;
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
 
-// The most bytes of a block's samples, which a thread holds in memory.
+// Most bytes of a block's samples, which a thread holds in memory.
 constexpr std::int64_t block_bytes = std::int64_t{1} << 23;
 
 std::int64_t up_to_multiple(std::int64_t number, std::int64_t of) {
     return (number + of - 1) / of * of;
 }
 
-// Bricks of a block along each axis: whole blocks of the source where it has such; else whole rows,
-// which lie beside each other in files.
+// Returns the bricks of a block along each axis: whole blocks of the source if it has blocks; else
+// whole rows, which lie beside each other in files.
 Triple block_of(const Volume& volume, const MinMaxBricks& bricks) {
     const Triple own = volume.store().source().block();
     Triple block{bricks.count[0], 8, 8};
@@ -141,7 +141,8 @@ class IndexMaker {
         }
     }
 
-    // The first sample of a part of a row that ValueCounts takes, counted from the part's begin.
+    // Returns the first sample of a part of a row that ValueCounts takes, counted from the part's
+    // begin.
     std::int64_t first_sampled(std::int64_t x, std::int64_t y, std::int64_t z) const {
         const std::int64_t number = (z * grid_.size[1] + y) * grid_.size[0] + x;
         return up_to_multiple(number, step_) - number;
@@ -176,8 +177,8 @@ class IndexMaker {
     Counts codes_;
 };
 
-// In the user's cache folder, by the names of the volume's files and what is taken of them; empty
-// if there is no such folder.
+// Returns the index file in the user's cache folder, named by the volume's files and what is taken
+// of them; empty if there is no such folder.
 std::filesystem::path cached_index(const Volume& volume) {
     std::filesystem::path folder;
     if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != 0)
@@ -191,7 +192,7 @@ std::filesystem::path cached_index(const Volume& volume) {
     return folder / "lamina" / (hash.hex() + ".lamina-index");
 }
 
-// The picture does not need the file.
+// Keeps an index if that is possible: the picture does not need the file.
 void keep(const Volume& volume, const VolumeIndex& index, const std::filesystem::path& file) {
     if (file.empty()) return;
     try {
@@ -303,7 +304,7 @@ void expect_no_link(const std::filesystem::path& file) {
         fmt::format("{}: cannot write: found a link, which is not followed", file.string()));
 }
 
-// A line of the header, which is far shorter than this.
+// Reads a line of the header. Real ones are far shorter than the limit.
 bool read_line(std::ifstream& stream, std::string& line) {
     constexpr std::size_t most = std::size_t{1} << 16;
     line.clear();
@@ -373,7 +374,7 @@ FoundIndex read_index_file(const std::filesystem::path& file, const std::string&
     if (header.at("identity") != printable(identity) || header.at("size") != Json(grid.size) ||
         header.at("type") != name_of(type))
         return {{}, "the index is of other samples"};
-    constexpr std::size_t most_values = std::size_t{1} << 22;  // more than there ever are
+    constexpr std::size_t most_values = std::size_t{1} << 22;  // far more than an index ever has
     const std::size_t codes = header.at("codes"), some = header.at("some");
     if (codes > most_values || some > most_values) return damaged();
     VolumeIndex index{MinMaxBricks::of(grid, type), {}};

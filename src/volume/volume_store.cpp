@@ -11,7 +11,7 @@ namespace lamina {
 
 namespace {
 
-// Before it is known what drawing takes.
+// Share of the memory limit for bricks until it is known what drawing takes.
 constexpr double first_share = 0.25;
 
 }  // namespace
@@ -50,7 +50,7 @@ namespace {
 
 using Triple = std::array<std::int64_t, 3>;
 
-// The range of the brick that holds a cell, if that is one value.
+// Tells whether the brick that holds a cell has one value, and which.
 bool is_one_value(const MinMaxBricks* bricks, const Triple& lower, double& value) {
     if (bricks == nullptr || bricks->non_finite > 0) return false;
     Triple brick{};
@@ -61,7 +61,7 @@ bool is_one_value(const MinMaxBricks* bricks, const Triple& lower, double& value
     return range.lo == range.hi;
 }
 
-// The corners of a cell in a box that begins with it.
+// Returns the corners of a cell, in a box that begins with it.
 template <typename T>
 std::array<double, 8> corners_in(const T* samples, const Triple& step) {
     std::array<double, 8> corners{};
