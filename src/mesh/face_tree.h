@@ -42,7 +42,8 @@ class FaceTree {
         visit_nodes([&](std::size_t node) { return meets(nodes_[node].box); }, visit);
     }
 
-    // The same, but the test gets the number of the node: meets(number of the node).
+    // Calls visit() like the function above, but the test gets the number of the node:
+    // meets(number).
     template <typename Meets, typename Visit>
     void visit_nodes(const Meets& meets, const Visit& visit) const {
         std::array<std::int32_t, 64> stack;  // the tree is balanced: its height is below 32
@@ -64,8 +65,8 @@ class FaceTree {
 
     std::size_t node_count() const { return nodes_.size(); }
 
-    // Sums up what add_face(index, node) adds for the faces below each node. `nodes` has one
-    // element a node; all start from `nothing` and are combined by add().
+    // Sums up, for each node, what add_face(index, node) adds for the faces below it. `nodes` has
+    // one element a node; all start from `nothing` and are combined by add().
     template <typename Known, typename AddFace>
     void sum(std::span<Known> nodes, const Known& nothing, const AddFace& add_face) const {
         for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before their parents
@@ -102,24 +103,24 @@ struct RoundedPlane {
 
     glm::dvec3 normal{0};
     double error = 0;  // error of its value at a point, per unit (1-norm) of distance
-    // The sign (1 or -1) of the true plane's value, or 0 if rounding leaves it unknown.
+    // Returns the sign (1 or -1) of the true plane's value, or 0 if rounding leaves it unknown.
     int sign(const glm::dvec3& from_origin) const;
 };
 
-// The exact side of a triangle's plane on which a point lies: 1 if the corners are seen
+// Returns the exact side of a triangle's plane on which a point lies: 1 if the corners are seen
 // counter-clockwise from it, -1 on the other side, 0 on the plane. `plane`: the plane through the
 // first corner along the edges from there.
 int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& point);
 
-// The half space on the positive side of a plane, with the plane. Boxes are searched for what it
-// may contain.
+// The half space on the positive side of a plane, with the plane. Boxes are searched for faces that
+// it may contain.
 class PlaneSide {
   public:
     PlaneSide() = default;
     // `bounds`: a box around all boxes.
     PlaneSide(const RoundedPlane& plane, const glm::dvec3& origin, const FaceTree::Box& bounds);
-    // Whether a box or a triangle may contain a point of the half space. Rounding never makes this
-    // false if it does contain one.
+    // Tells whether a box or a triangle may contain a point of the half space. Rounding never makes
+    // this false for one that does.
     bool reaches(const FaceTree::Box& box) const {
         // The corner of the box that is farthest along the normal.
         const auto most = [&](int axis) {

@@ -24,7 +24,7 @@ namespace lamina {
 
 namespace {
 
-constexpr double flat_enough = 1e-12;  // of the diagonal: see the header
+constexpr double flat_enough = 1e-12;  // share of the diagonal: see the header
 constexpr std::int64_t tets_per_task = 8192;
 
 constexpr EdgeLengths no_edges{std::numeric_limits<double>::infinity(), 0};
@@ -163,10 +163,10 @@ namespace {
 
 constexpr std::int64_t faces_per_task = 64;
 
-// The average number of faces that may be examined for each face. Real meshes need far fewer.
+// Faces that may be examined for each face, on average. Real meshes need far fewer.
 constexpr std::int64_t looks_a_face = 60;
 
-// Lines through parts of a mesh: of so many parts at most.
+// Number of parts of a mesh through which lines are followed at most.
 constexpr std::int64_t most_lines = 500, lines_per_task = 8;
 
 bool meet(const FaceTree::Box& a, const FaceTree::Box& b) {
@@ -247,7 +247,8 @@ class OverlapSearch {
         return shared;
     }
 
-    // Open faces with the same corners have two tets or more on one side.
+    // Marks faces that coincide: open faces with the same corners have two tets or more on one
+    // side.
     void mark_shared() {
         if (mesh_.findings().folded_faces + mesh_.findings().nonmanifold_faces == 0) return;
         std::vector<std::int32_t> order(mesh_.open_faces().size());
@@ -265,8 +266,8 @@ class OverlapSearch {
         }
     }
 
-    // If no faces cross, a part is inside another one as a whole or not at all: one line through
-    // each part tells.
+    // Marks parts that lie inside others. If no faces cross, a part is inside another one as a
+    // whole or not at all, so one line through each part suffices.
     void mark_inner_parts() {
         if (std::ranges::count(overlapping_, 1) > 0) return;
         std::vector<char> seen(mesh_.tets().size());

@@ -46,7 +46,7 @@ std::array<std::int32_t, 3> ascending_corners(const Tet& tet, std::size_t face) 
     return {a, b, c};
 }
 
-// All faces. Those with least corner p are at start[p] .. start[p + 1] - 1.
+// All faces, by their least corner: those with least corner p are at start[p] .. start[p + 1] - 1.
 struct FaceBuckets {
     std::vector<std::uint32_t> start;
     std::vector<FaceKey> faces;
@@ -72,7 +72,7 @@ FaceBuckets fill_buckets(std::span<const Tet> tets, std::size_t point_count) {
     return buckets;
 }
 
-// What one bucket adds to the counts.
+// The counts of one bucket.
 struct BucketCounts {
     std::int32_t boundary = 0, nonmanifold = 0;
 };
@@ -183,8 +183,8 @@ bool repeats_corner(Tet corners) {
     return std::adjacent_find(corners.begin(), corners.end()) != corners.end();
 }
 
-// Returns whether two neighbours lie on the two sides of their common face, by the order of its
-// corners. `face` is the face of `tet`, opposite the corner that `other` lacks.
+// Tells whether two neighbours lie on the two sides of their common face, by the order of its
+// corners. `face`: the face of `tet` opposite the corner that `other` lacks.
 bool opposite_sides(const Tet& tet, std::size_t face, const Tet& other) {
     const auto [p, q, r] = corners_of_face(tet, face);
     std::size_t apex = 0;
@@ -314,7 +314,7 @@ void TetMesh::orient() {
     findings_.degenerate += static_cast<std::int64_t>(flat_.size());
 }
 
-// A flat tet has no orientation of its own. It gets the one that agrees with a neighbour.
+// Orients flat tets, which have no orientation of their own, so that they agree with a neighbour.
 void TetMesh::orient_flat() {
     std::vector<char> open(tets_.size(), 0);
     for (const std::int32_t tet : flat_) open[static_cast<std::size_t>(tet)] = 1;
@@ -398,8 +398,8 @@ struct Weighted {
     double weight = 0;
 };
 
-// Of one tet, with lengths in units of `unit`. The gradient times the volume is a sum of products:
-// nothing is divided by the volume of a sliver.
+// Returns the weighted gradient of one tet, with lengths in units of `unit`. The gradient times the
+// volume is a sum of products: nothing is divided by the volume of a sliver.
 Weighted weighted_gradient(const TetMesh& mesh, std::span<const double> scalar, const Tet& tet,
                            double unit) {
     const auto point = [&](std::size_t i) {

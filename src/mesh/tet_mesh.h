@@ -18,8 +18,7 @@
 
 namespace lamina {
 
-// The tet across each face, found by corner indices alone. Faces of three or more tets have no tet
-// across.
+// The tet across each face, found by corner indices alone. Faces of three or more tets have none.
 struct FaceMatching {
     // Tet across face i; -1 if there is none.
     std::vector<std::array<std::int32_t, 4>> neighbors;
@@ -33,7 +32,7 @@ struct FaceMatching {
 // different corners each, all in [0, point_count); fewer than 2^29 tets.
 FaceMatching match_faces(std::span<const Tet> tets, std::size_t point_count);
 
-// What was found, and partly repaired, while a mesh was assembled.
+// Faults that were found, and partly repaired, while a mesh was assembled.
 struct MeshFindings {
     std::int64_t tets_read = 0;
     // Tets of exactly zero volume. Those with a repeated corner are dropped. The others are kept,
@@ -49,7 +48,7 @@ struct MeshFindings {
     std::int64_t unused_points = 0;
     CellCounts cells;  // cells of the file
 
-    // Every interior face is shared by exactly two tets.
+    // Tells whether every interior face is shared by exactly two tets.
     bool conforming() const { return nonmanifold_faces == 0; }
 };
 
@@ -65,16 +64,16 @@ class TetMesh {
 
     std::span<const glm::dvec3> points() const { return points_; }
     std::span<const Tet> tets() const { return tets_; }
-    // The tet across face i (opposite corner i), or no_neighbor. Boundary faces have none, and
-    // neither have folded and nonmanifold faces, because a ray cannot cross these from one tet into
-    // exactly one other.
+    // Returns the tet across face i (opposite corner i), or no_neighbor. Boundary faces have none,
+    // and neither have folded and nonmanifold faces, because a ray cannot cross these from one tet
+    // into exactly one other.
     std::span<const std::array<std::int32_t, 4>> neighbors() const { return neighbors_; }
-    // All faces without a neighbour.
+    // Returns all faces without a neighbour.
     std::span<const TetFace> open_faces() const { return open_faces_; }
-    // The corners of a face, counter-clockwise as seen from outside its tet.
+    // Returns the corners of a face, counter-clockwise as seen from outside its tet.
     std::array<glm::dvec3, 3> corners(const TetFace& face) const;
 
-    // The tets of exactly zero volume. They have faces and neighbours but show nothing.
+    // Returns the tets of exactly zero volume. They have faces and neighbours but show nothing.
     std::span<const std::int32_t> flat_tets() const { return flat_; }
 
     const MeshFindings& findings() const { return findings_; }
@@ -106,21 +105,20 @@ class TetMesh {
     Bounds bounds_;
 };
 
-// Converts cell data to point data. At each point it takes the mean over the tets around it, all
-// with the same weight, as vtkCellDataToPointData does (a hexahedron that was cut counts once for
-// each tet). Weights by volume would keep the field's integral but favour the larger side: between
-// cells of lengths h < H with the centre values of a linear field they miss the value in the middle
-// by slope * (H - h) / 2, the plain mean by half of that. A NaN reaches all points of its tet.
-// Points without tets get the first finite value of all tets, so that ranges and counts do not
-// change; nothing draws these points. `tets` must have indices < point_count, and `scalar` one
-// value a tet.
+// Converts cell data to point data: each point gets the mean over the tets around it, all with the
+// same weight, as from vtkCellDataToPointData (a hexahedron that was cut counts once for each tet).
+// Weights by volume would keep the field's integral but favour the larger side: between cells of
+// lengths h < H with the centre values of a linear field they miss the value in the middle by slope
+// * (H - h) / 2, the plain mean by half of that. A NaN reaches all points of its tet. Points
+// without tets are never drawn and get the first finite value of all tets, so that ranges and
+// counts do not change. `tets` must have indices < point_count, and `scalar` one value a tet.
 MeshScalar average_to_points(std::size_t point_count, std::span<const Tet> tets,
                              const MeshScalar& scalar);
 
-// The gradient of a scalar at the points of a mesh (docs/numerics.md, section 10): of the constant
-// gradients of the tets around a point the mean, weighted by their volumes, in scalar units per
-// world unit. `scalar`: one value a point. Tets of no volume, and those with a value that is not
-// finite, do not count; where none is left the gradient is 0.
+// Returns the gradient of a scalar at the points of a mesh, in scalar units per world unit
+// (docs/numerics.md, section 10): the mean of the constant gradients of the tets around a point,
+// weighted by their volumes. `scalar`: one value a point. Tets of no volume, and those with a value
+// that is not finite, do not count; if none is left the gradient is 0.
 std::vector<glm::dvec3> point_gradients(const TetMesh& mesh, std::span<const double> scalar);
 
 // The values of a scalar of a mesh.
@@ -129,7 +127,7 @@ struct ScalarRange {
     std::int64_t non_finite = 0;  // number of NaN or infinite values
 };
 
-// The range of a tet's corners; empty if one of them is not finite.
+// Returns the range of the values at a tet's corners; empty if one of them is not finite.
 inline ValueRange range_in(std::span<const double> values, const Tet& tet) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     ValueRange range{infinity, -infinity};

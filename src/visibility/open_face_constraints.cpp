@@ -16,7 +16,7 @@ namespace lamina {
 
 namespace {
 
-// The average number of faces that may be examined for each face. Real meshes need far fewer.
+// Faces that may be examined for each face, on average. Real meshes need far fewer.
 constexpr std::size_t looks_a_face = 100;
 
 class Search {
@@ -51,7 +51,7 @@ class Search {
         return mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(face)]);
     }
 
-    // If the face is outermost, `in_plane_` has all other faces of its plane.
+    // Tells whether a face is outermost. Then `in_plane_` has all other faces of its plane.
     bool is_outermost(std::int32_t face) {
         const Triangle corners = triangle(face);
         const RoundedPlane plane(corners[1] - corners[0], corners[2] - corners[0]);
@@ -92,7 +92,7 @@ class Search {
         return outermost;
     }
 
-    // Returns whether the direction of its normal is certain.
+    // Tells whether the direction of its normal is certain.
     static bool is_sure(const RoundedPlane& plane) { return norm1(plane.normal) > plane.error; }
 
     const TetMesh& mesh_;

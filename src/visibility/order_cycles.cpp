@@ -62,8 +62,8 @@ void CycleBreaker::list_entering() {
 }
 
 // Searches for cycles depth first, subtracts the smallest area left on each cycle from all its
-// links, and drops the links with nothing left. What is kept has no cycle. A node gets its place,
-// the nearest first, when all nearer nodes are done.
+// links, and drops the links with nothing left. The links that are kept form no cycle. A node gets
+// its place, the nearest first, when all nearer nodes are done.
 void CycleBreaker::drop_links() {
     dropped_.clear();
     path_.clear();
@@ -101,7 +101,7 @@ void CycleBreaker::push(std::int32_t index) {
     path_.push_back(index);
 }
 
-// The cycle is the path from depth `first` to its end, and the link back. The search goes on from
+// Thins a cycle: the path from depth `first` to its end, and the link back. The search goes on from
 // the first link of the path that is dropped.
 void CycleBreaker::thin_cycle(std::int32_t first) {
     const auto begin = path_.begin() + first;
@@ -122,7 +122,7 @@ void CycleBreaker::thin_cycle(std::int32_t first) {
     path_.erase(cut + 1, path_.end());
 }
 
-// Takes dropped links back, the largest first, where they close no cycle.
+// Takes dropped links back, the largest first, if they close no cycle.
 void CycleBreaker::take_back() {
     std::sort(dropped_.begin(), dropped_.end(), [&](std::int32_t a, std::int32_t b) {
         return link(a).area != link(b).area ? link(a).area > link(b).area : a < b;
@@ -196,7 +196,7 @@ void CycleBreaker::mark_farther(std::int32_t from, std::int32_t end) {
 
 namespace {
 
-// The most edges that are visited to break the cycles of a component: some seconds. If tets overlap
+// Edges that are visited at most to break the cycles of a component: some seconds. If tets overlap
 // everywhere, there may be more cycles than can be broken in acceptable time.
 constexpr std::int64_t most_work = 200'000'000;
 
@@ -301,7 +301,7 @@ void OrderCycles::visit(const OrderGraph& graph, std::int32_t tet) {
     path_.push_back({tet, graph.first_edge(tet)});
 }
 
-// The tet was the first of its component to be found, so the component is what is open since. All
+// Completes the component of which the tet was found first: the tets that are open since. All
 // nearer components are complete, and follow it in the sequence.
 void OrderCycles::finish(std::int32_t tet) {
     const std::size_t end = memory_.size() - sequence_.size();

@@ -26,12 +26,12 @@ class CycleBreaker {
         double area = 0;         // sum of their areas
     };
     struct Order {
-        std::span<const std::int32_t> places;  // of each node; 0 is the farthest
+        std::span<const std::int32_t> places;  // place of each node; 0 is the farthest
         Broken broken;
     };
-    // `edges`: in ascending order of `from`; several from one node to one other count as one edge
-    // with the sum of their areas. The result is valid until the next call.
-    // `work`: so many edges are visited at most in the search for cycles, and again while broken
+    // Orders the nodes. `edges`: in ascending order of `from`; several from one node to one other
+    // count as one edge with the sum of their areas. The result is valid until the next call.
+    // `work`: the most edges that are visited in the search for cycles, and again while broken
     // edges are taken back; beyond that, edges are broken wherever they close a cycle.
     Order order(std::size_t nodes, std::span<const Edge> edges, std::int64_t work);
 
@@ -77,7 +77,7 @@ class CycleBreaker {
 // Orders tets among which there are cycles. The strongly connected components of the graph (Tarjan,
 // Depth-first search and linear graph algorithms, 1972) are ordered without breaking a constraint.
 // Inside each component CycleBreaker breaks constraints of small seen area, which bounds the area
-// of the view where the order is wrong: on a ray that meets no broken constraint, each tet comes
+// of the view in which the order is wrong: on a ray that meets no broken constraint, each tet comes
 // before the next nearer one. Memory (28 bytes a tet) is taken at the first use, and more only for
 // larger cycles.
 class OrderCycles {
@@ -90,13 +90,13 @@ class OrderCycles {
         CycleBreaker::Broken broken;
     };
     // Orders all tets whose farther count is above zero. No edge may lead from such a tet to
-    // another tet. The time is linear in their number (n log n in a component).
-    // `break_rings`: the tets of each component are ordered, too; else they are in no order.
+    // another tet. The time is linear in their number (n log n in a component). `break_rings`: the
+    // tets of each component are ordered, too; without it they are in no order.
     Found order(const OrderGraph& graph, bool break_rings = true);
 
-    // The tets that order() ordered, back to front.
+    // Returns the tets that order() ordered, back to front.
     std::span<const std::int32_t> sequence() const { return sequence_; }
-    // The component of more than one tet that holds the tet, or none.
+    // Returns the component of more than one tet that holds the tet, or none.
     std::int32_t component(std::int32_t tet) const {
         return components_.empty() ? none : components_[static_cast<std::size_t>(tet)];
     }
@@ -126,7 +126,7 @@ class OrderCycles {
     std::int32_t found_ = 0;
     bool remembers_ = false;
     CycleBreaker breaker_;
-    std::vector<CycleBreaker::Edge> edges_;  // of one component
+    std::vector<CycleBreaker::Edge> edges_;  // edges of one component
     std::vector<std::int32_t> members_;
 };
 

@@ -148,7 +148,8 @@ double OrderGraph::area(std::int32_t tet, std::int32_t edge) const {
 
 namespace {
 
-// A tet's state: not met yet, or on the path with this many faces behind it, or drawn.
+// States of a tet: not met yet; on the path, with as many faces behind it as the state is above
+// first_face; drawn.
 constexpr std::uint8_t unmet = 0, first_face = 1, drawn = 6;
 
 }  // namespace

@@ -15,14 +15,14 @@
 
 namespace lamina {
 
-// Consecutive places of a list that are drawn in some of the pixels alone.
+// Consecutive places of a list that are drawn only in some of the pixels.
 struct LimitedRun {
     std::size_t first, end;
     PixelArea pixels;
 };
 
-// Tets, or cell fragments, back to front. No order of whole tets is right for all pixels if they
-// hide one another in rings: these are listed several times, each time for other pixels.
+// Tets, or cell fragments, back to front. If they hide one another in rings, no order of whole tets
+// is right for all pixels: these tets are listed several times, each time for other pixels.
 template <typename Item>
 struct DrawOrder {
     std::span<const Item> items;
@@ -36,7 +36,7 @@ struct DrawOrder {
         const auto to = std::ranges::lower_bound(from, limited.end(), end, {}, &LimitedRun::first);
         return {items.subspan(i, count), {from, to}, begin};
     }
-    // The pixels of the i-th item; null if these are all.
+    // Returns the pixels of the i-th item, or null if these are all.
     const PixelArea* pixels(std::size_t i) const {
         if (limited.empty()) return nullptr;
         const auto run = std::ranges::upper_bound(limited, first + i, {}, &LimitedRun::end);
@@ -58,8 +58,8 @@ struct DrawOrder {
 // tets by rendering them in layers.
 class RingOrder {
   public:
-    // `near`: what lies nearer to the eye's plane is not seen (perspective views). The graph must
-    // outlive it.
+    // `near`: depth before which nothing is seen (perspective views). The graph must outlive this
+    // object.
     RingOrder(const OrderGraph& graph, const View& view, double near);
 
     // Appends tets that are in no ring, in their order.
@@ -70,7 +70,8 @@ class RingOrder {
     void add_ring(std::span<const std::int32_t> tets, const OrderCycles& cycles);
 
     DrawOrder<std::int32_t> order() const { return {tets_, limited_}; }
-    // The number of pairs of tets that overlap on a pixel's ray. No order is right for these.
+    // Returns the number of pairs of tets that overlap on a pixel's ray. No order is right for
+    // these.
     std::int64_t overlapping_pairs() const;
 
   private:
@@ -78,7 +79,8 @@ class RingOrder {
         std::int32_t tet;
         PixelArea pixels;  // that may see it
     };
-    // Tet `farther` comes before tet `nearer` (indices into Problem::tets) where `seen` is seen.
+    // Tet `farther` comes before tet `nearer` (indices into Problem::tets) in the pixels that see
+    // `seen`.
     struct Constraint {
         std::int32_t farther, nearer;
         SeenPolygon seen;

@@ -16,8 +16,8 @@ namespace lamina {
 
 namespace {
 
-// Pixels count as covered if their centre lies so near to the polygon, in pixels. It is more than
-// what rounding moves a corner by (coordinates up to 1e9 pixels, beside the near plane, are good to
+// Distance in pixels from the polygon up to which a pixel's centre counts as covered. It is more
+// than rounding moves a corner by (coordinates up to 1e9 pixels, beside the near plane, are good to
 // 1e-7), and more than the ray perturbation (1e-7).
 constexpr double margin = 1e-3;
 
@@ -195,7 +195,7 @@ int SeenTriangle::all_on_one_side(const SeenTriangle& other) const {
     return !inside ? 1 : !outside ? -1 : 0;
 }
 
-// Returns whether all corners of `other` are on this triangle's side of the plane through the eye
+// Tells whether all corners of `other` are on this triangle's side of the plane through the eye
 // parallel to it, so that the two pyramids lie in one open half-space. It may wrongly return false.
 bool SeenTriangle::sees_ahead(const Eye& eye, const SeenTriangle& other) const {
     if (eye.at_infinity) return true;
@@ -219,9 +219,9 @@ bool SeenTriangle::separated_by_edge(const Eye& eye, const SeenTriangle& other) 
     return false;
 }
 
-// Two triangles have no inner point in common if and only if a line along an edge of one of them
-// separates them. The same holds for two pyramids in one half-space and planes along their faces.
-// Otherwise the separating plane may hold one edge of each.
+// Tells whether two pyramids are apart. Two triangles have no inner point in common if and only if
+// a line along an edge of one of them separates them; so it is with two pyramids in one half-space
+// and planes along their faces. Otherwise the separating plane may hold one edge of each.
 bool SeenTriangle::apart(const Eye& eye, const SeenTriangle& entry) const {
     if (separated_by_edge(eye, entry) || entry.separated_by_edge(eye, *this)) return true;
     if (sees_ahead(eye, entry)) return false;
@@ -242,8 +242,8 @@ bool SeenTriangle::apart(const Eye& eye, const SeenTriangle& entry) const {
 }
 
 bool SeenTriangle::shows(const Eye& eye, const SeenTriangle& entry) const {
-    // An exit's face has its outside behind it, an entry's face before it. So where one triangle
-    // lies on one side of the other's plane, equal signs mean the same order.
+    // An exit's face has its outside behind it, an entry's face before it. So if one triangle lies
+    // on one side of the other's plane, equal signs mean the same order.
     const auto surely_before = [&](const glm::dvec3& point) {
         return face_.sign(point - corners_[0]) < 0;
     };
@@ -257,8 +257,8 @@ bool SeenTriangle::shows(const Eye& eye, const SeenTriangle& entry) const {
     return of_exit != 0 ? of_exit > 0 : behind_where_mixed(eye, entry);
 }
 
-// Returns whether the entry is behind at a corner of the part seen through the triangle. Such
-// corners are corners of either triangle inside the other, and crossings of edges.
+// Tells whether the entry is behind at a corner of the part seen through the triangle. Such corners
+// are corners of either triangle inside the other, and crossings of edges.
 bool SeenTriangle::behind_where_mixed(const Eye& eye, const SeenTriangle& entry) const {
     const auto inside = [&](const SeenTriangle& triangle, const glm::dvec3& point) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -277,8 +277,9 @@ bool SeenTriangle::behind_where_mixed(const Eye& eye, const SeenTriangle& entry)
         for (std::size_t j = 0; j < 3; ++j) {
             const glm::dvec3 &c = entry.corners_[j], &d = entry.corners_[after(j)];
             const int side_c = edge_sign(eye, i, c);
-            // Of two edges that cross before the eye, c -> d passes from one side of a -> b to the
-            // other in the opposite sense to that of a -> b and c -> d; behind it, in the same.
+            // Two edges cross before the eye if c -> d passes from one side of a -> b to the other
+            // in the opposite sense to that of a -> b and c -> d; they cross behind it if the
+            // senses are the same.
             if (side_c == 0 || edge_sign(eye, i, d) != -side_c) continue;
             if (entry.edge_sign(eye, j, a) != -side_c || entry.edge_sign(eye, j, b) != side_c)
                 continue;
@@ -356,7 +357,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// Points whose tangent from the middle of the view is larger than this count as behind the eye.
+// Tangent of the angle from the middle of the view above which points count as behind the eye.
 constexpr double widest = 1e3;
 
 }  // namespace

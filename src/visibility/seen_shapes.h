@@ -14,8 +14,9 @@
 
 namespace lamina {
 
-// Keeps the part of a convex polygon where height(corner), a linear function, is >= 0 (Sutherland
-// and Hodgman, Reentrant polygon clipping, 1974). A Polygon has corners, their count, and add().
+// Keeps the part of a convex polygon on which height(corner), a linear function, is >= 0
+// (Sutherland and Hodgman, Reentrant polygon clipping, 1974). A Polygon has corners, their count,
+// and add().
 template <typename Polygon, typename Height>
 Polygon cut(const Polygon& polygon, const Height& height) {
     Polygon kept;
@@ -46,14 +47,14 @@ struct SeenPolygon {
     double area() const;
 };
 
-// Finds which pixels see a triangle or a tet. What lies nearer to the eye's plane than `near` is
-// not seen in perspective views; the result never lacks a pixel because of rounding.
+// Finds the pixels that see a triangle or a tet. In perspective views nothing nearer to the eye's
+// plane than `near` is seen. The result never lacks a pixel because of rounding.
 class PixelFinder {
   public:
     PixelFinder(const View& view, double near) : window_(view), near_(near) {}
 
     SeenPolygon polygon(const Triangle& triangle) const;
-    // The pixels of the picture whose rays may meet the hull of some points.
+    // Returns the pixels of the picture whose rays may meet the hull of some points.
     PixelArea pixels_of(std::span<const glm::dvec3> points) const;
     const View& view() const { return window_.view(); }
 
@@ -64,14 +65,14 @@ class PixelFinder {
     double near_;
 };
 
-// The common part of two convex polygons.
+// Returns the common part of two convex polygons.
 SeenPolygon overlap_of(const SeenPolygon& a, const SeenPolygon& b);
 
-// The smallest rectangle around the pixels of an area whose centres a polygon covers, or nearly
-// covers: empty if there are none.
+// Returns the smallest rectangle around the pixels of an area whose centres a polygon covers, or
+// nearly covers; empty if there are none.
 PixelArea covered_pixels(const SeenPolygon& polygon, const PixelArea& area);
 
-// Whether there are any.
+// Tells whether there are such pixels.
 bool covers_some(const SeenPolygon& polygon, const PixelArea& area);
 
 // A triangle as an eye sees it, with the planes through the eye and its edges. The rays through the
@@ -81,13 +82,13 @@ class SeenTriangle {
     SeenTriangle() = default;
     SeenTriangle(const Eye& eye, const Triangle& corners);
 
-    // The sign that sign_as_seen (face_signs.h) gives for a face of a tet. 1: an exit, through
-    // which rays leave the tet. -1: an entry. 0: seen edge-on.
+    // Returns the sign that sign_as_seen() gives for a face of a tet. 1: an exit, through which
+    // rays leave the tet. -1: an entry. 0: seen edge-on.
     int sign() const { return sign_; }
 
-    // For an exit: whether some of `entry`, of positive seen area, is seen through the exit, on it
-    // or behind it. Exact for triangles that do not intersect. For others it is true if some of
-    // `entry` lies behind the exit.
+    // Tells for an exit whether some of `entry`, of positive seen area, is seen through the exit,
+    // on it or behind it. Exact for triangles that do not intersect; for others it is true if some
+    // of `entry` lies behind the exit.
     bool shows(const Eye& eye, const SeenTriangle& entry) const;
 
   private:
@@ -107,14 +108,14 @@ class SeenTriangle {
     int sign_ = 0;
 };
 
-// The region of space that is seen through an exit, on it or behind it. Boxes are searched for what
-// it may contain.
+// The region of space that is seen through an exit, on it or behind it. Boxes are searched for
+// faces that it may contain.
 class SeenThrough {
   public:
     // `bounds`: a box around all boxes.
     SeenThrough(const SeenTriangle& exit, const FaceTree::Box& bounds);
-    // Whether a box or a triangle may contain a point of the region. Rounding never makes this
-    // false if it does contain one.
+    // Tells whether a box or a triangle may contain a point of the region. Rounding never makes
+    // this false for one that does.
     template <typename Shape>
     bool reaches(const Shape& box_or_triangle) const {
         return sides_[0].reaches(box_or_triangle) && sides_[1].reaches(box_or_triangle) &&
@@ -125,21 +126,21 @@ class SeenThrough {
     std::array<PlaneSide, 4> sides_;
 };
 
-// The seen area of a triangle: its solid angle (steradian), or for an eye at infinity the area of
-// its projection (world units squared).
+// Returns the seen area of a triangle: its solid angle (steradian), or for an eye at infinity the
+// area of its projection (world units squared).
 double seen_area(const Eye& eye, const Triangle& triangle);
 
-// The seen area of the region of `entry` that is seen through `exit` (corners clockwise for the
-// eye).
+// Returns the seen area of the region of `entry` that is seen through `exit` (corners clockwise for
+// the eye).
 double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry);
 
 // Boxes around triangles as an eye sees them. Two coordinates run across the rays and are constant
-// along each ray; the third grows along the rays. Where two boxes are disjoint, so are the
-// triangles. The boxes hold for one side of the eye. A triangle that is not well on that side has a
-// box that contains everything.
+// along each ray; the third grows along the rays. If two boxes are disjoint, so are the triangles.
+// The boxes hold for one side of the eye. A triangle that is not well on that side has a box that
+// contains everything.
 class SeenBoxes {
   public:
-    // For the side of the eye towards `center`.
+    // Makes boxes for the side of the eye towards `center`.
     SeenBoxes(const Eye& eye, const glm::dvec3& center);
 
     FaceTree::Box of(const Triangle& triangle) const;
@@ -150,7 +151,8 @@ class SeenBoxes {
     glm::dmat3 axes_;  // columns: two across the rays, one along them
 };
 
-// Whether some ray may meet a triangle in `exit` and then, or at the same point, one in `entry`.
+// Tells whether some ray may meet a triangle in `exit` and then, or at the same point, one in
+// `entry`.
 inline bool may_show(const FaceTree::Box& exit, const FaceTree::Box& entry) {
     return entry.max.x >= exit.min.x && entry.min.x <= exit.max.x && entry.max.y >= exit.min.y &&
            entry.min.y <= exit.max.y && entry.max.z >= exit.min.z;

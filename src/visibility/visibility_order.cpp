@@ -54,8 +54,8 @@ std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
 
 namespace {
 
-// Projection cuts tets at a near plane of 1e-6 of the mesh's diagonal (plan/project_planner.cpp):
-// what it draws lies beyond half of that.
+// Depth, as a share of the mesh's diagonal, beyond which everything is drawn: projection cuts tets
+// at a near plane of 1e-6 of the diagonal (plan/project_planner.cpp).
 constexpr double near_share = 0.5e-6;
 
 }  // namespace
@@ -100,7 +100,8 @@ DrawOrder<std::int32_t> VisibilityOrder::sort_pixels(const View& view,
     return rings_->order();
 }
 
-// `break_rings`: the tets of rings are ordered, too, as well as whole tets can be.
+// Sorts whole tets. `break_rings`: the tets of rings are ordered, too, as well as whole tets can
+// be.
 std::span<const std::int32_t> VisibilityOrder::sort_whole(const Eye& eye, bool break_rings,
                                                           const std::function<void()>& meanwhile) {
     report_ = {};
@@ -117,7 +118,7 @@ std::span<const std::int32_t> VisibilityOrder::sort_whole(const Eye& eye, bool b
     return order_;
 }
 
-// Lists the tets of each ring anew. In the order tets in no ring come first, then rings and tets
+// Lists the tets of each ring anew. In the order, tets in no ring come first, then rings and tets
 // between them (sort_topologically).
 void VisibilityOrder::solve_rings(const View& view) {
     const Stage solving("rings");
@@ -140,8 +141,9 @@ void VisibilityOrder::solve_rings(const View& view) {
     report_.broken_area = 0;
 }
 
-// VTK's vtkCellCenterDepthSort takes the depth along the camera's axis for perspective views, too.
-// The distance from the eye is the better estimate there, and needs no axis.
+// Sorts by the distance of centroids from the eye. VTK's vtkCellCenterDepthSort takes the depth
+// along the camera's axis for perspective views, too; the distance is the better estimate, and
+// needs no axis.
 void VisibilityOrder::sort_centroids(const Eye& eye) {
     const auto points = mesh_.points();
     parallel_for(static_cast<std::int64_t>(order_.size()), tets_per_task, [&](std::int64_t index) {
@@ -174,9 +176,9 @@ void VisibilityOrder::sort_topologically(bool break_rings) {
     std::copy(rest.begin(), rest.end(), order_.begin() + static_cast<std::ptrdiff_t>(drawn));
 }
 
-// Draws every tet when all farther tets have been drawn (Kahn 1962), and returns their number: all,
-// unless there are cycles. Tets that may be drawn wait on a stack, so that the next is mostly a
-// neighbour of the last one. The stack grows from the end of the order, which has room for both.
+// Draws every tet when all farther tets have been drawn (Kahn 1962), and returns how many it drew:
+// all, unless there are cycles. Tets that may be drawn wait on a stack, so that the next is mostly
+// a neighbour of the last one. The stack grows from the end of the order, which has room for both.
 std::size_t VisibilityOrder::draw_free() {
     const auto counts = graph_->farther_counts();
     const auto neighbors = mesh_.neighbors();
