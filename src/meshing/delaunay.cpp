@@ -82,8 +82,8 @@ bool is_ended_by_user(int status) {
     return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
 }
 
-// A child process that outlives neither this object nor this process: see
-// tetrahedralize_parent_option.
+// A child process that outlives neither this object nor this process
+// (tetrahedralize_parent_option).
 class Child {
   public:
     Child(const std::filesystem::path& program, std::FILE* in, std::FILE* out, int err) {
@@ -111,7 +111,7 @@ class Child {
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    // Returns its status as waitpid() gives it. Throws Interrupted.
+    // Waits for the end and returns the status, as waitpid() gives it. Throws Interrupted.
     int wait(Messages& messages) {
         using namespace std::chrono_literals;
         for (std::chrono::microseconds pause = 200us;;
@@ -121,7 +121,7 @@ class Child {
             messages.collect();  // in each round: a full pipe would stop the child
             if (ended == id_) {
                 id_ = -1;
-                // Ctrl-C ends the child as well, which is no failure of its own. It may do so
+                // Ctrl-C ends the child as well, which is no failure of its own. The child may end
                 // before this process's signal has reached the stop token.
                 if (is_ended_by_user(status)) std::this_thread::sleep_for(100ms);
                 check_interrupt();

@@ -24,11 +24,11 @@ struct DelaunayTets {
 // A function that makes Delaunay tetrahedra of points. Throws Error.
 using Delaunay = std::function<DelaunayTets(std::span<const glm::dvec3>)>;
 
-// The path of the program lamina-tetrahedralize: beside the running program, or where it is
+// Finds the program lamina-tetrahedralize: beside the running program, or among the programs
 // installed with the library, or else in one of the folders of PATH.
 std::optional<std::filesystem::path> find_tetrahedralizer();
 
-// The same; throws Error, which says how to get the program, where it is not found.
+// Returns that path. Throws Error, which says how to get the program, if it is not found.
 std::filesystem::path require_tetrahedralizer();
 
 // Makes Delaunay tetrahedra with `program` (meshing/tetrahedralize_protocol.h), which runs as a

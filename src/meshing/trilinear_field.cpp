@@ -190,7 +190,7 @@ CellRanges::CellRanges(const TrilinearField& field) {
 
 namespace {
 
-// Where the edge from corner `in` to corner `out` meets the plane `axis` = `level`.
+// The place at which the edge from corner `in` to corner `out` meets the plane `axis` = `level`.
 struct Crossing {
     glm::dvec3 point;
     double value;
@@ -210,7 +210,7 @@ CellPiece piece_of(const std::array<Crossing, 4>& corners) {
             {corners[0].value, corners[1].value, corners[2].value, corners[3].value}};
 }
 
-// The prism between the triangles a and b, in three tetrahedra.
+// Adds the prism between the triangles a and b, as three tetrahedra.
 void add_prism(const std::array<Crossing, 3>& a, const std::array<Crossing, 3>& b,
                std::vector<CellPiece>& pieces) {
     pieces.push_back(piece_of({a[0], a[1], a[2], b[0]}));
@@ -315,8 +315,8 @@ double TrilinearPolynomial::second_derivative(const glm::dvec3& p, const glm::dv
 
 // With the polar form b of the cubic f (Ramshaw, Blossoming: a connect-the-dots approach to
 // splines, 1987), the coefficients are b of three corners each, and
-//   b(p, p, p + u)     = f(p) + f'(p) u / 3
-//   b(p, p + u, p + v) = f(p) + f'(p) (u + v) / 3 + u^T f''(p) v / 6.
+// b(p, p, p + u)     = f(p) + f'(p) u / 3
+// b(p, p + u, p + v) = f(p) + f'(p) (u + v) / 3 + u^T f''(p) v / 6.
 BernsteinCubic::BernsteinCubic(const TrilinearPolynomial& polynomial, const CellPiece& piece) {
     const auto& p = piece.corners;
     const auto& v = piece.values;
@@ -366,9 +366,10 @@ std::size_t BernsteinCubic::edge_to_halve(const CellPiece& piece) const {
                                       std::abs(piece.values[a] - piece.values[b])));
     }
     const double gap = largest() - at_corners;
-    // The bound is a value: only the range of the two functions is still to be narrowed.
+    // If the bound is a value at a corner, only the range of the two functions is still to be
+    // narrowed.
     if (gap < 0.01 * at_corners) return steepest.edge;
-    // Where the edges are nearly straight, the gap comes from inside the faces.
+    // If the edges are nearly straight, the gap comes from inside the faces.
     return most_bent.score > 0.25 * gap ? most_bent.edge : longest.edge;
 }
 

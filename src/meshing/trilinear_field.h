@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// The difference between a trilinear and a linear function on tetrahedra inside one cell.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -34,8 +33,8 @@ class TrilinearField {
     glm::dvec3 max() const { return {planes_[0].back(), planes_[1].back(), planes_[2].back()}; }
     const ValueRange& range() const { return range_; }
 
-    // The cell that contains `index`; for a point outside the box, the nearest cell. On a plane
-    // between two cells it is the one with the higher index.
+    // Returns the cell that contains `index`; for a point outside the box, the nearest cell. On a
+    // plane between two cells it is the one with the higher index.
     Cell cell_of(const glm::dvec3& index) const;
     Corners corners(const Cell& cell) const;
     double at_plane(const Cell& plane) const;  // the value where three planes meet
@@ -79,8 +78,8 @@ class CellRanges {
     std::vector<Level> levels_;
 };
 
-// A tetrahedron in coordinates of a cell (0..1 along each axis) with the values of a linear
-// function at its corners.
+// A tetrahedron inside one cell, in the cell's coordinates (0..1 along each axis), with the values
+// of a linear function at its corners.
 struct CellPiece {
     std::array<glm::dvec3, 4> corners;
     std::array<double, 4> values;
@@ -97,7 +96,7 @@ struct TrilinearPolynomial {
     explicit TrilinearPolynomial(const std::array<double, 8>& corner_values);
     double at(const glm::dvec3& p) const;
     glm::dvec3 gradient(const glm::dvec3& p) const;
-    // u^T H v, where H is the matrix of second derivatives at p.
+    // Returns u^T H v; H is the matrix of second derivatives at p.
     double second_derivative(const glm::dvec3& p, const glm::dvec3& u, const glm::dvec3& v) const;
 };
 
@@ -114,8 +113,8 @@ struct BernsteinCubic {
 
     BernsteinCubic(const TrilinearPolynomial& polynomial, const CellPiece& piece);
     double largest() const;  // upper bound of |difference|
-    // The edge at which the piece should be cut so that bound and values, or the ranges of the two
-    // functions, come nearer to each other.
+    // Returns the edge at which the piece should be cut so that bound and values, or the ranges of
+    // the two functions, come nearer to each other.
     std::size_t edge_to_halve(const CellPiece& piece) const;
 };
 

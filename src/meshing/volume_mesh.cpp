@@ -81,7 +81,7 @@ MeshData make_kuhn_mesh(const TrilinearField& field, std::int64_t max_tets) {
 
 namespace {
 
-// How closely the error of a Kuhn split is measured, as a fraction of the range of values.
+// Share of the range of values up to which the error of a Kuhn split is measured.
 constexpr double kuhn_error_floor = 1e-4;
 
 MeshData kuhn_mesh(const TrilinearField& field, const InterpolationError& error,

@@ -34,17 +34,17 @@ struct View {
     glm::dvec3 eye, right, up, forward;  // orthonormal
 };
 
-// The eye of a view, for visibility orders.
+// Returns the eye of a view, for visibility orders.
 inline Eye eye_of(const View& view) {
     if (view.projection == Projection::orthographic) return {view.forward, true};
     return {view.eye, false};
 }
 
-// The turn of the camera between timed frames (--frames; studies: docs/study.md).
+// Degrees by which the camera turns between timed frames (--frames; studies: docs/study.md).
 inline constexpr double degrees_per_frame = 0.1;
 
-// The view with axes of length `unit`. It takes points of the world and gives eye-space coordinates
-// in the renderer's units (facts/world_unit.h).
+// Returns the view with axes of length `unit`: it takes points of the world and gives eye-space
+// coordinates in the renderer's units (facts/world_unit.h).
 inline View seeing_in_units(View view, double unit) {
     for (glm::dvec3* const axis : {&view.right, &view.up, &view.forward}) *axis *= unit;
     if (view.projection == Projection::orthographic) view.pixel *= unit;
@@ -64,7 +64,7 @@ class WindowView {
     const glm::dvec2& middle() const { return middle_; }
     bool perspective() const { return perspective_; }
 
-    // Eye-space coordinates: along right, up and forward from the eye.
+    // Returns a point's eye-space coordinates: along right, up and forward from the eye.
     glm::dvec3 see(const glm::dvec3& point) const {
         const glm::dvec3 p = point - view_.eye;
         return {glm::dot(p, view_.right), glm::dot(p, view_.up), glm::dot(p, view_.forward)};
@@ -84,14 +84,15 @@ inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// The ray perturbation: rays that run along faces are moved by so many pixels. More changes
-// pictures of thin opaque tets: the optical depth 1e4 of a needle by .03 / 255. Less is lost along
-// z: there it is 3e-12 pixels, and two floats side by side hold 3.5e-15 of a pixel's number.
+// Pixels by which the ray perturbation moves rays that run along faces. A larger number changes
+// pictures of thin opaque tets: the optical depth 1e4 of a needle by .03 / 255. A smaller one is
+// lost along z: there it is 3e-12 pixels, and two floats side by side hold 3.5e-15 of a pixel's
+// number.
 inline constexpr double tie_pixels = 3e-8;
 
-// The perturbation along right, up and forward. Its direction is the one in which the tracer moves
-// rays that meet edges and corners (mesh/ray_walk.cpp): along the world's x, y and z, each far less
-// than the one before.
+// Returns the perturbation along right, up and forward. It goes in the direction in which the
+// tracer moves rays that meet edges and corners (mesh/ray_walk.cpp): along the world's x, y and z,
+// each far less than the one before.
 inline glm::dvec3 ray_perturbation(const View& view) {
     const glm::dvec3 direction(1, 1e-2, 1e-4);
     const bool perspective = view.projection == Projection::perspective;
@@ -123,7 +124,7 @@ struct PixelArea {
     }
 };
 
-// The pixels that two areas have in common.
+// Returns the pixels that two areas have in common.
 inline PixelArea common_pixels(const PixelArea& a, const PixelArea& b) {
     return {std::max(a.first_column, b.first_column), std::min(a.last_column, b.last_column),
             std::max(a.first_row, b.first_row), std::min(a.last_row, b.last_row)};

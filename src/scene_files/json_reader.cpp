@@ -12,10 +12,10 @@ namespace lamina {
 
 namespace {
 
-constexpr std::size_t most_of_path = 100;  // that a message shows
+constexpr std::size_t most_of_path = 100;  // bytes of a path that a message shows
 const nlohmann::json empty_object = nlohmann::json::object();
 
-// Returns the value as it stands in the file, shortened where it is long.
+// Returns the value as it stands in the file, shortened if it is long.
 std::string shown(const nlohmann::json& value) {
     return shortened(json_text(value));
 }

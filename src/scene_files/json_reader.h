@@ -24,15 +24,15 @@ class KeyError : public Error {
     std::string key;
 };
 
-// A key that no reader asked for.
+// A key for which no reader asked.
 class UnknownKeyError : public KeyError {
   public:
     using KeyError::KeyError;
 };
 
-// Has what the meaning of values depends on beside their own text.
+// Settings that the meaning of values depends on, beside their own text.
 struct JsonContext {
-    ImageColorSpace color_space = ImageColorSpace::linear;  // of colours
+    ImageColorSpace color_space = ImageColorSpace::linear;  // the space of colours
     bool volume_given = false, mesh_given = false;  // data in memory, which no key needs to name
 };
 
@@ -58,11 +58,11 @@ class JsonReader {
     bool flag_or(const std::string& key, bool otherwise);
     std::string text(const std::string& key);
     glm::dvec3 vector(const std::string& key);
-    // A path of the file system. ${LAMINA_DATA} is expanded, and relative paths start at the file's
-    // folder.
+    // Returns a path of the file system. ${LAMINA_DATA} is expanded, and relative paths start at
+    // the file's folder.
     std::filesystem::path path_of(const std::string& key);
 
-    // The value of one of the listed words, or of the first word where the key is absent.
+    // Returns the value of one of the listed words, or of the first word if the key is absent.
     template <typename Choice>
     Choice choice(const std::string& key,
                   const std::vector<std::pair<const char*, Choice>>& choices) {
@@ -80,7 +80,7 @@ class JsonReader {
     [[noreturn]] void fail_at(const std::string& key, const std::string& message) const;
 
     const std::filesystem::path& file() const { return file_; }
-    // File and path of the object, as messages begin: "scene.json: render.slice".
+    // Returns file and path of the object, as messages begin: "scene.json: render.slice".
     std::string place() const;
 
   private:

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Keys of JSON objects, from one table a struct (docs/architecture.md, "Keys"): the reader, the
-// writer and the schema come from it.
-//
-// Forms of values under a key (scene_files/keys.h).
+// Keys of JSON objects, from one table a struct (docs/architecture.md, "Keys"), and the forms of
+// their values: the reader, the writer and the schema come from them.
 #include <array>
 #include <cassert>
 #include <cstdint>
@@ -26,10 +24,10 @@ namespace lamina {
 
 using KeyJson = nlohmann::ordered_json;
 
-// How a value of type T stands under a key.
+// The form of a value of type T under a key.
 template <typename T>
 struct Form {
-    // The key is there, or must be: throws KeyError otherwise.
+    // Reads a key that is there, or must be: throws KeyError otherwise.
     std::function<T(JsonReader& reader, const std::string& key)> read;
     std::function<KeyJson(const T& value)> write;  // null: the key is left out
     KeyJson schema;
@@ -62,7 +60,7 @@ struct Alternative {
 template <typename Struct>
 class KeyTable {
   public:
-    // `access`: a pointer to a member, or what returns a reference to one.
+    // Adds a key. `access`: a pointer to a member, or a function that returns a reference to one.
     template <typename Access, typename T>
     KeyTable& key(const std::string& name, const Access& access, const Form<T>& form,
                   const std::string& description = "") {
@@ -106,8 +104,8 @@ class KeyTable {
         return add(std::move(added));
     }
 
-    // Adds an object with the keys of a table. It may be left out: then its rules are checked all
-    // the same. It is always written.
+    // Adds an object with the keys of a table. It may be left out; its rules are checked
+    // nevertheless. It is always written.
     template <typename Access, typename Part>
     KeyTable& object(const std::string& name, const Access& access,
                      const KeyTable<Part>& (*table)(), const std::string& description = "") {
@@ -134,7 +132,8 @@ class KeyTable {
 
     Key<Struct>& last() { return keys_.back(); }
 
-    // The following are about the key that was added last.
+    // Says of the key that was added last that it must be there. (The functions below are about
+    // that key, too.)
     KeyTable& required() {
         Key<Struct>& last = keys_.back();
         last.required = true;
@@ -213,7 +212,8 @@ class KeyTable {
         all.update(schema);
         return all;
     }
-    // An object or a list has the defaults of its own keys.
+    // Tells whether a default stands for the whole value: an object or a list has the defaults of
+    // its own keys.
     static bool is_default(const KeyJson& value) {
         return !value.is_null() && !value.is_object() && !(value.is_array() && value.empty());
     }
@@ -222,8 +222,7 @@ class KeyTable {
     std::vector<std::pair<std::string, KeyJson>> more_;
 };
 
-// Form of a struct: an object with the keys of a table. `table` makes it, for the first one who
-// asks.
+// The form of a struct: an object with the keys of a table. `table` makes it at the first use.
 template <typename Struct>
 Form<Struct> object_form(const KeyTable<Struct>& (*table)()) {
     return {[table](JsonReader& reader, const std::string& key) {
@@ -239,7 +238,7 @@ Form<bool> flag_form();
 Form<std::string> text_form();            // empty: left out
 Form<std::filesystem::path> path_form();  // relative to the file; empty: left out
 Form<glm::dvec3> vector_form();           // three finite numbers
-Form<glm::dvec3> color_form();            // of the reader's colour space
+Form<glm::dvec3> color_form();            // in the reader's colour space
 Form<std::array<std::int64_t, 3>> sizes_form(std::int64_t most, const std::string& expected);
 
 // The parts of the schema that several keys share ("$defs").
@@ -258,7 +257,7 @@ Form<T> checked(Form<T> form, const Check& is_good, const std::string& expected)
     return form;
 }
 
-// Limits of a number, as the schema has them.
+// Limits of a number, named as in the schema.
 struct Limits {
     std::optional<double> from = {}, above = {}, up_to = {}, below = {};
 

@@ -27,7 +27,7 @@ FileKind kind_of_file(const std::filesystem::path& file, const std::filesystem::
     if (is_mesh_file(file)) return FileKind::mesh;
     const std::string beginning = file_beginning(file, 64);
     const std::size_t first = beginning.find_first_not_of(" \t\r\n");
-    // What cannot be read is for the scene's reader to name.
+    // Files that cannot be read count as scenes: the scene's reader names what is wrong with them.
     const bool scene = file.extension() == ".json" || beginning.empty() ||
                        (first != std::string::npos && beginning[first] == '{');
     if (scene) return FileKind::scene;
@@ -92,7 +92,7 @@ std::vector<std::string> parts_of(const std::string& key) {
     }
 }
 
-// Returns `text` parsed as JSON, or the text itself where it is none.
+// Returns `text` parsed as JSON, or the text itself if it is none.
 nlohmann::json value_of(const std::string& key, const std::string& text) {
     try {
         return parse_json(text);

@@ -10,17 +10,17 @@
 
 namespace lamina {
 
-// The JSON of a scene file; of a data file, a scene that draws it: all else is automatic, and cells
-// with NaN are transparent. `request`: what of a volume's file is wanted.
+// Returns the JSON of a scene file; for a data file, a scene that draws it: all else is automatic,
+// and cells with NaN are transparent. `request`: the part of a volume's file that is wanted.
 nlohmann::json scene_document(const std::filesystem::path& file, const VolumeRequest& request = {});
 
-// A scene file (docs/scene.md) with every key written out, from which read_scene() makes the same
-// scene: paths are absolute, numbers have all their digits, the transfer function is its points,
-// whatever they were made from, but for a colour map that is to be stretched over the data.
-// save_scene() writes it.
+// Returns a scene file (docs/scene.md) with every key written out, from which read_scene() makes an
+// equal scene: paths are absolute, numbers have all their digits, and the transfer function is its
+// points, whatever they were made from, except for a colour map that is to be stretched over the
+// data. save_scene() writes it.
 nlohmann::ordered_json scene_json(const Scene& scene);
 
-// The two keys of these names.
+// Returns a transfer function's two keys: points and unit length.
 nlohmann::ordered_json transfer_function_json(const TransferFunction& transfer_function);
 nlohmann::ordered_json camera_json(const Camera& camera);
 
@@ -32,9 +32,9 @@ enum class GivenData { none, volume, mesh };
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
                  GivenData given = GivenData::none);
 
-// Sets `key` ("render.slice.samples", list elements by number) to `value`, which is JSON where it
-// parses as JSON and a string otherwise; null removes the key. Throws UsageError if the path
-// leads through a value that is neither an object nor a list.
+// Sets `key` ("render.slice.samples", list elements by number) to `value`, which is JSON if it
+// parses as JSON, else a string; null removes the key. Throws UsageError if the path leads through
+// a value that is neither an object nor a list.
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value);
 
 // Removes `key` from the object that contains it. A document without the key stays as it is. Throws

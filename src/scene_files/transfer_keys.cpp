@@ -21,7 +21,7 @@ bool is_point_color(const glm::dvec3& color) {
            !glm::any(glm::greaterThan(color, glm::dvec3(1e30)));
 }
 
-// A point is given by its extinction or by its opacity.
+// Adds the keys of a point's density: its extinction or its opacity.
 void add_density(KeyTable<GivenPoint>& keys) {
     const auto by_opacity = [](const GivenPoint& point) {
         return point.given_as == GivenPoint::Density::opacity;
@@ -73,7 +73,7 @@ KeyTable<GivenPoint> made_point_keys(bool colored) {
     return keys;
 }
 
-// Points beside a colour map have no colours.
+// Keys of a point. Points beside a colour map have no colours.
 const KeyTable<GivenPoint>& point_keys(bool colored) {
     static const KeyTable<GivenPoint> with = made_point_keys(true),
                                       without = made_point_keys(false);

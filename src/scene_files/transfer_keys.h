@@ -14,7 +14,8 @@ namespace lamina {
 // (docs/scene.md).
 const KeyTable<GivenTransfer>& transfer_keys();
 
-// A transfer function as a file gives it, with what it means: none if its colour map is open.
+// A transfer function as a file gives it, and the function that it means: none if its colour map is
+// open.
 struct ReadTransfer {
     GivenTransfer given;
     std::optional<TransferFunction> function;
