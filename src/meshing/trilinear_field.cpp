@@ -315,8 +315,8 @@ double TrilinearPolynomial::second_derivative(const glm::dvec3& p, const glm::dv
 
 // With the polar form b of the cubic f (Ramshaw, Blossoming: a connect-the-dots approach to
 // splines, 1987), the coefficients are b of three corners each, and
-// b(p, p, p + u)     = f(p) + f'(p) u / 3
-// b(p, p + u, p + v) = f(p) + f'(p) (u + v) / 3 + u^T f''(p) v / 6.
+//   b(p, p, p + u)     = f(p) + f'(p) u / 3
+//   b(p, p + u, p + v) = f(p) + f'(p) (u + v) / 3 + u^T f''(p) v / 6.
 BernsteinCubic::BernsteinCubic(const TrilinearPolynomial& polynomial, const CellPiece& piece) {
     const auto& p = piece.corners;
     const auto& v = piece.values;

@@ -21,8 +21,8 @@ std::string list_names(const MeshData& data) {
     return names.empty() ? "none" : names;
 }
 
-// Tells whether a scalar has this name. A vector's NAME stands for its length, and so does
-// NAME.magnitude.
+// Tells whether a scalar has this name. NAME.magnitude is another word for a vector's NAME, which
+// stands for its length.
 bool is_called(const MeshScalar& scalar, const std::vector<MeshScalar>& all,
                const std::string& name) {
     if (scalar.name == name) return true;

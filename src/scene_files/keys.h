@@ -132,8 +132,7 @@ class KeyTable {
 
     Key<Struct>& last() { return keys_.back(); }
 
-    // Says of the key that was added last that it must be there. (The functions below are about
-    // that key, too.)
+    // Demands the key that was added last. (The next two functions change its default.)
     KeyTable& required() {
         Key<Struct>& last = keys_.back();
         last.required = true;

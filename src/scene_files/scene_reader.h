@@ -20,7 +20,7 @@ nlohmann::json scene_document(const std::filesystem::path& file, const VolumeReq
 // data. save_scene() writes it.
 nlohmann::ordered_json scene_json(const Scene& scene);
 
-// Returns a transfer function's two keys: points and unit length.
+// Return the values of the keys "transfer_function" and "camera".
 nlohmann::ordered_json transfer_function_json(const TransferFunction& transfer_function);
 nlohmann::ordered_json camera_json(const Camera& camera);
 

@@ -148,8 +148,8 @@ double OrderGraph::area(std::int32_t tet, std::int32_t edge) const {
 
 namespace {
 
-// States of a tet: not met yet; on the path, with as many faces behind it as the state is above
-// first_face; drawn.
+// States of a tet: not met yet; on the path, and face `state - first_face` is the next to look
+// across; drawn.
 constexpr std::uint8_t unmet = 0, first_face = 1, drawn = 6;
 
 }  // namespace

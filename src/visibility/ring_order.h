@@ -47,7 +47,7 @@ struct DrawOrder {
 // Orders tets that hide one another in rings. No order of whole tets is right for all pixels of a
 // ring, but each is right for the pixels whose rays meet none of the constraints that it breaks:
 //
-//   order the tets; break constraints of small seen area (cycle_breaker.h)
+//   order the tets; break constraints of small seen area (CycleBreaker)
 //   W = rectangle around the pixels that see a broken constraint
 //   draw the tets in this order in all pixels but W
 //   in W do the same with those tets and constraints that are seen there;

@@ -23,8 +23,9 @@ std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
                              std::span<const std::int32_t> order);
 
 enum class OrderMethod {
-    mpvo,  // Williams 1992: keeps the order across shared faces; on nonconvex meshes with his guess
-           // (farthest_first.h)
+    // Williams 1992: keeps the order across shared faces; on nonconvex meshes with the guess of
+    // FarthestFirst.
+    mpvo,
     exact,     // also keeps the order across gaps (open_face_constraints.h)
     centroid,  // by the distance of centroids, as VTK does; often wrong, for comparison
     none       // in the order of the mesh
