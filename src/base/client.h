@@ -10,10 +10,11 @@
 
 namespace lamina {
 
+using WarningTaker = std::function<void(const std::string&)>;
+
 // Reports something in a user's data that is no error and that no result shows: the text names the
 // file, what was found and what was expected. It goes to the client that this thread works for.
 // Safe from any thread; a taker is called in one thread at a time.
-using WarningTaker = std::function<void(const std::string&)>;
 void warn(const std::string& text);
 
 // Hears how far long work is. `report` gets a name ("slicing") and the share that is done, from 0

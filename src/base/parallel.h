@@ -87,8 +87,8 @@ void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
                       });
 }
 
-// Calls both functions, on two cores where possible. An exception of one is rethrown after both
-// have ended.
+// Calls both functions, on two cores if possible. An exception of one is rethrown after both have
+// ended.
 template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second) {
     HandOver hand_over;

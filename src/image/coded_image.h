@@ -43,7 +43,7 @@ void draw_text(CodedImage& image, int left, int top, std::string_view text, int 
 void fill_rectangle(CodedImage& image, int left, int top, int width, int height,
                     const PixelColor& color);
 
-// Copies a picture into another one, its top left corner to (left, top), where it fits.
+// Copies a picture, as far as it fits, into another one, its top left corner to (left, top).
 void copy_into(CodedImage& image, const CodedImage& part, int left, int top);
 
 }  // namespace lamina

@@ -54,8 +54,8 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     return number;
 }
 
-// Returns whether the list of channels (a name, a zero and 16 bytes each) ends with an empty name
-// exactly where the value ends.
+// Tells whether a list of channels (a name, a zero and 16 bytes each) ends with an empty name
+// exactly at the end of the value.
 bool channels_fill(std::string_view value) {
     constexpr std::size_t channel_bytes = 16;
     std::size_t at = 0;
@@ -67,8 +67,8 @@ bool channels_fill(std::string_view value) {
     return at + 1 == value.size();
 }
 
-// Returns whether the last of the strings (a length, then as many bytes) ends exactly where the
-// value ends.
+// Tells whether the last of the strings (a length, then as many bytes) ends exactly at the end of
+// the value.
 bool strings_fill(std::string_view value) {
     std::uint64_t at = 0;
     while (at + 4 <= value.size()) at += 4 + std::uint64_t{number_at(value, at)};
@@ -185,10 +185,10 @@ class HeaderWalk {
     std::uint32_t chunks_ = 0;
 };
 
-// Checks the headers of an OpenEXR file before OpenEXR reads them. Throws Error if an attribute,
-// or the table of tiles, promises more bytes than the file has left, or where the length of an
-// attribute does not fit its type. OpenEXR 3.1 would take up to 2 GiB of memory for such an
-// attribute, or read beyond it. OpenEXR reports other defects of a header itself.
+// Checks the headers of an OpenEXR file before OpenEXR reads them. Throws Error if an attribute, or
+// the table of tiles, promises more bytes than the file has left, or if the length of an attribute
+// does not fit its type. OpenEXR 3.1 would take up to 2 GiB of memory for such an attribute, or
+// read beyond it. OpenEXR reports other defects of a header itself.
 void check_exr_header(const std::filesystem::path& path, std::uint64_t file_bytes) {
     HeaderWalk(path, file_bytes).check();
 }

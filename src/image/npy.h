@@ -43,7 +43,7 @@ void write_npy(OutputFile& file, const Image& image);
 void write_npy(OutputFile& file, const PreciseImage& image);
 
 // Reads '<f4' or '<f8' in C order with shape (height, width, 4), or (height, width, 3) with A = 1.
-// Throws Error for anything else, and where the file's length does not match the header.
+// Throws Error for anything else, and if the file's length does not match the header.
 PreciseImage read_npy(const std::filesystem::path& path);
 
 }  // namespace lamina

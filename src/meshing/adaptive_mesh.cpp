@@ -25,7 +25,7 @@ constexpr double finest_lattice = 256;  // places for points per sample
 constexpr double surface_share = 0.125;
 constexpr double tets_per_point = 7;  // estimate, above the average (6.77 for random points)
 constexpr std::int64_t tets_per_task = 16;
-constexpr double worth_a_round = 0.005;  // share of max_tets; refinement ends where less is left
+constexpr double worth_a_round = 0.005;  // share of max_tets; refinement ends if less is left
 
 struct PlaceHash {
     std::size_t operator()(const std::array<std::int64_t, 3>& place) const {

@@ -56,7 +56,7 @@ void CycleBreaker::list_entering() {
     entering_.resize(links_.size());
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(links_.size()); ++i)
         entering_[static_cast<std::size_t>(node(link(i).to).in++)] = i;
-    // Each list's start has moved to its end, which is where the next list started.
+    // Each list's start has moved to its end, at which the next list started.
     for (std::size_t i = nodes_.size() - 1; i > 0; --i) nodes_[i].in = nodes_[i - 1].in;
     nodes_[0].in = 0;
 }

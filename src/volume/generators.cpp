@@ -385,7 +385,7 @@ class Mixing final : public Generator {
             const double stirred =
                 position_[x] - interface + stirring * strength_[x] * (coarse[x] + fine[x]);
             const double heavy = smooth_step(0.5 + stirred / (2 * interface_width));
-            // Eddies of one fluid in the other appear where the interface is near.
+            // Eddies of one fluid in the other appear near the interface.
             const double nearness = smooth_step(1 - std::abs(stirred) / (4 * interface_width));
             values[x] =
                 std::clamp(heavy + entrainment * nearness * strength_[x] * fine[x], 0.0, 1.0);

@@ -33,7 +33,7 @@ struct Histogram {
         Histogram histogram;
         for (std::int64_t i = 0; i <= intervals; ++i) {
             const double share = static_cast<double>(i) / static_cast<double>(intervals);
-            // Does not overflow where hi - lo does.
+            // This form does not overflow, even if hi - lo does.
             histogram.edges.push_back((1 - share) * range.lo + share * range.hi);
         }
         histogram.counts.resize(static_cast<std::size_t>(intervals));
