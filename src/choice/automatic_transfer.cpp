@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/number_text.h"
+#include "base/text.h"
 #include "choice/changed_transfer.h"
 #include "choice/common_values.h"
 #include "choice/label_colors.h"

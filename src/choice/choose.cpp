@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/number_text.h"
-#include "base/warning.h"
+#include "base/text.h"
 #include "choice/changed_transfer.h"
 #include "choice/padding.h"
 #include "image/srgb.h"

@@ -9,7 +9,7 @@
 
 #include "choice/padding.h"
 #include "facts/view_rays.h"
-#include "mesh/box_corners.h"
+#include "mesh/predicates.h"
 #include "optics/linear_pieces.h"
 
 namespace lamina {

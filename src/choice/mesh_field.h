@@ -2,7 +2,7 @@
 #pragma once
 
 #include "choice/field.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina {

@@ -11,8 +11,8 @@
 #include "base/parallel.h"
 #include "choice/large_volume.h"
 #include "volume/range_answers.h"
+#include "volume/sample_source.h"
 #include "volume/volume_store.h"
-#include "volume/with_sample_type.h"
 
 namespace lamina {
 namespace {

@@ -11,7 +11,7 @@
 #include "choice/large_volume.h"
 #include "choice/shown_cells.h"
 #include "facts/facts.h"
-#include "mesh/box_corners.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <span>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "executors/gl_compositing.h"
 #include "executors/swizzle.h"
 #include "gl/api.h"
-#include "gl/full_screen.h"
+#include "gl/framebuffer.h"
 
 namespace lamina {
 namespace {

@@ -17,8 +17,8 @@
 #include "facts/world_unit.h"
 #include "optics/curved_pieces.h"
 #include "optics/front_weights.h"
-#include "volume/code_counts.h"
 #include "volume/range_answers.h"
+#include "volume/value_counts.h"
 
 namespace lamina {
 namespace {

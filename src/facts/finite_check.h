@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lamina/scene.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "scene/scene_mesh.h"
 #include "volume/min_max_bricks.h"
 

@@ -9,8 +9,8 @@
 #include "facts/drawn_range.h"
 #include "facts/far_scalars.h"
 #include "facts/finite_check.h"
-#include "mesh/mesh_overlap.h"
-#include "mesh/scalar_range.h"
+#include "mesh/mesh_shape.h"
+#include "mesh/tet_mesh.h"
 #include "scene/camera.h"
 #include "scene/coloring.h"
 

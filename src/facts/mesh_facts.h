@@ -27,7 +27,7 @@ struct MeshFacts {
     double shortest_edge = 0, longest_edge = 0;  // world units
     double diagonal = 0;                         // diagonal of the bounding box, world units
     Convexity convexity = Convexity::none;
-    std::int64_t overlapping_tets = 0;  // tets that share space with others (mesh/mesh_overlap.h)
+    std::int64_t overlapping_tets = 0;  // tets that share space with others (mesh/mesh_shape.h)
 
     // The following describe the transfer function over `range`.
     bool constant = false;  // one colour, one extinction

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "base/all_zero.h"
 #include "base/parallel.h"
+#include "base/sparse_bytes.h"
 
 namespace lamina {
 namespace {

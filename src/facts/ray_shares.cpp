@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "facts/facts.h"
-#include "volume/scattered_samples.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 namespace {

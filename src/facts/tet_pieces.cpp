@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <iterator>
 
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 
 namespace lamina {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/stopwatch.h"
+#include "base/profile.h"
 #include "library/point_probe_parts.h"
 #include "library/session_parts.h"
 #include "scene/half_space.h"

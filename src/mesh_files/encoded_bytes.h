@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/byte_buffer.h"
+#include "base/input_file.h"
 #include "mesh_files/vtu_source.h"
 
 namespace lamina {

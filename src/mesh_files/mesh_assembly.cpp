@@ -8,9 +8,8 @@
 #include <map>
 #include <string_view>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/warning.h"
 #include "mesh_files/cell_split.h"
 
 namespace lamina {

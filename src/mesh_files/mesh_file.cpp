@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "mesh_files/node_ele.h"
 #include "mesh_files/pvd_reader.h"
 #include "mesh_files/pvtu_reader.h"

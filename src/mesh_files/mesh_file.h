@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "lamina/mesh_data.h"
 
 namespace lamina {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/interrupt.h"
+#include "base/input_file.h"
 #include "mesh_files/node_ele.h"
 #include "mesh_files/text_reader.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "mesh_files/mesh_file.h"
 
 namespace lamina {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 
 namespace lamina {
 namespace {

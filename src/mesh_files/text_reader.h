@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/value_type.h"
 
 namespace lamina {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 
 namespace lamina {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "mesh_files/mesh_assembly.h"
 #include "mesh_files/text_reader.h"
 #include "mesh_files/vtk_tokens.h"

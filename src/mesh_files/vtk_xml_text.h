@@ -7,8 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/byte_buffer.h"
-#include "base/random_access_file.h"
+#include "base/input_file.h"
 #include "mesh_files/vtu_source.h"
 
 namespace lamina {

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/warning.h"
 #include "mesh_files/encoded_bytes.h"
 #include "mesh_files/text_reader.h"
 #include "mesh_files/vtu_compressor.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/byte_buffer.h"
+#include "base/input_file.h"
 #include "base/value_type.h"
 #include "mesh_files/vtu_source.h"
 

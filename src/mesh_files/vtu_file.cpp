@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/warning.h"
 #include "mesh_files/text_reader.h"
 
 namespace lamina {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "base/random_access_file.h"
+#include "base/input_file.h"
 
 namespace lamina {
 

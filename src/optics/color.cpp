@@ -9,8 +9,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/shortened.h"
-#include "base/suggestion.h"
+#include "base/text.h"
 #include "image/srgb.h"
 #include "optics/color_space.h"
 #include "optics/css_colors.h"

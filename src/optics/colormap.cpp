@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
-#include "base/shortened.h"
+#include "base/text.h"
 #include "lamina/color.h"
 #include "optics/color_space.h"
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "base/embedded_file.h"
+#include "base/input_file.h"
 
 namespace lamina {
 

@@ -8,10 +8,9 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
-#include "base/shortened.h"
-#include "base/suggestion.h"
+#include "base/text.h"
 #include "optics/colormap.h"
 #include "optics/embedded_colormaps.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/progress.h"
-#include "image/false_color.h"
+#include "image/difference_picture.h"
 #include "papers/panels.h"
 #include "study/text_file.h"
 #include "study/thumbnail.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "papers/kraus_subject.h"
 #include "render/pipeline.h"
 
@@ -46,7 +46,7 @@ std::vector<std::string> compared_picture_files(const std::string& name);
 // Writes NAME.csv with the errors, and makes panels in the manner of the paper's figures: the
 // variants' pictures and the exact picture; of each its inset, magnified and with more contrast:
 // each about its own mean, all with one gain, which follows the exact picture; and the signed
-// differences from the exact picture (image/false_color.h). The inset lies where the first
+// differences from the exact picture (image/difference_picture.h). The inset lies where the first
 // variant's error varies most in that contrast. All scenes must have one camera, size and transfer
 // function.
 ComparedPictures write_compared_pictures(const std::filesystem::path& folder,

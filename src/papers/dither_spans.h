@@ -3,7 +3,7 @@
 // 2004, section 5.2).
 #pragma once
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 
 namespace lamina::papers {
 

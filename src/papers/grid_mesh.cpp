@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "mesh/mesh_shape.h"
-#include "meshing/kuhn_mesh.h"
+#include "meshing/volume_mesh.h"
 
 namespace lamina::papers {
 namespace {

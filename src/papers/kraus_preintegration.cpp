@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/stopwatch.h"
+#include "base/profile.h"
 #include "facts/world_unit.h"
 #include "papers/compared_pictures.h"
 #include "papers/findings.h"

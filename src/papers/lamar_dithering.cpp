@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/progress.h"
-#include "compositing/unit_opacity.h"
+#include "compositing/over.h"
 #include "lamina/scene.h"
 #include "papers/dither_spans.h"
 #include "papers/figure_files.h"

@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 #include "lamina/scene.h"
 #include "papers/figure_files.h"
 #include "papers/findings.h"

@@ -8,7 +8,6 @@
 
 #include "compositing/fixed_ray.h"
 #include "compositing/over.h"
-#include "compositing/unit_opacity.h"
 #include "papers/findings.h"
 #include "papers/lamar.h"
 #include "study/text_file.h"

@@ -3,10 +3,9 @@
 
 #include <span>
 
-#include "compositing/dither.h"
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 #include "executors/gl_compositing.h"
-#include "gl/full_screen.h"
+#include "gl/framebuffer.h"
 
 namespace lamina::papers {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
-#include "gl/vertex_array.h"
 
 namespace lamina::papers {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "study/thumbnail.h"
 
 namespace lamina::papers {

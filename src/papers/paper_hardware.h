@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "lamina/image.h"
 #include "lamina/scene.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/parallel.h"
-#include "compositing/unit_opacity.h"
+#include "compositing/over.h"
 
 namespace lamina::papers {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "compositing/fixed_ray.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 
 namespace lamina::papers {
 

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/error_text.h"
 
 namespace lamina {
 namespace {

@@ -9,11 +9,11 @@
 #include <thread>
 
 #include "base/client.h"
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
-#include "base/unreachable.h"
 #include "parallel/agreement.h"
 #include "parallel/command.h"
 #include "parallel/scene_message.h"

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <limits>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 
 namespace lamina {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "parallel/agreement.h"
 #include "parallel/command.h"
 #include "parallel/scene_message.h"

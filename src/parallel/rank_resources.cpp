@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/memory_limit.h"
+#include "base/memory.h"
 
 namespace lamina {
 

@@ -9,7 +9,6 @@
 
 #include "base/client.h"
 #include "base/json_text.h"
-#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/memory_limit.h"
-#include "base/stage.h"
+#include "base/memory.h"
+#include "base/profile.h"
 #include "parallel/agreement.h"
 #include "parallel/plan_digest.h"
 

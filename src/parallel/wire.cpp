@@ -3,7 +3,7 @@
 
 #include "base/enum_words.h"
 #include "base/error.h"
-#include "base/shortened.h"
+#include "base/text.h"
 
 namespace lamina {
 

@@ -13,7 +13,7 @@
 #include "base/progress.h"
 #include "scene/camera.h"
 #include "scene/half_space.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 namespace {

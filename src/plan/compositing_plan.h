@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "lamina/emulation.h"
 #include "lamina/order.h"
 #include "lamina/scene.h"

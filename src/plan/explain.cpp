@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "base/printable.h"
-#include "base/unreachable.h"
+#include "base/enum_words.h"
+#include "base/text.h"
 #include "compositing/tree_shape.h"
 #include "plan/plan.h"
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "plan/classification_choice.h"
 #include "plan/planned_work.h"
 #include "plan/planners.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "facts/facts.h"
 #include "facts/mesh_facts.h"
 #include "lamina/error_figure.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/unreachable.h"
 #include "compositing/tree_shape.h"
 #include "plan/planners.h"
 

@@ -15,7 +15,6 @@
 #include "base/enum_words.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/unreachable.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "optics/front_weights.h"

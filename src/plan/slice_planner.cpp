@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/number_text.h"
+#include "base/text.h"
 #include "compositing/tree_shape.h"
 #include "facts/drawn_range.h"
 #include "facts/ray_shares.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/unreachable.h"
 #include "compositing/tree_shape.h"
 #include "plan/target_choice.h"
 #include "scene/coloring.h"

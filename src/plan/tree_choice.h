@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "compositing/tree_shape.h"
 #include "lamina/scene.h"
 #include "plan/capabilities.h"

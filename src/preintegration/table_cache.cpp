@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/stage.h"
-#include "base/unreachable.h"
+#include "base/enum_words.h"
+#include "base/profile.h"
 
 namespace lamina {
 namespace {

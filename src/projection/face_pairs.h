@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "lamina/tet.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 

@@ -11,9 +11,9 @@
 #include "plan/project_plan.h"
 #include "projection/face_pairs.h"
 #include "projection/tet_geometry.h"
+#include "scene/camera.h"
 #include "scene/scene_mesh.h"
-#include "scene/window_view.h"
-#include "visibility/face_signs.h"
+#include "visibility/order_graph.h"
 
 namespace lamina {
 

@@ -8,7 +8,7 @@
 #define LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_
 #endif
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "projection/tile_fragments.h"
 #include "tiles/lane_pixels-inl.h"
 #include "tiles/target_pixels-inl.h"

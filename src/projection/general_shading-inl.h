@@ -8,7 +8,7 @@
 #define LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
 #endif
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "executors/tile_knot_table-inl.h"
 #include "projection/analytic_segment-inl.h"
 #include "projection/fragment_output-inl.h"

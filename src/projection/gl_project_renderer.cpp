@@ -9,17 +9,16 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "base/enum_words.h"
 #include "base/parallel.h"
-#include "base/stage.h"
-#include "base/unreachable.h"
+#include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "executors/gl_lights.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
-#include "gl/check.h"
 #include "projection/fan_geometry.h"
 #include "projection/tet_geometry.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "gl/api.h"
-#include "gl/check.h"
 #include "projection/visible_parts.h"
 
 namespace lamina {

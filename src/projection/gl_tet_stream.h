@@ -9,13 +9,11 @@
 
 #include "executors/tree_leaves.h"
 #include "gl/buffer.h"
-#include "gl/fence.h"
 #include "gl/program.h"
 #include "gl/timeline.h"
-#include "gl/vertex_array.h"
 #include "plan/compositing_plan.h"
 #include "projection/tet_geometry.h"
-#include "visibility/draw_order.h"
+#include "visibility/ring_order.h"
 
 namespace lamina {
 

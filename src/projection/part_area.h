@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "projection/tet_record.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 #include "tiles/tile_grid.h"
 
 namespace lamina {

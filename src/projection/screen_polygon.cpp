@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {

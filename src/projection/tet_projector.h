@@ -15,8 +15,7 @@
 #include "projection/screen_polygon.h"
 #include "projection/tet_record.h"
 #include "scene/camera.h"
-#include "scene/window_view.h"
-#include "visibility/face_signs.h"
+#include "visibility/order_graph.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

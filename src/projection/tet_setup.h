@@ -10,7 +10,7 @@
 #include "mesh/tet_mesh.h"
 #include "projection/part_area.h"
 #include "projection/tet_record.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 #include "simd/attributes.h"
 #include "volume/min_max_bricks.h"
 

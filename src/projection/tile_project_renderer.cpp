@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "executors/light_cuts.h"
 #include "facts/world_unit.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {

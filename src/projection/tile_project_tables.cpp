@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/stage.h"
+#include "base/profile.h"
 #include "executors/shader_intervals.h"
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {

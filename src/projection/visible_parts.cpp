@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/stage.h"
-#include "compositing/random_bits.h"
+#include "base/profile.h"
+#include "compositing/codes.h"
 #include "projection/part_field.h"
 
 namespace lamina {

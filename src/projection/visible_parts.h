@@ -7,11 +7,11 @@
 
 #include "compositing/tree_shape.h"
 #include "facts/tet_pieces.h"
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "projection/tet_record.h"
 #include "scene/camera.h"
-#include "visibility/draw_order.h"
+#include "visibility/ring_order.h"
 #include "visibility/visibility_order.h"
 
 namespace lamina {

@@ -26,7 +26,7 @@
 #include "reference/cubic.h"
 #include "reference/cut.h"
 #include "reference/transfer_intervals.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 

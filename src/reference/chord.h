@@ -13,7 +13,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "base/double_double.h"
+#include "base/arithmetic.h"
 #include "lamina/grid.h"
 #include "scene/camera.h"
 #include "scene/half_space.h"

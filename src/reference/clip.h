@@ -17,7 +17,7 @@
 #include <limits>
 #include <span>
 
-#include "base/double_double.h"
+#include "base/arithmetic.h"
 #include "mesh/ray_walk.h"
 #include "reference/mesh_walk.h"
 #include "reference/transfer_intervals.h"

@@ -20,7 +20,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 
-#include "base/compensated_sum.h"
+#include "base/arithmetic.h"
 #include "lamina/transfer_function.h"
 #include "optics/ray_lights.h"
 #include "reference/cut.h"

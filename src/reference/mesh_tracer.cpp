@@ -23,8 +23,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesh/point_gradients.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "optics/ray_lights.h"
 #include "reference/clip.h"
 #include "reference/composite.h"

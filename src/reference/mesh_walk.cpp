@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 
 #undef LAMINA_TARGET_FILE
 #define LAMINA_TARGET_FILE "reference/mesh_walk.cpp"

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "mesh/eye.h"
 #include "mesh/face_tree.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "scene/camera.h"
 #include "visibility/visibility_order.h"

@@ -12,9 +12,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "mesh/box_corners.h"
 #include "mesh/face_tree.h"
-#include "mesh/norm1.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina {

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "lamina/image.h"
 #include "lamina/lighting.h"
 #include "lamina/picture_tile.h"

@@ -18,10 +18,10 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "mesh/box_corners.h"
+#include "mesh/predicates.h"
 #include "optics/ray_lights.h"
 #include "reference/cell_walk.h"
 #include "reference/cells.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/draw_context.h"
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/unreachable.h"
 #include "tiles/tile_capabilities.h"
 
 namespace lamina {

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "gl/context.h"
-#include "gl/current_context.h"
 #include "plan/capabilities.h"
 #include "render/context_choice.h"
 
@@ -23,7 +22,7 @@ class DrawContext {
 
     // What draws with these capabilities does so while this lives, in the thread that asked for it:
     // the OpenGL context is current, and the caller's own is so again afterwards
-    // (gl/current_context.h). Null for the native engine, which needs none.
+    // (gl/context.h). Null for the native engine, which needs none.
     std::unique_ptr<gl::CurrentContext> make_current() const;
 
   private:

@@ -4,14 +4,14 @@
 #include <cassert>
 #include <utility>
 
-#include "base/stage.h"
-#include "base/warning.h"
+#include "base/client.h"
+#include "base/profile.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
 #include "facts/finite_check.h"
-#include "gl/memory.h"
-#include "gl/query.h"
-#include "mesh/scalar_range.h"
+#include "gl/api.h"
+#include "gl/timeline.h"
+#include "mesh/tet_mesh.h"
 #include "render/context_choice.h"
 #include "render/warnings.h"
 #include "scene/given_transfer.h"

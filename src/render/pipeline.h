@@ -54,7 +54,7 @@ struct PipelineOptions {
 
 // Draws a scene from its first picture to its last. Each step is done when it is first needed, and
 // again when a change makes it necessary (render/scene_renderer.h). Warnings go to the client that
-// the thread works for (base/warning.h). Calls may throw Error.
+// the thread works for (base/client.h). Calls may throw Error.
 class Pipeline {
   public:
     explicit Pipeline(Scene scene, SceneData data = {}, PipelineOptions options = {});

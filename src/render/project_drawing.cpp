@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "base/unreachable.h"
-#include "base/warning.h"
+#include "base/client.h"
+#include "base/enum_words.h"
 #include "scene/clipped_mesh.h"
 
 namespace lamina {

@@ -3,10 +3,10 @@
 
 #include <utility>
 
-#include "base/stage.h"
+#include "base/profile.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina {

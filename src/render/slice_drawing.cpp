@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/slice_drawing.h"
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "slicing/slab_trials.h"
 
 namespace lamina {

@@ -11,9 +11,9 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
-#include "base/number_text.h"
-#include "base/warning.h"
-#include "mesh/scalar_range.h"
+#include "base/client.h"
+#include "base/text.h"
+#include "mesh/tet_mesh.h"
 #include "scene/camera.h"
 #include "scene/half_space.h"
 

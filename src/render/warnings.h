@@ -35,7 +35,7 @@ Warnings frame_warnings(const OrderReport& order);
 // Pixels whose rays meet tets that overlap.
 Warnings trace_warnings(std::int64_t overlapping_rays);
 
-// Says each (base/warning.h).
+// Says each (base/client.h).
 void warn_of_all(const Warnings& all);
 
 // Calls work(), and keeps in `said` what it says to the client.

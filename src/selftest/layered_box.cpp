@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 
 namespace lamina::selftest {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 #include "selftest/case_makers.h"
 #include "selftest/selftest_meshes.h"
 

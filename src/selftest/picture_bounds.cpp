@@ -9,8 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "base/enum_words.h"
 #include "base/parallel.h"
-#include "base/unreachable.h"
 #include "selftest/layered_pieces.h"
 #include "selftest/mesh_chords.h"
 #include "selftest/one_gradient_light.h"

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/error_text.h"
-#include "base/interrupt.h"
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/stopwatch.h"
 
 namespace lamina::selftest {
 

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <map>
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/unreachable.h"
 #include "selftest/case_makers.h"
 
 namespace lamina::selftest {

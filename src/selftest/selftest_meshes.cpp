@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 #include "mesh/predicates.h"
 
 namespace lamina::selftest {

@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "slicing/cpu_rays-inl.h"
 #include "slicing/tile_volume.h"
 

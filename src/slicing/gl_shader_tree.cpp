@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "executors/gl_compositing.h"
 #include "gl/api.h"
-#include "gl/full_screen.h"
+#include "gl/framebuffer.h"
 #include "slicing/gl_slab_pass.h"
 #include "slicing/texture_bricks.h"
 

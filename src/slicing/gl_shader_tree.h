@@ -10,7 +10,6 @@
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
-#include "gl/vertex_array.h"
 #include "slicing/gl_slab_source.h"
 
 namespace lamina {

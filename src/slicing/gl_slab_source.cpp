@@ -12,15 +12,14 @@
 #include <utility>
 #include <vector>
 
-#include "base/stage.h"
-#include "base/unreachable.h"
+#include "base/enum_words.h"
+#include "base/profile.h"
 #include "executors/gl_lights.h"
 #include "executors/shader_intervals.h"
 #include "executors/smallest_gradient.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
-#include "gl/check.h"
 #include "optics/linear_pieces.h"
 #include "slicing/texture_bricks.h"
 

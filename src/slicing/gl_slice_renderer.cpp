@@ -5,12 +5,11 @@
 
 #include <utility>
 
-#include "base/interrupt.h"
-#include "base/stage.h"
+#include "base/client.h"
+#include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
-#include "gl/check.h"
 
 namespace lamina {
 

@@ -2,7 +2,7 @@
 #include "slicing/gl_volume_textures.h"
 
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "facts/drawn_range.h"

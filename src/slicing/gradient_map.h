@@ -8,7 +8,7 @@
 
 #include "lamina/volume.h"
 #include "plan/plan.h"
-#include "volume/sample_window.h"
+#include "volume/sample_source.h"
 
 namespace lamina {
 

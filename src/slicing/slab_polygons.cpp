@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "mesh/box_corners.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 namespace {

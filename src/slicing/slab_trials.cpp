@@ -9,9 +9,9 @@
 #include <limits>
 #include <memory>
 
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/stage.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "plan/classification_choice.h"
 #include "plan/light_choice.h"
 #include "plan/planners.h"

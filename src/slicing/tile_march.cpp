@@ -5,7 +5,7 @@
 #define LAMINA_TARGET_FILE "slicing/tile_march.cpp"
 #include "simd/foreach_target.h"
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "slicing/cpu_cells-inl.h"
 #include "slicing/tile_segments-inl.h"
 #include "tiles/node_code-inl.h"

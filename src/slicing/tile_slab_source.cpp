@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "base/stage.h"
+#include "base/profile.h"
 #include "executors/light_cuts.h"
 #include "executors/shader_intervals.h"
 #include "facts/drawn_range.h"

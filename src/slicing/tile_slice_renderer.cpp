@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "facts/world_unit.h"
 
 namespace lamina {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "base/filled_memory.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
 #include "slicing/texture_bricks.h"

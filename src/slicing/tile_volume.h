@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "lamina/volume.h"
 #include "plan/plan.h"
 #include "slicing/gradient_map.h"
 #include "slicing/tile_pages.h"
 #include "volume/min_max_bricks.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "facts/drawn_range.h"
 #include "slicing/tile_volume.h"
-#include "volume/brick_runs.h"
+#include "volume/brick_cache.h"
+#include "volume/sample_source.h"
 #include "volume/volume_store.h"
-#include "volume/with_sample_type.h"
 
 namespace lamina {
 namespace {

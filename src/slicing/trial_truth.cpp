@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/stage.h"
-#include "compositing/random_bits.h"
+#include "base/profile.h"
+#include "compositing/codes.h"
 
 namespace lamina {
 namespace {

@@ -9,8 +9,8 @@
 #include <memory>
 #include <optional>
 
-#include "base/interrupt.h"
-#include "base/stopwatch.h"
+#include "base/client.h"
+#include "base/profile.h"
 #include "study/ladder_cost.h"
 #include "study/study_frames.h"
 #include "study/time_left.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "image/false_color.h"
+#include "image/difference_picture.h"
 #include "study/error_json.h"
 #include "study/pareto.h"
 #include "study/thumbnail.h"

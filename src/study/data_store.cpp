@@ -8,7 +8,7 @@
 
 #include "base/content_hash.h"
 #include "base/json_text.h"
-#include "base/stopwatch.h"
+#include "base/profile.h"
 #include "choice/choose.h"
 #include "scene/given_transfer.h"
 #include "scene_files/data_keys.h"

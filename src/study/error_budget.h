@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "image/difference.h"
-#include "image/metrics.h"
 #include "lamina/image.h"
 #include "lamina/image_color_space.h"
 

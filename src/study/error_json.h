@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "image/metrics.h"
+#include "image/difference.h"
 
 namespace lamina::study {
 

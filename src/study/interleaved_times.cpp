@@ -5,10 +5,10 @@
 #include <cassert>
 #include <ctime>
 
-#include "base/interrupt.h"
-#include "base/median.h"
+#include "base/arithmetic.h"
+#include "base/client.h"
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/stopwatch.h"
 
 namespace lamina::study {
 namespace {

@@ -11,9 +11,9 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
-#include "base/shortened.h"
+#include "base/text.h"
 
 namespace lamina::study {
 namespace {

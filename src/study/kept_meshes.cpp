@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/kept_meshes.h"
 
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/output_file.h"
 #include "mesh_files/mesh_file.h"
 #include "study/picture_key.h"
 #include "study/text_file.h"

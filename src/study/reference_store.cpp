@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "base/atomic_file.h"
 #include "base/content_hash.h"
 #include "base/enum_words.h"
 #include "base/json_text.h"
-#include "base/stopwatch.h"
+#include "base/output_file.h"
+#include "base/profile.h"
 #include "image/npy.h"
 #include "render/traced_picture.h"
 #include "scene_files/json_reader.h"

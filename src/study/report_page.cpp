@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/json_text.h"
-#include "base/printable.h"
+#include "base/text.h"
 #include "study/report_files.h"
 
 namespace lamina::study {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/median.h"
+#include "base/arithmetic.h"
 #include "study/study_results.h"
 #include "study/text_file.h"
 

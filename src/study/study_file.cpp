@@ -10,7 +10,7 @@
 #include "base/enum_words.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "base/shortened.h"
+#include "base/text.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina::study {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/median.h"
+#include "base/arithmetic.h"
 #include "study/tree_advice.h"
 
 namespace lamina::study {

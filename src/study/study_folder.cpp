@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/folder.h"
+#include "base/output_file.h"
 
 namespace lamina::study {
 

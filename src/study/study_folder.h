@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/own_files.h"
+#include "base/output_file.h"
 
 namespace lamina::study {
 

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "base/stopwatch.h"
-#include "gl/memory.h"
+#include "base/profile.h"
+#include "gl/api.h"
 
 namespace lamina::study {
 

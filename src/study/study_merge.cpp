@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/atomic_file.h"
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/interrupt.h"
+#include "base/input_file.h"
+#include "base/output_file.h"
 #include "scene_files/json_reader.h"
 #include "study/run_list.h"
 #include "study/study_output.h"

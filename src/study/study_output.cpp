@@ -11,8 +11,8 @@
 #include <cstring>
 #include <thread>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/json_text.h"
 #include "study/report_page.h"
 #include "study/study_report.h"

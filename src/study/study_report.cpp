@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/median.h"
+#include "base/arithmetic.h"
+#include "image/difference_picture.h"
 #include "image/exr.h"
-#include "image/false_color.h"
 #include "study/error_json.h"
 #include "study/study_findings.h"
 #include "study/thumbnail.h"

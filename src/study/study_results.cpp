@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
+#include "base/arithmetic.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "base/median.h"
 #include "scene_files/json_reader.h"
 #include "study/journal.h"
 #include "study/pareto.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "study/reference_store.h"
 #include "study/run_list.h"
 #include "study/study_folder.h"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/json_text.h"
-#include "base/shortened.h"
+#include "base/text.h"
 
 namespace lamina::study {
 namespace {

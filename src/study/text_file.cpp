@@ -8,8 +8,8 @@
 #include <charconv>
 #include <string_view>
 
-#include "base/atomic_file.h"
 #include "base/json_text.h"
+#include "base/output_file.h"
 
 namespace lamina::study {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/stopwatch.h"
 
 namespace lamina::study {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <map>
 
-#include "base/median.h"
+#include "base/arithmetic.h"
 #include "study/tree_plots.h"
 
 namespace lamina::study {

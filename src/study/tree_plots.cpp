@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/median.h"
+#include "base/arithmetic.h"
 
 namespace lamina::study {
 namespace {

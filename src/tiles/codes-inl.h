@@ -7,7 +7,7 @@
 #define LAMINA_TILES_CODES_INL_H_
 #endif
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "compositing/codes.h"
 #include "simd/vectors-inl.h"
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "compositing/node_code.h"
 #include "simd/math-inl.h"
 #include "tiles/opacity-inl.h"

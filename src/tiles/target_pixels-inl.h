@@ -148,7 +148,7 @@ LAMINA_INLINE Float color_code(const TargetBlend& target, Float color) {
 }
 
 // OVER in real arithmetic on stored codes. The result is rounded at random, with one random number
-// for all channels (compositing/stochastic_over.h).
+// for all channels (compositing/over.h).
 LAMINA_INLINE void composite_stochastic(const TargetBlend& target, const Fragment& fragment,
                                         Word random, Pixels& there) {
     const Float64 chance(random), alpha(fragment.alpha);

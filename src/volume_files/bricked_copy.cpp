@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/byte_buffer.h"
+#include "base/client.h"
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/interrupt.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "base/progress.h"
-#include "base/warning.h"
 #include "volume/volume_store.h"
 #include "volume_files/chunk_hashes.h"
 #include "volume_files/file_state.h"

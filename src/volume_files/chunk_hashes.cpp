@@ -3,10 +3,10 @@
 
 #include <cstring>
 
-#include "base/atomic_file.h"
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
+#include "base/output_file.h"
 
 namespace lamina {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <thread>
 
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "volume/brick_cache.h"
 
 namespace lamina {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <mutex>
 
-#include "base/byte_buffer.h"
+#include "base/input_file.h"
 #include "volume/sample_source.h"
 
 namespace lamina {

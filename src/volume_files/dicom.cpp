@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/filled_memory.h"
-#include "base/interrupt.h"
+#include "base/memory.h"
 #include "volume_files/dicom_elements.h"
 #include "volume_files/dicom_series.h"
 #include "volume_files/isolated_read.h"

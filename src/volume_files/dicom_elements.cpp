@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/opened_file.h"
 
 namespace lamina {

@@ -8,9 +8,8 @@
 #include <glm/geometric.hpp>
 #include <map>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/warning.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/stored_axes.h"
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 
 namespace lamina {
 

@@ -11,7 +11,7 @@
 
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "volume_files/some_bytes.h"

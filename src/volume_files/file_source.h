@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/random_access_file.h"
+#include "base/input_file.h"
 #include "volume/sample_source.h"
 #include "volume_files/file_state.h"
 #include "volume_files/stored_data.h"

@@ -8,8 +8,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/random_access_file.h"
+#include "base/input_file.h"
 #include "volume_files/some_bytes.h"
 
 namespace lamina {

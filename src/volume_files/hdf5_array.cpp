@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 
 namespace lamina {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string_view>
 
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/file_source.h"
 #include "volume_files/hdf5_source.h"
 #include "volume_files/stored_samples.h"

@@ -10,10 +10,10 @@
 #include <limits>
 #include <type_traits>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/shortened.h"
-#include "base/warning.h"
+#include "base/input_file.h"
+#include "base/text.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/stored_axes.h"
 

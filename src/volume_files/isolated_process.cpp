@@ -21,9 +21,6 @@
 
 #include "base/client.h"
 #include "base/error.h"
-#include "base/error_text.h"
-#include "base/interrupt.h"
-#include "base/warning.h"
 
 namespace lamina {
 namespace {

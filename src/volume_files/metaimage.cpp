@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/file_pattern.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/metaimage_fields.h"

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/whole_number.h"
 
 namespace lamina {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/nifti_header.h"
 #include "volume_files/stored_data.h"
 

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/file_reader.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/gzip_reader.h"

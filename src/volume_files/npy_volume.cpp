@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/filled_memory.h"
+#include "base/input_file.h"
+#include "base/memory.h"
 #include "base/parallel.h"
-#include "image/npy_header.h"
+#include "image/npy.h"
 #include "volume_files/plain_grid.h"
 #include "volume_files/stored_data.h"
 

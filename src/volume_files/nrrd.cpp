@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume_files/nrrd.h"
 
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/nrrd_header.h"
 
 namespace lamina {

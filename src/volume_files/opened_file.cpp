@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 
 namespace lamina {
 

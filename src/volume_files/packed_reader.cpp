@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 
 namespace lamina {
 namespace {

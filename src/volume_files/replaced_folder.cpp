@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/folder.h"
+#include "base/output_file.h"
 
 namespace lamina {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/client.h"
 #include "base/content_hash.h"
-#include "base/interrupt.h"
 
 namespace lamina {
 

@@ -7,9 +7,8 @@
 #include <cstring>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/warning.h"
 
 namespace lamina {
 namespace {

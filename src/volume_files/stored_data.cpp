@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/stored_reader.h"
 
 namespace lamina {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/filled_memory.h"
-#include "base/warning.h"
+#include "base/memory.h"
 #include "volume_files/bzip2_reader.h"
 #include "volume_files/file_reader.h"
 #include "volume_files/file_sequence.h"

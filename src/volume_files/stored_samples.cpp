@@ -11,9 +11,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/filled_memory.h"
+#include "base/client.h"
+#include "base/memory.h"
 #include "base/parallel.h"
-#include "base/warning.h"
 
 namespace lamina {
 namespace {

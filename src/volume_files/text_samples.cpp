@@ -8,9 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/warning.h"
 
 namespace lamina {
 namespace {

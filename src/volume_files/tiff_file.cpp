@@ -6,9 +6,9 @@
 #include <cstring>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/interrupt.h"
+#include "base/input_file.h"
 #include "volume_files/stored_axes.h"
 #include "volume_files/stored_samples.h"
 

@@ -6,11 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/filled_memory.h"
-#include "base/interrupt.h"
-#include "base/warning.h"
+#include "base/input_file.h"
+#include "base/memory.h"
 #include "volume_files/folder_files.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/plain_grid.h"

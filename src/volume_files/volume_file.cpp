@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/bricked_copy.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/raw_volume.h"

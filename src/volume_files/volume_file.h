@@ -16,7 +16,7 @@ bool is_volume_file(const std::filesystem::path& path);
 
 // Reads a volume of any format. Throws Error: one line that names the file, what was found and what
 // was expected. What was taken of several, rounded or left over is said in warnings
-// (base/warning.h).
+// (base/client.h).
 Volume read_volume(const std::filesystem::path& path, const VolumeRequest& request = {});
 // The same for a volume that may stay in its files.
 Volume open_volume(const std::filesystem::path& path, const VolumeRequest& request,

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "volume/volume_store.h"
 #include "volume_files/file_source.h"
 #include "volume_files/stream_source.h"

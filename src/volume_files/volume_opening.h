@@ -24,7 +24,7 @@ struct VolumeUse {
 };
 
 // Whether a volume that can do so is to stay in its files: by the memory that it and what is drawn
-// of it take (base/memory_limit.h).
+// of it take (base/memory.h).
 bool stays_in_files(const Grid& grid, SampleType type, const VolumeUse& use);
 
 // Of a volume that cannot stay in its files: throws Error where it has to, or where its samples

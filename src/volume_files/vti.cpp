@@ -9,10 +9,10 @@
 #include <sstream>
 #include <string>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/filled_memory.h"
-#include "base/warning.h"
+#include "base/input_file.h"
+#include "base/memory.h"
 #include "mesh_files/vtu_file.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/memory_reader.h"

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/filled_memory.h"
-#include "base/interrupt.h"
+#include "base/input_file.h"
+#include "base/memory.h"
 #include "base/parallel.h"
-#include "base/warning.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/ome_zarr.h"
 #include "volume_files/stored_axes.h"

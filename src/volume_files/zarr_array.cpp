@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
 #include "volume_files/json_excerpt.h"
 

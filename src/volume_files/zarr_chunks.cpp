@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/interrupt.h"
+#include "base/input_file.h"
 #include "volume_files/chunk_hashes.h"
 #include "volume_files/stored_axes.h"
 

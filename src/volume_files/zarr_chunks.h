@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/byte_buffer.h"
 #include "base/content_hash.h"
+#include "base/input_file.h"
 #include "volume/sample_source.h"
 #include "volume_files/zarr_array.h"
 

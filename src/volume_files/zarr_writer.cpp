@@ -12,12 +12,12 @@
 #include <cstdio>
 #include <cstring>
 
-#include "base/all_zero.h"
-#include "base/byte_buffer.h"
 #include "base/error.h"
-#include "base/folder.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
+#include "base/output_file.h"
 #include "base/parallel.h"
+#include "base/sparse_bytes.h"
 #include "volume_files/chunk_hashes.h"
 
 namespace lamina {

@@ -12,7 +12,6 @@
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
 #include "scene/camera.h"
-#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 #include "support/expect_error.h"
 #include "support/heard_warnings.h"

@@ -11,7 +11,7 @@
 #include <memory>
 #include <random>
 
-#include "base/reserved_memory.h"
+#include "base/memory.h"
 #include "choice/volume_field.h"
 #include "support/volume_of.h"
 

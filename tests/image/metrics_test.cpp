@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image/metrics.h"
+#include "image/difference.h"
 
 #include <gtest/gtest.h>
 

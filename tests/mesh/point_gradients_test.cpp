@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/point_gradients.h"
+#include "mesh/tet_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "gl/gl_fixture.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "mesh/mesh_shape.h"
 #include "papers/grid_mesh.h"
 #include "papers/kraus_stage.h"

@@ -9,7 +9,6 @@
 
 #include "executors/shader_intervals.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl/gl_fixture.h"
 #include "gl/texture.h"
 #include "lamina/image.h"

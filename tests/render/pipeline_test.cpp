@@ -6,8 +6,8 @@
 #include <fstream>
 #include <memory>
 
-#include "base/atomic_file.h"
-#include "image/metrics.h"
+#include "base/output_file.h"
+#include "image/difference.h"
 #include "mesh_files/mesh_file.h"
 #include "scene/given_transfer.h"
 #include "support/expect_error.h"

@@ -2,7 +2,7 @@
 // Lit scenes in studies.
 #include <gtest/gtest.h>
 
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "study/picture_key.h"
 #include "study/reference_store.h"
 #include "study/study_frames.h"

@@ -9,13 +9,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/arithmetic.h"
 #include "base/json_text.h"
-#include "base/median.h"
 #include "icet_compositor.h"
 #include "parallel/picture_composer.h"
 #include "parallel/rank_resources.h"
 #include "render/pipeline.h"
-#include "scene_files/scene_document.h"
 #include "scene_files/scene_reader.h"
 
 namespace {

@@ -7,14 +7,14 @@
 #include <optional>
 #include <string>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "base/standard_streams.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "different_files.h"
+#include "image/difference.h"
 #include "image/difference_picture.h"
-#include "image/loaded_image.h"
-#include "image/metrics.h"
+#include "image/picture.h"
 #include "image/png.h"
 #include "study/error_json.h"
 #include "verbs.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "mesh_files/mesh_file.h"
 #include "named_output.h"
 #include "volume_files/volume_file.h"

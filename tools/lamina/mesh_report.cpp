@@ -2,16 +2,15 @@
 #include <cmath>
 #include <optional>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "file_report.h"
 #include "image/png.h"
 #include "json_vector.h"
 #include "mesh/mesh_picture.h"
 #include "mesh/mesh_shape.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "mesh_files/mesh_file.h"
 #include "statistics_report.h"
-#include "volume/histogram_picture.h"
 #include "volume/value_statistics.h"
 
 namespace lamina {

@@ -13,13 +13,10 @@
 
 #include "base/client.h"
 #include "base/error.h"
-#include "base/error_text.h"
 #include "base/large_stack.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/shortened.h"
-#include "base/signal_stop.h"
-#include "base/standard_streams.h"
-#include "base/warning.h"
+#include "base/text.h"
 #include "command_line.h"
 #include "version_text.h"
 

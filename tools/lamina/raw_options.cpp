@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/shortened.h"
+#include "base/text.h"
 #include "base/value_type.h"
 #include "volume_files/whole_number.h"
 

@@ -10,10 +10,9 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/process.h"
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/stage.h"
-#include "base/standard_streams.h"
-#include "base/stopwatch.h"
 #include "data_series.h"
 #include "memory_option.h"
 #include "named_output.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/stopwatch.h"
+#include "base/profile.h"
 #include "data_series.h"
 #include "picture_file.h"
 #include "render/pipeline.h"

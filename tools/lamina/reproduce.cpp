@@ -10,13 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
-#include "base/folder.h"
 #include "base/json_text.h"
-#include "base/own_files.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
 #include "command_line.h"
 #include "git_commit.h"
 #include "output_folder.h"

@@ -6,12 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/json_stdin.h"
-#include "base/shortened.h"
+#include "base/json_text.h"
+#include "base/text.h"
 #include "named_output.h"
 #include "scene_files/json_reader.h"
-#include "scene_files/scene_document.h"
-#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {

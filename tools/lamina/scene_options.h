@@ -19,7 +19,7 @@ struct SceneOptions {
     RawOptions raw;                     // --raw, of a volume without a header
 };
 
-// The scene that a file is, or the one that draws a data file (scene_files/scene_document.h).
+// The scene that a file is, or the one that draws a data file (scene_files/scene_reader.h).
 // `more`: settings that other options stand for. `document`: becomes the scene's JSON with all
 // settings. A mistake in --set, --method or one of `more` is one of usage (UsageError, exit 2), one
 // in the file is not.

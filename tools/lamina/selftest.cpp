@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
-#include "base/folder.h"
 #include "base/json_text.h"
-#include "base/own_files.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
 #include "git_commit.h"
 #include "output_folder.h"
 #include "render/context_choice.h"

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "base/atomic_file.h"
-#include "base/file_hash.h"
+#include "base/content_hash.h"
 #include "base/json_text.h"
+#include "base/output_file.h"
 
 namespace lamina {
 namespace {

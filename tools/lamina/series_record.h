@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/client.h"
-#include "base/stopwatch.h"
+#include "base/profile.h"
 
 namespace lamina {
 

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/printable.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
+#include "base/text.h"
 #include "command_line.h"
 #include "different_files.h"
 #include "git_commit.h"

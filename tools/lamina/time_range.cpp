@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "base/error.h"
-#include "base/shortened.h"
+#include "base/text.h"
 
 namespace lamina {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/shortened.h"
+#include "base/text.h"
 #include "optics/shipped_colormaps.h"
 
 namespace lamina {

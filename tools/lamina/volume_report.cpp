@@ -2,12 +2,11 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "file_report.h"
 #include "image/png.h"
 #include "json_vector.h"
 #include "statistics_report.h"
-#include "volume/histogram_picture.h"
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
 #include "volume/value_statistics.h"

@@ -14,9 +14,9 @@
 #include <thread>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
-#include "base/stopwatch.h"
+#include "base/output_file.h"
+#include "base/profile.h"
 #include "measure_cpu/kernels.h"
 #include "simd/instruction_set.h"
 #include "tiles/tile_capabilities.h"
