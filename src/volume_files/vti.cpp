@@ -13,7 +13,7 @@
 #include "base/file_bytes.h"
 #include "base/filled_memory.h"
 #include "base/warning.h"
-#include "mesh_files/vtu_file.h"
+#include "mesh_files/vtk_xml.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/memory_reader.h"
 #include "volume_files/plain_grid.h"

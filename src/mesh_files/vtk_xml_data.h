@@ -3,13 +3,31 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/byte_buffer.h"
+#include "base/random_access_file.h"
 #include "base/value_type.h"
-#include "mesh_files/vtu_source.h"
 
 namespace lamina {
+
+// An encoded array of a VTK XML file, from its beginning to the end of the text or data that may
+// belong to it.
+struct VtuSource {
+    std::string_view text;                   // base64
+    const RandomAccessFile* file = nullptr;  // or its bytes begin .. end - 1
+    std::uint64_t begin = 0, end = 0;
+    bool base64 = true;
+
+    std::uint64_t left() const { return file != nullptr ? end - begin : text.size(); }
+    void skip(std::uint64_t count) {
+        if (file != nullptr)
+            begin += count;
+        else
+            text.remove_prefix(count);
+    }
+};
 
 // How a VTK XML file encodes its binary arrays: attributes of its VTKFile element.
 struct VtuEncoding {
@@ -26,9 +44,8 @@ struct VtuValues {
 
 // Reads `count` values of `type` from binary data, as vtkXMLDataParser does: a header (the length,
 // or the lengths of the compressed blocks), then the values. Checks lengths before it takes memory.
-// Throws Error. `what`: names the file and the array in messages. The
-// source then begins behind it.
-// The bytes of the values, in the file's byte order.
+// The source then begins behind them. read_vtu_bytes() leaves the file's byte order. Throws Error.
+// `what`: names the file and the array in messages.
 ByteBuffer read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
                           std::int64_t count, const std::string& what);
 template <typename To>

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // "VTK File Formats" (the VTK User's Guide) and, for what it does not say, vtkDataReader.cxx.
-#include "mesh_files/vtk_reader.h"
+#include "mesh_files/vtk_legacy.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,14 +14,208 @@
 
 #include "base/error.h"
 #include "base/file_bytes.h"
+#include "base/value_type.h"
 #include "mesh_files/mesh_assembly.h"
 #include "mesh_files/text_reader.h"
-#include "mesh_files/vtk_tokens.h"
 
 namespace lamina {
 namespace {
 
-// The number of components of a data set attribute; 0: its line says it.
+// The types of arrays in legacy VTK files. Bits and strings are skipped.
+struct VtkType {
+    enum class Kind { number, bit, string } kind = Kind::number;
+    ValueType value = ValueType::float32;
+};
+
+// Reads words, numbers and arrays of a legacy VTK file. Throws Error. Messages name the file and
+// the position: a line of an ASCII file, a byte of a binary one.
+class VtkTokens {
+  public:
+    VtkTokens(std::string file, std::string_view text) : file_(std::move(file)), reader_(text) {}
+
+    const std::string& file() const { return file_; }
+    std::string_view line() { return reader_.line(); }
+    void set_binary(bool binary) { binary_ = binary; }
+
+    std::string where() const;             // "FILE: line 12" or "FILE: byte 345"
+    std::string keyword();                 // the next word in lower case; empty at the end
+    std::string name();                    // name of an array, with %20 and the like decoded
+    std::int64_t count(const char* what);  // a whole number >= 0
+    // Reads such a number if the line has more words, else returns `otherwise`.
+    std::int64_t count_in_line(std::int64_t otherwise);
+    VtkType type();
+
+    // Reads `count` numbers. In a binary file they begin on the next line and are big endian.
+    template <typename To>
+    std::vector<To> values(ValueType type, std::int64_t count, const std::string& what) {
+        const std::string place = file_ + ": " + what;
+        if (!binary_) return read_text_values<To>(reader_, type, count, place);
+        const char* const bytes = take(count, bytes_of(type), place);
+        return values_from_bytes<To>(type, bytes, static_cast<std::size_t>(count),
+                                     std::endian::native == std::endian::little);
+    }
+    void skip_values(VtkType type, std::int64_t count, const std::string& what);
+    void skip_metadata();  // skips the lines up to an empty one
+
+  private:
+    const char* take(std::int64_t count, std::size_t size, const std::string& what);
+    void skip_strings(std::int64_t count, const std::string& what);
+
+    std::string file_;
+    TextReader reader_;
+    bool binary_ = false;
+};
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return result;
+}
+
+// vtkDataReader::ReadArray; VTK writes its vtkIdType as an int.
+struct NamedType {
+    std::string_view name;
+    VtkType type;
+};
+constexpr auto of_numbers = VtkType::Kind::number;
+constexpr std::array<NamedType, 18> named_types{{
+    {"bit", {VtkType::Kind::bit, ValueType::uint8}},
+    {"string", {VtkType::Kind::string, ValueType::uint8}},
+    {"utf8_string", {VtkType::Kind::string, ValueType::uint8}},
+    {"char", {of_numbers, ValueType::int8}},
+    {"signed_char", {of_numbers, ValueType::int8}},
+    {"unsigned_char", {of_numbers, ValueType::uint8}},
+    {"short", {of_numbers, ValueType::int16}},
+    {"unsigned_short", {of_numbers, ValueType::uint16}},
+    {"int", {of_numbers, ValueType::int32}},
+    {"unsigned_int", {of_numbers, ValueType::uint32}},
+    {"long", {of_numbers, ValueType::int64}},
+    {"unsigned_long", {of_numbers, ValueType::uint64}},
+    {"vtkidtype", {of_numbers, ValueType::int32}},
+    {"vtktypeint64", {of_numbers, ValueType::int64}},
+    {"vtktypeuint64", {of_numbers, ValueType::uint64}},
+    {"vtktypeint32", {of_numbers, ValueType::int32}},
+    {"float", {of_numbers, ValueType::float32}},
+    {"double", {of_numbers, ValueType::float64}},
+}};
+
+std::string VtkTokens::where() const {
+    if (binary_) return fmt::format("{}: byte {}", file_, reader_.position());
+    return fmt::format("{}: line {}", file_, reader_.line_number());
+}
+
+std::string VtkTokens::keyword() {
+    constexpr std::size_t longest = 40;  // keywords are shorter: longer words are binary data
+    return lower(reader_.word().substr(0, longest));
+}
+
+std::string VtkTokens::name() {
+    const std::string_view coded = reader_.word();
+    if (coded.empty()) fail("{}: found the end, expected the name of an array", where());
+    std::string name;
+    for (std::size_t i = 0; i < coded.size(); ++i) {
+        unsigned char code = 0;
+        const char* const hex = coded.data() + i + 1;
+        if (coded[i] == '%' && i + 2 < coded.size() &&
+            std::from_chars(hex, hex + 2, code, 16).ptr == hex + 2) {
+            name += static_cast<char>(code);
+            i += 2;
+        } else {
+            name += coded[i];
+        }
+    }
+    return one_line(name);
+}
+
+std::int64_t VtkTokens::count(const char* what) {
+    std::int64_t count = 0;
+    TextReader before = reader_;
+    if (!reader_.read(count) || count < 0) {
+        fail("{}: {}: found {}, expected a whole number >= 0", where(), what, next_word(before));
+    }
+    return count;
+}
+
+std::int64_t VtkTokens::count_in_line(std::int64_t otherwise) {
+    return reader_.line_goes_on() ? count("number of components") : otherwise;
+}
+
+VtkType VtkTokens::type() {
+    TextReader before = reader_;
+    const std::string name = keyword();
+    const auto found = std::ranges::find(named_types, name, &NamedType::name);
+    if (found == named_types.end()) {
+        fail("{}: found {}, expected a type of numbers (float, double, int, ...)", where(),
+             next_word(before));
+    }
+    return found->type;
+}
+
+const char* VtkTokens::take(std::int64_t count, std::size_t size, const std::string& what) {
+    reader_.line();
+    if (static_cast<std::uint64_t>(count) > reader_.left() / size) {
+        fail("{}: found {} bytes before the end of the file, expected {} numbers of {} bytes", what,
+             reader_.left(), count, size);
+    }
+    const char* const bytes = reader_.here();
+    reader_.skip(static_cast<std::size_t>(count) * size);
+    return bytes;
+}
+
+void VtkTokens::skip_values(VtkType type, std::int64_t count, const std::string& what) {
+    const std::string place = file_ + ": " + what;
+    if (type.kind == VtkType::Kind::string) {
+        skip_strings(count, place);
+    } else if (!binary_) {
+        for (std::int64_t i = 0; i < count; ++i) {
+            if (reader_.word().empty()) {
+                fail("{}: found {} values before the end of the file, expected {}", place, i,
+                     count);
+            }
+        }
+    } else if (type.kind == VtkType::Kind::bit) {
+        take(count / 8 + (count % 8 != 0 ? 1 : 0), 1, place);
+    } else {
+        take(count, bytes_of(type.value), place);
+    }
+}
+
+// Skips strings, which vtkDataWriter writes one a line. In binary files each follows its length,
+// which takes 1, 2, 4 or 8 bytes as its two highest bits say.
+void VtkTokens::skip_strings(std::int64_t count, const std::string& what) {
+    reader_.line();
+    for (std::int64_t i = 0; i < count; ++i) {
+        if (reader_.left() == 0) {
+            fail("{}: found {} strings before the end of the file, expected {}", what, i, count);
+        }
+        if (!binary_) {
+            reader_.line();
+            continue;
+        }
+        const auto first = static_cast<unsigned char>(*reader_.here());
+        const std::size_t prefix = std::size_t{1} << (3 - (first >> 6));
+        std::uint64_t length = first & 63;
+        for (std::size_t j = 1; j < std::min(prefix, reader_.left()); ++j) {
+            length = length << 8 | static_cast<unsigned char>(reader_.here()[j]);
+        }
+        if (prefix > reader_.left() || length > reader_.left() - prefix) {
+            fail("{}: string {} goes beyond the end of the file", what, i + 1);
+        }
+        reader_.skip(prefix + length);
+    }
+}
+
+void VtkTokens::skip_metadata() {
+    reader_.line();
+    while (reader_.left() > 0) {
+        TextReader line(reader_.line());
+        if (line.at_end()) return;
+    }
+}
+
+// An attribute of a data set by its keyword, and its number of components; 0: its line says it.
 struct Attribute {
     std::string_view keyword;
     std::int64_t components;
@@ -172,7 +371,7 @@ class VtkReader {
         return tokens_.values<std::int64_t>(type, count, section);
     }
 
-    // In the list each cell has its number of points, then these points.
+    // The list has, for each cell, its number of points, then these points.
     void unpack_cells(std::int64_t count, const std::vector<std::int64_t>& list) {
         if (static_cast<std::uint64_t>(count) > list.size()) {
             fail("{}: CELLS: found a list of {} numbers for {} cells", tokens_.file(), list.size(),
@@ -199,7 +398,7 @@ class VtkReader {
         }
     }
 
-    // Returns false where `word` is not an attribute.
+    // Returns false if `word` is not an attribute.
     bool read_attribute(const std::string& word) {
         if (word == "lookup_table") {
             const std::string name = tokens_.name();
@@ -224,7 +423,7 @@ class VtkReader {
         return false;
     }
 
-    // "[components]", then the line "LOOKUP_TABLE name".
+    // Reads "[components]", then the line "LOOKUP_TABLE name".
     std::int64_t read_scalars_line() {
         const std::int64_t components = tokens_.count_in_line(1);
         if (const std::string word = tokens_.keyword(); word != "lookup_table") {
@@ -235,8 +434,8 @@ class VtkReader {
         return components;
     }
 
-    // Colours are bytes in a binary file and fractions in an ASCII one. As words both are `count`
-    // values.
+    // Skips colours, which are bytes in a binary file and fractions in an ASCII one: `count` values
+    // in both.
     void skip_colors(const std::string& name, std::int64_t count) {
         tokens_.skip_values({VtkType::Kind::number, ValueType::uint8}, count, name);
     }
@@ -246,7 +445,7 @@ class VtkReader {
         const std::int64_t arrays = tokens_.count("FIELD");
         for (std::int64_t i = 0; i < arrays; ++i) {
             std::string name = tokens_.name();
-            if (name == "METADATA") {  // of the array before
+            if (name == "METADATA") {  // describes the array before
                 tokens_.skip_metadata();
                 name = tokens_.name();
             }

@@ -9,11 +9,38 @@
 #include <string_view>
 #include <vector>
 
+#include "base/byte_buffer.h"
+#include "base/random_access_file.h"
 #include "base/value_type.h"
-#include "mesh_files/vtk_xml_text.h"
-#include "mesh_files/vtu_data.h"
+#include "mesh_files/vtk_xml_data.h"
 
 namespace lamina {
+
+// The text of a VTK XML file without its appended data. These are no XML if they are raw, and stay
+// in the file until an array is read. Throws Error if the file does not end as it should.
+class VtkXmlText {
+  public:
+    explicit VtkXmlText(const std::filesystem::path& path);
+
+    std::uint64_t byte_count() const { return file_.size(); }
+    std::span<char> xml();  // to be parsed in place
+    bool has_appended() const { return has_appended_; }
+    VtuSource appended() const { return appended_; }  // all of them, after the underscore
+
+  private:
+    void read_beginning();
+    std::string_view text() const { return bytes_.text().substr(0, read_); }
+    void cut_off_appended(std::size_t tag);
+    void find_end(std::uint64_t mark);
+
+    std::string name_;
+    RandomAccessFile file_;
+    ByteBuffer bytes_;      // the file's length
+    std::size_t read_ = 0;  // bytes of these that were read
+    std::string xml_;       // instead of bytes_, if there are appended data
+    bool has_appended_ = false;
+    VtuSource appended_;
+};
 
 // A VTK XML file of one kind of grid: its elements, and the numbers of its DataArrays in any
 // encoding. Throws Error for anything invalid.
@@ -25,22 +52,23 @@ class VtuFile {
     std::uint64_t byte_count() const { return text_.byte_count(); }
     pugi::xml_node grid() const { return grid_; }
 
-    // A whole number >= 0 in an attribute.
+    // Returns a whole number >= 0 in an attribute.
     std::int64_t count_in(pugi::xml_node node, const char* attribute,
                           const std::string& what) const;
     std::int64_t components_of(pugi::xml_node array, const std::string& what) const;
 
-    // The values (tuples times components) of a DataArray as To: double or int64. `what`: names the
-    // file and the array in messages.
+    // Returns the values (tuples times components) of a DataArray as To: double or int64. `what`:
+    // names the file and the array in messages.
     template <typename To>
     std::vector<To> values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
                            const std::string& what) const;
-    // The same in their own type and native byte order.
+    // Returns the values in their own type and native byte order.
     VtuValues stored_values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
                             const std::string& what) const;
 
   private:
-    // Calls binary(source) or text(reader), whichever holds the values, for `count` of them.
+    // Calls binary(source) or text(reader), depending on how the array is stored, for `count`
+    // values.
     template <typename Binary, typename Text>
     auto decoded(pugi::xml_node array, std::int64_t count, const std::string& what,
                  const Binary& binary, const Text& text) const;
@@ -55,7 +83,7 @@ class VtuFile {
 
     std::string name_;
     VtkXmlText text_;                          // xml_nodes point into it
-    mutable std::uint64_t appended_used_ = 0;  // bytes used by all arrays that were read
+    mutable std::uint64_t appended_used_ = 0;  // bytes of all arrays that were read
     mutable std::uint64_t values_kept_ = 0;    // number of values of all arrays that were read
     pugi::xml_document document_;
     pugi::xml_node grid_;
