@@ -138,12 +138,12 @@ void VtkXmlText::find_end(std::uint64_t mark) {
          name_, most);
 }
 
-VtuFile::VtuFile(const std::filesystem::path& path, const char* grid_type)
+VtkXmlFile::VtkXmlFile(const std::filesystem::path& path, const char* grid_type)
     : name_(path.string()), text_(path) {
     parse(text_.xml(), grid_type);
 }
 
-void VtuFile::parse(std::span<char> xml, const char* grid_type) {
+void VtkXmlFile::parse(std::span<char> xml, const char* grid_type) {
     const std::ptrdiff_t marks =
         std::count_if(xml.begin(), xml.end(), [](char c) { return c == '<' || c == '='; });
     if (marks > most_marks) {
@@ -161,7 +161,7 @@ void VtuFile::parse(std::span<char> xml, const char* grid_type) {
     read_root(document_.child("VTKFile"), grid_type);
 }
 
-void VtuFile::read_root(pugi::xml_node root, const char* grid_type) {
+void VtkXmlFile::read_root(pugi::xml_node root, const char* grid_type) {
     const std::string type = root.attribute("type").value();
     if (type != grid_type) {
         fail("{}: VTKFile type: found {}, expected '{}'", name_, said(type.c_str()), grid_type);
@@ -189,8 +189,8 @@ void VtuFile::read_root(pugi::xml_node root, const char* grid_type) {
     }
 }
 
-std::int64_t VtuFile::count_in(pugi::xml_node node, const char* attribute,
-                               const std::string& what) const {
+std::int64_t VtkXmlFile::count_in(pugi::xml_node node, const char* attribute,
+                                  const std::string& what) const {
     const char* const text = node.attribute(attribute).value();
     TextReader reader(text);
     std::int64_t count = 0;
@@ -201,23 +201,23 @@ std::int64_t VtuFile::count_in(pugi::xml_node node, const char* attribute,
     return count;
 }
 
-std::int64_t VtuFile::components_of(pugi::xml_node array, const std::string& what) const {
+std::int64_t VtkXmlFile::components_of(pugi::xml_node array, const std::string& what) const {
     if (!array.attribute("NumberOfComponents")) return 1;
     const std::int64_t count = count_in(array, "NumberOfComponents", what);
     return count == 0 ? 1 : count;  // VTK takes 0 for 1
 }
 
-ValueType VtuFile::type_of(pugi::xml_node array, const std::string& what) const {
+ValueType VtkXmlFile::type_of(pugi::xml_node array, const std::string& what) const {
     const char* const text = array.attribute("type").value();
     if (const auto type = type_named(text)) return *type;
     fail("{}: type: found {}, expected Int8 ... UInt64, Float32 or Float64", what, said(text));
 }
 
-VtuSource VtuFile::appended_at(pugi::xml_node array, const std::string& what) const {
+VtkXmlSource VtkXmlFile::appended_at(pugi::xml_node array, const std::string& what) const {
     if (!text_.has_appended())
         fail("{}: format 'appended', but the file has no AppendedData", what);
     const std::int64_t offset = count_in(array, "offset", what);
-    VtuSource source = text_.appended();
+    VtkXmlSource source = text_.appended();
     if (static_cast<std::uint64_t>(offset) > source.left()) {
         fail("{}: offset: found {}, the file has {} bytes of appended data", what, offset,
              source.left());
@@ -228,7 +228,7 @@ VtuSource VtuFile::appended_at(pugi::xml_node array, const std::string& what) co
 
 // Counts the bytes of appended data that arrays take: arrays that share their bytes would let a
 // small file fill all memory.
-void VtuFile::count_appended(std::uint64_t bytes, const std::string& what) const {
+void VtkXmlFile::count_appended(std::uint64_t bytes, const std::string& what) const {
     appended_used_ += bytes;
     if (appended_used_ > text_.appended().left()) {
         fail(
@@ -240,7 +240,7 @@ void VtuFile::count_appended(std::uint64_t bytes, const std::string& what) const
 // Counts the values that arrays hold. zlib makes a thousand equal bytes into one, and each may
 // become a value of 8 bytes, so that a small file could fill all memory; points and corners of real
 // meshes are far from that.
-void VtuFile::count_kept(std::int64_t count, const std::string& what) const {
+void VtkXmlFile::count_kept(std::int64_t count, const std::string& what) const {
     constexpr std::uint64_t most_expansion = 256;
     values_kept_ += static_cast<std::uint64_t>(count);
     if (values_kept_ / most_expansion > text_.byte_count() / sizeof(double) + 1) {
@@ -251,8 +251,8 @@ void VtuFile::count_kept(std::int64_t count, const std::string& what) const {
     }
 }
 
-std::int64_t VtuFile::value_count(std::int64_t tuples, std::int64_t components,
-                                  const std::string& what) const {
+std::int64_t VtkXmlFile::value_count(std::int64_t tuples, std::int64_t components,
+                                     const std::string& what) const {
     std::int64_t count = 0;
     if (__builtin_mul_overflow(tuples, components, &count)) {
         fail("{}: the file promises {} tuples of {} values, more than any file holds", what, tuples,
@@ -262,11 +262,11 @@ std::int64_t VtuFile::value_count(std::int64_t tuples, std::int64_t components,
 }
 
 template <typename Binary, typename Text>
-auto VtuFile::decoded(pugi::xml_node array, std::int64_t count, const std::string& what,
-                      const Binary& binary, const Text& in_text) const {
+auto VtkXmlFile::decoded(pugi::xml_node array, std::int64_t count, const std::string& what,
+                         const Binary& binary, const Text& in_text) const {
     const std::string format = array.attribute("format").as_string("ascii");
     if (format == "appended") {
-        VtuSource source = appended_at(array, what);
+        VtkXmlSource source = appended_at(array, what);
         const std::uint64_t from = source.left();
         auto values = binary(source);
         count_appended(from - source.left(), what);
@@ -276,7 +276,7 @@ auto VtuFile::decoded(pugi::xml_node array, std::int64_t count, const std::strin
     const std::string joined = text_of(array, text);
     if (!joined.empty()) text = joined;
     if (format == "binary") {
-        VtuSource source{.text = text};
+        VtkXmlSource source{.text = text};
         auto values = binary(source);
         warn_of_surplus(what, source.text, "its base64 data");
         return values;
@@ -294,8 +294,8 @@ auto VtuFile::decoded(pugi::xml_node array, std::int64_t count, const std::strin
 }
 
 template <typename To>
-std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
-                                const std::string& what) const {
+std::vector<To> VtkXmlFile::values(pugi::xml_node array, std::int64_t tuples,
+                                   std::int64_t components, const std::string& what) const {
     const std::int64_t count = value_count(tuples, components, what);
     count_kept(count, what);
     const ValueType type = type_of(array, what);
@@ -304,24 +304,26 @@ std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::
     }
     return decoded(
         array, count, what,
-        [&](VtuSource& source) { return read_vtu_data<To>(source, encoding_, type, count, what); },
+        [&](VtkXmlSource& source) {
+            return read_vtk_xml_values<To>(source, encoding_, type, count, what);
+        },
         [&](TextReader& reader) { return read_text_values<To>(reader, type, count, what); });
 }
 
-VtuValues VtuFile::stored_values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
-                                 const std::string& what) const {
+VtkXmlValues VtkXmlFile::stored_values(pugi::xml_node array, std::int64_t tuples,
+                                       std::int64_t components, const std::string& what) const {
     const std::int64_t count = value_count(tuples, components, what);
     const ValueType type = type_of(array, what);
     const auto words = static_cast<std::size_t>(count);
     return decoded(
         array, count, what,
-        [&](VtuSource& source) {
-            VtuValues values{type, read_vtu_bytes(source, encoding_, type, count, what)};
+        [&](VtkXmlSource& source) {
+            VtkXmlValues values{type, read_vtk_xml_bytes(source, encoding_, type, count, what)};
             if (encoding_.swap_bytes) swap_words(type, values.bytes);
             return values;
         },
         [&](TextReader& reader) {
-            VtuValues values{type, {}};
+            VtkXmlValues values{type, {}};
             const auto store = [&](const auto& numbers) {
                 values.bytes = ByteBuffer(words * bytes_of(type));
                 with_type(type, [&](auto zero) {
@@ -341,9 +343,9 @@ VtuValues VtuFile::stored_values(pugi::xml_node array, std::int64_t tuples, std:
         });
 }
 
-template std::vector<double> VtuFile::values(pugi::xml_node, std::int64_t, std::int64_t,
-                                             const std::string&) const;
-template std::vector<std::int64_t> VtuFile::values(pugi::xml_node, std::int64_t, std::int64_t,
-                                                   const std::string&) const;
+template std::vector<double> VtkXmlFile::values(pugi::xml_node, std::int64_t, std::int64_t,
+                                                const std::string&) const;
+template std::vector<std::int64_t> VtkXmlFile::values(pugi::xml_node, std::int64_t, std::int64_t,
+                                                      const std::string&) const;
 
 }  // namespace lamina

@@ -25,7 +25,7 @@ class VtkXmlText {
     std::uint64_t byte_count() const { return file_.size(); }
     std::span<char> xml();  // to be parsed in place
     bool has_appended() const { return has_appended_; }
-    VtuSource appended() const { return appended_; }  // all of them, after the underscore
+    VtkXmlSource appended() const { return appended_; }  // all of them, after the underscore
 
   private:
     void read_beginning();
@@ -35,18 +35,19 @@ class VtkXmlText {
 
     std::string name_;
     RandomAccessFile file_;
-    ByteBuffer bytes_;      // the file's length
-    std::size_t read_ = 0;  // bytes of these that were read
+    ByteBuffer bytes_;      // as long as the file
+    std::size_t read_ = 0;  // bytes in it that were read
     std::string xml_;       // instead of bytes_, if there are appended data
     bool has_appended_ = false;
-    VtuSource appended_;
+    VtkXmlSource appended_;
 };
 
 // A VTK XML file of one kind of grid: its elements, and the numbers of its DataArrays in any
 // encoding. Throws Error for anything invalid.
-class VtuFile {
+class VtkXmlFile {
   public:
-    explicit VtuFile(const std::filesystem::path& path, const char* grid_type = "UnstructuredGrid");
+    explicit VtkXmlFile(const std::filesystem::path& path,
+                        const char* grid_type = "UnstructuredGrid");
 
     const std::string& name() const { return name_; }
     std::uint64_t byte_count() const { return text_.byte_count(); }
@@ -63,8 +64,8 @@ class VtuFile {
     std::vector<To> values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
                            const std::string& what) const;
     // Returns the values in their own type and native byte order.
-    VtuValues stored_values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
-                            const std::string& what) const;
+    VtkXmlValues stored_values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
+                               const std::string& what) const;
 
   private:
     // Calls binary(source) or text(reader), depending on how the array is stored, for `count`
@@ -77,7 +78,7 @@ class VtuFile {
     void parse(std::span<char> xml, const char* grid_type);
     void read_root(pugi::xml_node root, const char* grid_type);
     ValueType type_of(pugi::xml_node array, const std::string& what) const;
-    VtuSource appended_at(pugi::xml_node array, const std::string& what) const;
+    VtkXmlSource appended_at(pugi::xml_node array, const std::string& what) const;
     void count_appended(std::uint64_t bytes, const std::string& what) const;
     void count_kept(std::int64_t count, const std::string& what) const;
 
@@ -87,7 +88,7 @@ class VtuFile {
     mutable std::uint64_t values_kept_ = 0;    // number of values of all arrays that were read
     pugi::xml_document document_;
     pugi::xml_node grid_;
-    VtuEncoding encoding_;
+    VtkXmlEncoding encoding_;
 };
 
 }  // namespace lamina

@@ -26,7 +26,7 @@ namespace {
 class EncodedBytes {
   public:
     // `what`: names the file and the array in messages.
-    EncodedBytes(const VtuSource& source, std::string what)
+    EncodedBytes(const VtkXmlSource& source, std::string what)
         : source_(source), text_(source.text), what_(std::move(what)) {}
 
     // Returns an upper bound on the number of bytes that can still be read.
@@ -43,7 +43,7 @@ class EncodedBytes {
     bool decode_four();
     std::size_t decode_whole_groups(char* bytes, std::size_t count);
 
-    VtuSource source_;
+    VtkXmlSource source_;
     ByteBuffer window_;      // a part of the source, if that is in a file
     std::string_view text_;  // the source's, or the window's
     std::string what_;
@@ -146,10 +146,10 @@ void EncodedBytes::read(char* bytes, std::size_t count) {
 }
 
 // How a VTK XML file compresses the blocks of its arrays: the names of VTK's classes.
-class VtuCompressor {
+class VtkXmlCompressor {
   public:
     // Throws Error for a class that is not known. `what`: names the file and the array in messages.
-    static VtuCompressor named(const std::string& name, const std::string& what);
+    static VtkXmlCompressor named(const std::string& name, const std::string& what);
 
     const char* word() const { return word_; }  // "zlib", "LZ4", "LZMA"
     // Most bytes that one stored byte gives.
@@ -163,7 +163,7 @@ class VtuCompressor {
   private:
     using Decode = std::int64_t (*)(std::span<const char>, std::span<char>);
 
-    VtuCompressor(const char* word, std::uint64_t most_expansion, Decode decoder)
+    VtkXmlCompressor(const char* word, std::uint64_t most_expansion, Decode decoder)
         : word_(word), most_expansion_(most_expansion), decode_(decoder) {}
 
     const char* word_;
@@ -194,7 +194,7 @@ std::int64_t decode_lzma(std::span<const char> stored, std::span<char> block) {
     return result == LZMA_OK && size == block.size() ? static_cast<std::int64_t>(used) : -1;
 }
 
-VtuCompressor VtuCompressor::named(const std::string& name, const std::string& what) {
+VtkXmlCompressor VtkXmlCompressor::named(const std::string& name, const std::string& what) {
     // Deflate codes at most 258 bytes in 2 bits (zlib, "Technical details": 1032:1).
     if (name == "vtkZLibDataCompressor") return {"zlib", 1032, decode_zlib};
     if (name == "vtkLZ4DataCompressor") return {"LZ4", lz4_expansion, decode_lz4};
@@ -206,7 +206,7 @@ VtuCompressor VtuCompressor::named(const std::string& name, const std::string& w
         what, one_line(name));
 }
 
-std::uint64_t read_header_word(EncodedBytes& bytes, const VtuEncoding& encoding) {
+std::uint64_t read_header_word(EncodedBytes& bytes, const VtkXmlEncoding& encoding) {
     char word[8];
     bytes.read(word, bytes_of(encoding.header_type));
     return values_from_bytes<std::uint64_t>(encoding.header_type, word, 1, encoding.swap_bytes)[0];
@@ -217,7 +217,7 @@ void check_length(std::uint64_t found, std::uint64_t expected, const std::string
     fail("{}: found {} bytes in its header, expected {}", what, found, expected);
 }
 
-ByteBuffer read_plain(EncodedBytes& bytes, const VtuEncoding& encoding, std::uint64_t expected,
+ByteBuffer read_plain(EncodedBytes& bytes, const VtkXmlEncoding& encoding, std::uint64_t expected,
                       const std::string& what) {
     check_length(read_header_word(bytes, encoding), expected, what);
     if (expected > bytes.at_most_left()) {
@@ -235,8 +235,8 @@ struct Block {
 
 // Reads the header of compressed data: the number of blocks, the size of each but the last, the
 // size of the last if it is not full (else 0), then the stored size of each.
-std::vector<Block> read_blocks(EncodedBytes& bytes, const VtuEncoding& encoding,
-                               const VtuCompressor& compressor, std::uint64_t expected,
+std::vector<Block> read_blocks(EncodedBytes& bytes, const VtkXmlEncoding& encoding,
+                               const VtkXmlCompressor& compressor, std::uint64_t expected,
                                const std::string& what) {
     const std::uint64_t count = read_header_word(bytes, encoding);
     const std::uint64_t full = read_header_word(bytes, encoding);
@@ -270,9 +270,9 @@ std::vector<Block> read_blocks(EncodedBytes& bytes, const VtuEncoding& encoding,
     return blocks;
 }
 
-ByteBuffer read_compressed(EncodedBytes& bytes, const VtuEncoding& encoding, std::uint64_t expected,
-                           const std::string& what) {
-    const VtuCompressor compressor = VtuCompressor::named(encoding.compressor, what);
+ByteBuffer read_compressed(EncodedBytes& bytes, const VtkXmlEncoding& encoding,
+                           std::uint64_t expected, const std::string& what) {
+    const VtkXmlCompressor compressor = VtkXmlCompressor::named(encoding.compressor, what);
     const std::vector<Block> blocks = read_blocks(bytes, encoding, compressor, expected, what);
     ByteBuffer values(expected);
     std::string packed;
@@ -302,8 +302,8 @@ ByteBuffer read_compressed(EncodedBytes& bytes, const VtuEncoding& encoding, std
 
 }  // namespace
 
-ByteBuffer read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
-                          std::int64_t count, const std::string& what) {
+ByteBuffer read_vtk_xml_bytes(VtkXmlSource& source, const VtkXmlEncoding& encoding, ValueType type,
+                              std::int64_t count, const std::string& what) {
     if (count == 0) return {};
     std::uint64_t expected = 0;
     if (__builtin_mul_overflow(static_cast<std::uint64_t>(count), bytes_of(type), &expected)) {
@@ -321,17 +321,17 @@ ByteBuffer read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueT
 }
 
 template <typename To>
-std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
-                              std::int64_t count, const std::string& what) {
+std::vector<To> read_vtk_xml_values(VtkXmlSource& source, const VtkXmlEncoding& encoding,
+                                    ValueType type, std::int64_t count, const std::string& what) {
     if (count == 0) return {};
-    ByteBuffer values = read_vtu_bytes(source, encoding, type, count, what);
+    ByteBuffer values = read_vtk_xml_bytes(source, encoding, type, count, what);
     return values_from_bytes<To>(type, values.data(), static_cast<std::size_t>(count),
                                  encoding.swap_bytes);
 }
 
-template std::vector<double> read_vtu_data(VtuSource&, const VtuEncoding&, ValueType, std::int64_t,
-                                           const std::string&);
-template std::vector<std::int64_t> read_vtu_data(VtuSource&, const VtuEncoding&, ValueType,
+template std::vector<double> read_vtk_xml_values(VtkXmlSource&, const VtkXmlEncoding&, ValueType,
                                                  std::int64_t, const std::string&);
+template std::vector<std::int64_t> read_vtk_xml_values(VtkXmlSource&, const VtkXmlEncoding&,
+                                                       ValueType, std::int64_t, const std::string&);
 
 }  // namespace lamina

@@ -14,7 +14,7 @@ namespace lamina {
 
 // An encoded array of a VTK XML file, from its beginning to the end of the text or data that may
 // belong to it.
-struct VtuSource {
+struct VtkXmlSource {
     std::string_view text;                   // base64
     const RandomAccessFile* file = nullptr;  // or its bytes begin .. end - 1
     std::uint64_t begin = 0, end = 0;
@@ -30,26 +30,26 @@ struct VtuSource {
 };
 
 // How a VTK XML file encodes its binary arrays: attributes of its VTKFile element.
-struct VtuEncoding {
+struct VtkXmlEncoding {
     bool swap_bytes = false;
     ValueType header_type = ValueType::uint32;
     std::string compressor;  // empty: none
 };
 
 // Values in their own type and native byte order.
-struct VtuValues {
+struct VtkXmlValues {
     ValueType type = ValueType::uint8;
     ByteBuffer bytes;
 };
 
 // Reads `count` values of `type` from binary data, as vtkXMLDataParser does: a header (the length,
 // or the lengths of the compressed blocks), then the values. Checks lengths before it takes memory.
-// The source then begins behind them. read_vtu_bytes() leaves the file's byte order. Throws Error.
-// `what`: names the file and the array in messages.
-ByteBuffer read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
-                          std::int64_t count, const std::string& what);
-template <typename To>
-std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
+// The source then begins behind them. read_vtk_xml_bytes() leaves the file's byte order. Throws
+// Error. `what`: names the file and the array in messages.
+ByteBuffer read_vtk_xml_bytes(VtkXmlSource& source, const VtkXmlEncoding& encoding, ValueType type,
                               std::int64_t count, const std::string& what);
+template <typename To>
+std::vector<To> read_vtk_xml_values(VtkXmlSource& source, const VtkXmlEncoding& encoding,
+                                    ValueType type, std::int64_t count, const std::string& what);
 
 }  // namespace lamina

@@ -101,7 +101,7 @@ pugi::xml_node child_of(pugi::xml_node node, const char* name, const std::string
     return child;
 }
 
-std::vector<std::int64_t> read_cell_array(const VtuFile& file, pugi::xml_node cells,
+std::vector<std::int64_t> read_cell_array(const VtkXmlFile& file, pugi::xml_node cells,
                                           const char* name, std::int64_t count,
                                           const std::string& label) {
     const pugi::xml_node array = cells.find_child_by_attribute("DataArray", "Name", name);
@@ -113,8 +113,9 @@ std::vector<std::int64_t> read_cell_array(const VtuFile& file, pugi::xml_node ce
     return file.values<std::int64_t>(array, count, 1, what);
 }
 
-std::vector<MeshScalar> read_scalars(const VtuFile& file, pugi::xml_node piece, const char* section,
-                                     std::int64_t tuples, const std::string& label) {
+std::vector<MeshScalar> read_scalars(const VtkXmlFile& file, pugi::xml_node piece,
+                                     const char* section, std::int64_t tuples,
+                                     const std::string& label) {
     std::vector<MeshScalar> scalars;
     int number = 0;
     for (const pugi::xml_node array : piece.child(section).children("DataArray")) {
@@ -132,7 +133,7 @@ std::vector<MeshScalar> read_scalars(const VtuFile& file, pugi::xml_node piece, 
     return scalars;
 }
 
-MeshPiece read_piece(const VtuFile& file, pugi::xml_node node, const std::string& label) {
+MeshPiece read_piece(const VtkXmlFile& file, pugi::xml_node node, const std::string& label) {
     MeshPiece piece{label, {}, {}, {}, {}};
     const std::int64_t points = file.count_in(node, "NumberOfPoints", label);
     const std::int64_t cells = file.count_in(node, "NumberOfCells", label);
@@ -261,7 +262,7 @@ std::vector<T> offsets(std::size_t tets) {
 }  // namespace
 
 void add_vtu(const std::filesystem::path& path, MeshAssembly& assembly) {
-    const VtuFile file(path);
+    const VtkXmlFile file(path);
     const auto pieces = file.grid().children("Piece");
     const bool single = std::distance(pieces.begin(), pieces.end()) == 1;
     int number = 0;

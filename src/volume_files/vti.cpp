@@ -170,7 +170,7 @@ class ImageFile {
         const auto count = static_cast<std::int64_t>(stored_bytes(what, axes, 1));
         const std::int64_t components = file_.components_of(array, what);
         auto values =
-            std::make_shared<VtuValues>(file_.stored_values(array, count, components, what));
+            std::make_shared<VtkXmlValues>(file_.stored_values(array, count, components, what));
         StoredSamples samples{what, values->type, nullptr};
         const StoredAxis channel = taken_axis(what, "channel", request_.channel, components);
         if (components == 1) {
@@ -278,7 +278,7 @@ class ImageFile {
         }
     }
 
-    VtuFile file_;
+    VtkXmlFile file_;
     const VolumeRequest& request_;
     Extent whole_;
     std::vector<Node> pieces_;
