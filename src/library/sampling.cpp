@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "mesh/face_tree.h"
-#include "mesh/norm1.h"
+#include "mesh/predicates.h"
 #include "mesh/ray_walk.h"
 #include "reference/cells.h"
 #include "reference/clip.h"
 #include "scene/scene_mesh.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 namespace {

@@ -61,7 +61,7 @@ struct TracedVolume {
           visible(visible_cells),
           options(how) {
         // A share of the diagonal to spare, for axes that are not quite orthogonal (by 1e-5 at
-        // most, volume_files/grid_check.cpp), and for rounding.
+        // most, volume_files/volume_grid.cpp), and for rounding.
         const double spare =
             1e-4 * glm::distance(grid.to_world(axes.lowest), grid.to_world(axes.highest));
         glm::dvec3 steps;

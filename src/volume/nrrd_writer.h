@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes NRRD files, from which read_nrrd() (volume_files/nrrd.h) gives back the same volume, bit
+// Writes NRRD files, from which open_nrrd() (volume_files/nrrd.h) gives back the same volume, bit
 // for bit.
 #pragma once
 

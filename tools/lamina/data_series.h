@@ -10,7 +10,7 @@
 
 #include "lamina/scene.h"
 #include "time_range.h"
-#include "volume_files/file_pattern.h"
+#include "volume_files/numbered_files.h"
 
 namespace lamina {
 
