@@ -9,7 +9,7 @@ import re
 import subprocess
 import tempfile
 
-DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
+DOCS = pathlib.Path(__file__).resolve().parents[3] / "docs"
 INK, GREY, PALE, ORANGE, BLUE = "#1a1a1a", "#707070", "#d0d0d0", "#d55e00", "#0072b2"
 GAP = 8
 
