@@ -13,7 +13,7 @@
 #include "base/median.h"
 #include "icet_compositor.h"
 #include "parallel/picture_composer.h"
-#include "parallel/rank_resources.h"
+#include "parallel/ranks.h"
 #include "render/pipeline.h"
 #include "scene_files/scene_document.h"
 #include "scene_files/scene_reader.h"

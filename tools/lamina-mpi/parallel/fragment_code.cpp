@@ -10,9 +10,89 @@
 #include <cstring>
 #include <limits>
 
+#include "base/enum_words.h"
+#include "base/error.h"
+#include "base/shortened.h"
 #include "base/unreachable.h"
 
 namespace lamina {
+
+const char* name_of(Wire wire) {
+    return word_of(wire, {"float32", "half", "coded"});
+}
+
+Wire wire_of(const std::string& word) {
+    if (const auto found = value_of_word<Wire>(word)) return *found;
+    throw UsageError(
+        fmt::format("--wire: found {}, expected {}", shortened(word), alternatives<Wire>()));
+}
+
+std::vector<RowSpan> divide_rows(const std::vector<std::int64_t>& weights, const RowSpan& rows,
+                                 int count) {
+    std::int64_t all = 0;
+    for (int row = rows.first; row < rows.end; ++row) all += weights[static_cast<std::size_t>(row)];
+    std::vector<RowSpan> spans;
+    std::int64_t sum = 0;
+    int row = rows.first;
+    for (int i = 0; i < count; ++i) {
+        RowSpan span{row, row};
+        // A row belongs to the span in which its middle lies.
+        const auto ends_in = [&](std::int64_t weight) {
+            return i + 1 == count || (2 * sum + weight) * count < 2 * all * (i + 1);
+        };
+        while (row < rows.end && ends_in(weights[static_cast<std::size_t>(row)]))
+            sum += weights[static_cast<std::size_t>(row++)];
+        span.end = row;
+        spans.push_back(span);
+    }
+    return spans;
+}
+
+namespace {
+
+// Returns true if any of `pixels` pixels has a bit that is set. All their bits are joined first,
+// which is faster than a test for each.
+template <int pixels>
+bool any_shows(const float* row, int column) {
+    std::uint64_t words[2 * pixels], any = 0;
+    std::memcpy(words, row + 4 * static_cast<std::size_t>(column), sizeof words);
+    for (const std::uint64_t word : words) any |= word;
+    return any != 0;
+}
+
+int first_shown(const float* row, int column, int width) {
+    while (column + 8 <= width && !any_shows<8>(row, column)) column += 8;
+    while (column < width && !any_shows<1>(row, column)) ++column;
+    return column;
+}
+
+int first_hidden(const float* row, int column, int width) {
+    while (column < width && any_shows<1>(row, column)) ++column;
+    return column;
+}
+
+}  // namespace
+
+ActiveRuns::ActiveRuns(const Image& picture, const RowSpan& rows) : first_row_(rows.first) {
+    starts_.push_back(0);
+    for (int row = rows.first; row < rows.end; ++row) {
+        const float* const pixels = picture.pixel(0, row);
+        for (int end = 0;;) {
+            const int first = first_shown(pixels, end, picture.width);
+            if (first == picture.width) break;
+            end = first_hidden(pixels, first, picture.width);
+            runs_.push_back({first, end});
+        }
+        starts_.push_back(runs_.size());
+    }
+}
+
+std::int64_t ActiveRuns::pixels(int row) const {
+    std::int64_t sum = 0;
+    for (const Run* run = begin(row); run != end(row); ++run) sum += run->end - run->first;
+    return sum;
+}
+
 namespace {
 
 using Pixel = std::array<float, 4>;
@@ -32,7 +112,8 @@ float share_of(Code code) {
     return static_cast<float>(code) * (1.0f / std::numeric_limits<Code>::max());
 }
 
-// Each format: its bytes of a pixel, and both ways.
+// Formats: the bytes of a pixel, and how it is encoded and decoded. `largest`: the rows' largest
+// colour, of which codes are shares.
 struct Float32 {
     static constexpr bool has_codes = false;
     static constexpr std::size_t size = 16;
@@ -119,7 +200,8 @@ void with_format(FragmentFormat format, const Use& use) {
     unreachable_enum();
 }
 
-// Whole numbers of 7 bits a byte, lowest first; the highest bit says that more follow.
+// Unsigned numbers with 7 bits in a byte, lowest first; a byte's highest bit says that more follow.
+// 32 bits need up to 5 bytes.
 constexpr std::size_t most_number_bytes = 5;
 std::byte* write_number(std::uint32_t number, std::byte* to) {
     for (; number >= 0x80; number >>= 7) *to++ = std::byte(number | 0x80);
@@ -135,16 +217,13 @@ std::uint32_t read_number(const std::byte*& from) {
     }
 }
 
-const float* pixels_of(const Image& picture, int row, const ActiveRuns::Run& run) {
-    return picture.pixel(run.first, row);
-}
-
-// An associated colour of more than its opacity is one of more than 1.
+// The largest colour that is not associated, at least 1: colours above 1 have associated values
+// above the opacity.
 float largest_color(const Image& picture, const ActiveRuns& runs, const RowSpan& rows) {
     float largest = 1;
     for (int row = rows.first; row < rows.end; ++row) {
         for (const ActiveRuns::Run* run = runs.begin(row); run != runs.end(row); ++run) {
-            const float* pixel = pixels_of(picture, row, *run);
+            const float* pixel = picture.pixel(run->first, row);
             for (int column = run->first; column < run->end; ++column, pixel += 4) {
                 const float color = std::max({pixel[0], pixel[1], pixel[2]});
                 if (color > largest * pixel[3] && pixel[3] > 0) largest = color / pixel[3];
@@ -154,7 +233,7 @@ float largest_color(const Image& picture, const ActiveRuns& runs, const RowSpan&
     return largest;
 }
 
-// A row ends with a run of no pixels.
+// Encodes a row, which ends with a run of no pixels.
 template <typename Format>
 std::byte* encode_row(const Image& picture, const ActiveRuns& runs, int row, float largest,
                       std::byte* to) {
@@ -163,7 +242,7 @@ std::byte* encode_row(const Image& picture, const ActiveRuns& runs, int row, flo
         to = write_number(static_cast<std::uint32_t>(run->end - run->first), to);
         to = write_number(static_cast<std::uint32_t>(run->first - before), to);
         before = run->end;
-        const float* pixel = pixels_of(picture, row, *run);
+        const float* pixel = picture.pixel(run->first, row);
         for (int column = run->first; column < run->end; ++column, pixel += 4, to += Format::size)
             Format::encode(pixel, largest, to);
     }
@@ -218,7 +297,7 @@ void put_rows_behind(const Image& picture, const ActiveRuns& runs, const RowSpan
                      Image& front) {
     for (int row = rows.first; row < rows.end; ++row) {
         for (const ActiveRuns::Run* run = runs.begin(row); run != runs.end(row); ++run) {
-            const float* behind = pixels_of(picture, row, *run);
+            const float* behind = picture.pixel(run->first, row);
             float* there = front.pixel(run->first, row);
             for (int column = run->first; column < run->end; ++column, behind += 4, there += 4)
                 put_behind({behind[0], behind[1], behind[2], behind[3]}, there);

@@ -6,12 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "lamina/camera.h"
+#include "lamina/scene.h"
+#include "parallel/fragment_code.h"
 #include "parallel/shared_renderer.h"
 
 namespace lamina {
 
-// Rank 0's view of the other ranks, which follow it (followers.h) until it is gone. They are told
-// of every scene that it opens, and of every frame.
+// Directs the other ranks from rank 0: they open every scene that it opens and draw every frame
+// with it (run_follower()), until it is destroyed.
 class Leader {
   public:
     explicit Leader(const Ranks& ranks) : ranks_(ranks) {}
@@ -20,17 +23,16 @@ class Leader {
     ~Leader();
 
     const Ranks& ranks() const { return ranks_; }
-    void set_wire(Wire wire) { wire_ = wire; }  // of scenes that are opened from now on
+    void set_wire(Wire wire) { wire_ = wire; }  // for scenes that are opened later
 
-    // Opens a scene on all ranks and returns its number. `data`: the scene's; the other ranks
-    // load them for themselves. Throws Error where ranks cannot share the scene or one of them
-    // fails.
+    // Opens a scene on all ranks and returns its number. `data`: rank 0's; the other ranks load the
+    // scene's data themselves. Throws Error if ranks cannot share the scene or one of them fails.
     int open(const Scene& scene, SceneData data, const OmissionSwitch& omissions, bool many_frames);
     SharedRenderer& renderer(int scene) { return *renderers_.at(scene); }
     // Draws a frame on all ranks, with another camera or as before.
     void draw(int scene, const std::optional<Camera>& camera = {});
     void close(int scene);
-    // Reports of all ranks on the first frame that was drawn; empty before.
+    // Reports of all ranks on the first frame; empty before it.
     const std::vector<RankReport>& first_reports() const { return first_reports_; }
 
   private:
@@ -41,5 +43,9 @@ class Leader {
     std::vector<RankReport> first_reports_;
     std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
 };
+
+// Does what rank 0's Leader commands until that is destroyed. If a step fails on any rank
+// (agree()), rank 0 prints why, and its exit code is that of the job.
+void run_follower(const Ranks& ranks);
 
 }  // namespace lamina

@@ -8,7 +8,7 @@
 namespace lamina {
 namespace {
 
-// Rows are weighed in bands: all ranks have to learn the weights.
+// Rows that get one weight together: all ranks exchange the weights, and 8 rows make these few.
 constexpr int band = 8;
 
 void clear_rows(const RowSpan& rows, Image& image) {
@@ -16,7 +16,7 @@ void clear_rows(const RowSpan& rows, Image& image) {
         std::fill(image.pixel(0, rows.first), image.pixel(0, rows.end), 0.0f);
 }
 
-// The first hop, and those behind it.
+// Formats of the first way of a pixel from rank to rank, and of later ways (docs/cluster.md).
 FragmentFormat first_format(Wire wire) {
     if (wire == Wire::coded) return FragmentFormat::fixed8;
     return wire == Wire::half ? FragmentFormat::half : FragmentFormat::float32;
@@ -28,8 +28,8 @@ FragmentFormat later_format(Wire wire) {
 
 }  // namespace
 
-// Who composites which rows. Groups are runs of ranks in depth. The rows are divided among the
-// members of a group; the rows of one member are divided again among the groups.
+// Says which rank composites which rows. Groups are ranks that are contiguous in depth. Rows are
+// divided among the members of a group; the rows of one member are divided again among the groups.
 class PictureComposer::Layout {
   public:
     Layout(const std::vector<int>& order, const std::vector<std::int64_t>& weights,
@@ -47,7 +47,7 @@ class PictureComposer::Layout {
 
     int groups() const { return groups_; }
 
-    // Within the group of a rank.
+    // Transfers within the group of a rank.
     std::vector<Transfer> in_group(int rank) const {
         const auto place = std::ranges::find(order_, rank) - order_.begin();
         const int group = static_cast<int>(place) / size_;

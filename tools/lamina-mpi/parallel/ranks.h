@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// This room and the program lamina-mpi alone know MPI. Its errors end the whole job, as MPI has it
-// by default.
+// MPI, which only this room and the program lamina-mpi use. An error of MPI ends the whole job,
+// which is MPI's default.
 #pragma once
 
 #include <mpi.h>
+#include <tbb/global_control.h>
 
+#include <exception>
+#include <functional>
+#include <optional>
 #include <string>
 
 namespace lamina {
@@ -25,6 +29,26 @@ class Ranks {
   private:
     MPI_Comm comm_;
     int number_ = 0, count_ = 1;
+};
+
+// Does a step of the job on every rank and waits for the others. `work` must not wait for another
+// rank. If it throws on any rank, this function throws on all of them: on rank 0 its own exception,
+// or an Error with the message and the number of the first rank that failed; on the others an
+// Error.
+void agree(const Ranks& ranks, const std::function<void()>& work);
+
+// Does a step in which ranks wait for one another. If it throws on one rank, the others would wait
+// forever; so the whole job ends with a message.
+void do_or_abort(const Ranks& ranks, const std::function<void()>& work);
+
+// Limits this rank to its part of the machine's memory, and its threads, while it lives, to its
+// part of the processors: ranks on the same set of processors divide these among themselves.
+class RankResources {
+  public:
+    explicit RankResources(const Ranks& ranks);
+
+  private:
+    std::optional<tbb::global_control> threads_;
 };
 
 }  // namespace lamina

@@ -1,18 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parallel/shared_renderer.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <string>
 #include <utility>
 
+#include "base/content_hash.h"
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "base/stage.h"
-#include "parallel/agreement.h"
-#include "parallel/plan_digest.h"
+#include "parallel/ranks.h"
+#include "plan/plan.h"
 
 namespace lamina {
 namespace {
+
+void add(const IndexBox& box, std::string& text) {
+    for (const glm::dvec3& corner : {box.min, box.max})
+        text += fmt::format(" {:a} {:a} {:a}", corner.x, corner.y, corner.z);
+}
+
+// A hash of all that the renderers of one picture must have in common: the plan, and their shares.
+std::string digest_of(const SlicePlan& plan, const std::vector<IndexBox>& shares) {
+    const TableRequest& table = plan.table.request;
+    std::string text = fmt::format(
+        "{} {} {} {} {} {} {} {:a} {} {} {:a} {:a} {:a} {:a} {} {}", plan.slabs,
+        static_cast<int>(plan.classification), static_cast<int>(plan.sampling), plan.single_color,
+        plan.nan_transparent, plan.linear, plan.nothing_visible, plan.unit, table.scalar_nodes,
+        table.length_layers, table.max_length, plan.opaque_depth, plan.curve_error, plan.most_bend,
+        plan.bricks.size(), plan.clip.size());
+    add(plan.drawn, text);
+    for (const IndexBox& share : shares) add(share, text);
+    ContentHash hash;
+    hash.add(text);
+    return hash.hex();
+}
 
 [[noreturn]] void refuse(const Scene& scene, const char* key, const std::string& found,
                          const char* expected) {
@@ -20,8 +44,8 @@ namespace {
          scene.file.string(), key, found, expected);
 }
 
-// OVER is associative in float alone; codes are those of slabs one by one, from the first to the
-// last.
+// OVER is associative in float only: rounding to codes depends on compositing slab after slab, from
+// the first to the last.
 Scene checked(Scene scene) {
     if (scene.target.value_or(Target::float32) != Target::float32)
         refuse(scene, "render.target", name_of(scene.target), "float32");
