@@ -17,7 +17,6 @@
 #include "render/context_choice.h"
 #include "render/draw_context.h"
 #include "selftest/selftest.h"
-#include "selftest/selftest_case.h"
 #include "study/machine.h"
 #include "verbs.h"
 

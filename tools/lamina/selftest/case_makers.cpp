@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "selftest/layered_box.h"
 #include "selftest/picture_bounds.h"
-#include "selftest/selftest_meshes.h"
 
 namespace lamina::selftest {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "selftest/drawing_way.h"
-#include "selftest/selftest_case.h"
-#include "selftest/selftest_scene.h"
+#include "selftest/layered_box.h"
+#include "selftest/selftest.h"
 
 namespace lamina::selftest {
 

@@ -4,7 +4,24 @@
 #include <algorithm>
 #include <cassert>
 
+#include "render/pipeline.h"
+
 namespace lamina::selftest {
+
+PreciseImage PictureMaker::draw(const Scene& scene, const SceneData& data,
+                                FrameStatistics* statistics) const {
+    if (scene.method == Method::trace) {
+        SceneData shared = data;
+        return trace_picture(scene, shared).image;
+    }
+    Pipeline pipeline(scene, data, {.capabilities = capabilities_, .tables = tables_});
+    pipeline.draw_frame();
+    if (statistics != nullptr) *statistics = pipeline.statistics();
+    Image picture;
+    pipeline.read(picture);
+    return to_double(picture);
+}
+
 namespace {
 
 // In float32 a blend has some four roundings. In float16 fragment and result are stored with 11

@@ -2,14 +2,19 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lamina/clip.h"
+#include "lamina/mesh_data.h"
+#include "lamina/scene.h"
 #include "lamina/volume.h"
 #include "scene/camera.h"
-#include "selftest/interval.h"
+#include "selftest/pixel_bounds.h"
 
 namespace lamina::selftest {
 
@@ -54,5 +59,33 @@ struct BoxChord {
 // The chord of the box widened by `slack` (a share of each edge) on all sides, cuts included (by
 // that share of the longest edge); empty where the ray misses it.
 std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, double slack);
+
+// What a case of the self-test draws: a layered box, both as a volume and as a mesh.
+struct SelftestScene {
+    std::string name;
+    std::string about;  // what is stiff or extreme here
+    LayeredBox box;
+    Scene scene;  // transfer function, camera, size, number of slabs; no files
+    // Makes tets that fill the box. Empty where no mesh is drawn.
+    std::function<MeshData(const LayeredBox&)> mesh;
+};
+
+// Meshes that fill a layered box, with its scalar at their corners, and that are hard for a
+// renderer.
+
+// Every layer is cut into across x across cuboids, six tets each (Kuhn).
+MeshData kuhn_tets(const LayeredBox& box, int across);
+
+// For a box of one layer: 12 * across^2 tets from the middle of the box, which is a corner of all,
+// to its surface.
+MeshData fan_tets(const LayeredBox& box, int across);
+
+// For a box of one layer: kuhn_tets(box, 1), split `splits` times by a point inside a tet. The
+// point's distance from a face, an edge or a corner of the tet is a share `least` or less, which
+// gives flat tets, slivers and needles.
+MeshData split_tets(const LayeredBox& box, int splits, double least, std::uint32_t seed);
+
+// The same mesh with its tets, their corners and its points in another order.
+MeshData shuffled(const MeshData& mesh, std::uint32_t seed);
 
 }  // namespace lamina::selftest

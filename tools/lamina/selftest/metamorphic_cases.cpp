@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "selftest/case_makers.h"
-#include "selftest/selftest_meshes.h"
+#include "selftest/layered_box.h"
 
 namespace lamina::selftest {
 namespace {
