@@ -11,8 +11,8 @@
 #include "image/npy.h"
 #include "render/traced_picture.h"
 #include "scene_files/json_reader.h"
-#include "study/picture_key.h"
-#include "study/text_file.h"
+#include "study/data_store.h"
+#include "study/result_files.h"
 
 namespace lamina::study {
 namespace {

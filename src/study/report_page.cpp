@@ -8,7 +8,6 @@
 
 #include "base/json_text.h"
 #include "base/printable.h"
-#include "study/report_files.h"
 
 namespace lamina::study {
 namespace {

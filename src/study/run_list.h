@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "study/study_data.h"
 #include "study/study_file.h"
 
 namespace lamina::study {
@@ -64,19 +63,6 @@ RunList list_runs(const StudyFile& file);
 nlohmann::json document_of(const StudyRun& run, const StudyFile& file);
 // The context of a run: auto, osmesa, egl or cpu.
 std::string context_of(const StudyRun& run, const StudyFile& file);
-
-// The scene of a run. Throws KeyError for what no run can measure: the method "trace", or a
-// reference that the scene does not have.
-Scene scene_of(const StudyRun& run, const StudyFile& file);
-TraceOf reference_of(const Scene& scene, const StudyFile& file);
-
-// Reads every run's scene and checks that its files exist. Throws Error where a file is missing, a
-// key is unknown, or no run of a scene can be drawn. Other errors of single runs are found when
-// these are run. Returns the data that the runs draw, each once.
-std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);
-
-// Adds the data to the list, with the hashes of their contents (contents_of()).
-void list_data(const std::vector<StudyData>& data, DataStore& store, RunList& list);
 
 // Compares the data of two lists of one study. Throws Error where both lists know the contents of
 // data and they differ. Contents that only one list knows are added to `list`. `list_of`,

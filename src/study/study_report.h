@@ -2,11 +2,16 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "study/study_folder.h"
 #include "study/study_results.h"
 
 namespace lamina::study {
+
+// The results of a study as sentences. Every number in them was measured.
+std::vector<std::string> study_findings(const StudyResults& results);
 
 // The contents of results.json (docs/study.md): all that the page of a study shows, except for its
 // pictures.

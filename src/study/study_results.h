@@ -14,6 +14,14 @@
 
 namespace lamina::study {
 
+struct CostAndError {
+    double cost = 0, error = 0;  // in any units, the same for all points
+};
+
+// For each point whether no other point beats it. A point beats another where it is no larger in
+// both numbers and smaller in one.
+std::vector<bool> pareto_front(const std::vector<CostAndError>& points);
+
 // The measurements of one run. Times in ms, errors in 1/255.
 struct RunResult {
     std::size_t run = 0;  // index into the list of runs

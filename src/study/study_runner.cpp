@@ -15,7 +15,7 @@
 #include "base/stopwatch.h"
 #include "image/exr.h"
 #include "image/metrics.h"
-#include "study/error_json.h"
+#include "study/result_files.h"
 
 namespace lamina::study {
 namespace {

@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "study/draw_contexts.h"
-#include "study/journal.h"
 #include "study/reference_store.h"
-#include "study/run_list.h"
+#include "study/run_data.h"
 #include "study/study_folder.h"
 #include "study/study_frames.h"
 #include "study/time_left.h"

@@ -16,7 +16,7 @@
 #include "image/loaded_image.h"
 #include "image/metrics.h"
 #include "image/png.h"
-#include "study/error_json.h"
+#include "study/result_files.h"
 #include "verbs.h"
 
 namespace lamina {

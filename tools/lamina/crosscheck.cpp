@@ -28,9 +28,9 @@
 #include "scene_options.h"
 #include "study/crosscheck.h"
 #include "study/crosscheck_report.h"
-#include "study/machine.h"
+#include "study/frame_times.h"
 #include "study/report_page.h"
-#include "study/text_file.h"
+#include "study/result_files.h"
 #include "verbs.h"
 
 namespace lamina {

@@ -9,9 +9,9 @@
 
 #include "base/progress.h"
 #include "image/false_color.h"
-#include "papers/panels.h"
-#include "study/text_file.h"
-#include "study/thumbnail.h"
+#include "papers/paper_item.h"
+#include "study/report_figures.h"
+#include "study/result_files.h"
 
 namespace lamina::papers {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "image/metrics.h"
-#include "papers/kraus_subject.h"
+#include "papers/kraus.h"
 #include "render/pipeline.h"
 
 namespace lamina::papers {

@@ -6,10 +6,8 @@
 
 #include "mesh/mesh_shape.h"
 #include "papers/compared_pictures.h"
-#include "papers/findings.h"
 #include "papers/kraus.h"
-#include "papers/kraus_stage.h"
-#include "papers/kraus_variants.h"
+#include "papers/paper_item.h"
 
 namespace lamina::papers {
 namespace {

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include "papers/compared_pictures.h"
-#include "papers/findings.h"
 #include "papers/kraus.h"
-#include "papers/kraus_stage.h"
-#include "papers/kraus_variants.h"
-#include "study/text_file.h"
+#include "papers/paper_item.h"
+#include "study/result_files.h"
 
 namespace lamina::papers {
 namespace {

@@ -7,13 +7,10 @@
 #include "base/stopwatch.h"
 #include "facts/world_unit.h"
 #include "papers/compared_pictures.h"
-#include "papers/findings.h"
 #include "papers/kraus.h"
-#include "papers/kraus_stage.h"
-#include "papers/kraus_variants.h"
-#include "papers/mesh_frame.h"
+#include "papers/paper_item.h"
 #include "preintegration/preintegration_table.h"
-#include "study/text_file.h"
+#include "study/result_files.h"
 
 namespace lamina::papers {
 namespace {

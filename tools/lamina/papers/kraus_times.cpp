@@ -6,13 +6,10 @@
 #include <cmath>
 #include <deque>
 
-#include "papers/findings.h"
 #include "papers/grid_mesh.h"
 #include "papers/kraus.h"
-#include "papers/kraus_stage.h"
-#include "papers/kraus_variants.h"
-#include "papers/mesh_frame.h"
-#include "study/text_file.h"
+#include "papers/paper_item.h"
+#include "study/result_files.h"
 
 namespace lamina::papers {
 namespace {

@@ -5,11 +5,9 @@
 #include <cstdlib>
 #include <utility>
 
-#include "papers/findings.h"
 #include "papers/lamar.h"
-#include "papers/lamar_stage.h"
-#include "papers/panels.h"
-#include "study/text_file.h"
+#include "papers/paper_item.h"
+#include "study/result_files.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina::papers {

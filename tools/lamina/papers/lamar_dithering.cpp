@@ -8,12 +8,11 @@
 #include "base/progress.h"
 #include "compositing/unit_opacity.h"
 #include "lamina/scene.h"
-#include "papers/dither_spans.h"
-#include "papers/figure_files.h"
-#include "papers/findings.h"
 #include "papers/lamar.h"
-#include "study/line_plot.h"
-#include "study/text_file.h"
+#include "papers/paper_item.h"
+#include "papers/ramp.h"
+#include "study/report_figures.h"
+#include "study/result_files.h"
 
 namespace lamina::papers {
 namespace {

@@ -10,12 +10,11 @@
 #include "base/progress.h"
 #include "compositing/random_bits.h"
 #include "lamina/scene.h"
-#include "papers/figure_files.h"
-#include "papers/findings.h"
 #include "papers/lamar.h"
-#include "study/error_json.h"
-#include "study/line_plot.h"
-#include "study/text_file.h"
+#include "papers/paper_item.h"
+#include "papers/ramp.h"
+#include "study/report_figures.h"
+#include "study/result_files.h"
 
 namespace lamina::papers {
 namespace {

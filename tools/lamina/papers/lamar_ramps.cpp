@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "lamina/scene.h"
-#include "papers/figure_files.h"
-#include "papers/findings.h"
 #include "papers/lamar.h"
+#include "papers/paper_item.h"
+#include "papers/ramp.h"
 
 namespace lamina::papers {
 namespace {

@@ -9,9 +9,9 @@
 #include "compositing/fixed_ray.h"
 #include "compositing/over.h"
 #include "compositing/unit_opacity.h"
-#include "papers/findings.h"
 #include "papers/lamar.h"
-#include "study/text_file.h"
+#include "papers/paper_item.h"
+#include "study/result_files.h"
 
 namespace lamina::papers {
 namespace {

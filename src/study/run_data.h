@@ -7,6 +7,7 @@
 
 #include "lamina/scene.h"
 #include "study/data_store.h"
+#include "study/run_list.h"
 
 namespace lamina::study {
 
@@ -32,5 +33,18 @@ void add_data(std::size_t number, const Scene& drawn, TraceOf reference,
 // Hashes of the contents of data. A hash is empty where the data cannot be read; the runs that need
 // them report this. Each is read once. Data of a single scene stay in the store.
 std::vector<std::string> contents_of(const std::vector<StudyData>& data, DataStore& store);
+
+// The scene of a run. Throws KeyError for what no run can measure: the method "trace", or a
+// reference that the scene does not have.
+Scene scene_of(const StudyRun& run, const StudyFile& file);
+TraceOf reference_of(const Scene& scene, const StudyFile& file);
+
+// Reads every run's scene and checks that its files exist. Throws Error where a file is missing, a
+// key is unknown, or no run of a scene can be drawn. Other errors of single runs are found when
+// these are run. Returns the data that the runs draw, each once.
+std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);
+
+// Adds the data to the list, with the hashes of their contents (contents_of()).
+void list_data(const std::vector<StudyData>& data, DataStore& store, RunList& list);
 
 }  // namespace lamina::study

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "image/metrics.h"
+
 namespace lamina::study {
 
 // Writes the whole file at once, through AtomicFile. Throws Error.
@@ -26,5 +28,11 @@ class CsvTable {
 
 // A CSV table of objects with the same keys and plain values, one row each; null is an empty cell.
 std::string csv_of_rows(const nlohmann::ordered_json& rows);
+
+// Norms as {linf, l1, l2}, in 1/255.
+nlohmann::ordered_json to_json(const ErrorNorms& norms);
+
+// Errors as {channels: {R: norms, ...}, all: norms}, as `lamina compare --json` prints them.
+nlohmann::ordered_json to_json(const ImageError& error);
 
 }  // namespace lamina::study

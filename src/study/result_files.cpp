@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/text_file.h"
+#include "study/result_files.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -83,6 +83,17 @@ std::string csv_of_rows(const nlohmann::ordered_json& rows) {
         csv.add_row(cells);
     }
     return csv.text();
+}
+
+nlohmann::ordered_json to_json(const ErrorNorms& norms) {
+    return {{"linf", norms.linf}, {"l1", norms.l1}, {"l2", norms.l2}};
+}
+
+nlohmann::ordered_json to_json(const ImageError& error) {
+    nlohmann::ordered_json channels;
+    for (std::size_t i = 0; i < error.channels.size(); ++i)
+        channels[error.channels[i]] = to_json(error.of_channel[i]);
+    return {{"channels", channels}, {"all", to_json(error.all)}};
 }
 
 }  // namespace lamina::study

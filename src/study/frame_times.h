@@ -31,4 +31,8 @@ std::vector<FrameTimes> time_interleaved(const std::string& label,
 nlohmann::ordered_json time_rows(const std::vector<TimedFrame>& frames,
                                  const std::vector<FrameTimes>& times);
 
+// {machine, processors, date}: the processor's name, how many of them this process may run on, and
+// today (UTC).
+nlohmann::ordered_json describe_machine();
+
 }  // namespace lamina::study
