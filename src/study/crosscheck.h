@@ -21,7 +21,7 @@ namespace lamina::study {
 struct FourPictures {
     Image traced_volume, traced_mesh, sliced, projected;
     ImageColorSpace space = ImageColorSpace::linear;  // of all of them
-    // Of a lit scene, traced without light; empty where it is not lit.
+    // Pictures of a lit scene, traced without light; empty if the scene is not lit.
     Image unlit_volume{}, unlit_mesh{};
 };
 
@@ -36,7 +36,7 @@ struct ErrorBudget {
         Difference e;           // in 1/255
         ImageError error;
         // The share of the raw difference d that the part s explains: <s, d> / <d, d>, with the
-        // part's sign in the sum above. The shares add up to 1. It is 0 where d is 0.
+        // part's sign in the sum above. The shares add up to 1. It is 0 if d is 0.
         double share = 0;
     };
 
@@ -49,7 +49,7 @@ struct ErrorBudget {
     const Part& dominant() const;  // the part with the largest L2
 };
 
-// Throws Error where the pictures differ in size.
+// Throws Error if the pictures differ in size.
 ErrorBudget error_budget(const FourPictures& pictures);
 
 struct CrosscheckSettings {
@@ -62,7 +62,7 @@ struct CrosscheckSettings {
     // Numbers of slabs, in addition to the scene's own.
     std::vector<int> samples{64, 128, 256, 512, 1024};
     int rounds = 3;  // rounds of interleaved frames, >= 3
-    // Folder where meshes and traced pictures are kept as they are made, and found.
+    // Folder that keeps meshes and traced pictures as they are made, and is searched for them.
     std::filesystem::path kept;
     // Called once the volume is read, before anything is kept.
     std::function<void()> begin = [] {};
@@ -80,7 +80,7 @@ struct Crosscheck {
     };
     struct Projection {
         double tolerance = 0;  // 0 for a mesh from a file
-        // Certified error, as a share of the range of values; 0 where it is not known.
+        // Certified error, as a share of the range of values; 0 if it is not known.
         double mesh_error = 0;
         bool stopped = false;  // whether refining stopped because of too many tets
         std::int64_t tets = 0;

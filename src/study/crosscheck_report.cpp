@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of the ladder, where gradients count as the mesh's.
+// Keys of the ladder's parts. Gradients count as the mesh's.
 constexpr const char* part_keys[] = {"mesh", "slicing", "projection"};
 
 Json error_json(const ImageError& error) {
@@ -126,7 +126,7 @@ Json pictures_json(const Crosscheck& crosscheck, const ErrorBudget& budget, doub
                          const CodedImage& picture) {
         pictures.push_back({{"title", title}, {"caption", caption}, {"image", data_uri(picture)}});
     };
-    // With its colour bar, which says what it does not show.
+    // Adds a difference with its colour bar, which says how much of it is beyond the bar.
     const auto add_difference = [&](const std::string& title, const std::string& caption,
                                     const Difference& e, double largest) {
         add(title, caption, false_color(reduced(e, step), scale));
@@ -293,7 +293,7 @@ PairAt own_pair(const Crosscheck& crosscheck) {
     return own;
 }
 
-// Returns the cheapest pair whose pictures agree, or nothing where no pair does.
+// Returns the cheapest pair whose pictures agree, or nothing if no pair does.
 std::optional<PairAt> cheapest_agreeing(const Crosscheck& crosscheck, double wanted) {
     std::optional<PairAt> best;
     double least = 0;
@@ -318,7 +318,7 @@ PairAt closest(const Crosscheck& crosscheck) {
     return best;
 }
 
-// `told`: pairs whose difference other findings say.
+// `told`: pairs whose difference other findings state.
 std::string agreement(const Crosscheck& crosscheck, double wanted,
                       const std::vector<PairAt>& told) {
     if (const auto found = cheapest_agreeing(crosscheck, wanted)) {

@@ -14,7 +14,7 @@ std::string slabs_text(int count);
 // "99.9 %": the part's share of the difference.
 std::string share_text(const ErrorBudget::Part& part);
 
-// What a report says about a cross-check beside its results.
+// Facts that a report states beside the results of a cross-check.
 struct CrosscheckSubject {
     std::string name;                    // name of the scene
     double wanted = 1;                   // largest error that counts as agreement, Linf in 1/255

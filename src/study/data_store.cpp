@@ -205,8 +205,8 @@ std::string volume_name(const Scene& scene) {
     return fmt::format("{} {} {}", request.name, fmt::join(size, "x"), name_of(request.type));
 }
 
-// The name includes the transfer function: a mesh made from a volume stays coarse where that shows
-// nothing.
+// The name includes the transfer function: a mesh made from a volume stays coarse in parts that
+// show nothing.
 std::string mesh_name(const Scene& scene) {
     if (const MeshFile* const file = scene.mesh_file()) {
         std::string name = file->path.string();

@@ -80,7 +80,7 @@ std::string volume_name(const Scene& scene);
 std::string mesh_name(const Scene& scene);
 
 // Volumes and meshes of scenes. Each is loaded or made once, when it is first needed. Throws Error
-// where that fails.
+// if that fails.
 class DataStore {
   public:
     struct StoredVolume {

@@ -81,7 +81,7 @@ double ReferenceStore::error_estimate(const std::filesystem::path& folder, const
     return load_facts(folder, id).first.error_estimate;
 }
 
-// Returns nothing where the reference cannot be read, which is said once.
+// Returns nothing if the reference cannot be read, which is said once.
 std::optional<Reference> ReferenceStore::find(const std::string& id) {
     if (lost_.contains(id)) return std::nullopt;
     try {

@@ -25,12 +25,12 @@ struct StudyData {
     }
 };
 
-// Adds the data that a run of the study's scene `number` draws, where they are not listed yet. The
+// Adds the data that a run of the study's scene `number` draws, if they are not listed yet. The
 // data of its reference are included. For a mesh made from a volume the volume is added.
 void add_data(std::size_t number, const Scene& drawn, TraceOf reference,
               std::vector<StudyData>& data);
 
-// Hashes of the contents of data. A hash is empty where the data cannot be read; the runs that need
+// Hashes of the contents of data. A hash is empty if the data cannot be read; the runs that need
 // them report this. Each is read once. Data of a single scene stay in the store.
 std::vector<std::string> contents_of(const std::vector<StudyData>& data, DataStore& store);
 
@@ -39,7 +39,7 @@ std::vector<std::string> contents_of(const std::vector<StudyData>& data, DataSto
 Scene scene_of(const StudyRun& run, const StudyFile& file);
 TraceOf reference_of(const Scene& scene, const StudyFile& file);
 
-// Reads every run's scene and checks that its files exist. Throws Error where a file is missing, a
+// Reads every run's scene and checks that its files exist. Throws Error if a file is missing, a
 // key is unknown, or no run of a scene can be drawn. Other errors of single runs are found when
 // these are run. Returns the data that the runs draw, each once.
 std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);

@@ -33,7 +33,7 @@ struct RunList {
     // A volume, a mesh or a colour map that runs draw.
     struct Data {
         std::string name;     // path or formula
-        std::string content;  // hash of its contents; empty where it could not be read
+        std::string content;  // hash of its contents; empty if it could not be read
     };
 
     std::string title;
@@ -56,17 +56,17 @@ constexpr std::uint64_t most_runs_unasked = 10000;
 // The number of runs of the file's sweep, before any is dropped.
 std::uint64_t run_count(const StudyFile& file);
 
-// Expands the sweep. Throws Error where no run is left, where the baseline does not name one run of
-// each scene, or where there are more than most_runs.
+// Expands the sweep. Throws Error if no run is left, if the baseline does not name one run of each
+// scene, or if there are more than most_runs.
 RunList list_runs(const StudyFile& file);
 
 nlohmann::json document_of(const StudyRun& run, const StudyFile& file);
 // The context of a run: auto, osmesa, egl or cpu.
 std::string context_of(const StudyRun& run, const StudyFile& file);
 
-// Compares the data of two lists of one study. Throws Error where both lists know the contents of
-// data and they differ. Contents that only one list knows are added to `list`. `list_of`,
-// `other_of`: where the lists come from, for the message.
+// Compares the data of two lists of one study. Throws Error if both lists know the contents of data
+// and they differ. Contents that only one list knows are added to `list`. `list_of`, `other_of`:
+// origins of the lists, for the message.
 void match_data(RunList& list, const std::string& list_of, const RunList& other,
                 const std::string& other_of);
 

@@ -41,7 +41,7 @@ struct SweepGrid {
 std::vector<SweepGrid> read_sweep(JsonReader& study);
 
 // All ordered lists of factors >= 2 with the product `of` >= 2 and at most `levels` factors; short
-// lists come first. Where there are more than most_runs, it stops soon after that number.
+// lists come first. If there are more than most_runs, it stops soon after that number.
 std::vector<std::vector<int>> factorizations(int of, int levels);
 
 // A setting as a name and for a cell of a table: a list of whole numbers as "32x32", words without
@@ -56,7 +56,7 @@ struct StudyFile {
         nlohmann::json document;  // the scene file with `base` and the entry's own `set` applied
         Settings own;             // `set`
     };
-    // Runs are left out where all axes have one of these values.
+    // Runs are left out if all axes have one of these values.
     struct Drop {
         std::vector<SweepAxis> where;  // "scene" or a swept key, each with the values that match
         std::string because;

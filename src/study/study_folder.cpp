@@ -64,7 +64,7 @@ struct CompleteLines {
     std::int64_t bytes = 0;
 };
 
-// Returns null where the line is not JSON that the program reads.
+// Returns null if the line is not JSON that the program reads.
 nlohmann::json record_of(const std::string& line) {
     try {
         return parse_json(line);
@@ -77,7 +77,7 @@ CompleteLines read_lines(const std::filesystem::path& path) {
     std::istringstream stream(read_file_bytes(path));
     CompleteLines lines;
     std::string line;
-    // getline() meets the end of the file where the newline is missing: that line is incomplete.
+    // getline() meets the end of the file if the newline is missing: that line is incomplete.
     while (std::getline(stream, line) && !stream.eof()) {
         lines.records.push_back(record_of(line));
         if (!lines.records.back().is_object()) {

@@ -45,7 +45,7 @@ inline constexpr const char* strange_record =
 // returns, so that a crash loses at most the record that was being written.
 class Journal {
   public:
-    // Opens or makes the file. An incomplete last line is removed. Throws Error, also where another
+    // Opens or makes the file. An incomplete last line is removed. Throws Error, also if another
     // process has the file open.
     explicit Journal(std::filesystem::path path);
     ~Journal();

@@ -24,7 +24,7 @@ class DrawContexts {
     DrawContexts(const DrawContexts&) = delete;
     DrawContexts& operator=(const DrawContexts&) = delete;
 
-    // Throws Error where there is no such context.
+    // Throws Error if there is no such context.
     const Capabilities& use(const std::string& word);
 
   private:

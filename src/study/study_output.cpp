@@ -75,7 +75,7 @@ void copy_references(const std::filesystem::path& from, const std::filesystem::p
     }
 }
 
-// Throws Error where the folder's study is not that of the list, or drew other data.
+// Throws Error if the folder's study is not that of the list, or drew other data.
 void check_list(RunList& list, const std::filesystem::path& list_of, const StudyFolder& folder) {
     const RunList other = read_list(folder);
     if (other.id() != list.id()) {
@@ -123,7 +123,7 @@ void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFo
     if (std::filesystem::exists(into.run_list())) check_list(list, from.front(), into);
     check_journals(journals, into);
     into.make();
-    // The list stays where `into` is one of the folders that are read.
+    // The list stays if `into` is one of the folders that are read.
     if (!std::filesystem::exists(into.run_list())) write_run_list(into, list);
     for (const std::filesystem::path& path : from) {
         const StudyFolder folder(path);
@@ -141,8 +141,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of several shards that write into one folder only one at a time reads the journals and writes
-// results. So the results of the last one have all records.
+// A lock on a folder that several shards write into: only one at a time reads the journals and
+// writes results. So the results of the last one have all records.
 class FolderLock {
   public:
     explicit FolderLock(const std::filesystem::path& folder)

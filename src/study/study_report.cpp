@@ -218,7 +218,7 @@ void add_pictures_to(Json& comparison, const StudyFolder& folder) {
         each["height"] = reference.image.height;
         references[each["id"]] = std::move(reference);
     }
-    // Of the runs that were compared with a reference.
+    // Colour spaces by reference, for the runs that were compared with one.
     std::map<std::string, ImageColorSpace> spaces;
     for (Json& run : comparison["runs"]) {
         if (run.contains("failed")) continue;

@@ -110,8 +110,8 @@ RunResult result_of(std::size_t number, const RunRecords& run) {
     return result;
 }
 
-// Adds the result of the first journal that has all of a run or, where there is none, the message
-// of its failure.
+// Adds the result of the first journal that has all of a run or, if there is none, the message of
+// its failure.
 void add_result(const RunList& list, std::size_t number,
                 const std::vector<JournalRecords>& journals, std::vector<RunResult>& results) {
     const StudyRun& run = list.runs[number];

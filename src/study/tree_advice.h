@@ -14,7 +14,7 @@ namespace lamina::study {
 
 constexpr const char* factors_key = "render.slice.tree.factors";
 
-// The bifurcation factors of a run, from the root to the leaves. Empty where no tree is swept or
+// The bifurcation factors of a run, from the root to the leaves. Empty if no tree is swept or
 // the run failed.
 std::vector<int> factors_of(const RunList& list, const RunResult& result);
 
@@ -26,7 +26,7 @@ double irregularity(const std::vector<int>& factors);
 
 // The report's `plots` for runs of one scene with trees: L2 error and frame time over the tree's
 // height and over its irregularity (LaMar 2004, section 6.3, asks for both). There is one series
-// for each setting of the other swept keys. Empty where no run has a tree.
+// for each setting of the other swept keys. Empty if no run has a tree.
 nlohmann::ordered_json tree_plots(const RunList& list, const std::vector<const RunResult*>& runs);
 
 // Number of images that a tree composites into: 1 for the root, then those of each level above the

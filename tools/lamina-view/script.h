@@ -13,7 +13,7 @@ struct ScriptCommand {
     std::string name;
     std::vector<std::string> words;  // what follows
 
-    double number(std::size_t word) const;  // throws Error where it is none
+    double number(std::size_t word) const;  // throws Error if it is none
     [[noreturn]] void fail(const std::string& expected) const;
 };
 

@@ -20,7 +20,7 @@ class ScriptPlayer {
   public:
     ScriptPlayer(std::vector<ScriptCommand> commands, Window& window, Viewer& viewer);
 
-    // Before a frame. Throws Error where something cannot be done, or went wrong in the window.
+    // Before a frame. Throws Error if something cannot be done, or went wrong in the window.
     void advance(double seconds);
     // When it has to go on; nothing: when something happens.
     std::optional<double> next(double seconds) const;

@@ -22,12 +22,12 @@
 
 namespace lamina::view {
 
-// What happens in the window: input changes the document, the worker draws it, and a frame shows
-// that.
+// The window's main loop: input changes the document, the worker draws it, and a frame shows the
+// picture.
 class Viewer {
   public:
     // `wake` is called, from any thread, when there is something new to be shown. `settings_file`:
-    // empty where none is kept.
+    // empty if none is kept.
     Viewer(const GladGLContext& gl, const SessionOptions& options, std::function<void()> wake,
            std::filesystem::path settings_file);
     ~Viewer();
@@ -40,7 +40,8 @@ class Viewer {
     void set_coarse(bool coarse);
     void show_panels(bool panels);
     void fix_size(int width, int height);  // of the picture, whatever the window's
-    // Of the window, for a picture of another size that is to be seen as it is.
+    // Returns the size that the window needs for a picture of another size that is to be seen pixel
+    // by pixel.
     std::optional<glm::ivec2> take_wanted_size();
 
     void handle(const InputEvent& event);

@@ -22,7 +22,8 @@ class DataSeries {
     // Throws UsageError for a pattern that is none.
     DataSeries(std::string file, const TimeRange& range);
 
-    // What the first step's scene is read from, where `file` is a pattern: its first file.
+    // The file that the first step's scene is read from. For a pattern it is the pattern's first
+    // file.
     const std::string& first_file() const { return first_file_; }
     // Puts the first step in place of the patterns in a scene's document.
     void begin(nlohmann::json& document);
@@ -32,7 +33,7 @@ class DataSeries {
     Scene at(Scene scene, std::int64_t step) const;
     // The files that are this step's alone.
     std::vector<std::filesystem::path> files_of_step(const Scene& scene, std::int64_t step) const;
-    // Throws Error where a step of the scene is missing, UsageError where its data have no steps.
+    // Throws Error if a step of the scene is missing, UsageError if its data have no steps.
     void check(const Scene& scene) const;
 
   private:

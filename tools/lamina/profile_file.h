@@ -14,7 +14,7 @@ namespace lamina {
 // Perfetto and chrome://tracing open.
 class ProfileFile {
   public:
-    // Throws Error where the file cannot be written.
+    // Throws Error if the file cannot be written.
     explicit ProfileFile(const std::string& name) : file_(open_named(name)) {}
 
     // The title of it all, and what drew. Returns how many spans were too many to be kept: the file

@@ -29,7 +29,7 @@ struct OutputOptions {
     bool force = false;               // --force
 
     bool piped() const;
-    void check() const;  // throws UsageError where they contradict one another
+    void check() const;  // throws UsageError if they contradict one another
 };
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
@@ -57,8 +57,8 @@ class RenderOutput {
 std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& picture,
                            const PictureAttributes& attributes);
 
-// Opens the output, null where there is none: paths that cannot be written fail at once. `others`:
-// files that are written, too. Throws UsageError where one of them or of the output is a file that
+// Opens the output, null if there is none: paths that cannot be written fail at once. `others`:
+// files that are written, too. Throws UsageError if one of them or of the output is a file that
 // the scene reads. `series`: of --time, else null; it outlives the output.
 std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const OutputScene& scene,
                                           const DataSeries* series,

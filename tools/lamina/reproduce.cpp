@@ -68,7 +68,7 @@ std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& i
     return files;
 }
 
-// Returns the files that items read where they exist.
+// Returns those of the items' data files that exist.
 std::vector<std::filesystem::path> data_files() {
     const std::filesystem::path data = papers::KrausStage::data_folder();
     if (data.empty()) return {};

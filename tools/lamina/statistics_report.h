@@ -11,11 +11,12 @@
 
 namespace lamina {
 
-// Adds the keys "percentiles" {"0.1": value, ...} and "histogram" {edges, counts}: null where there
+// Adds the keys "percentiles" {"0.1": value, ...} and "histogram" {edges, counts}: null if there
 // is no finite value.
 void add_statistics(const ValueStatistics& statistics, nlohmann::ordered_json& info);
 
-// The two keys as lines for people, where `info` has them: 16 intervals of the histogram at most.
+// Returns the two keys as lines for people, if `info` has them: 16 intervals of the histogram at
+// most.
 std::string percentiles_text(const nlohmann::ordered_json& percentiles);
 std::string histogram_text(const nlohmann::ordered_json& histogram);
 

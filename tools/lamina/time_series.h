@@ -18,7 +18,7 @@ namespace lamina {
 // Pictures that an earlier run wrote of the same scene and data are kept.
 class TimeSeries : public RenderOutput {
   public:
-    // Throws UsageError where the names or the format of the files cannot be had.
+    // Throws UsageError if the names or the format of the files cannot be had.
     static void check(const OutputOptions& options);
 
     // Throws as Turntable does.

@@ -18,7 +18,8 @@ struct ViewOptions {
 
 void add_view_options(CLI::App& verb, ViewOptions& options);
 
-// What is to be changed in the scene, which --colormap may have to read. Throws UsageError.
+// Returns the changes that the options make to the scene. Reads the file of --colormap, if that is
+// given. Throws UsageError.
 Wishes wishes_of(const ViewOptions& options, ImageColorSpace space);
 
 // The others, as values of --set: "image.width=800".

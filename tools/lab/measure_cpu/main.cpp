@@ -54,8 +54,8 @@ double seconds_of(const Kernel& kernel, int threads, std::int64_t times) {
     return *std::ranges::max_element(ends) - *std::ranges::min_element(begins);
 }
 
-// Returns the units a second of all threads together, where a call of the kernel does `units`. It
-// is the best of some runs, which other processes disturb least.
+// Returns the units a second of all threads together; a call of the kernel does `units`. It is the
+// best of some runs, which other processes disturb least.
 double rate(const Kernel& kernel, int threads, double units) {
     std::int64_t times = 1;
     while (seconds_of(kernel, threads, times) < shortest_run) times *= 2;
@@ -122,7 +122,7 @@ class Machine {
         const std::string size = fmt::format("{} ({} KiB)", level, tables[0].size() / 256);
         add("gather anywhere in " + size, "G/s", 1e-9, numbers,
             [&](int thread) { return gather_anywhere(table(thread), rounds); });
-        // A call passes over the whole table where that takes longer.
+        // A call passes over the whole table if that takes longer.
         const std::int64_t over_all = std::max<std::int64_t>(
             rounds, static_cast<std::int64_t>(tables[0].size()) / (16 * gathers));
         add("gather 4 x 4 blocks in " + size, "G/s", 1e-9,

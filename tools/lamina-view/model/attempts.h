@@ -9,13 +9,14 @@
 
 namespace lamina::view {
 
-// What has been tried, in the order in which it was tried first. A scene has one row: drawn again,
-// it goes on with that. A row whose error is not yet measured on all pixels goes along to another
-// view (camera or size) of the same settings, or moving the camera would fill the table.
+// Settings that have been tried, in the order of their first trial. A scene has one row, which it
+// continues when it is drawn again. A row whose error is not yet measured on all pixels keeps its
+// place if the view (camera or size) changes but not the settings: else moving the camera would
+// fill the table.
 class Attempts {
   public:
     const std::vector<Attempt>& rows() const { return rows_; }
-    // The row of the last picture; none where rows() is empty.
+    // The row of the last picture; none if rows() is empty.
     std::size_t newest() const { return newest_; }
 
     // A full picture of the scene. `expected`: its error; `statistics`: its own.

@@ -96,7 +96,7 @@ Camera looking_at(const Camera& camera, const glm::dvec3& point) {
         next.eye = point - (camera.center - camera.eye);
         return next;
     }
-    // Where `up` would be looked along, the picture's own up serves.
+    // If the view direction is parallel to `up`, the picture's own up direction replaces it.
     const glm::dvec3 forward = point - camera.eye;
     const double across =
         glm::length(glm::cross(glm::normalize(forward), glm::normalize(camera.up)));

@@ -26,11 +26,11 @@ double height_at_center(const Camera& camera);
 Camera orbited(const Camera& camera, const glm::dvec2& drag);
 // Eye and centre go, so that what is at the centre's distance follows the drag.
 Camera panned(const Camera& camera, const glm::dvec2& drag);
-// What is at the centre's distance gets 1 / `factor` times as large. The point of it at `place`
-// stays where it is in the picture.
+// Zooms: objects at the centre's distance become 1 / `factor` times as large. The one at `place`
+// keeps its position in the picture.
 Camera zoomed(const Camera& camera, double factor, const glm::dvec2& place = glm::dvec2(0));
-// Eye and centre go by `step` world units to the right, up and forward. Orthographic views are
-// enlarged instead of going forward, where that changes nothing.
+// Moves eye and centre by `step` world units to the right, up and forward. Orthographic views are
+// enlarged instead of moved forward, which would change nothing.
 Camera flown(const Camera& camera, const glm::dvec3& step);
 // The point comes to the middle of the picture, and is what is gone around. A perspective view
 // turns, an orthographic one is shifted.
@@ -38,8 +38,8 @@ Camera looking_at(const Camera& camera, const glm::dvec3& point);
 // All of the box is seen, from the same direction and as large as that allows. `aspect`: width of
 // the picture by its height.
 Camera fitted(const Camera& camera, const Grid::Bounds& box, double aspect);
-// Looks from the direction `from` at the middle of the box, fitted. z is up, or y where that is
-// looked along.
+// Looks from the direction `from` at the middle of the box, fitted. z is up, or y if the view is
+// along z.
 Camera seen_from(const Camera& camera, const glm::dvec3& from, const Grid::Bounds& box,
                  double aspect);
 // The other projection; what is at the centre's distance keeps its size.

@@ -16,9 +16,9 @@ double extinction_of(double opacity, double length);
 // linear.
 std::vector<ExtinctionKnot> inside_slope(const DensityPoint& a, const DensityPoint& b);
 
-// Makes points of knots. A run of smooth ones, which a program may have sampled from any curve,
-// becomes a slope where it follows an opacity: over `unit_length` where that fits, else over the
-// length that fits best.
+// Makes points of knots. Successive smooth knots, which a program may have sampled from any curve,
+// become a slope if they follow an opacity: over `unit_length` if that fits, else over the length
+// that fits best.
 std::vector<DensityPoint> with_slopes(const std::vector<ExtinctionKnot>& knots, double unit_length);
 
 }  // namespace lamina::view

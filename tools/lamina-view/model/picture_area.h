@@ -5,7 +5,7 @@
 
 namespace lamina::view {
 
-// Where the picture is in the window: units of the pointer, from the upper left corner.
+// Rectangle of the picture in the window, in units of the pointer, from the upper left corner.
 struct PictureArea {
     glm::dvec2 corner{0};
     glm::dvec2 size{1};

@@ -11,8 +11,8 @@
 
 namespace lamina::view {
 
-// What the scene's file has, every key written out. The transfer function, which is edited by
-// itself, stands there as "auto".
+// The contents of the scene's file, with every key written out. The transfer function, which is
+// edited by itself, is "auto" in it.
 nlohmann::ordered_json settings_of(const Scene& scene);
 
 // The scene with a key at another value, of those that settings_of() has. `path` has the numbers of
@@ -21,10 +21,10 @@ nlohmann::ordered_json settings_of(const Scene& scene);
 Scene with_setting(const Scene& scene, const std::string& path,
                    const nlohmann::ordered_json& value);
 
-// The value at a path of settings_of(); null where nothing stands there.
+// The value at a path of settings_of(); null if nothing stands there.
 nlohmann::ordered_json setting_at(const nlohmann::ordered_json& settings, const std::string& path);
 
-// The same colour in the numbers of another space. Components above 1 stay what they are.
+// Converts a colour to the numbers of another space. Components above 1 are kept.
 glm::dvec3 converted_color(const glm::dvec3& color, ImageColorSpace from, ImageColorSpace to);
 
 }  // namespace lamina::view

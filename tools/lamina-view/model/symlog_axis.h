@@ -15,14 +15,14 @@ class SymlogAxis {
     double lo() const { return lo_; }
     double hi() const { return hi_; }
 
-    // Never falls where the number grows.
+    // Never falls as the number grows.
     double place(double number) const;
     // The inverse: number(place(x)) is x within
     // 8 e (1 + log1p(m / linear)) (|x| + linear), where m is the largest of |x|, |lo|, |hi| and e
     // the rounding of doubles, 2^-53; and exactly x for lo, hi and, where lo is 0, for 0.
     double number(double place) const;
 
-    // Numbers to write along the axis: 0 where it is inside, and powers of 10; at most `most` (>=
+    // Numbers to write along the axis: 0 if it is inside, and powers of 10; at most `most` (>=
     // 3) of them, in order.
     std::vector<double> ticks(int most) const;
 

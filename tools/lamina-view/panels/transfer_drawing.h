@@ -29,7 +29,7 @@ void draw_marker(const TransferFrame& frame, const TransferFunction& function, d
 void draw_color_strip(const TransferFrame& frame, const ImVec2& min, const ImVec2& max,
                       const TransferFunction& function, ImageColorSpace space);
 
-// How a number is written on an axis: few digits, and an exponent only where it is shorter.
+// Writes a number for an axis: with few digits, and with an exponent only if that is shorter.
 struct AxisText {
     char text[24];
 };

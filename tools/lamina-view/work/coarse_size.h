@@ -15,10 +15,10 @@ class CoarseSize {
   public:
     explicit CoarseSize(double target_ms) : target_ms_(target_ms) {}
 
-    // What a picture took whose edges were divided by this one of `divisors`.
+    // Records the time of a picture whose edges were divided by this one of `divisors`.
     void add(double divisor, double ms);
-    // The least one of `divisors` by which a picture is in time, as far as is known. Where none is,
-    // the least one that takes at most a quarter longer than the quickest.
+    // The least one of `divisors` with which pictures are in time, as far as is known. If there is
+    // none, the least one that takes at most a quarter longer than the quickest.
     double divisor() const;
 
     static constexpr std::array<double, 9> divisors{1, 1.5, 2, 3, 4, 6, 8, 12, 16};

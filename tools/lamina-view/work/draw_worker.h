@@ -33,7 +33,7 @@ class DrawWorker {
 
     void request(DrawRequest request);
     std::shared_ptr<const Shown> shown() const;  // never null
-    // Whether something may still be published for what was requested.
+    // Returns true if pictures of the last request may still be published.
     bool busy() const { return busy_; }
 
   private:

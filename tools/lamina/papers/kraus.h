@@ -36,8 +36,8 @@ struct KrausSubject {
     std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
 };
 
-// What subjects are made from. The extinctions of the transfer functions are relative: they are
-// scaled so that the picture's largest opacity is the intended one.
+// The views and transfer functions of a subject. The extinctions are relative: they are scaled so
+// that the picture's largest opacity is the intended one.
 struct KrausView {
     std::string name;
     Camera camera, isosurface_camera;
@@ -146,10 +146,10 @@ class KrausStage {
     const std::shared_ptr<TableCache>& tables() const { return tables_; }
 
     bool has(const std::string& data_set) const;
-    // A subject of kraus_view(), made when it is first needed. Where a data set is missing, "box"
+    // A subject of kraus_view(), made when it is first needed. If a data set is missing, "box"
     // replaces it. "graded" has a bump and "plate" has none; the edge ratio of both is 1e4.
     KrausSubject& subject(const std::string& name);
-    // All subjects whose data exist, or "box" where no data set does.
+    // All subjects whose data exist, or "box" if no data set does.
     std::vector<KrausSubject*> subjects();
 
     static std::filesystem::path data_folder();  // LAMINA_DATA, or empty

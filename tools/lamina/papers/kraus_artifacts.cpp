@@ -60,7 +60,7 @@ const VariantErrors& find(const std::vector<VariantErrors>& errors, const std::s
 // One statement, asked of every mesh. It holds if it holds on all of them.
 class OnMeshes {
   public:
-    // `measured` is said of meshes where the statement does not hold.
+    // `measured`: the text for meshes for which the statement does not hold.
     void add(const std::string& mesh, bool holds, const std::string& measured) {
         if (holds)
             true_of_.push_back(mesh);

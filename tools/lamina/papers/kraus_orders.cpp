@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The error that integration and float32 may add where the order is right, in 1/255.
+// The error that integration and float32 may add to a picture in the right order, in 1/255.
 constexpr double right_linf = 1;
 
 }  // namespace

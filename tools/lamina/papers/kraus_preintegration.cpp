@@ -44,7 +44,7 @@ std::vector<Variant> ways(const Scene& scene) {
         {"analytic", closed_form}};
 }
 
-// Returns the milliseconds to build the table that the scene asks for, or null where it has none of
+// Returns the milliseconds to build the table that the scene asks for, or null if it has none of
 // its own.
 Json build_ms(const KrausSubject& subject, const Scene& scene, const Capabilities& capabilities) {
     Pipeline pipeline(scene, subject.mesh.data(),

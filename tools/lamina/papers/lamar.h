@@ -43,7 +43,7 @@ nlohmann::ordered_json reproduce_order(const std::filesystem::path& folder);
 nlohmann::ordered_json reproduce_dithering(const std::filesystem::path& folder);
 
 // The paper's pictures. Figure 1 needs the bonsai of LAMINA_DATA; without it nothing can be tested.
-// The Richtmyer-Meshkov data are not available, so mixing_scene.h replaces them.
+// The Richtmyer-Meshkov data are not available, so mixing_volume() replaces them.
 nlohmann::ordered_json draw_figure1(const std::filesystem::path& folder, LamarStage& stage);
 nlohmann::ordered_json draw_table4(const std::filesystem::path& folder, LamarStage& stage);
 nlohmann::ordered_json draw_figure6(const std::filesystem::path& folder, LamarStage& stage);

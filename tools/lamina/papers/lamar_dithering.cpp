@@ -128,7 +128,7 @@ Json measure_spans() {
     return rows;
 }
 
-// Returns the rows where every given key has the given value.
+// Returns the rows in which every given key has the given value.
 std::vector<Json> select(const Json& rows, const Json& wanted) {
     std::vector<Json> found;
     for (const Json& row : rows) {

@@ -104,7 +104,7 @@ constexpr int palette_period = 16;
 constexpr double volume_in_picture = 0.5;
 constexpr double nearly_nothing = 64;  // times the camera's height
 
-// Optical depth 1.45 through the heavy liquid, as in mixing_scene.h, but with two points only.
+// Optical depth 1.45 through the heavy liquid, as in mixing_scene(), but with two points only.
 Scene timed_scene(bool white) {
     Scene scene;
     const auto color = [&](const glm::dvec3& c) { return white ? glm::dvec3(1) : c; };

@@ -14,10 +14,9 @@ namespace lamina::papers {
 
 // One table or figure of a paper: `reproduce`, or `draw` if it needs OpenGL. Either writes its CSV
 // and plots, some of `files`, into `folder`, which exists, and returns {values, paper, verdict,
-// note,
-// ...} (see Findings::result). If there are panels (papers/panels.h) or plots, `values` has them
-// and a `caption`. Errors are in units of 1/255. A `Stage`, made from the capabilities of the
-// current context, holds what the items that draw share.
+// note, ...} (see Findings::result). If there are panels (Panels) or plots, `values` has them and a
+// `caption`. Errors are in units of 1/255. A `Stage`, made from the capabilities of the current
+// context, holds data that the items that draw share.
 template <typename Stage>
 struct PaperItem {
     std::string name;

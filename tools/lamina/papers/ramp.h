@@ -39,16 +39,16 @@ Curve composite_ramp_tree(const RampSetting& setting, const std::vector<int>& fa
 // Norms of e = measured - exact. Both have the same size, at least 1.
 ErrorNorms error_of(const Curve& measured, const Curve& exact);
 
-// The number of places where a curve is lower than one place before.
+// Returns the number of places at which a curve is lower than one place before.
 int decreases(const Curve& curve);
 
-// The largest such decrease; 0 where the curve never decreases.
+// Returns the largest such decrease; 0 if the curve never decreases.
 double largest_drop(const Curve& curve);
 
 // The number of different values of a curve.
 int levels(const Curve& curve);
 
-// The first column that is not 0, or ramp_width where there is none.
+// Returns the first column that is not 0, or ramp_width if there is none.
 int first_shown(const Curve& curve);
 
 // The effect of dithering along depth on a structure that fills only some of a ray's slabs (LaMar
@@ -63,7 +63,8 @@ struct SpanSetting {
 // Statistics over all positions of the structure relative to the pattern.
 struct SpanLoss {
     double lost = 0;  // share of positions at which nothing of it shows
-    // Mean number of slabs from its boundary to the first slab that shows, where one does.
+    // Mean number of slabs from its boundary to the first slab that shows, over the positions that
+    // have one.
     double mean_shift = 0;
     int largest_shift = 0;
     double sum_error = 0;  // RMS difference between the sum of its codes and slabs * code, in codes

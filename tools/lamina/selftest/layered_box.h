@@ -40,7 +40,7 @@ struct LayeredBox {
     std::size_t layer_at(double w) const;
     double layer_begin(std::size_t layer) const;
     double scalar(std::size_t layer, double w) const;
-    // Whether a layer has a sample that is not finite; it then shows nothing.
+    // Returns true if a layer has a sample that is not finite. Such a layer shows nothing.
     bool is_void(std::size_t layer) const;
     // The range of the finite samples.
     Interval range() const;
@@ -57,16 +57,16 @@ struct BoxChord {
 };
 
 // The chord of the box widened by `slack` (a share of each edge) on all sides, cuts included (by
-// that share of the longest edge); empty where the ray misses it.
+// that share of the longest edge); empty if the ray misses it.
 std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, double slack);
 
-// What a case of the self-test draws: a layered box, both as a volume and as a mesh.
+// The scene that a case of the self-test draws: a layered box, both as a volume and as a mesh.
 struct SelftestScene {
     std::string name;
     std::string about;  // what is stiff or extreme here
     LayeredBox box;
     Scene scene;  // transfer function, camera, size, number of slabs; no files
-    // Makes tets that fill the box. Empty where no mesh is drawn.
+    // Makes tets that fill the box. Empty if no mesh is drawn.
     std::function<MeshData(const LayeredBox&)> mesh;
 };
 
@@ -85,7 +85,7 @@ MeshData fan_tets(const LayeredBox& box, int across);
 // gives flat tets, slivers and needles.
 MeshData split_tets(const LayeredBox& box, int splits, double least, std::uint32_t seed);
 
-// The same mesh with its tets, their corners and its points in another order.
+// Returns the mesh with its tets, their corners and its points in another order.
 MeshData shuffled(const MeshData& mesh, std::uint32_t seed);
 
 }  // namespace lamina::selftest

@@ -59,7 +59,7 @@ PieceBounds exact_piece(const SegmentIntegral& integral) {
     return piece;
 }
 
-// Returns how far a mean over scalars moves where its ends, `width` apart, move by `error` each.
+// Returns how far a mean over scalars moves if its ends, `width` apart, move by `error` each.
 // Strips of 2 * error enter and leave, in which no value is farther from the mean than the range is
 // wide.
 double moved_mean_share(double width, double error) {
@@ -67,9 +67,9 @@ double moved_mean_share(double width, double error) {
     return rest > 0 ? std::min(1.0, 2 * error / rest) : 1.0;
 }
 
-// Returns the range of optics that are met where w is between two values. `bent`: also those of a
-// straight run in place of the scalar, moved by two thirds of its bend (Simpson), which is at most
-// the scalar's range.
+// Returns the range of optics for w between two values. `bent`: the optics of a straight line in
+// place of the scalar are included, moved by two thirds of its bend (Simpson), which is at most the
+// scalar's range.
 OpticsRange optics_between(const LayeredBox& box, const TransferFunction& transfer_function,
                            Interval w, double scalar_error, bool bent = false) {
     w = w.within({0, 1});
@@ -180,8 +180,7 @@ std::vector<PieceBounds> middle_pieces(const LayeredBox& box,
         const OpticsRange shown = optics_between(
             box, transfer_function, Interval{middle, middle}.widened(off), scalar_error);
         pieces.push_back({times(shown.extinction, lengths, precision.relative), shown.color});
-        // Where a slab's end lies elsewhere, the neighbouring slab has the part that this one
-        // lacks.
+        // The neighbouring slab has the part that this slab lacks if their common end is off.
         const double half = 0.5 * part.width() * std::abs(any.step.z);
         const OpticsRange met = optics_between(
             box, transfer_function, Interval{middle, middle}.widened(half + off), scalar_error);
@@ -251,7 +250,7 @@ std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
                              precision.relative * exact.integral.optical_depth;
         PieceBounds piece = exact_piece(exact.integral);
         piece.depth = {certain ? std::max(0.0, piece.depth.lo - error) : 0, piece.depth.hi + error};
-        // Where a piece's depth is uncertain, so is the share of its colour.
+        // The share of a piece's colour is as uncertain as its depth.
         const double color_share = std::min(1.0, precision.color + 2 * share + error);
         for (std::size_t c = 0; c < 3; ++c) {
             const double by =

@@ -14,7 +14,7 @@
 
 namespace lamina::selftest {
 
-// The exact pieces, one for each layer, in closed form (docs/numerics.md, section 5). Empty where
+// The exact pieces, one for each layer, in closed form (docs/numerics.md, section 5). Empty if
 // the ray misses the box.
 std::vector<PieceBounds> exact_pieces(const LayeredBox& box,
                                       const TransferFunction& transfer_function,
@@ -28,14 +28,15 @@ struct Slabs {
 };
 Slabs slabs_of(const LayeredBox& box, const View& view, int count);
 
-// Classification `post`: the piece of the ray in a slab has the optics of the scalar in its middle.
+// Pieces of classification `post`: the piece of the ray in a slab has the optics of the scalar in
+// its middle.
 std::vector<PieceBounds> middle_pieces(const LayeredBox& box,
                                        const TransferFunction& transfer_function,
                                        const View::Ray& ray, const Slabs& slabs,
                                        const Precision& precision);
 
-// Classification `preintegrated`. Where the scalar is linear in a slab, the piece of the ray there
-// has the exact optical depth. Otherwise it has an optical depth of scalars that occur in the
+// Pieces of classification `preintegrated`. If the scalar is linear in a slab, the piece of the ray
+// there has the exact optical depth. Otherwise it has an optical depth of scalars that occur in the
 // piece. Its colours occur in the piece.
 std::vector<PieceBounds> run_pieces(const LayeredBox& box,
                                     const TransferFunction& transfer_function, const View::Ray& ray,

@@ -175,7 +175,7 @@ SelftestScene orthographic(const std::string& name, const std::string& about,
     return scene;
 }
 
-// From where the eye is, the light shines towards it.
+// The light shines towards the eye.
 SelftestScene light_behind() {
     SelftestScene scene = orthographic("opposite_light",
                                        "A light straight towards the eye: no "

@@ -101,8 +101,8 @@ constexpr Interval everything{-1e30, 1e30};
 // Opacity does not.
 constexpr double place_in_table = 0x1p-32;
 
-// Of stored gradients a direction and a weight are off by at most 2^-15 (slicing/gradient_map.h),
-// and a power of n by n 2^-21.
+// Error of light from stored gradients: direction and weight are off by at most 2^-15
+// (slicing/gradient_map.h), and a power of n by n 2^-21.
 constexpr double light_error = 0x1p-14;
 
 // Returns the largest number of pieces that a tet is cut into.
@@ -110,7 +110,7 @@ double parts_in(const TransferFunction& transfer_function) {
     return static_cast<double>(transfer_function.knots().size() + 1);
 }
 
-// What planes leave of a tet is drawn as up to three tets for each plane.
+// Each clip plane leaves up to three tets of one.
 double tets_for_one(const LayeredBox& box) {
     return std::pow(3, static_cast<double>(box.cuts.size()));
 }
@@ -235,7 +235,7 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
     const Slabs slabs = slabs_of(box, view, scene.slice.samples.value_or(1));
     const bool post = scene.slice.classification == Classification::post;
     const bool by_slab = sliced && scene.slice.classification != Classification::exact;
-    // Rays may end where the rest cannot change the picture by more than this
+    // Rays may end as soon as the rest cannot change the picture by more than this
     // (docs/omissions.md).
     const double hidden_light = scene.max_error / 255 / 1024;
 

@@ -16,8 +16,8 @@
 
 namespace lamina::selftest {
 
-// Rays through a mesh that does not use its neighbours: every tet is intersected by itself, in
-// double precision. This is right for every mesh, also where it overlaps itself.
+// Chords of rays in the tets of a mesh. Every tet is intersected by itself, in double precision,
+// without use of its neighbours. This is right for every mesh, also for one that overlaps itself.
 
 class MeshChords {
   public:

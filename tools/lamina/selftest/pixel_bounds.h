@@ -74,7 +74,7 @@ using PixelBounds = std::array<Interval, 4>;
 // weighted by the transmittance of what lies in front.
 PixelBounds composite(const std::vector<PieceBounds>& pieces, const BlendRounding& rounding);
 
-// The same for pieces with exact values, without rounding.
+// Composites pieces with exact values, without rounding.
 std::array<double, 4> composite_exactly(const std::vector<PieceBounds>& pieces);
 
 // The optics of a transfer function over a closed interval of scalars. Both sides of steps count.
