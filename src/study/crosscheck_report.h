@@ -21,16 +21,16 @@ struct CrosscheckSubject {
     nlohmann::ordered_json environment;  // machine and version, for the report
 };
 
-// The contents of budget.json: the error budget of the four pictures, and all results of both
-// methods.
+// Returns the contents of budget.json: the error budget of the four pictures, and all results of
+// both methods.
 nlohmann::ordered_json budget_json(const Crosscheck& crosscheck, const ErrorBudget& budget,
                                    const CrosscheckSubject& subject);
 
-// The document that the page shows (docs/study.md).
+// Returns the document that the page shows (docs/study.md).
 nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const ErrorBudget& budget,
                                          const CrosscheckSubject& subject);
 
-// The findings as sentences, for stdout and the page.
+// Returns the findings as sentences, for stdout and the page.
 std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,
                                              const ErrorBudget& budget,
                                              const CrosscheckSubject& subject);

@@ -18,13 +18,13 @@
 
 namespace lamina::study {
 
-// All that an exact picture depends on beside its data: transfer function, camera, size,
-// clip and lighting.
+// Returns a text of all that an exact picture depends on beside its data: transfer function,
+// camera, size, clip and lighting.
 std::string picture_key(const Scene& scene);
 
 std::string transfer_function_key(const TransferFunction& transfer_function);
 
-// Identifies the contents of data, wherever they came from.
+// Returns a hash of the contents of data, wherever they came from.
 std::string content_of(const Volume& volume);
 std::string content_of(const SceneMesh& mesh);
 std::string content_of(const Colormap& colormap);
@@ -75,7 +75,7 @@ class KeptMeshes {
     std::filesystem::path folder_;
 };
 
-// Names of data: paths, or the formulas of generated data.
+// Return names of data: paths, or the formulas of generated data.
 std::string volume_name(const Scene& scene);
 std::string mesh_name(const Scene& scene);
 

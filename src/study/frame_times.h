@@ -27,12 +27,13 @@ struct FrameTimes {
 std::vector<FrameTimes> time_interleaved(const std::string& label,
                                          const std::vector<TimedFrame>& frames, int rounds);
 
-// Rows of names, times and ratios to the first frame: [{technique, ms, ratio, cpu_ms, ...}].
+// Returns rows of names, times and ratios to the first frame: [{technique, ms, ratio, cpu_ms,
+// ...}].
 nlohmann::ordered_json time_rows(const std::vector<TimedFrame>& frames,
                                  const std::vector<FrameTimes>& times);
 
-// {machine, processors, date}: the processor's name, how many of them this process may run on, and
-// today (UTC).
+// Returns {machine, processors, date}: the processor's name, how many of them this process may run
+// on, and today (UTC).
 nlohmann::ordered_json describe_machine();
 
 }  // namespace lamina::study

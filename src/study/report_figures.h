@@ -13,20 +13,20 @@ namespace lamina::study {
 
 // Pictures for a page.
 
-// The picture as write_png shows it on black: 8-bit sRGB codes, three channels.
+// Returns the picture as write_png shows it on black: 8-bit sRGB codes, three channels.
 CodedImage shown(const Image& image, ImageColorSpace space = ImageColorSpace::linear);
 
-// The divisor of the sides after which neither has more than `largest` pixels.
+// Returns the divisor of the sides after which neither has more than `largest` pixels.
 int reduction(int width, int height, int largest = 256);
 
-// The means of squares of `step` x `step` pixels.
+// Returns the means of squares of `step` x `step` pixels.
 Image reduced(const Image& image, int step);
-// The pixel with the largest |e| of each square, so that no error is averaged away.
+// Returns the pixel with the largest |e| of each square, so that no error is averaged away.
 Difference reduced(const Difference& difference, int step);
 
-// An RGB picture of 8 bits as "data:image/png;base64,...".
+// Returns an RGB picture of 8 bits as "data:image/png;base64,...".
 std::string data_uri(const CodedImage& image);
-// Bytes of that media type as "data:...;base64,...".
+// Returns bytes of a media type as "data:...;base64,...".
 std::string data_uri(const std::string& type, const std::string& bytes);
 
 struct PlotAxis {

@@ -26,13 +26,15 @@ class CsvTable {
     std::string text_;
 };
 
-// A CSV table of objects with the same keys and plain values, one row each; null is an empty cell.
+// Returns a CSV table of objects with the same keys and plain values, one row each; null is an
+// empty cell.
 std::string csv_of_rows(const nlohmann::ordered_json& rows);
 
-// Norms as {linf, l1, l2}, in 1/255.
+// Returns norms as {linf, l1, l2}, in 1/255.
 nlohmann::ordered_json to_json(const ErrorNorms& norms);
 
-// Errors as {channels: {R: norms, ...}, all: norms}, as `lamina compare --json` prints them.
+// Returns errors as {channels: {R: norms, ...}, all: norms}, as `lamina compare --json` prints
+// them.
 nlohmann::ordered_json to_json(const ImageError& error);
 
 }  // namespace lamina::study

@@ -30,12 +30,12 @@ struct StudyData {
 void add_data(std::size_t number, const Scene& drawn, TraceOf reference,
               std::vector<StudyData>& data);
 
-// Hashes of the contents of data. A hash is empty if the data cannot be read; the runs that need
-// them report this. Each is read once. Data of a single scene stay in the store.
+// Returns hashes of the contents of data. A hash is empty if the data cannot be read; the runs that
+// need them report this. Each is read once. Data of a single scene stay in the store.
 std::vector<std::string> contents_of(const std::vector<StudyData>& data, DataStore& store);
 
-// The scene of a run. Throws KeyError for what no run can measure: the method "trace", or a
-// reference that the scene does not have.
+// Returns the scene of a run. Throws KeyError for settings that no run can measure: the method
+// "trace", or a reference that the scene does not have.
 Scene scene_of(const StudyRun& run, const StudyFile& file);
 TraceOf reference_of(const Scene& scene, const StudyFile& file);
 

@@ -20,7 +20,7 @@ struct StudyRun {
     Settings settings;  // values of the swept keys
 };
 
-// A name of settings for people: "fixed8, 32x32".
+// Returns a name of settings for people: "fixed8, 32x32".
 std::string run_name(const Settings& settings);
 
 // The runs of a study.
@@ -53,7 +53,7 @@ struct RunList {
 
 constexpr std::uint64_t most_runs_unasked = 10000;
 
-// The number of runs of the file's sweep, before any is dropped.
+// Returns the number of runs of the file's sweep, before any is dropped.
 std::uint64_t run_count(const StudyFile& file);
 
 // Expands the sweep. Throws Error if no run is left, if the baseline does not name one run of each
@@ -61,7 +61,7 @@ std::uint64_t run_count(const StudyFile& file);
 RunList list_runs(const StudyFile& file);
 
 nlohmann::json document_of(const StudyRun& run, const StudyFile& file);
-// The context of a run: auto, osmesa, egl or cpu.
+// Returns the context of a run: auto, osmesa, egl or cpu.
 std::string context_of(const StudyRun& run, const StudyFile& file);
 
 // Compares the data of two lists of one study. Throws Error if both lists know the contents of data

@@ -21,13 +21,13 @@ const nlohmann::json* find_setting(const Settings& settings, const std::string& 
 
 constexpr std::uint64_t most_runs = 100000;  // runs of a study
 
-// All values of one key.
+// One key with all values that it takes.
 struct SweepAxis {
     std::string key;
     std::vector<nlohmann::json> values;  // at least one
 };
 
-// All combinations of the values of its axes.
+// The combinations of the values of several axes.
 struct SweepGrid {
     std::vector<SweepAxis> axes;  // at least one
 
@@ -44,8 +44,8 @@ std::vector<SweepGrid> read_sweep(JsonReader& study);
 // lists come first. If there are more than most_runs, it stops soon after that number.
 std::vector<std::vector<int>> factorizations(int of, int levels);
 
-// A setting as a name and for a cell of a table: a list of whole numbers as "32x32", words without
-// quotes, everything else as JSON.
+// Returns a setting as a name, or for a cell of a table: a list of whole numbers as "32x32", words
+// without quotes, everything else as JSON.
 std::string setting_text(const nlohmann::json& value);
 
 // A study as its file says (docs/study.md). Nothing is expanded yet.

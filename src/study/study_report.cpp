@@ -110,7 +110,7 @@ void tell_failed(const StudyResults& results, std::size_t scene,
 std::vector<std::string> study_findings(const StudyResults& results) {
     const RunList& list = results.list;
     std::vector<std::string> findings;
-    // Which trees to take is the answer; how all runs compare comes after it.
+    // The trees to take are the answer, so they come first; how all runs compare comes after them.
     for (const bool in_floats : {false, true}) {
         for (std::size_t scene = 0; scene < list.scenes.size(); ++scene) {
             for (std::string& finding :

@@ -10,11 +10,11 @@
 
 namespace lamina::study {
 
-// The results of a study as sentences. Every number in them was measured.
+// Returns the results of a study as sentences. Every number in them was measured.
 std::vector<std::string> study_findings(const StudyResults& results);
 
-// The contents of results.json (docs/study.md): all that the page of a study shows, except for its
-// pictures.
+// Returns the contents of results.json (docs/study.md): all that the page of a study shows, except
+// for its pictures.
 nlohmann::ordered_json report_of(const StudyResults& results);
 
 // Adds pictures of runs, references and differences, as data URIs.

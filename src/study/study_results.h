@@ -55,7 +55,7 @@ struct StudyResults {
 // Reads the results. Throws Error if the folder holds no study, or one whose files were changed.
 StudyResults read_results(const StudyFolder& folder);
 
-// The contents of results.csv: one row for each run.
+// Returns the contents of results.csv: one row for each run.
 std::string csv_of(const StudyResults& results);
 
 }  // namespace lamina::study

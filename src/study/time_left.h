@@ -16,15 +16,16 @@
 
 namespace lamina::study {
 
-// How long the rest of a study takes, from the visits to runs so far. First visits, which read
-// data, trace, set up and draw the first picture, and later ones are held apart.
+// Predicts how long the rest of a study takes, from the visits to runs so far. First visits, which
+// read data, trace, set up and draw the first picture, and later ones are held apart.
 class TimeLeft {
   public:
-    // `timing`: what of `seconds` was the timing of frames, which is all that a later visit does.
+    // `timing`: the part of `seconds` that timed frames, which is all that a later visit does.
     void add_first(double seconds, double timing);
     void add_later(double seconds);
 
-    // Seconds for so many visits of each kind. There was a first one.
+    // Returns the seconds for so many visits of each kind. At least one first visit must have been
+    // added.
     double of(std::size_t first_visits, std::size_t later_visits) const;
 
   private:
@@ -35,8 +36,8 @@ class TimeLeft {
 // "8 s", "3 min", "2 h 10 min": two digits or so.
 std::string duration_text(double seconds);
 
-// Shows the progress of work with few, long steps whose times are predicted, and predicted anew
-// after each. It moves on by itself between them.
+// Shows the progress of work with few, long steps whose times are predicted, and predicted again
+// after each step. It advances by itself between them.
 class TimedProgress {
   public:
     explicit TimedProgress(const std::string& label);

@@ -130,7 +130,7 @@ std::string cost_text(const RunList& list, const RunResult& run) {
                        baseline_name(list, list.runs[run.run].scene));
 }
 
-// How the error of a tree compares with that of the run without one, if there is one.
+// Says how the error of a tree compares with that of the run without one, if there is one.
 std::string gain_text(const RunResult& tree, const RunResult* straight) {
     if (straight == nullptr) return {};
     if (tree.near_reference() && straight->near_reference())

@@ -14,14 +14,14 @@ namespace lamina::study {
 
 constexpr const char* factors_key = "render.slice.tree.factors";
 
-// The bifurcation factors of a run, from the root to the leaves. Empty if no tree is swept or
-// the run failed.
+// Returns the bifurcation factors of a run, from the root to the leaves. Empty if no tree is swept
+// or the run failed.
 std::vector<int> factors_of(const RunList& list, const RunResult& result);
 
-// A name of the run's other settings: "fixed8".
+// Returns a name of the run's other settings: "fixed8".
 std::string name_without_factors(const StudyRun& run);
 
-// The largest factor over the smallest: 1 for a regular tree.
+// Returns the largest factor over the smallest: 1 for a regular tree.
 double irregularity(const std::vector<int>& factors);
 
 // The report's `plots` for runs of one scene with trees: L2 error and frame time over the tree's
@@ -50,11 +50,11 @@ struct TreeGroup {
     const RunResult& best() const;  // smallest L2 of the choices
 };
 
-// Groups of the runs of one scene; those in floats last. Empty if no tree is swept.
+// Returns the groups of the runs of one scene; those in floats last. Empty if no tree is swept.
 std::vector<TreeGroup> tree_groups(const RunList& list, const std::vector<const RunResult*>& runs);
 
-// One sentence for each group of a scene, in floats or not: the tree to take, what it costs and
-// what it gains.
+// Returns one sentence for each group of a scene, in floats or not: the tree to take, its cost and
+// its gain.
 std::vector<std::string> tree_findings(const RunList& list, const std::string& scene,
                                        const std::vector<const RunResult*>& runs, bool in_floats);
 

@@ -54,8 +54,8 @@ class Viewer {
     bool is_closing() const { return closing_; }
 
     const Shown& shown() const { return *shown_; }
-    // How far it is with what was asked for last: in full, saved, and all of it traced. What cannot
-    // be drawn is at rest, too.
+    // States of the last request: drawn in full, and traced to its end. A request that cannot be
+    // drawn counts as at rest, too.
     bool is_full() const;
     bool is_truth() const;
     bool is_saving() const { return !waiting_.empty() || saving_.busy(); }

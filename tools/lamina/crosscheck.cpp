@@ -149,7 +149,8 @@ void run(const CrosscheckOptions& options) {
     check_ladder(options.settings);
     nlohmann::json ignored;
     Scene scene = load_scene(options.scene, {}, ignored);
-    // Before anything is made: what is compared is a volume, and a mesh of it.
+    // The methods are compared on a volume and a mesh of it; this is checked before anything is
+    // made.
     if (!scene.has_volume())
         fail("{}: volume: is missing, expected the volume that both methods show",
              scene.file.string());

@@ -17,7 +17,8 @@ namespace lamina {
 struct RunStatistics {
     FrameStatistics picture = {};  // before the first one: of what led to it
     std::vector<double> frames_ms = {};
-    // From the start of reading the scene to the written picture, without the frames of --frames.
+    // Time from the start of reading the scene to the written picture, without the frames of
+    // --frames.
     double first_picture_ms = 0;
 
     // Takes the next picture into account.

@@ -93,7 +93,7 @@ void say_what_is_left_out(const study::RunList& list, const StudyOptions& option
         say(options, fmt::format("{} runs left out: {}", dropped.runs, dropped.because));
 }
 
-// Before anything runs: how much work the file means.
+// Prints the amount of work that the file means, before anything runs.
 void say_what_it_makes(const study::RunList& list, const StudyOptions& options) {
     say(options,
         fmt::format("{}: {} runs of {} scenes, each timed in {} rounds of {} frames", options.study,

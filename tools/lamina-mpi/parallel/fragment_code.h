@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-// How pixels travel between ranks.
+// Formats in which pixels travel between ranks.
 enum class Wire {
     float32,  // 16 bytes a pixel: nothing is lost
     half,     // 8 bytes: four halves, associated

@@ -22,8 +22,8 @@ class Attempts {
     // A full picture of the scene. `expected`: its error; `statistics`: its own.
     void add(const Scene& scene, const Scene& resolved, std::optional<double> expected,
              const FrameStatistics& statistics);
-    // How far the tracer is with that picture. Fewer pixels than are measured already, of a picture
-    // that was drawn again, change nothing.
+    // Takes the share of that picture's pixels that the tracer has done, and their error. If the
+    // picture was drawn again, fewer pixels than are measured already change nothing.
     void measured(double share, const ErrorNorms& error);
     void clear();
 

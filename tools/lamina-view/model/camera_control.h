@@ -30,7 +30,7 @@ class CameraControl {
 
     void set_projection(Document& document, Projection projection) const;
     void fit(const Around& around, Document& document) const;
-    // From the positive (`sign` 1) or negative end of an axis.
+    // Looks from the positive (`sign` 1) or negative end of an axis.
     void see_axis(int axis, double sign, const Around& around, Document& document) const;
 
   private:

@@ -40,7 +40,7 @@ class Comparison {
 
     // Takes the pictures to show: A, if it was drawn again, and B.
     void follow(const Shown& shown);
-    // Why there is nothing to be seen beside B; empty if there is.
+    // Reason why there is nothing to be seen beside B; empty if there is.
     const std::string& missing() const { return missing_; }
     bool active() const { return by != CompareBy::nothing && missing_.empty(); }
 

@@ -17,7 +17,7 @@ double half_height_per_distance(const Camera& camera) {
     return std::tan(glm::radians(camera.fov_y) / 2);
 }
 
-// By an angle about a unit vector (Rodrigues).
+// Turns a vector by an angle about a unit vector (Rodrigues).
 glm::dvec3 turned_about(const glm::dvec3& axis, const glm::dvec3& v, double angle) {
     return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
            axis * glm::dot(axis, v) * (1 - std::cos(angle));

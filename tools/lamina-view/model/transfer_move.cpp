@@ -22,7 +22,7 @@ class MovedValues {
         for (const Point& point : points) values_.push_back(point.value);
     }
 
-    // How far they can go, in the direction of `wanted`.
+    // Returns how far they can go, in the direction of `wanted`.
     double limited(double wanted) const {
         for (std::size_t i = 0; i < values_.size(); ++i) {
             if (moves_[i] == 0) continue;

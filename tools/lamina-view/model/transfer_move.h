@@ -9,7 +9,7 @@
 
 namespace lamina::view {
 
-// How far points go: `values` along the scalar, `places` along the axis of extinction.
+// A shift of points: `values` along the scalar, `places` along the axis of extinction.
 struct TransferShift {
     double values = 0, places = 0;
 };

@@ -6,11 +6,11 @@
 
 namespace lamina::view {
 
-// How small a picture has to be to arrive in time while the camera moves. It keeps what pictures
-// of each size took. A new time scales the others along, as views differ in what they take. Between
-// two sizes that are known, time is linear in the number of pixels; beyond them, larger pictures
-// are expected to take as much longer as they have more pixels, and smaller ones the square root of
-// that shorter, as part of the work (order of tets) is the same for all.
+// Chooses how small a picture has to be to arrive in time while the camera moves. It keeps the
+// times of pictures of each size. A new time scales the others, because views differ in cost.
+// Between two sizes with known times, time is linear in the number of pixels. Beyond them, larger
+// pictures are expected to take longer in proportion to their pixels, and smaller ones to be faster
+// by the square root of that, because part of the work (order of tets) does not depend on size.
 class CoarseSize {
   public:
     explicit CoarseSize(double target_ms) : target_ms_(target_ms) {}

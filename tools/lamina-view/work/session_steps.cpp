@@ -76,7 +76,7 @@ SessionSteps::Next SessionSteps::step_after_full() const {
     return request_.trace && !shown_.truth ? Next::trace : Next::nothing;
 }
 
-// As it was drawn last.
+// Returns the pinned picture as it was drawn last.
 std::shared_ptr<const PinnedPicture> SessionSteps::pinned() const {
     const auto& asked = request_.pinned;
     if (!asked || asked->data != request_.revisions.data) return {};

@@ -76,7 +76,7 @@ struct Shown {
     std::string activity;  // what is being done; empty: nothing
     double share_done = 0;
     std::vector<std::string> warnings;
-    // Why a request has no picture; empty if the last one has.
+    // Reason why a request has no picture; empty if the last one has.
     std::string failure;
     std::uint64_t failed_request = 0;  // DrawRequest::number
 };

@@ -32,7 +32,7 @@ struct KrausSubject {
     Scene faint;       // the same with opacity up to .1
     Scene dense;       // the same with opacity up to .95
     Scene isosurface;  // a sharp peak, nearly opaque; its camera may be another one
-    // Has the pre-integration tables of its pictures. Subjects of one stage share the stage's.
+    // Pre-integration tables of its pictures. Subjects of one stage share the stage's.
     std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
 };
 
@@ -128,7 +128,8 @@ struct KrausSizes {
     int timed_width = 800, timed_height = 600;  // as in the paper
     std::int32_t graded_cells = 24, graded_layers = 40;
     std::int32_t box_cells = 31;  // along an edge of the box that replaces data sets: 178,746 tets
-    // For Table 2: 20,250 tets, then as many as the paper's heat sink, cylinder and X38 have.
+    // Meshes for Table 2: 20,250 tets, then as many as the paper's heat sink, cylinder and X38
+    // have.
     std::vector<std::int32_t> timed_box_cells{15, 27, 47, 69};
     int rounds = 3;
 };

@@ -49,7 +49,7 @@ nlohmann::ordered_json draw_table4(const std::filesystem::path& folder, LamarSta
 nlohmann::ordered_json draw_figure6(const std::filesystem::path& folder, LamarStage& stage);
 nlohmann::ordered_json draw_figure10(const std::filesystem::path& folder, LamarStage& stage);
 
-// Both compositing orders on the mixing liquids.
+// Compares both compositing orders on the mixing liquids.
 nlohmann::ordered_json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage);
 
 // Run times, which the paper does not give.

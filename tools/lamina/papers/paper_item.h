@@ -29,8 +29,8 @@ struct PaperItem {
 enum class Verdict {
     agrees,
     disagrees,
-    // The statement is about data or machines of which something else stands in here: volumes and
-    // meshes that are not to be had, times of graphics cards of 2004.
+    // The statement is about data or machines that are not available: volumes and meshes that
+    // cannot be had, times of graphics cards of 2004. Others replace them here.
     untestable
 };
 
@@ -81,7 +81,7 @@ class Findings {
         std::string measured;
     };
     std::ptrdiff_t count(Verdict verdict) const;
-    // `in_full`: with what was measured.
+    // `in_full`: measurements are included.
     std::string note(bool in_full) const;
     std::string note_on_claims(bool in_full) const;
 
@@ -97,11 +97,11 @@ std::string count_verdicts(const nlohmann::ordered_json& report);
 // them as the key "panels" somewhere in its result.
 class Panels {
   public:
-    // Pictures of a group stand under its name, which may be empty.
+    // Adds a picture under the name of its group, which may be empty.
     void add(const std::string& group, const std::string& label, const CodedImage& picture);
     void add(const std::string& group, const std::string& label, const Image& picture);  // on black
-    // In false colour, darkest at `scale` (in 1/255), with a colour bar. `framed`: it, as a
-    // picture.
+    // Adds a difference in false colour, darkest at `scale` (in 1/255), with a colour bar.
+    // `picture`: the difference as it is shown.
     void add_difference(const std::string& group, const std::string& label, const Difference& e,
                         double scale, const CodedImage& picture);
 
@@ -115,9 +115,9 @@ class Panels {
 // Removes all keys "panels" from a result, at any depth, and returns them as one list.
 nlohmann::ordered_json take_panels(nlohmann::ordered_json& result);
 
-// The part of the page about one item (share/report): its checks against the paper, its claims, its
-// panels and the plots (.svg) of its `files` that are in `folder` with the `caption` of its values,
-// and its table. `result` without panels. Links to `item` lead there.
+// Returns the section of the page about one item (share/report): its checks against the paper, its
+// claims, its panels, the plots (.svg) among its `files` that are in `folder`, with the `caption`
+// of its values, and its table. `result` has no panels. Links to `item` lead to the section.
 nlohmann::ordered_json page_section(const std::string& item, const nlohmann::ordered_json& result,
                                     nlohmann::ordered_json panels,
                                     const std::filesystem::path& folder);

@@ -24,14 +24,14 @@ PreciseImage PictureMaker::draw(const Scene& scene, const SceneData& data,
 
 namespace {
 
-// In float32 a blend has some four roundings. In float16 fragment and result are stored with 11
-// bits, the smallest ones in steps of 2^-24.
+// Rounding of floats: in float32 a blend has some four roundings. In float16 fragment and result
+// are stored with 11 bits, the smallest ones in steps of 2^-24.
 constexpr BlendRounding of_float32{0, 0, 0, 0x1p-22};
 constexpr BlendRounding of_float16{0, 0x1p-24, 0x1p-24, 0x1p-10};
 
-// With n bits, opacity is truncated or rounded at random, by at most one code. Colour and result
-// are off by one each, whatever the driver rounds before and after its weights (docs/numerics.md,
-// section 2).
+// Rounding of codes of n bits: opacity is truncated or rounded at random, by at most one code.
+// Colour and result are off by one each, whatever the driver rounds before and after its weights
+// (docs/numerics.md, section 2).
 constexpr BlendRounding of_codes(int bits) {
     const double code = 1.0 / ((1 << bits) - 1);
     return {code, code, code, 0};

@@ -45,13 +45,14 @@ struct DrawingWay {
     Scene scene_of(const Scene& scene) const;
 };
 
-// Both tracers.
+// Returns the ways of both tracers.
 std::vector<DrawingWay> traces();
-// Slicing and projection in float32, with all classifications, both orders and two colourings.
+// Returns slicing and projection in float32, with all classifications, both orders and two
+// colourings.
 std::vector<DrawingWay> float_ways();
-// Both methods in float16, fixed16, fixed8 and emulated targets.
+// Returns both methods in float16, fixed16, fixed8 and emulated targets.
 std::vector<DrawingWay> coarse_ways();
-// Trees over 64 slabs, in fixed8 and float16.
+// Returns trees over 64 slabs, in fixed8 and float16.
 std::vector<DrawingWay> tree_ways();
 DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Target target);
 // The way of float_ways() with this name.

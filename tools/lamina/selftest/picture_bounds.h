@@ -63,7 +63,7 @@ PictureBounds layered_picture(const SelftestScene& scene, const DrawingWay& way,
 // tets, in whatever order they are drawn.
 PictureBounds one_color_picture(const Scene& scene, const DrawingWay& way, const SceneMesh& mesh);
 
-// How well a picture fits its bounds.
+// The fit of a picture to its bounds.
 struct Fit {
     bool fits = true;
     double error = 0, bound = 0;  // in 1/255, in the pixel and channel that fits worst
@@ -72,7 +72,8 @@ struct Fit {
 };
 Fit fit_of(const PreciseImage& picture, const PictureBounds& bounds);
 
-// How well two pictures of the same thing fit: they may differ by no more than both bounds allow.
+// Returns the fit of two pictures of the same thing: they may differ by no more than both bounds
+// allow.
 Fit fit_of(const PreciseImage& a, const PictureBounds& bounds_a, const PreciseImage& b,
            const PictureBounds& bounds_b);
 

@@ -26,7 +26,7 @@ struct CellScene {
     bool saddle = false;  // the scalar is x y; otherwise it is x y z
     TransferFunction transfer_function;
     double opacity = 0;
-    // How much optical depth moves per unit by which the scalar is off.
+    // Change of optical depth for each unit by which the scalar is off.
     double depth_per_scalar = 0;
 };
 
