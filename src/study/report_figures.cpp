@@ -131,21 +131,6 @@ std::string stroke_of(std::size_t line) {
                        pen.color, pen.dashes);
 }
 
-std::string escaped(const std::string& text) {
-    std::string xml;
-    for (const char c : text) {
-        if (c == '&')
-            xml += "&amp;";
-        else if (c == '<')
-            xml += "&lt;";
-        else if (c == '>')
-            xml += "&gt;";
-        else
-            xml += c;
-    }
-    return xml;
-}
-
 // Returns a step of 1, 2 or 5 times a power of ten, for about five ticks.
 double tick_step(double range) {
     const double power = std::pow(10, std::floor(std::log10(range / 4)));
@@ -179,7 +164,7 @@ double share_of(const PlotAxis& axis, double value) {
 std::string text_at(double x, double y, const char* anchor, const std::string& text,
                     const std::string& more = {}) {
     return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
-                       anchor, more, escaped(text));
+                       anchor, more, escaped_markup(text));
 }
 
 }  // namespace
@@ -251,6 +236,21 @@ std::string LinePlot::svg() const {
         svg += legend_entry(i);
     }
     return svg + "</svg>\n";
+}
+
+std::string escaped_markup(const std::string& text) {
+    std::string markup;
+    for (const char c : text) {
+        if (c == '&')
+            markup += "&amp;";
+        else if (c == '<')
+            markup += "&lt;";
+        else if (c == '>')
+            markup += "&gt;";
+        else
+            markup += c;
+    }
+    return markup;
 }
 
 }  // namespace lamina::study

@@ -67,4 +67,7 @@ class LinePlot {
     std::vector<Line> lines_;
 };
 
+// Escapes the characters <, > and & of a text that stands between tags of HTML or SVG.
+std::string escaped_markup(const std::string& text);
+
 }  // namespace lamina::study

@@ -53,12 +53,6 @@ std::optional<Grid::Bounds> data_bounds(const PanelContext& context) {
     return context.shown.bounds;
 }
 
-void wrapped(const ImVec4& color, const std::string& text) {
-    ImGui::PushTextWrapPos();
-    ImGui::TextColored(color, "%s", text.c_str());
-    ImGui::PopTextWrapPos();
-}
-
 }  // namespace
 
 void SettingsPanel::draw(PanelContext& context) {

@@ -91,4 +91,10 @@ void set_theme(float scale) {
     style.ScaleAllSizes(scale);
 }
 
+void wrapped(const ImVec4& color, const std::string& text) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextColored(color, "%s", text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
 }  // namespace lamina::view
