@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `lamina info` says of the values of volumes and meshes.
+// The part of `lamina info` about the values of volumes and meshes.
 #pragma once
 
 #include <functional>

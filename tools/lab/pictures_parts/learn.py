@@ -13,7 +13,7 @@ DOCS = pathlib.Path(__file__).resolve().parents[3] / "docs"
 INK, GREY, PALE, ORANGE, BLUE = "#1a1a1a", "#707070", "#d0d0d0", "#d55e00", "#0072b2"
 GAP = 8
 
-# What `lamina study` measured when docs/learn/a-study.md was written: name, ms a frame, L2, on the front.
+# Measurements of `lamina study` from when docs/learn/a-study.md was written: name, ms a frame, L2, on the front.
 STUDY = [("64", "post", 7.79, 2.18, True), ("256", "post", 16.1, .179, True), ("1024", "post", 42.4, .0113, False),
          ("64", "post, 8 bits", 12.0, 2.56, False), ("256", "post, 8 bits", 17.4, 6.18, False),
          ("1024", "post, 8 bits", 59.5, 18.7, False),
