@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// The name that means stdout for what is written, and stdin for scenes.
+// The name of stdout for outputs, and of stdin for scenes.
 inline constexpr const char* standard_stream = "-";
 
 // The output that an option names: a file, or stdout. Throws Error if it cannot be written.

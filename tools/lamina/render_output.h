@@ -18,7 +18,7 @@
 
 namespace lamina {
 
-// The options of `lamina render` that say what is written.
+// Options of `lamina render` for its output.
 struct OutputOptions {
     std::string output;               // -o; empty: nothing, "-": stdout
     std::string format;               // --format
@@ -34,7 +34,7 @@ struct OutputOptions {
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
 
-// A scene to be drawn, and how; all outlives the output.
+// A scene to be drawn, with the settings of drawing. All of it outlives the output.
 struct OutputScene {
     const Scene& scene;  // as it was read
     const PipelineOptions& how;
@@ -46,8 +46,8 @@ struct OutputScene {
 class RenderOutput {
   public:
     virtual ~RenderOutput() = default;
-    // Draws and writes them, and returns their names in words. `attributes`: of the scene's own
-    // picture, but for the renderer. The pipeline has planned.
+    // Draws and writes the pictures, and returns their names in words. `attributes`: those of the
+    // scene's own picture, except for the renderer. The pipeline has planned.
     virtual std::string draw(Pipeline& pipeline, RunStatistics& run,
                              PictureAttributes attributes) = 0;
 };

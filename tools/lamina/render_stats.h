@@ -25,7 +25,7 @@ struct RunStatistics {
     void add(const FrameStatistics& next);
 };
 
-// Raises each of `largest` to what `counts` has of its name.
+// Raises each of `largest` to the count of its name, if that is larger.
 void keep_largest(const std::map<std::string, std::int64_t>& counts,
                   std::map<std::string, std::int64_t>& largest);
 

@@ -20,7 +20,7 @@ void add_statistics(const ValueStatistics& statistics, nlohmann::ordered_json& i
 std::string percentiles_text(const nlohmann::ordered_json& percentiles);
 std::string histogram_text(const nlohmann::ordered_json& histogram);
 
-// A picture on white, above the one that `below` makes for its width (300 pixels or more).
+// Returns a picture on white, above the one that `below` makes for its width (300 pixels or more).
 CodedImage above_one_another(const CodedImage& above, const std::function<CodedImage(int)>& below);
 
 }  // namespace lamina

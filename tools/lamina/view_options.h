@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// The options that change the look of a picture without a word of JSON.
+// Options that change the look of a picture without JSON.
 struct ViewOptions {
     ViewTurn turn;
     double zoom = 1, density = 1;
@@ -22,7 +22,7 @@ void add_view_options(CLI::App& verb, ViewOptions& options);
 // given. Throws UsageError.
 Wishes wishes_of(const ViewOptions& options, ImageColorSpace space);
 
-// The others, as values of --set: "image.width=800".
+// Returns the other options as values of --set: "image.width=800".
 std::vector<std::string> settings_of(const ViewOptions& options);
 
 }  // namespace lamina
