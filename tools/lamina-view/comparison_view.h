@@ -23,7 +23,7 @@ class ComparisonView {
               const std::string& b);
 
   private:
-    // A texture and the picture that is in it.
+    // A texture with the picture that it shows.
     struct Slot {
         explicit Slot(const GladGLContext& gl) : texture(gl) {}
         void take(const std::shared_ptr<const ScreenPicture>& picture);

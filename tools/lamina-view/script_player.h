@@ -15,7 +15,7 @@ namespace lamina::view {
 class Viewer;
 class Window;
 
-// Does what a script says, one thing a frame, as if a user did it.
+// Plays a script, one command a frame, as if a user did it.
 class ScriptPlayer {
   public:
     ScriptPlayer(std::vector<ScriptCommand> commands, Window& window, Viewer& viewer);

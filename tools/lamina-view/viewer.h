@@ -32,9 +32,10 @@ class Viewer {
            std::filesystem::path settings_file);
     ~Viewer();
 
-    // A scene or data file. What is wrong with it is shown.
+    // Opens a scene or data file. What is wrong with it is shown.
     void open(const std::filesystem::path& file);
-    // When the full picture is there. Returns what is wrong with the name, or nothing.
+    // Saves the full picture once it is there. Returns what is wrong with the name, or an empty
+    // text.
     std::string save(const std::filesystem::path& file);
     void set_trace(bool trace);
     void set_coarse(bool coarse);
@@ -48,7 +49,7 @@ class Viewer {
     // Declares the window's contents to ImGui. `width`, `height`: of the window, in ImGui's units;
     // `pixels`: of the screen for one of them; `seconds`: now.
     void frame(float width, float height, float pixels, double seconds);
-    // When a frame is needed although nothing happens.
+    // Returns the time at which a frame is needed even without input.
     std::optional<double> next_frame() const;
     std::string title() const;
     bool is_closing() const { return closing_; }

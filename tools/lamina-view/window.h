@@ -38,7 +38,8 @@ class Window {
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Until it is closed, or its script is over. Throws Error for what a script cannot do.
+    // Runs until it is closed, or its script is over. Throws Error for a command that a script
+    // cannot do.
     void run();
 
     // Input of a user or a script. Places are in the window, from its upper left corner.

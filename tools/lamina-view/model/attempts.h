@@ -19,7 +19,7 @@ class Attempts {
     // The row of the last picture; none if rows() is empty.
     std::size_t newest() const { return newest_; }
 
-    // A full picture of the scene. `expected`: its error; `statistics`: its own.
+    // Adds a full picture of the scene. `expected`: its predicted error; `statistics`: its own.
     void add(const Scene& scene, const Scene& resolved, std::optional<double> expected,
              const FrameStatistics& statistics);
     // Takes the share of that picture's pixels that the tracer has done, and their error. If the
@@ -27,12 +27,12 @@ class Attempts {
     void measured(double share, const ErrorNorms& error);
     void clear();
 
-    // A table (RFC 4180), a row each. Its last column is the resolved scene as JSON: a scene file
-    // of the same picture, for data that it can name.
+    // Returns a table (RFC 4180) with a line for each row. Its last column is the resolved scene as
+    // JSON: a scene file of the same picture, for data that it can name.
     std::string csv() const;
 
-    // Rows whose settings differ from those of the newest row at most in the key that `without`
-    // takes away, in its view.
+    // Returns the rows of the newest row's view whose settings are the newest row's, except for the
+    // key that `without` removes.
     std::vector<std::size_t> alike(void (*without)(Scene&)) const;
 
   private:

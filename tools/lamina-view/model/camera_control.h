@@ -21,8 +21,8 @@ class CameraControl {
         const PointProbe* probe = nullptr;
     };
 
-    // Returns whether the event meant the camera. Does nothing while that is still to be chosen
-    // from the data.
+    // Returns true if the event was for the camera. Does nothing while the camera is still to be
+    // chosen from the data.
     bool handle(const InputEvent& event, const Around& around, Document& document);
     // Returns true while the camera is dragged, and for a moment after steps.
     bool moving(double seconds) const { return dragging_ || seconds < steps_until_; }

@@ -18,8 +18,7 @@ namespace lamina::view {
 enum class CompareWith { pinned, truth };
 enum class CompareBy { nothing, flip, wipe, side_by_side, difference };
 
-// Two pictures held against each other. Both are full ones: while B moves there is nothing to
-// compare.
+// A comparison of two pictures, both of them full: while B moves there is nothing to compare.
 class Comparison {
   public:
     CompareWith with = CompareWith::pinned;
@@ -29,7 +28,7 @@ class Comparison {
     std::optional<double> range;  // of the difference's colours, in 1/255; none: what fits
     float strength = 1;           // of these colours over the picture, 0 to 1
 
-    // The full picture that is shown, of this scene, is A from now on.
+    // Makes the full picture that is shown, which is of this scene, A.
     void pin(const Scene& scene, const Shown& shown);
     void unpin();
     // Exchanges the places of the two pictures.

@@ -29,17 +29,17 @@ class Document {
     void set_transfer_function(const TransferFunction& transfer_function);
     void set_clip(const Clip& clip);
     void set_size(int width, int height);
-    // Any other change of the scene of the same data.
+    // Takes any other change of a scene of the same data.
     void edit(const std::function<void(Scene&)>& change, const std::string& name = "settings");
     void mark_saved() { dirty_ = false; }
 
-    // A key of the scene file (scene_edit.h). Throws Error, and changes nothing, if the file
+    // Sets a key of the scene file (scene_edit.h). Throws Error, and changes nothing, if the file
     // would be refused.
     void set_setting(const std::string& path, const nlohmann::ordered_json& value);
-    // Another scene of the same or other data, as a step.
+    // Takes another scene, of the same or other data, as a step.
     void replace(Scene scene, const std::string& name);
 
-    // Edits of it count once transfer_edited() says so.
+    // The transfer function's editor. Edits count once transfer_edited() is called.
     TransferEditor& transfer() { return transfer_; }
     const TransferEditor& transfer() const { return transfer_; }
     void transfer_edited(const std::string& name);

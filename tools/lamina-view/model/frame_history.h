@@ -22,7 +22,7 @@ class FrameHistory {
     double longest_ms() const;                                       // of frames()
     double median_ms(bool moving) const;                             // 0 if there are none
 
-    // All stages there are, in the order in which they are done.
+    // Returns the names of all stages, in the order in which they run.
     static const std::vector<std::string>& stage_names();
 
   private:

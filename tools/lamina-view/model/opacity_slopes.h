@@ -7,13 +7,13 @@
 
 namespace lamina::view {
 
-// Opacity over a length of a medium, and the extinction that it means: that of opacity 1 is finite,
-// 1e7 / length, as in scene files (docs/scene.md, "Opacity").
+// Convert between opacity over a length of a medium and its extinction. That of opacity 1 is
+// finite, 1e7 / length, as in scene files (docs/scene.md, "Opacity").
 double opacity_of(double extinction, double length);
 double extinction_of(double opacity, double length);
 
-// The knots inside a slope from a to b along which opacity over a.opacity_length > 0 world units is
-// linear.
+// Returns the knots inside a slope from a to b along which opacity over a.opacity_length > 0 world
+// units is linear.
 std::vector<ExtinctionKnot> inside_slope(const DensityPoint& a, const DensityPoint& b);
 
 // Makes points of knots. Successive smooth knots, which a program may have sampled from any curve,

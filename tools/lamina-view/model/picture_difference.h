@@ -16,11 +16,12 @@ struct PictureDifference {
 
 // a - b, of pictures of one size.
 PictureDifference difference_of(const Image& a, const Image& b);
-// Difference of one pixel: red, green, blue and opacity.
+// Returns the signed difference of one pixel (red, green, blue and opacity) in the channel in which
+// it is largest.
 float largest_difference(const float* a, const float* b);
 
-// The largest |e|, rounded up to 1, 2 or 5 times a power of ten: a scale that all of it fits into.
-// Pictures that are equal get the smallest one.
+// Returns the largest |e|, rounded up to 1, 2 or 5 times a power of ten: a scale that the whole
+// difference fits into. Pictures that are equal get the smallest one.
 double fitting_range(const PictureDifference& difference);
 inline constexpr double smallest_range = 1e-4;
 

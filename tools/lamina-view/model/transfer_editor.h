@@ -44,7 +44,7 @@ class TransferEditor {
     void toggle(const TransferHandle& point);
     void clear_selection() { selection_.clear(); }
     void select_all(Curve curve);
-    // The points of extinction in a rectangle, on top of what was selected before.
+    // Selects the points of extinction in a rectangle, in addition to the points selected before.
     void select_within(double value_lo, double value_hi, double extinction_lo,
                        double extinction_hi);
 
@@ -63,7 +63,7 @@ class TransferEditor {
     // value.
     bool add_density(double value, double extinction);
     bool add_color(double value);
-    // A second point at the same value.
+    // Adds a second point at the same value.
     bool make_step(const TransferHandle& point);
     bool remove_selected();  // but never the last one of a curve
 
@@ -72,7 +72,7 @@ class TransferEditor {
     bool set_opacity(std::size_t index, double opacity);  // over unit_length()
     bool set_smooth(std::size_t index, bool smooth);
     bool set_color(std::size_t index, const glm::dvec3& color);
-    // The colour at a value: that of the point there, or of a new one.
+    // Sets the colour at a value: that of the point there, or of a new one.
     bool paint(double value, const glm::dvec3& color);
 
     // Interpolates opacity over unit_length(), or extinction, linearly between the selected points
@@ -84,7 +84,7 @@ class TransferEditor {
     // opacities if `opacities` is set and it has any.
     bool recolor(Colormap map, double lo, double hi, bool opacities);
 
-    // All colours in the numbers of another space (scene_edit.h).
+    // Converts all colours to the numbers of another space (scene_edit.h).
     bool convert_colors(ImageColorSpace from, ImageColorSpace to);
 
   private:

@@ -10,13 +10,13 @@
 
 namespace lamina::view {
 
-// A colour of a scene as the screen shows it.
+// Returns a colour of a scene as the screen shows it.
 ImU32 screen_color(const glm::dvec3& color, ImageColorSpace space, float opacity = 1);
 
-// Pictures of parts of the plot, in ImGui's current window.
+// Draw parts of the plot, in ImGui's current window.
 void draw_histogram(const TransferFrame& frame, const ValueHistogram& histogram);
 void draw_extinction_axis(const TransferFrame& frame);  // on the left
-// On the right, of opacities over `unit_length`.
+// The axis on the right, of opacities over `unit_length`.
 void draw_opacity_axis(const TransferFrame& frame, double unit_length);
 void draw_value_axis(const TransferFrame& frame);  // below
 // The curve of extinction, over the colours of its values.
@@ -35,7 +35,7 @@ struct AxisText {
 };
 AxisText axis_text(double number);
 
-// Numbers of 1, 2 or 5 times a power of 10 between two others, `most` at most.
+// Returns numbers of 1, 2 or 5 times a power of 10 between two others, `most` at most.
 std::vector<double> even_ticks(double lo, double hi, int most);
 
 }  // namespace lamina::view

@@ -17,7 +17,8 @@ namespace lamina::view {
 // picture).
 bool can_save(const std::filesystem::path& file);
 
-// Writes files of what is shown, each in a thread of its own, so that the window goes on.
+// Writes files of the picture that is shown, each in a thread of its own, so that the window does
+// not wait.
 class Saving {
   public:
     struct Result {

@@ -22,8 +22,9 @@
 
 namespace lamina::view {
 
-// moving: while something is dragged, with what was automatic kept, and mostly of fewer pixels;
-// full: as `lamina render` draws it; traced: full, and the tracer has replaced some or all of it.
+// moving: drawn while something is dragged, with the automatic values kept, and mostly of fewer
+// pixels; full: as `lamina render` draws it; traced: full, and the tracer has replaced some or all
+// of it.
 enum class PictureKind { none, moving, full, traced };
 
 // Pixels as a screen shows them: 8-bit codes of sRGB, three a pixel, row 0 on top.
@@ -58,7 +59,7 @@ struct Shown {
     std::shared_ptr<const PictureDifference> missed;
     double trace_error = 0;  // of that, in 1/255, as the tracer estimates it
 
-    // The one of the last request that had one, as it was drawn last.
+    // The pinned picture of the last request that had one, as it was drawn last.
     std::shared_ptr<const PinnedPicture> pinned;
 
     std::uint64_t frame = 0;           // counts pictures that were drawn, moving and full ones
