@@ -14,7 +14,7 @@
 #include "base/profile.h"
 #include "image/difference.h"
 #include "image/exr.h"
-#include "study/error_json.h"
+#include "study/result_files.h"
 
 namespace lamina::study {
 namespace {

@@ -46,6 +46,18 @@ std::vector<fs::path> files_under(const std::vector<std::string>& folders) {
     return files;
 }
 
+// Folders of rooms: those of the library, and those that belong to one program.
+std::vector<std::string> room_folders() {
+    std::vector<std::string> folders;
+    for (const char* const parent : {"src", "tools/lamina", "tools/lamina-mpi"}) {
+        for (const auto& entry : fs::directory_iterator(source / parent)) {
+            if (entry.is_directory())
+                folders.push_back(fs::relative(entry.path(), source).generic_string());
+        }
+    }
+    return folders;
+}
+
 std::vector<std::string> all_matches(const std::string& text, const char* pattern) {
     const std::regex expression(pattern, std::regex::ECMAScript | std::regex::multiline);
     std::vector<std::string> found;
@@ -59,7 +71,7 @@ std::string room_of(const std::string& include) {
     return include.substr(0, include.find('/'));
 }
 
-// What a file of src/`room` includes, or its CMakeLists.txt links, against the rules; one line
+// What a file of the room includes, or its CMakeLists.txt links, against the rules; one line
 // each.
 std::vector<std::string> wrong_includes(const std::string& room, const std::string& file_name,
                                         const std::string& text) {
@@ -156,11 +168,12 @@ TEST(Rooms, TheCheckItselfSeesViolations) {
 
 TEST(Rooms, IncludeOnlyThemselvesAndLowerRooms) {
     int seen = 0;
-    for (const auto& folder : fs::directory_iterator(source / "src")) {
-        if (!folder.is_directory()) continue;
-        const std::string room = folder.path().filename();
-        EXPECT_TRUE(is_room(room)) << "src/" << room << " is not a room of the list";
-        for (const fs::path& file : files_under({"src/" + room})) {
+    std::set<std::string> found;
+    for (const std::string& folder : room_folders()) {
+        const std::string room = fs::path(folder).filename();
+        EXPECT_TRUE(is_room(room)) << folder << " is not a room of the list";
+        EXPECT_TRUE(found.insert(room).second) << folder << " has the name of another room";
+        for (const fs::path& file : files_under({folder})) {
             ++seen;
             for (const std::string& wrong :
                  wrong_includes(room, file.filename(), read_bytes_of(file))) {
@@ -169,6 +182,7 @@ TEST(Rooms, IncludeOnlyThemselvesAndLowerRooms) {
         }
     }
     EXPECT_GT(seen, 20);
+    EXPECT_EQ(found.size(), rooms.size());
 }
 
 // What a text has of Highway that only the module simd may name. HWY_TARGET_TOGGLE guards headers
@@ -194,7 +208,7 @@ TEST(Simd, TheCheckItselfSeesViolations) {
 TEST(Simd, IsTheOnlyModuleThatNamesHighway) {
     for (const fs::path& file : files_under({"include", "src", "python", "tools", "tests"})) {
         const std::string name = fs::relative(file, source).generic_string();
-        if (name.starts_with("src/simd/") || name.starts_with("tools/measure_cpu/") ||
+        if (name.starts_with("src/simd/") || name.starts_with("tools/lab/measure_cpu/") ||
             name == "tests/base/rooms_test.cpp" ||
             !(name.ends_with(".h") || name.ends_with(".cpp")))
             continue;

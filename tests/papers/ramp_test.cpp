@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "papers/dither_spans.h"
-
 namespace lamina::papers {
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/error_budget.h"
+#include "study/crosscheck.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "image/difference.h"
-#include "study/picture_key.h"
+#include "study/data_store.h"
 #include "study/reference_store.h"
 #include "study/study_frames.h"
 #include "support/transfer_functions.h"

@@ -200,7 +200,7 @@ class Judge:
 
     def rounding_bound(self, plan):
         """What compositing in the plan's target may add, where the scene asked for it (plan/tree_choice.cpp has the
-        same bounds for what is automatic, which max_error counts); None where nothing is promised."""
+        same bounds for what is automatic, which max_error counts); None if nothing is promised."""
         target, tree = self.render.get("target", "float32"), plan.get("tree")
         asked_tree = self.render["slice"].get("tree")
         levels = tree and (len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"])

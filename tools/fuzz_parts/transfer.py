@@ -91,7 +91,7 @@ def make(dice, value_range, length):
              "dense": dice.log_between(30, 3000)}[dice.weighted(faint=1, usual=7, dense=2)]
     result = {"points": []}
     opacities = dice.chance(0.15)
-    opaque = dice.chance(0.3)  # where there are opacities
+    opaque = dice.chance(0.3)  # if there are opacities
     if opacities:
         result["unit_length"] = float(length * dice.pick(1, 0.1, 0.01))
     if dice.chance(0.15):

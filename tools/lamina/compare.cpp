@@ -16,7 +16,7 @@
 #include "image/difference_picture.h"
 #include "image/picture.h"
 #include "image/png.h"
-#include "study/error_json.h"
+#include "study/result_files.h"
 #include "verbs.h"
 
 namespace lamina {

@@ -63,7 +63,7 @@ Json describe(const TetMesh& mesh, const ValueStatistics& statistics) {
     return info;
 }
 
-// Of the first scalar at points; none where there is none.
+// Returns the first scalar at points, or nothing if the mesh has none.
 std::span<const double> first_scalar(const TetMesh& mesh) {
     if (mesh.point_scalars().empty()) return {};
     return mesh.point_scalars().front().values;

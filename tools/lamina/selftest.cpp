@@ -15,8 +15,7 @@
 #include "render/context_choice.h"
 #include "render/draw_context.h"
 #include "selftest/selftest.h"
-#include "selftest/selftest_case.h"
-#include "study/machine.h"
+#include "study/frame_times.h"
 #include "verbs.h"
 
 namespace lamina {

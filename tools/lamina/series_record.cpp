@@ -13,7 +13,7 @@ namespace {
 
 using Hashes = std::map<std::string, std::string>;
 
-// Returns nothing where the document is not a record of this key.
+// Returns nothing if the document is not a record of this key.
 Hashes hashes_in(const nlohmann::json& document, const std::string& key) {
     if (!document.is_object() || document.value("key", nlohmann::json()) != nlohmann::json(key))
         return {};

@@ -89,7 +89,7 @@ std::vector<std::int64_t> TimeSeries::missing(const SeriesRecord& record) const 
     std::vector<std::int64_t> steps;
     for (const std::int64_t step : series_.steps()) {
         check_interrupt();
-        // Input is hashed where there may be something to keep.
+        // Input is hashed if a file may be kept.
         const bool there = !force_ && std::filesystem::exists(path_of(name_at(step)));
         if (!there || !record.has(name_at(step), input_of(step))) steps.push_back(step);
     }

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Returns one word where all axes agree, else one word an axis.
+// Returns one word if all axes agree, else one word an axis.
 Json json_of(const std::array<Centering, 3>& centering) {
     const auto word = [](Centering c) { return c == Centering::cell ? "cell" : "node"; };
     if (centering[0] == centering[1] && centering[1] == centering[2]) return word(centering[0]);

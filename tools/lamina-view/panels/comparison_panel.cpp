@@ -13,12 +13,6 @@
 namespace lamina::view {
 namespace {
 
-void wrapped(const ImVec4& color, const std::string& text) {
-    ImGui::PushTextWrapPos();
-    ImGui::TextColored(color, "%s", text.c_str());
-    ImGui::PopTextWrapPos();
-}
-
 void draw_pin(PanelContext& context) {
     Comparison& comparison = context.precision->comparison;
     const bool drawn = context.shown.full && context.shown.kind != PictureKind::moving;
