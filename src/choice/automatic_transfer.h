@@ -12,23 +12,22 @@
 
 namespace lamina {
 
-// A user may ask for these.
+// Settings that a user may ask for.
 struct TransferWishes {
-    std::optional<Colormap> colormap{};  // in place of its own colours
-    std::optional<ValueRange> range{};   // what shows, lo < hi: values below are transparent
+    std::optional<Colormap> colormap{};  // replaces the chosen colours
+    std::optional<ValueRange> range{};   // the visible range, lo < hi: values below are transparent
 };
 
 struct AutomaticTransfer {
-    // Its extinctions are relative, the largest 1: how dense the data are to be depends on the
-    // view.
+    // Extinctions are relative, the largest is 1: the density of the data depends on the view.
     TransferFunction transfer_function;
-    std::string reason;     // for people: what shows, and what not
+    std::string reason;     // for people: which values show, and which do not
     std::string padding{};  // for people: which values are padding; empty if none are
 };
 
-// Chooses a transfer function by the values of a field (docs/first-picture.md): common values are
-// transparent, and the rarer the values beyond them are, the denser and the brighter they show. The
-// same values give the same function. `least_padding_share`: see find_padding().
+// Chooses a transfer function from the values of a field (docs/first-picture.md): common values are
+// transparent; the rarer a value beyond them is, the denser and brighter it shows. The result
+// depends on the values alone. `least_padding_share`: see find_padding().
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferWishes& wishes = {},
                                            double least_padding_share = least_padding);

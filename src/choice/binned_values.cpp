@@ -20,11 +20,12 @@ ValueHistogram binned(const ValueDistribution& values, const ValueRange& range, 
         histogram.lo = range.lo - .5;
         histogram.hi = histogram.lo + count * width;
     }
-    // A value on the edge of two intervals counts for the upper one; in the last both edges count.
+    // A value on the edge of two intervals counts for the upper one; the last interval holds both
+    // of its edges.
     double before = 0;
     for (double i = 1; i < count; ++i) {
         const double share = i / count;
-        // Does not overflow where hi - lo does.
+        // This form does not overflow even if hi - lo does.
         const double below = values.share_below((1 - share) * histogram.lo + share * histogram.hi);
         histogram.shares.push_back(below - before);
         before = below;

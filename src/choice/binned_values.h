@@ -7,9 +7,9 @@
 
 namespace lamina {
 
-// Counts the values in at most `bins` >= 1 intervals over `range`, in which they all lie. Of whole
-// numbers each interval has equally many, so that none looks rarer than it is, and the first
-// interval has the lowest in its first unit's middle. `values` may be empty.
+// Counts the values in at most `bins` >= 1 intervals over `range`, which holds them all. Intervals
+// of whole numbers hold equally many of them, so that none looks rarer than it is; the first is
+// centred so that the lowest is in the middle of its first unit. `values` may be empty.
 ValueHistogram binned(const ValueDistribution& values, const ValueRange& range, bool whole_numbers,
                       int bins);
 

@@ -10,8 +10,7 @@
 namespace lamina {
 namespace {
 
-// A straight line that leads both ends exactly to theirs, and no value before one that it was
-// behind.
+// A linear map that keeps the order of values and hits both ends exactly.
 class Stretch {
   public:
     Stretch(double from_lo, double from_hi, const ValueRange& to)

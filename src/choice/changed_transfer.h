@@ -7,14 +7,14 @@
 
 namespace lamina {
 
-// The function with its first and its last point moved to the ends of the range, lo < hi, and all
-// others in proportion. Throws Error where it has one point alone, or where the range is so narrow
-// that three of them would get one value.
+// Returns the function with its first and last point moved to the ends of the range, lo < hi, and
+// all others in proportion. Throws Error if it has a single point, or if the range is so narrow
+// that three points would get one value.
 TransferFunction stretched(const TransferFunction& transfer_function, const ValueRange& range);
 
-// The function with the colours of a map, which is spread from its first to its last point unless
-// it is one of data values (Colormap::own_range). A function of one point gets the colour in the
-// middle.
+// Returns the function with the colours of a map, spread from its first to its last point unless
+// the map has a range of its own (Colormap::own_range). A function of one point gets the middle
+// colour.
 TransferFunction recolored(const TransferFunction& transfer_function, Colormap colormap);
 
 }  // namespace lamina

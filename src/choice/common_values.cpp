@@ -10,17 +10,17 @@ namespace lamina {
 namespace {
 
 constexpr int most_bins = 256;
-constexpr double outer_share = 1e-3;     // at each end
-constexpr double outer_width = 1.0 / 8;  // of the range, that all but these have at most
+constexpr double outer_share = 1e-3;     // share of the values cut off at each end
+constexpr double outer_width = 1.0 / 8;  // largest share of the range left to cut them
 
-// A peak ends where the next twentieth of the range has less than this share of its density: below
-// it lie the tails of noise and blur, above it what was scanned.
+// A peak ends where the density of the next twentieth of the range falls below this share of the
+// peak's. Tails of noise and blur lie below, scanned objects above.
 constexpr double tail = .03;
 constexpr int tail_width = 20;
 
 // Background takes at least a fifth of the field, in at most two fifths of its range.
 constexpr double least_share = .2, most_width = .4;
-// Where nothing stands out, this share counts as common.
+// Share of the field that counts as common if nothing stands out.
 constexpr double common_share = 1.0 / 3;
 
 class Bins {
@@ -29,7 +29,7 @@ class Bins {
         const UsualRange range = usual_range(values);
         lo_ = range.lo;
         width_ = (range.hi - range.lo) / most_bins;
-        // Bins of whole numbers all hold as many of them.
+        // Bins of whole numbers all hold equally many.
         if (whole_numbers) width_ = std::ceil(width_);
         const auto count =
             static_cast<std::size_t>(std::lround((range.hi - range.lo) / width_)) + 1;
@@ -43,7 +43,7 @@ class Bins {
         return static_cast<std::size_t>(std::ranges::max_element(shares_) - shares_.begin());
     }
 
-    // Where the peak ends on its way up (step 1) or down (-1): the last bin that belongs to it.
+    // Returns the last bin that belongs to the peak, upwards (step 1) or downwards (-1).
     std::size_t end_of_peak(std::size_t peak, int step) const {
         const auto window =
             static_cast<std::ptrdiff_t>(std::max<std::size_t>(shares_.size() / tail_width, 1));
@@ -70,7 +70,7 @@ class Bins {
     std::vector<double> shares_;
 };
 
-// The shortest interval with that share.
+// Returns the shortest interval with that share.
 CommonValues densest(const ValueDistribution& values, double share) {
     CommonValues best{values.lowest(), values.highest(), false};
     for (int i = 0; i < most_bins; ++i) {
@@ -92,13 +92,13 @@ UsualRange usual_range(const ValueDistribution& values) {
 }
 
 CommonValues find_common_values(const ValueDistribution& values, bool whole_numbers) {
-    // A mask: what there is more of is background.
+    // Two values are a mask: the more frequent one is background.
     if (values.distinct() == 2) {
         const bool low = values.share_up_to(values.lowest()) >= 0.5;
         const double more = low ? values.lowest() : values.highest();
         return {more, more, true};
     }
-    // Ranges that double precision cannot divide have no bins.
+    // A range too narrow to be divided in double precision has no bins.
     const UsualRange range = usual_range(values);
     const double width = range.hi - range.lo;
     if (!(width / most_bins > 0) || !std::isfinite(width)) return densest(values, common_share);

@@ -5,19 +5,20 @@
 
 namespace lamina {
 
-// The values that most of a field has, from lo to hi: air around what was scanned, the undisturbed
+// The values that most of a field has, from lo to hi: air around a scanned object, the undisturbed
 // flow, the vacuum between molecules.
 struct CommonValues {
     double lo = 0, hi = 0;
-    // They stand out: a narrow peak, beyond which values are rare. Else they are only the closest
-    // together of a field whose values gather nowhere.
+    // True: they stand out as a narrow peak, beyond which values are rare. False: values gather
+    // nowhere, and these are just the closest together.
     bool background = false;
 };
 
-// Looks for them. The distribution has two or more values. `whole_numbers`: they are all of them.
+// Finds the common values of a distribution of two or more values. `whole_numbers`: all values are
+// whole.
 CommonValues find_common_values(const ValueDistribution& values, bool whole_numbers);
 
-// The range of values without the outermost thousandth at each end, where that holds most of the
+// The range without the outermost thousandth of values at each end, if these take up most of the
 // range: a few extreme values would leave no room for all others.
 struct UsualRange {
     double lo = 0, hi = 0;

@@ -23,7 +23,7 @@ constexpr std::array<glm::dvec3, 8> label_colors{{{.75, .20, .05},
                                                   {.75, .30, .40},
                                                   {.70, .65, .55}}};
 
-// The rarer a label, the denser, up to ten times.
+// Rare labels are denser, by up to ten times.
 double extinction_of(double share) {
     return std::pow(std::max(share, .01), -.5);
 }

@@ -5,9 +5,8 @@
 
 namespace lamina {
 
-// A transfer function for labels, which are few whole numbers: the one that most of the field has
-// is transparent, each of the others has a colour of its own, halfway to its neighbours. There are
-// two or more.
+// Returns a transfer function for labels (few whole numbers, two or more): the most frequent one is
+// transparent, each other has a colour of its own, which ends halfway to its neighbours.
 AutomaticTransfer label_transfer(const ValueDistribution& values);
 
 }  // namespace lamina

@@ -5,8 +5,8 @@
 
 namespace lamina {
 
-// Volumes of more samples may lie on disks, so fewer of them are looked at to choose a camera and
-// extinctions: in memory just as many, because the same picture has to come of it.
+// Number of samples above which a volume may lie on disk, so that fewer samples are used to choose
+// a camera and extinctions. Volumes in memory use just as many, so that the picture is the same.
 constexpr std::int64_t large_volume = std::int64_t{1} << 28;
 
 }  // namespace lamina

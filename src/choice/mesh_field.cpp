@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::size_t most_tets = std::size_t{1} << 19;
 
-// Of a tet, four places that stand for a quarter of it each: the points of the quadrature rule that
-// is exact for quadratic functions (Hammer and Stroud 1956).
+// Quadrature points of a tet, each of which stands for a quarter of it; exact for quadratic
+// functions (Hammer and Stroud 1956).
 constexpr double near_corner = 0.58541019662496845, near_others = 0.13819660112501051;
 
-// Six times the volume of a tet, in units of the mesh's diagonal.
+// Returns six times the volume of a tet, in units of the mesh's diagonal cubed.
 double volume_of(const TetMesh& mesh, const Tet& tet, double diagonal) {
     const auto at = [&](std::size_t corner) {
         return mesh.points()[static_cast<std::size_t>(tet[corner])] / diagonal;
@@ -30,11 +30,11 @@ double volume_of(const TetMesh& mesh, const Tet& tet, double diagonal) {
     return std::abs(glm::dot(at(1) - origin, glm::cross(at(2) - origin, at(3) - origin)));
 }
 
-// Weight of a marker in a large mesh of whose tets only some are looked at, in units of the cube of
-// the mesh's diagonal: more than nothing, and less than any share that counts.
+// Weight of a marker in a large mesh of which only some tets are sampled, in units of the mesh's
+// diagonal cubed: more than 0, and less than any share that counts.
 constexpr double smallest_weight = 1e-30;
 
-// Returns the values at points that are far from those at all others.
+// Returns the point values that are far from all others.
 std::vector<double> markers_of(const SceneMesh& mesh) {
     std::vector<WeightedValue> at_points;
     at_points.reserve(mesh.scalar.values.size());
@@ -97,7 +97,7 @@ ValueDistribution MeshField::distribution() const {
             values.push_back({marked ? value : std::clamp(inside, range.lo, range.hi), weight});
         }
     }
-    // A tet that was left out may have the only corner with a marker.
+    // A tet that is not sampled may have the only corner with a marker.
     if (step > 1) {
         for (const double marker : markers) values.push_back({marker, smallest_weight});
     }

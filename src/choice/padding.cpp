@@ -11,22 +11,22 @@ namespace lamina {
 namespace {
 
 constexpr std::size_t most_values = 4;
-// Measured data have more different values than this.
+// Number of different values that measured data exceed.
 constexpr std::size_t few_values = 24;
 
-// How far padding is from the rest, in widths of its range. A value above it may as well be a part
-// that has one value, a piece of metal in tissue, and so must be farther away.
+// Least distance of padding from the rest, in widths of the rest's range. It is larger above: a
+// high value may be a real object of a single value, such as metal in tissue.
 constexpr double far_below = 1, far_above = 4;
-// At this distance the lowest value is padding if the rest has a background of its own, of which
-// there is more.
+// Least distance of the lowest value to be padding if the rest has a background of its own that is
+// more frequent.
 constexpr double near_below = 1.0 / 8;
 
-constexpr double edge_share = 1.0 / 64;  // of the way to the padding, or of the rest's range
-constexpr double thin_shell = 1.0 / 50;  // of a voxel
+constexpr double edge_share = 1.0 / 64;  // share of the way to the padding, or of the range
+constexpr double thin_shell = 1.0 / 50;  // as a share of a voxel
 
-// Halves, for differences may overflow.
+// Differences of halved values, because those of the values themselves may overflow.
 struct HalfDistance {
-    double gap, width;  // to the rest, and of its range
+    double gap, width;  // distance to the rest, and its range
     bool below;
 
     HalfDistance(double value, const ValueDistribution& rest)
@@ -38,7 +38,7 @@ struct HalfDistance {
 
 bool is_marker(double value, const ValueDistribution& rest) {
     const HalfDistance found(value, rest);
-    // Where there is nothing, 0 is a value like others.
+    // 0 is never a marker: it is the natural value of empty space.
     return value != 0 && found.gap > (found.below ? far_below : far_above) * found.width;
 }
 
@@ -51,7 +51,7 @@ bool is_padding(double value, double share, const ValueDistribution& rest, bool 
     return common.background && share < (1 - share) * rest.share(common.lo, common.hi);
 }
 
-// Takes values from both ends as long as `is_one(value, share, rest)` says so.
+// Removes values from both ends as long as `is_one(value, share, rest)` holds.
 template <typename IsOne>
 Padding take_from_ends(const ValueDistribution& all, const IsOne& is_one) {
     Padding found;
@@ -88,7 +88,7 @@ Padding find_padding(const ValueDistribution& all, bool whole_numbers, double le
             return share >= least_share && is_padding(value, share, rest, whole_numbers);
         });
     for (const double value : found.values) {
-        // The nearest one on each side was found last.
+        // The last value found on each side is the nearest to the rest.
         if (value < found.rest.lowest()) found.below = value;
         if (value > found.rest.highest()) found.above = value;
     }

@@ -9,7 +9,8 @@
 
 namespace lamina {
 
-// Weights of equal values are added in the order of their size, whatever order they came in.
+// Weights of equal values are added in ascending order, so that the sum does not depend on the
+// order of the input.
 ValueDistribution::ValueDistribution(std::vector<WeightedValue> values) {
     std::erase_if(values, [](const WeightedValue& one) { return !(one.weight > 0); });
     parallel_sort(values.begin(), values.end(), [](const WeightedValue& a, const WeightedValue& b) {

@@ -10,8 +10,8 @@
 
 namespace lamina {
 
-// A volume with its bricks, and with its values where these are counted already. All must outlive
-// this.
+// A volume with its bricks, and with its values if these are counted already. All must outlive this
+// object.
 class VolumeField : public Field {
   public:
     VolumeField(const Volume& volume, const MinMaxBricks& bricks)
@@ -27,11 +27,11 @@ class VolumeField : public Field {
     bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;
-    // Corners of cells.
+    // Returns corners of cells.
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                          double least) const override;
     std::array<glm::dvec3, 8> corners() const override;
-    // By a few steps a voxel.
+    // Integrates by a few steps a voxel.
     std::vector<double> optical_depths(const Scene& scene) const override;
 
   private:

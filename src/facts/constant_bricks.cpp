@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t most_sampled = 1 << 16;  // bricks of which kinds are counted
+constexpr std::size_t most_sampled = 1 << 16;  // number of bricks whose kinds are counted
 
 using Key = std::array<double, 4>;
 
@@ -62,8 +62,8 @@ class ConstantFinder {
         return std::ranges::adjacent_find(knots, flat) != knots.end();
     }
 
-    // Of the bricks that show something. A brick of one value has the optics of that value, unless
-    // rounding might take it across a step.
+    // Returns the optics of a visible brick if they are constant. A brick of one value has that
+    // value's optics, unless rounding might take it across a step.
     std::optional<Key> constant_key(std::size_t brick) const {
         if (occupied_.distance[brick] > 0) return {};
         const ValueRange range = bricks_.range(brick);
@@ -79,7 +79,7 @@ class ConstantFinder {
         return key_of(transfer_function_.at(range.lo));
     }
 
-    // The commonest first; none where too few bricks are constant.
+    // Returns the most frequent kinds first; nothing if too few bricks are constant.
     std::vector<Key> common_keys() const {
         const std::size_t count = bricks_.ranges.size();
         const std::size_t step = count / most_sampled * 2 + 1;

@@ -9,12 +9,12 @@
 
 namespace lamina {
 
-// The bricks over which the transfer function has one colour and one extinction. Empty where these
-// are less than `least_share` of the bricks that show something. Neighbouring bricks share their
-// border samples, so constant bricks that touch have the same optical properties.
+// The bricks over which the transfer function has one colour and one extinction; empty if they are
+// less than `least_share` of the visible bricks. Neighbouring bricks share their border samples, so
+// constant bricks that touch have the same optical properties.
 struct ConstantBricks {
     static constexpr double least_share = 0.05;
-    // The most frequent ones; the others count as varied.
+    // Number of kinds that are kept, the most frequent ones; other bricks count as varied.
     static constexpr std::size_t most_kinds = 16;
 
     double share = 0;  // share of the bricks that show something

@@ -27,8 +27,8 @@ struct IndexBox {
     friend bool operator==(const IndexBox&, const IndexBox&) = default;
 };
 
-// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box. Where far <=
-// near, the box lies behind the eye.
+// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box. If far <= near,
+// the box lies behind the eye.
 struct DepthRange {
     double near = 0;
     double far = 0;
@@ -36,7 +36,7 @@ struct DepthRange {
 DepthRange depth_range(const Grid& grid, const View& view);
 DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view);
 
-// Facts say what the data and the view really contain: they are measured, not taken from headers.
+// Properties of a volume and its view. They are measured, not taken from headers.
 struct Facts {
     Grid grid;
     SampleType type = SampleType::uint8;
@@ -49,22 +49,22 @@ struct Facts {
 
     // The following describe the transfer function over `range`.
     bool constant = false;      // one colour, one extinction
-    bool single_color = false;  // one colour wherever there is extinction
+    bool single_color = false;  // one colour wherever extinction is > 0
     double max_extinction = 0;  // per world unit
     double max_color = 0;       // largest component of a colour
     std::int64_t knots = 0;     // number strictly inside the range
     std::int64_t pieces = 1;    // number of linear pieces over drawn_range()
-    std::int64_t curves = 1;    // of these where curves follow smooth points (curved_pieces.h)
+    std::int64_t curves = 1;    // as above, if curves follow smooth points (curved_pieces.h)
 
-    // The smallest box, made of whole min/max bricks, outside which nothing shows. Bricks that the
-    // clip cuts away as a whole show nothing.
+    // The smallest box of whole min/max bricks outside which nothing is visible. Bricks that the
+    // clip cuts away as a whole count as invisible.
     IndexBox occupied;
-    bool clipped_away = false;  // something would show without the clip, and nothing does with it
+    bool clipped_away = false;  // something is visible without the clip, and nothing with it
     OccupiedBricks occupied_bricks;
-    double occupied_share = 0;  // share of the bricks that show something
+    double occupied_share = 0;  // share of the bricks that are visible
     DepthRange occupied_depth;  // eye-space depths of `occupied`
     ConstantBricks constant_bricks;
-    // Half, nine tenths and all of the bricks have at most this extinction, per world unit.
+    // Half, nine tenths and all of the bricks have at most these extinctions, per world unit.
     std::array<double, 3> extinction_quantiles{};
 
     // The following describe the view. near_depth and far_depth are the eye-space depths of the
@@ -72,22 +72,22 @@ struct Facts {
     bool orthographic = false;
     bool eye_inside = false;
     double near_depth = 0;
-    double far_depth = 0;  // <= near_depth where the whole box lies behind the eye
-    // Index-space length of the view axis between near_depth and far_depth.
+    double far_depth = 0;  // <= near_depth if the whole box lies behind the eye
+    // index-space length of the view axis between near_depth and far_depth
     double voxels_along_view = 0;
     // Longest |direction| of a pixel's ray (1 for orthographic views).
     double max_length_per_depth = 1;
 
     RayShares ray_shares;
-    ScalarRays scalar_rays;  // filled where segments are pre-integrated and a table may be needed
+    ScalarRays scalar_rays;  // filled if segments are pre-integrated and a table may be needed
 };
 
-// Measures all facts. Throws Error where the volume has samples that are not finite and the scene
-// does not say how to treat them, or where no sample is finite.
+// Measures all facts. Throws Error if the volume has samples that are not finite and the scene does
+// not say how to treat them, or if no sample is finite.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
-// The same in three steps, each of which needs those before: the facts of the volume and the
-// transfer function; those of the view except for rays; those of rays of the view.
+// These measure in three steps, each of which needs those before: facts of the volume and the
+// transfer function; facts of the view except for rays; facts of rays of the view.
 Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 void measure_view(const Scene& scene, Facts& facts);
 void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);

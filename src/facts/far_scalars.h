@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tets whose scalar runs far outside the window that is drawn, as the tets around a value that
-// marks missing data do (docs/precision.md, "Exact segments").
+// Tets whose scalar runs far outside the window that is drawn, such as those around a value that
+// marks missing data (docs/precision.md, "Exact segments").
 #pragma once
 
 #include <algorithm>
@@ -9,19 +9,19 @@
 
 namespace lamina {
 
-// Scalars of a tet that runs farther outside the window than this, in widths of the window, are
-// computed in double precision at each fragment. A scalar within the window is then a difference of
-// numbers up to this large: in float32 it would lose so many digits.
+// Distance in widths of the window: scalars of a tet that runs farther outside are computed in
+// double precision at each fragment. A scalar within the window is a difference of numbers up to
+// this large, so float32 would lose as many digits.
 inline constexpr double far_for_floats = 16;
 
-// Tets of a transfer function with few points are cut at these points and normalised part by part,
-// which keeps digits up to so many widths: a part may be a tenth of the window, and float32 then
-// has 1e-4 of it.
+// Distance in widths of the window up to which a tet keeps its digits if it is cut at the transfer
+// function's points and normalised piece by piece. A piece may be a tenth of the window; float32
+// then has 1e-4 of it.
 inline constexpr double far_for_parts = 128;
 
-// A tet that runs farther outside is drawn as if the window were wider, so that its normalised
-// scalars are numbers that float32 can square. Of such a tet less than 1e-18 lies in the window in
-// either case: less than opaque points (optics/opacity.h) need to show.
+// Distance in widths of the window up to which normalised scalars are numbers that float32 can
+// square. A tet that runs farther outside is drawn as if the window were wider: in either case less
+// than 1e-18 of it lies in the window, less than opaque points (optics/opacity.h) need to show.
 inline constexpr double farthest_normalised = 0x1p60;
 
 // Tells whether a range of scalars meets the window and also reaches more than `far` widths beyond
@@ -32,8 +32,8 @@ inline bool runs_beyond(const ValueRange& scalars, const ValueRange& window, dou
            (window.lo - scalars.lo > most || scalars.hi - window.hi > most);
 }
 
-// The factor by which normalised scalars of a tet are scaled, so that none is farther from 0 than
-// `farthest_normalised`.
+// Returns the factor on a tet's normalised scalars that keeps all within `farthest_normalised` of
+// 0.
 inline double far_scale(double least, double largest) {
     const double most = std::max(-least, largest);
     return most > farthest_normalised ? farthest_normalised / most : 1.0;

@@ -9,7 +9,7 @@
 namespace lamina {
 
 // Throw Error if no value of the data is finite, or if some are not and the scene does not draw
-// them transparent. `bricks`: of the volume; `found`: the range of the mesh's scalar.
+// them transparent. `bricks`: those of the volume; `found`: the range of the mesh's scalar.
 void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks);
 void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& found);
 

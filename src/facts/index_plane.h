@@ -16,18 +16,18 @@ struct IndexPlane {
     double offset = 0;
 
     double distance(const glm::dvec3& index) const;
-    // The same plane in an index space that begins at sample `first` of this one.
+    // Returns this plane in an index space that begins at sample `first` of its own.
     IndexPlane seen_from(const glm::dvec3& first) const { return {normal, distance(first)}; }
-    // The least and the largest distance of a box's points.
+    // Return the least and the largest distance of a box's points.
     double least_distance(const glm::dvec3& min, const glm::dvec3& max) const;
     double largest_distance(const glm::dvec3& min, const glm::dvec3& max) const;
 
     friend bool operator==(const IndexPlane&, const IndexPlane&) = default;
 };
 
-// All planes of the clip, the box's six last.
+// Returns all planes of the clip, the box's six last.
 std::vector<IndexPlane> index_planes(const Clip& clip, const Grid& grid);
-// Those of them that cut something off the grid's box.
+// Returns those of `planes` that cut something off the grid's box.
 std::vector<IndexPlane> cutting_planes(std::vector<IndexPlane> planes, const Grid& grid);
 
 }  // namespace lamina

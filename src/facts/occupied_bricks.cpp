@@ -28,10 +28,10 @@ std::uint8_t plus(std::uint8_t distance, std::size_t steps) {
     return static_cast<std::uint8_t>(std::min(distance, most) + steps);
 }
 
-// Takes over what is near in rows that are known already, each brick and its two neighbours there.
-// Beyond a row's ends nothing is near, so that loops have no ends of their own and are vectors;
-// bytes may alias members, so that loops use local variables alone. Rows along x are told by their
-// numbers, y fastest.
+// Propagates distances from known rows to the next, each brick from the row's same brick and its
+// two neighbours. Beyond the ends of a row everything is far, so that loops need no special ends
+// and become vector code; bytes may alias members, so loops use local variables alone. Rows along x
+// have numbers, y fastest.
 class RowSweep {
   public:
     RowSweep(SparseBytes& distance, std::int64_t across, std::int64_t rows)
@@ -80,8 +80,8 @@ class RowSweep {
     }
 
   private:
-    // Along the row, by so many bricks: after steps of 1, 2, 4 and so on each brick has heard of
-    // all others.
+    // Propagates along the row, by `step` bricks: after steps of 1, 2, 4 and so on each brick knows
+    // of all others.
     std::uint8_t* spread(std::size_t step) {
         const std::uint8_t* const from = row_.data() + longest_step;
         std::uint8_t* const to = next_.data() + longest_step;
@@ -96,17 +96,17 @@ class RowSweep {
     SparseBytes& distance_;
     std::size_t count_;
     std::vector<std::uint8_t> near_, row_, next_;
-    // Most rows of a sparse volume are far from anything that shows, and stay as they are.
+    // Most rows of a sparse volume are far from everything visible, and stay as they are.
     std::vector<std::uint8_t> far_;
     bool any_near_ = false;
 };
 
 }  // namespace
 
-// The two sweeps of a chamfer transform, which is exact for this distance: a shortest path takes
-// its steps in any order, all that lead on in the first sweep's direction first.
+// The two sweeps of a chamfer transform, which is exact for this distance: the steps of a shortest
+// path may be taken in any order, first all that lead on in the direction of the first sweep.
 void OccupiedBricks::measure_distances() {
-    // No structured binding: clang below 16 has none in lambdas.
+    // No structured binding: clang below 16 cannot capture one in a lambda.
     const std::int64_t ny = count[1], nz = count[2];
     RowSweep sweep(distance, count[0], ny * nz);
     const auto take_over = [&](std::int64_t y, std::int64_t z, std::int64_t back) {

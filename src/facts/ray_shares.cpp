@@ -25,7 +25,7 @@ class ShareCounter {
           opaque_(opaque_depth(scene.max_error, facts.max_color)),
           steps_(static_cast<int>(std::clamp(facts.voxels_along_view, 1.0, double{most_steps}))) {}
 
-    // In steps.
+    // Counts in steps.
     RayShares count(int column, int row) const {
         const View::Ray ray = view_.ray(column, row);
         const glm::dvec3 origin = facts_.grid.to_index(ray.origin);
@@ -57,7 +57,7 @@ class ShareCounter {
     int steps() const { return steps_; }
 
   private:
-    // Of the nearest sample.
+    // Returns the extinction of the nearest sample.
     double extinction_near(const glm::dvec3& at) const {
         std::array<std::int64_t, 3> place{};
         for (std::size_t axis = 0; axis < 3; ++axis) {

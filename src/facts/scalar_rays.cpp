@@ -16,8 +16,7 @@
 namespace lamina {
 namespace {
 
-// Rays are those that meet the box, of pixels on a grid with this many along each side of the
-// picture.
+// Pixels on a grid with this many along each side of the picture have a ray if it meets the box.
 constexpr int places_along_side = 64;
 constexpr double scalars_per_voxel = 4;
 
@@ -36,7 +35,8 @@ class RaySampler {
                 std::clamp(std::ceil(scalars_per_voxel * facts.voxels_along_view), 1.0,
                            most_scalars_)) {}
 
-    // Depths where the pixel's ray enters and leaves the clipped box; far <= near: it misses that.
+    // Returns the depths at which the pixel's ray enters and leaves the clipped box; if far <= near
+    // it misses the box.
     DepthRange chord(const glm::ivec2& pixel) const {
         const View::Ray ray = view_.ray(pixel.x, pixel.y);
         const glm::dvec3 origin = grid_.to_index(ray.origin);

@@ -24,14 +24,14 @@ struct ScalarRays {
     std::vector<Ray> rays;  // all over the picture, each through the box
 };
 
-// How many rays, and how many scalars of a ray, at most.
+// Largest numbers of rays, and of scalars on a ray.
 struct RaySampling {
     std::size_t rays = 1024;
     double scalars = 1024;
 };
 
-// Takes the grid and the view from the facts. `bricks`: of the volume, or null; of a volume that
-// stays in its files less is read with them.
+// Samples rays; grid and view come from the facts. `bricks`: those of the volume, or null; with
+// them less is read of a volume that stays in its files.
 ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& facts,
                        const MinMaxBricks* bricks = nullptr, const RaySampling& sampling = {});
 

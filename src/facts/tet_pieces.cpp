@@ -27,8 +27,8 @@ TetPieces::Span TetPieces::met(std::span<const double> scalar, const Tet& tet) c
     const ValueRange range = range_in(scalar, tet);
     if (range.empty()) return {};
     const auto [lo, hi] = range;
-    // The first that begins above lo lies behind the one that has it, and so does, where the scalar
-    // varies, the first that does not end below hi.
+    // The first piece that begins above lo lies behind the one that has it. If the scalar varies,
+    // so does the first that does not end below hi.
     const auto above = std::ranges::upper_bound(pieces_, lo, {}, &LinearPiece::from);
     Span span;
     span.first =

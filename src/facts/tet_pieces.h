@@ -11,8 +11,8 @@
 
 namespace lamina {
 
-// The linear pieces of a transfer function over a range, and which of them a tet's scalar runs
-// through. Neighbouring pieces that show nothing are joined into one.
+// The first piece that begins above lo lies behind the one that has it. If the scalar varies, so
+// does the first that does not end below hi.
 class TetPieces {
   public:
     // range: finite, lo < hi.
@@ -24,15 +24,16 @@ class TetPieces {
         return visible_before_[place] == visible_before_[place + 1];
     }
 
-    // The first and the last of some consecutive pieces; last < first where there is none.
+    // The first and the last of some consecutive pieces; last < first if there are none.
     struct Span {
         std::int32_t first = 0, last = -1;
 
         bool empty() const { return last < first; }
     };
-    // The pieces in which some point of the tet lies. Empty where a corner's value is not finite.
+    // Returns the pieces in which some point of the tet lies; empty if a corner's value is not
+    // finite.
     Span met(std::span<const double> scalar, const Tet& tet) const;
-    // The same, without transparent pieces at both ends.
+    // Returns met() without the transparent pieces at both ends.
     Span visible(std::span<const double> scalar, const Tet& tet) const;
     // The number of pieces in a span that show something.
     int count(const Span& span) const;

@@ -13,8 +13,8 @@
 namespace lamina {
 namespace {
 
-// So many rays along each side of the picture: enough to meet what fills a thousandth of it. Of a
-// picture that has as few pixels, each has a ray.
+// Number of rays along each side of the picture: enough to meet what fills a thousandth of it. A
+// picture with fewer pixels has a ray for each.
 constexpr int rays_along_side = 32, most_rays = rays_along_side * rays_along_side;
 
 double longest_edge(const TetMesh& mesh, std::int32_t number) {
@@ -55,8 +55,8 @@ std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column,
     return runs;
 }
 
-// Tets that show something, evenly from the whole mesh: what few rays meet, narrow peaks say, is
-// met. Each as a ray of its own along its edge of most change, there and back.
+// Visible tets, evenly from the whole mesh, because few rays may miss narrow peaks. Each is a ray
+// of its own along its edge of most change, there and back.
 constexpr std::size_t most_trial_tets = 20000;
 
 void append_tets(const SceneMesh& mesh, const TetPieces& pieces,

@@ -38,7 +38,7 @@ glm::dvec3 lab_from_srgb(const glm::dvec3& srgb) {
     return glm::dvec3(116 * y - 16, 500 * (x - y), 200 * (y - z));
 }
 
-// Colours outside the gamut are dimmed where they are too bright, and negative components become 0,
+// Colours outside the gamut become darker if a component exceeds 1; negative components become 0,
 // as in VTK.
 glm::dvec3 srgb_from_lab(const glm::dvec3& lab) {
     const double y = (lab[0] + 16) / 116, x = y + lab[1] / 500, z = y - lab[2] / 200;

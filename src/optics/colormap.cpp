@@ -23,7 +23,7 @@ namespace lamina {
 
 namespace {
 
-constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255
+constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255, in linear light
 constexpr int most_halvings = 7;
 
 nlohmann::json load(const std::filesystem::path& file) {
@@ -59,8 +59,8 @@ ColorSpace color_space(const nlohmann::json& preset, const std::string& name) {
          shown(*found));
 }
 
-// Reads rows of four numbers. The first of each is the scalar; scalars ascend, and at most two rows
-// have the same one.
+// Reads rows of four numbers. The first of each is its scalar; scalars ascend, and at most two rows
+// share one.
 std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const char* key,
                                              const std::string& name) {
     const nlohmann::json& flat = preset.at(key);
@@ -95,8 +95,8 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     return rows;
 }
 
-// Samples the colour space between two points, halving intervals until straight lines in the
-// wanted numbers are close enough.
+// Samples the colour space between two points: halves an interval until straight lines in the
+// wanted space are close enough to the colours between its ends.
 class SegmentSampler {
   public:
     SegmentSampler(ColorSpace space, ImageColorSpace wanted, const std::array<double, 4>& a,
@@ -116,7 +116,7 @@ class SegmentSampler {
   private:
     glm::dvec3 color(double share) const {
         const glm::dvec3 from(a_[1], a_[2], a_[3]), to(b_[1], b_[2], b_[3]);
-        // The ends are taken as they are, free of round trips through other spaces.
+        // The ends are returned unchanged, without a round trip through other colour spaces.
         if (share == 1) return color_of_display(to, wanted_);
         if (share == 0) return color_of_display(from, wanted_);
         return color_of_display(interpolate_srgb(space_, from, to, share), wanted_);

@@ -13,7 +13,7 @@ constexpr double largest_depth = 1e300;  // so that sums of two stay finite
 
 }  // namespace
 
-// On the piece the factor is to_left + width * (1 - x), x from 0 to 1.
+// On the piece the factor is to_left + width * (1 - x), with x from 0 to 1.
 FrontParts front_parts_of(const SegmentStretch& piece) {
     const double p = std::min(piece.length * piece.front.extinction, largest_depth);
     const double q = std::min(piece.length * piece.back.extinction, largest_depth);

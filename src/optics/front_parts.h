@@ -10,8 +10,8 @@
 
 namespace lamina {
 
-// What is seen of a segment's opacity and associated colour by a factor that falls linearly from 1
-// at the front to 0 at the back.
+// A segment's opacity and associated colour, and the share of both that remains if each of its
+// points is multiplied by a factor that falls linearly from 1 at the front to 0 at the back.
 struct FrontParts {
     double alpha = 0;
     glm::dvec3 color{0};
@@ -22,18 +22,18 @@ struct LitIntegral {
     FrontParts front;
 };
 
-// Of a segment on which the scalar is linear, as integrate_segment(); front parts are good to some
-// 1e-8 of their whole.
+// Integrates a segment on which the scalar is linear, as integrate_segment() does. The front parts
+// are accurate to about 1e-8 of the whole.
 LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length);
 
-// A stretch of a segment on which colour and extinction are linear. `from` and `to`: where it
-// begins and ends, as shares of the segment's length.
+// A part of a segment on which colour and extinction are linear. `from` and `to` are shares of the
+// segment's length.
 struct SegmentStretch {
     OpticalProperties front, back;
     double length = 0, from = 0, to = 1;
 };
-// What it adds, seen from its own front.
+// Returns what the part contributes, seen from its own front.
 FrontParts front_parts_of(const SegmentStretch& piece);
 
 }  // namespace lamina

@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-constexpr double opaque = 1e30;  // stands for the infinite depth of the last node
+constexpr double opaque = 1e30;  // stands for the infinite optical depth of the last node.
 
 std::size_t texel_index(int column, int row) {
     return static_cast<std::size_t>(row) * FrontWeightTable::nodes +
@@ -20,8 +20,8 @@ std::size_t texel_index(int column, int row) {
 
 }  // namespace
 
-// The minimax polynomial of degree 3 over the triangle p, q >= 0, p + q <= 2 faint_depth, found as
-// the one below.
+// Minimax polynomial of degree 3 over the triangle p, q >= 0, p + q <= 2 faint_depth, found by
+// iterated least squares.
 double faint_front_weight(double p, double q) {
     const double pq = -0.07483143 + 0.01593537 * p + 0.01098378 * q;
     const double of_p = 0.33332185 + p * (-0.06649057 + p * 0.00875053) + q * pq;

@@ -53,12 +53,12 @@ inline constexpr double gauss16_weight[] = {
     0.06231448562776693603, 0.0475792558412463924,  0.03112676196932394643, 0.01357622970587704743};
 inline constexpr GaussRule gauss16{16, gauss16_x, gauss16_weight};
 
-// Pieces of more optical depth have a closed form that loses no digits.
+// Optical depth above which a piece has a closed form that loses no digits.
 inline constexpr double largest_gauss_depth = 4;
 
-// The rule for the weights of a piece of this optical depth D (optics/segment_integral.h). n points
-// are off by about (n!)^3 / ((2n+1) (2n)!^2) |k|^n (from the k^n x^2n term), |k| <= D: relative to
-// D, below 1e-15 at each of the limits.
+// Returns the rule for the weights of a piece of optical depth D (optics/segment_integral.h). The
+// error of n points is about (n!)^3 / ((2n+1) (2n)!^2) |k|^n (from the k^n x^2n term) with
+// |k| <= D. At each of the limits below it is less than 1e-15 of D.
 inline const GaussRule& gauss_rule(double depth) {
     if (depth < 0.016) return depth < 1e-3 ? gauss4 : gauss5;
     if (depth < 0.5) return depth < 0.09 ? gauss6 : gauss8;

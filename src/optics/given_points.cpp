@@ -19,8 +19,8 @@ double extinction_of(const GivenPoint& point, double unit_length) {
                                               : point.density;
 }
 
-// Builds the knots from the first point to the last. A point has one on each side where these
-// differ.
+// Builds the knots from the first point to the last. A point gets two knots if the extinctions on
+// its sides differ.
 class KnotBuilder {
   public:
     KnotBuilder(const std::vector<GivenPoint>& points, double unit_length)
@@ -41,7 +41,7 @@ class KnotBuilder {
     }
 
   private:
-    // The extinction at a point on the side of its neighbour; null: there is none.
+    // Returns the extinction at a point on the side of its neighbour, which may be null.
     double at_side(const GivenPoint& point, const GivenPoint* neighbour) const {
         const double extinction = extinction_of(point, unit_length_);
         if (point.given_as != Density::opacity || neighbour == nullptr) return extinction;
@@ -50,7 +50,7 @@ class KnotBuilder {
         return std::min(extinction, steepest_optical_depth / unit_length_);
     }
 
-    // Of two points at one value each has one side: what lies between them has no width.
+    // Two points at one value have one side each: the interval between them has no width.
     void add_point(std::size_t i) {
         const GivenPoint& point = points_[i];
         const GivenPoint* const before = i > 0 ? &points_[i - 1] : nullptr;
@@ -63,7 +63,7 @@ class KnotBuilder {
             knots_.push_back({point.value, {point.color, above}});
     }
 
-    // Adds the knots inside the slope between two points.
+    // Adds the knots inside the slope of opacity between two points.
     void add_between(const GivenPoint& a, const GivenPoint& b) {
         if (a.given_as != Density::opacity || b.given_as != Density::opacity) return;
         for (const OpacitySlopeKnot& knot : follow_opacity(a.density, b.density)) {

@@ -21,17 +21,17 @@ struct GivenPoint {
     bool smooth = false;  // as in TransferKnot; of extinction
 };
 
-// The points with opacity turned into extinction, one by one: extinction is linear between them.
+// Converts the points' opacities to extinctions, one by one; extinction is linear between them.
 // Opacity 1 becomes opaque_optical_depth over unit_length (optics/opacity.h).
 std::vector<TransferKnot> linear_in_extinction(const std::vector<GivenPoint>& points,
                                                double unit_length);
 
-// The knots of a function whose opacity is linear between two points that are given by opacity
-// (optics/opacity_slope.h says how far off they are), and whose extinction is linear between
-// others. Where opacity is 1 over an interval, or beyond the first or last point, the optical depth
-// over unit_length is opaque_optical_depth; beside a slope it is at most steepest_optical_depth.
-// The points must pass TransferFunction::linear() as linear_in_extinction() has them. Throws Error
-// where there are more knots than a scene file may have points.
+// Returns the knots of a function whose opacity is linear between two points that are given by
+// opacity (error: optics/opacity_slope.h), and whose extinction is linear between others. If
+// opacity is 1 over an interval, or beyond the first or last point, the optical depth over
+// unit_length is opaque_optical_depth; next to a slope it is at most steepest_optical_depth. The
+// points must pass TransferFunction::linear() after linear_in_extinction(). Throws Error if there
+// are more knots than a scene file may have points.
 std::vector<TransferKnot> linear_in_opacity(const std::vector<GivenPoint>& points,
                                             double unit_length);
 

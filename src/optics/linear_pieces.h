@@ -10,8 +10,8 @@
 
 namespace lamina {
 
-// Colour and extinction at `value` on the straight line between two knots of different value. Every
-// term is >= 0, so nothing cancels, and equal ends give exactly their value.
+// Interpolates colour and extinction at `value` on the straight line between two knots of different
+// value. Every term is >= 0, so nothing cancels, and equal ends give exactly their value.
 inline OpticalProperties interpolate(const TransferKnot& a, const TransferKnot& b, double value) {
     const double width = b.value - a.value;
     const double weight_a = (b.value - value) / width;
@@ -30,8 +30,8 @@ struct LinearPiece {
     OpticalProperties at_from, at_to;
 };
 
-// Colour and extinction in one piece. With n knots there are n + 1 pieces: piece j lies between
-// knots j - 1 and j, and the first and the last are the constant ones outside.
+// Returns colour and extinction in one piece. With n knots there are n + 1 pieces: piece j lies
+// between knots j - 1 and j; the first and the last are constant, outside the knots.
 inline OpticalProperties optics_in_piece(std::span<const TransferKnot> knots, std::size_t piece,
                                          double value) {
     if (piece == 0) return knots.front().optics;
@@ -69,7 +69,7 @@ void for_each_linear_piece(std::span<const TransferKnot> knots, double front, do
     }
 }
 
-// The colour at the first place of [lo, hi] with extinction > 0; black where there is none.
+// Returns the colour at the first place of [lo, hi] with extinction > 0; black if there is none.
 inline glm::dvec3 first_color(const TransferFunction& transfer_function, double lo, double hi) {
     glm::dvec3 color(0);
     bool found = false;

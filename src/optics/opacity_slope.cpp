@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pieces run between two curves, (1 - e) f and (1 + e) f, of the optical depth f = -log1p(-o)
-// as a function of opacity o: from the lower curve they rise to touch the upper one and fall back
-// to the lower one. Such chords are as long as any within the tolerance e, sqrt(2) times as long as
+// Chords between two curves, (1 - e) f and (1 + e) f, approximate the optical depth f = -log1p(-o)
+// as a function of opacity o. Each chord starts on the lower curve, touches the upper one and ends
+// on the lower one. No chords within the tolerance e are longer; they are sqrt(2) times as long as
 // chords between points of f.
 #include "optics/opacity_slope.h"
 
@@ -14,11 +14,11 @@ namespace {
 
 struct Place {
     double opacity;
-    double depth;   // f there
-    double height;  // of the pieces
+    double depth;   // f at this opacity
+    double height;  // value of the chords at this opacity
 };
 
-// The x >= 0 with x - log1p(x) = d.
+// Returns the x >= 0 with x - log1p(x) = d.
 double rise_to_touch(double d) {
     const double s = std::sqrt(2 * d);
     double x = s + d * 2 / 3 + s * d / 18;
@@ -27,7 +27,7 @@ double rise_to_touch(double d) {
     return x;
 }
 
-// One piece after another, from `from` on, to a tolerance.
+// A chain of chords, one after another, from `from` on, within a tolerance.
 class Chain {
   public:
     Chain(double from, double tolerance)
@@ -36,16 +36,16 @@ class Chain {
         aim();
     }
 
-    // Whether this piece can end on the curve at `opacity`: before it touches the upper curve, or
-    // while it is above f.
+    // Tells whether this chord can end on the curve at `opacity`: it can before it touches the
+    // upper curve, and as long as it is above f.
     bool reaches(double opacity, double depth) const {
         return opacity <= touch_ || at_.height + slope_ * (opacity - at_.opacity) >= depth;
     }
 
-    // The place where the next piece begins.
+    // Returns the place where the next chord begins.
     const Place& advance() {
         const double clear = 1 - at_.opacity;
-        // With v = the part of `clear` that is left: height + slope clear (1 - v) = lower (depth -
+        // Let v be the part of `clear` that is left: height + slope clear (1 - v) = lower (depth -
         // ln v). The difference of both sides is concave and rises left of its larger root, so
         // Newton's steps approach the smaller one from the left.
         const double offset = at_.height - lower_ * at_.depth, rise = slope_ * clear;
@@ -65,8 +65,8 @@ class Chain {
     }
 
   private:
-    // The line from here that touches upper f, at 1 - o = clear / r: r - 1 - ln r = depth - height
-    // / upper. Its slope is that of upper f there.
+    // Chooses the slope of the next chord: it touches the upper curve at 1 - o = clear / r with r -
+    // 1 - ln r = depth - height / upper, and has that curve's slope there.
     void aim() {
         const double x = rise_to_touch(at_.depth - at_.height / upper_), clear = 1 - at_.opacity;
         slope_ = upper_ * (1 + x) / clear;
@@ -78,7 +78,8 @@ class Chain {
     double slope_ = 0, touch_ = 0;
 };
 
-// The pieces from one opacity up to another, to a tolerance; false where they are more than `most`.
+// Finds the chords from one opacity up to another, within a tolerance; returns false if there are
+// more than `most`.
 bool follow(double from, double to, double tolerance, std::size_t most,
             std::vector<Place>& places) {
     places.clear();
@@ -91,7 +92,8 @@ bool follow(double from, double to, double tolerance, std::size_t most,
     return true;
 }
 
-// The same with the fewest pieces, of nearly the smallest tolerance that these permit.
+// Finds the fewest chords within opacity_slope_tolerance, then nearly the smallest tolerance that
+// this number of chords permits.
 std::vector<Place> follow_evenly(double from, double to) {
     constexpr std::size_t any = 1000;
     double kept = opacity_slope_tolerance, missed = 0;

@@ -16,13 +16,13 @@ namespace lamina {
 
 namespace {
 
-// Optical depths of a piece are limited to this, so that sums of them stay finite.
+// Limit of a piece's optical depth, so that sums of depths stay finite.
 constexpr double largest_depth = 1e300;
 
 // docs/numerics.md, section 5, with u(x) = px + kx^2, the depth from the front to x: front = 1 - G
 // = int 1 - exp(-u) and back = G - exp(-D) = int exp(-u) (1 - exp(-(D - u))). u and D - u are
-// written without a subtraction that could cancel, so every term of both sums is >= 0 and accurate,
-// however small p and q are.
+// written without subtractions that could cancel, so every term of both sums is >= 0 and accurate
+// for every p and q, however small.
 PieceWeights quadrature_weights(const GaussRule& rule, double p, double q) {
     PieceWeights weights;
     for (std::size_t i = 0; i < rule.points; ++i) {
@@ -36,7 +36,8 @@ PieceWeights quadrature_weights(const GaussRule& rule, double p, double q) {
     return weights;
 }
 
-// G of docs/numerics.md, section 5, for D >= 4, where neither 1 - G nor G - exp(-D) cancels.
+// Returns G of docs/numerics.md, section 5, for D >= 4. Neither 1 - G nor G - exp(-D) cancels
+// there.
 double mean_transmittance(double p, double q) {
     const double depth = p / 2 + q / 2;
     const double k = (q - p) / 2;
@@ -53,14 +54,14 @@ double mean_transmittance(double p, double q) {
     return (dawson(front) - transmittance * dawson(back)) / root;
 }
 
-// Where the optical depth in front is `wanted` < D; at most 1.
+// Returns the place, at most 1, up to which the optical depth is `wanted` < D.
 double place_of_depth(double wanted, double p, double q) {
     const double root = std::sqrt(std::max(p * p + 2 * (q - p) * wanted, 0.0));
     return std::min(2 * wanted / (p + root), 1.0);
 }
 
-// A sum that carries its rounding error along, so that exp(-depth) is as accurate behind many
-// pieces as behind one.
+// Adds optical depths with their rounding errors (compensated summation), so that exp(-depth) stays
+// accurate behind many pieces.
 class DepthSum {
   public:
     void add(double depth) {
@@ -86,8 +87,8 @@ PieceWeights piece_weights(double p, double q) {
     return {1 - g, g - std::exp(-depth)};
 }
 
-// By parts: the integral of 2 (1 - x) (1 - exp(-u)). Beyond a depth of 20, exp(-u) is below 2e-9;
-// up to there 16 points are off by less than that.
+// Integration by parts gives the integral of 2 (1 - x) (1 - exp(-u)). Beyond a depth of 20, exp(-u)
+// is below 2e-9; up to there the error of 16 points is less than that.
 double front_moment(double p, double q) {
     constexpr double deep = 20;
     const double depth = p / 2 + q / 2;
@@ -105,7 +106,7 @@ double front_moment(double p, double q) {
 namespace {
 
 glm::dvec3 piece_color(const LinearPiece& piece, double p, double q) {
-    // Most pieces of palettes have one colour, whose weight is the opacity.
+    // Most pieces of palettes have one colour; its weight is the opacity.
     if (piece.at_from.color == piece.at_to.color) {
         return opacity_from_depth(p / 2 + q / 2) * piece.at_from.color;
     }
@@ -121,7 +122,7 @@ SegmentIntegral integrate_segment(const TransferFunction& transfer_function, dou
     if (!(length > 0)) return result;
     DepthSum depth;
     for_each_linear_piece(transfer_function.knots(), front, back, [&](const LinearPiece& piece) {
-        // Both differences are of the given doubles, so the share is accurate however close front
+        // Both differences are of the numbers given, so the share is accurate however close front
         // and back are.
         const double share = front == back ? 1 : (piece.to - piece.from) / (back - front);
         const double part = length * share;

@@ -12,13 +12,13 @@ namespace lamina {
 struct SegmentIntegral {
     double optical_depth = 0;
     double alpha = 0;  // 1 - exp(-optical_depth)
-    // Associated colour as seen from the front, attenuated by the segment itself.
+    // associated colour as seen from the front, attenuated by the segment itself
     glm::dvec3 color{0};
 };
 
-// The weights of the colours at both ends of one linear piece with extinction * length = p at its
-// front and q at its back (>= 0, finite). The associated colour is front * c_front + back * c_back.
-// Both weights are >= 0, and front + back = 1 - exp(-(p + q) / 2).
+// Weights of the colours at both ends of one linear piece with extinction * length = p at its front
+// and q at its back (>= 0, finite). The associated colour is front * c_front + back * c_back. Both
+// weights are >= 0, and front + back = 1 - exp(-(p + q) / 2).
 struct PieceWeights {
     double front = 0;
     double back = 0;
@@ -31,8 +31,8 @@ PieceWeights piece_weights(double p, double q);
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length);
 
-// Of such a piece the integral of (1 - x)^2 over what is seen of it, x from 0 at its front to 1 at
-// its back: to 1e-8.
+// Returns the integral of (1 - x)^2, weighted by visible opacity, over a piece as in PieceWeights,
+// with x from 0 at its front to 1 at its back; error 1e-8.
 double front_moment(double p, double q);
 
 }  // namespace lamina

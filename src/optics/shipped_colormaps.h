@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// Whether lamina has a colour map of this name with it (share/colormaps).
+// Tells whether lamina ships a colour map of this name (share/colormaps).
 bool is_colormap_name(const std::string& name);
 
 }  // namespace lamina

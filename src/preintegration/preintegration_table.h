@@ -45,7 +45,7 @@ struct PreintegrationTable {
     glm::dvec3 single_color{0};  // the colour if the request is not coloured
 
     virtual ~PreintegrationTable() = default;
-    // Computes in double precision what shaders do in float.
+    // Computes in double precision what shaders compute in float.
     virtual SegmentIntegral lookup(double front, double back, double length) const = 0;
     virtual std::int64_t byte_count() const = 0;  // memory
 

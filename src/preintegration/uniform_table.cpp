@@ -74,8 +74,7 @@ std::vector<double> nodes_of(const TableRequest& request) {
     return nodes;
 }
 
-// The rest of a segment that is seen through less than this is left out: it is far below a float's
-// precision.
+// Transmittance below which the rest of a segment is left out: it is far below a float's precision.
 constexpr double least_transmittance = 1e-12;
 
 // Integrals over the scalars.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Associated colour and opacity of a run through a tet: the vector form of
+// Associated colour and opacity of a segment through a tet: the vector form of
 // shaders/projection/tet_color.glsl.
 #if defined(LAMINA_PROJECTION_TET_COLOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_COLOR_INL_H_

@@ -50,7 +50,7 @@ struct ShortDepth {
     }
 };
 
-// Depths up to this are short.
+// Largest depth that counts as short.
 constexpr std::size_t most_terms = 10;
 constexpr double short_depth = series_limit<most_terms>;
 
@@ -193,7 +193,7 @@ struct WeightLanes {
     Double front, back;
 };
 
-// Vector form of the sums in optics/segment_integral.cpp, which says why they are written so.
+// Vector form of the sums in optics/segment_integral.cpp, which gives the reasons for their form.
 template <typename Depth>
 LAMINA_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Double p, Double q,
                                           const Depth& kind) {

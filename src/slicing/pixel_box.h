@@ -20,7 +20,7 @@ struct PixelBox {
     PixelBox common(const PixelBox& other) const;
 };
 
-// All pixels whose rays meet a box of the grid's index space, and some around them.
+// Returns the pixels whose rays meet a box of the grid's index space, and some around them.
 PixelBox pixels_of(const IndexBox& box, const Grid& grid, const View& view);
 
 }  // namespace lamina
