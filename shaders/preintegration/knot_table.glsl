@@ -10,7 +10,7 @@ uniform float layers_per_length;
 #else
 uniform sampler2D knot_table;
 #endif
-// TABLE_LIT: front parts (optics/front_parts.h) of emission in rgb and of extinction in a, in the same places.
+// TABLE_LIT: front parts (optics/segment_integral.h) of emission in rgb and of extinction in a, in the same places.
 #ifdef TABLE_LIT
 uniform sampler3D front_parts;
 #endif

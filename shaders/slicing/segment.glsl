@@ -38,7 +38,7 @@ struct Segment {
     vec3 color;
     DEPTH depth;
 #ifdef TABLE_LIT
-    vec4 front;  // front parts (optics/front_parts.h) of colour and opacity, per opacity
+    vec4 front;  // front parts (optics/segment_integral.h) of colour and opacity, per opacity
 #endif
 };
 

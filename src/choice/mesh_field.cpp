@@ -10,7 +10,7 @@
 #include "choice/padding.h"
 #include "facts/view_rays.h"
 #include "mesh/box_corners.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 
 namespace lamina {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lamina/transfer_function.h"
-#include "optics/curved_pieces.h"
+#include "optics/pieces.h"
 #include "preintegration/preintegration_table.h"
 #include "volume/min_max_bricks.h"
 

@@ -194,7 +194,8 @@ struct RunSum {
     Float color[3];
     Float depth;
 };
-// A sum with front parts of colour and opacity (optics/front_parts.h), associated if the colour is.
+// A sum with front parts of colour and opacity (optics/segment_integral.h), associated if the
+// colour is.
 struct LitSum : RunSum {
     Float front_color[3];
     Float front_share;

@@ -22,7 +22,7 @@ struct TileTransfer {
 
     // `range`: the scalars that become [0, 1]; lo < hi. `knot_table`: the pre-integration table, or
     // null. `step_advance`: see make_intervals(). `curved`: intervals are curves if points are
-    // smooth (optics/curved_pieces.h); not with a table.
+    // smooth (optics/pieces.h); not with a table.
     TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
                  std::shared_ptr<const KnotTable> knot_table, double step_advance,
                  bool curved = false);

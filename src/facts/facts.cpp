@@ -15,8 +15,8 @@
 #include "facts/drawn_range.h"
 #include "facts/finite_check.h"
 #include "facts/world_unit.h"
-#include "optics/curved_pieces.h"
-#include "optics/front_weights.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
 #include "volume/code_counts.h"
 #include "volume/range_answers.h"
 

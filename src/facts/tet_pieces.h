@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lamina/tet.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

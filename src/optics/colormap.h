@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "base/embedded_file.h"
 #include "lamina/colormap.h"
 #include "lamina/image_color_space.h"
 #include "lamina/transfer_function.h"
-#include "optics/given_points.h"
+#include "optics/opacity.h"
 
 namespace lamina {
 
@@ -41,10 +42,16 @@ std::vector<TransferKnot> combine(const Colormap& colormap,
                                   const std::vector<ExtinctionPoint>& extinctions);
 
 // Combines the colours with the map's own opacities, which are linear between its points
-// (optics/given_points.h). unit_length > 0 is in world units. Throws Error if the map has no
+// (optics/opacity.h). unit_length > 0 is in world units. Throws Error if the map has no
 // opacities.
 std::vector<TransferKnot> combine(const Colormap& colormap, double unit_length);
 // The map's own opacities as points, without colours.
 std::vector<GivenPoint> given_points(const Colormap& colormap);
+
+// The files of share/colormaps, "viridis.json" and others.
+std::span<const EmbeddedFile> embedded_colormaps();
+
+// Tells whether lamina ships a colour map of this name (share/colormaps).
+bool is_colormap_name(const std::string& name);
 
 }  // namespace lamina

@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "base/error.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 
 namespace lamina {
 

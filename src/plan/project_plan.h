@@ -23,7 +23,7 @@ enum class SegmentSource {
     table,      // one look-up in a table with equally spaced scalars
     parts,      // tets are cut at the transfer function's points. Opacity has a closed form; colour
                 // is one look-up in a table that does not depend on the transfer function
-                // (optics/front_weights.h)
+                // (optics/segment_integral.h)
     cut_table,  // up to three look-ups in a table whose scalar nodes lie on the transfer function's
                 // points
     analytic,   // the linear pieces between those points, each in closed form

@@ -13,8 +13,8 @@
 #include "facts/drawn_range.h"
 #include "facts/ray_shares.h"
 #include "facts/world_unit.h"
-#include "optics/curved_pieces.h"
-#include "optics/front_weights.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
 #include "plan/light_choice.h"
 #include "plan/march_limit.h"
 #include "plan/slab_choice.h"
@@ -203,7 +203,7 @@ class SlicePlanner {
         return filtered ? VolumeSampling::filtered : VolumeSampling::fetch;
     }
 
-    // Returns the error, in 1/255, of curves in place of straight pieces (optics/curved_pieces.h).
+    // Returns the error, in 1/255, of curves in place of straight pieces (optics/pieces.h).
     // It is 0, and there are none, if no point of the transfer function is smooth or max_error is
     // too small.
     double choose_curves() {

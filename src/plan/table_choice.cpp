@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "facts/world_unit.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 #include "optics/ray_lights.h"
 #include "optics/segment_integral.h"
 

@@ -13,8 +13,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "optics/linear_pieces.h"
 #include "optics/opacity.h"
+#include "optics/pieces.h"
 #include "preintegration/preintegration_table.h"
 
 namespace lamina {

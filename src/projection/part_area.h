@@ -26,7 +26,7 @@ struct PartOutline {
 };
 
 // A bound on the optical depth of any segment through a cell fragment, on which the cost of its
-// colour depends. thin: at most thin_depth; faint: at most faint_depth (optics/front_weights.h).
+// colour depends. thin: at most thin_depth; faint: at most faint_depth (optics/segment_integral.h).
 enum class PartDepth : std::uint8_t { any, thin, faint };
 
 // The pixels that a cell fragment may cover: columns from the left, rows from the top of the

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 
 namespace lamina {
 

@@ -8,7 +8,7 @@
 #define LAMINA_PROJECTION_TET_COLOR_INL_H_
 #endif
 
-#include "optics/front_weights.h"
+#include "optics/segment_integral.h"
 #include "projection/tet_run-inl.h"
 #include "tiles/linear_segment-inl.h"
 #include "tiles/target_pixels-inl.h"

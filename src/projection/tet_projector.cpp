@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "facts/far_scalars.h"
-#include "optics/front_weights.h"
+#include "optics/segment_integral.h"
 #include "projection/stored_gradients.h"
 #include "projection/tet_view-inl.h"
 

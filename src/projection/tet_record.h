@@ -31,8 +31,9 @@ inline std::uint32_t part_number(const TetPart& part, std::size_t tets) {
 // Ways in which the fragments of a cell fragment (TetPart) are computed. A later kind is also right
 // for the fragments of an earlier one, but slower.
 enum class FragmentKind {
-    thin,   // optical depth at most thin_depth (optics/front_weights.h); depths on faces in float32
-    plain,  // depths on faces in float32
+    thin,    // optical depth at most thin_depth (optics/segment_integral.h); depths on faces in
+             // float32
+    plain,   // depths on faces in float32
     careful  // depths on faces in double precision: for faces that are seen nearly edge-on, for
              // cell fragments that the near plane cuts, and if the eye is inside
 };

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "optics/front_weights.h"
+#include "optics/segment_integral.h"
 #include "projection/tet_setup-inl.h"
 
 LAMINA_SIMD_BEGIN

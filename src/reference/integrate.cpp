@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/integrate.h"
 
-#include "optics/gauss_rules.h"
 #include "optics/segment_integral.h"
 
 #undef LAMINA_TARGET_FILE

@@ -6,7 +6,7 @@
 #include <glm/vector_relational.hpp>
 #include <memory>
 
-#include "optics/shipped_colormaps.h"
+#include "optics/colormap.h"
 #include "scene_files/forms.h"
 #include "scene_files/scene_json.h"
 

@@ -21,7 +21,7 @@
 #include "facts/world_unit.h"
 #include "gl/api.h"
 #include "gl/check.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {

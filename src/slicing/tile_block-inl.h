@@ -21,7 +21,7 @@ struct SlabBlock {
     alignas(64) float lengths[size];    // world units
     alignas(64) float depths[size];     // optical depths
     alignas(64) float colors[3][size];  // not used if the plan has a single colour
-    // Front parts of light (optics/front_parts.h) per opacity: of colours, of opacity.
+    // Front parts of light (optics/segment_integral.h) per opacity: of colours, of opacity.
     alignas(64) float front_colors[3][size];
     alignas(64) float front_shares[size];
     alignas(64) float edges[size + most_lanes];  // depths of boundaries from the block's front on

@@ -11,7 +11,7 @@
 #include "executors/shader_intervals.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 #include "slicing/shown_pages.h"
 #include "slicing/texture_bricks.h"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "lamina/color.h"
-#include "optics/color_space.h"
+#include "optics/colors.h"
 #include "scene/given_transfer.h"
 #include "scene_files/integration_case.h"
 #include "scene_files/scene_json.h"

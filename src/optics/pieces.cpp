@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/curved_pieces.h"
+#include "optics/pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <span>
 
 namespace lamina {
+
 namespace {
 
 // Number of pieces that one cubic may replace. It bounds the time of the search; curves bend too

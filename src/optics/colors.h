@@ -3,7 +3,11 @@
 // sRGB in [0, 1].
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string_view>
 
 namespace lamina {
 
@@ -17,5 +21,16 @@ glm::dvec3 linear_from_srgb(const glm::dvec3& srgb);
 // The colour at `share` in [0, 1] of the way from `a` to `b`, in sRGB, clipped to its gamut.
 glm::dvec3 interpolate_srgb(ColorSpace space, const glm::dvec3& a, const glm::dvec3& b,
                             double share);
+
+struct CssColor {
+    std::string_view name;
+    std::uint32_t rgb;  // 0xrrggbb, sRGB
+};
+
+// The named colours of CSS (W3C, "CSS Color Module Level 4", section 6.1), by name.
+std::span<const CssColor> css_colors();
+
+// The code of a name in small letters.
+std::optional<std::uint32_t> css_color(std::string_view name);
 
 }  // namespace lamina
