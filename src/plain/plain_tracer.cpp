@@ -248,9 +248,8 @@ class PlainRay {
         brightest_ *= 1 + lighting.ambient + lighting.diffuse * largest(sum);
         brightest_ += lighting.specular * largest(sum);
     }
-    // Returns the places at which a segment is cut, and its ends: those at which the scalar turns
-    // or meets a knot, and those at which light has a kink, because the gradient is perpendicular
-    // to it or to the halfway vector.
+    // Returns a segment's ends and the places between: the scalar turns or meets a knot, or light
+    // has a kink, because the gradient is perpendicular to it or to the halfway vector.
     std::vector<double> cuts(const Cubic<Field>& field) const {
         const auto along = [&c = field.c](const Field& v, double less) {
             return Cubic<double>{dot(c[0], v) - less, dot(c[1], v), dot(c[2], v), dot(c[3], v)};
