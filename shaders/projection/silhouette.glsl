@@ -84,7 +84,7 @@ dvec2 find_exact_depths(dvec2 moved) {
 vec2 find_depths(vec2 place) { return vec2(find_exact_depths(moved_place(place))); }
 #elif defined(SCALARS)
 // Returns the scalars at these depths. In float32 a scalar within the window would be a small difference of large
-// numbers, in a tet that runs far outside it (facts/far_scalars.h).
+// numbers, in a tet that runs far outside it (facts/drawn_range.h).
 vec2 exact_ends(dvec2 depths, dvec2 moved) {
     dvec4 of = dvec4(scalars) + dvec4(scalars_low);
 #ifdef ORTHOGRAPHIC

@@ -2,25 +2,24 @@
 #include "choice/automatic_transfer.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "base/number_text.h"
-#include "choice/changed_transfer.h"
-#include "choice/common_values.h"
-#include "choice/label_colors.h"
-#include "choice/padding.h"
+#include "choice/value_distribution.h"
 
 namespace lamina {
+
 namespace {
 
 // Largest number of different whole numbers that count as labels, each with a colour of its own.
@@ -252,6 +251,106 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
     }
     chosen.padding = padding_text(padding);
     return chosen;
+}
+
+namespace {
+
+// Linear light; neighbours differ in hue.
+constexpr std::array<glm::dvec3, 8> label_colors{{{.75, .20, .05},
+                                                  {.06, .30, .65},
+                                                  {.80, .55, .08},
+                                                  {.10, .45, .15},
+                                                  {.45, .12, .50},
+                                                  {.08, .50, .50},
+                                                  {.75, .30, .40},
+                                                  {.70, .65, .55}}};
+
+// Rare labels are denser, by up to ten times.
+double extinction_of(double share) {
+    return std::pow(std::max(share, .01), -.5);
+}
+
+}  // namespace
+
+AutomaticTransfer label_transfer(const ValueDistribution& values) {
+    std::size_t common = 0;
+    double most = 0;
+    for (std::size_t i = 0; i < values.distinct(); ++i) {
+        const double share = values.share(values.value(i), values.value(i));
+        if (share > most) {
+            most = share;
+            common = i;
+        }
+    }
+    std::vector<TransferKnot> points;
+    double largest = 0;
+    for (std::size_t i = 0; i < values.distinct(); ++i) {
+        const double share = values.share(values.value(i), values.value(i)) / (1 - most);
+        OpticalProperties optics{label_colors[(i + (i > common ? 7 : 0)) % label_colors.size()],
+                                 extinction_of(share)};
+        if (i == common) optics = {};
+        largest = std::max(largest, optics.extinction);
+        points.push_back({values.value(i), optics});
+    }
+    for (TransferKnot& point : points) point.optics.extinction /= largest;
+    return {TransferFunction::nearest(points),
+            fmt::format("{} whole numbers are taken for labels: {:g}, {:.3g} % of the field, is "
+                        "transparent, each of the others has a colour",
+                        values.distinct(), values.value(common), 100 * most)};
+}
+
+namespace {
+
+// A linear map that keeps the order of values and hits both ends exactly.
+class Stretch {
+  public:
+    Stretch(double from_lo, double from_hi, const ValueRange& to)
+        : lo_(from_lo), width_(from_hi - from_lo), to_(to) {}
+    double operator()(double value) const {
+        const double place = (value - lo_) / width_;
+        return place == 1 ? to_.hi : std::min(to_.lo + (to_.hi - to_.lo) * place, to_.hi);
+    }
+
+  private:
+    double lo_, width_;
+    ValueRange to_;
+};
+
+}  // namespace
+
+TransferFunction stretched(const TransferFunction& transfer_function, const ValueRange& range) {
+    std::vector<TransferKnot> knots(transfer_function.knots().begin(),
+                                    transfer_function.knots().end());
+    if (knots.front().value == knots.back().value)
+        fail(
+            "transfer function: has a single value, {}, expected two that a range could lie "
+            "between",
+            knots.front().value);
+    const Stretch stretch(knots.front().value, knots.back().value, range);
+    for (TransferKnot& knot : knots) knot.value = stretch(knot.value);
+    for (std::size_t i = 2; i < knots.size(); ++i) {
+        if (knots[i].value == knots[i - 2].value) {
+            fail("range from {} to {}: is too narrow for the {} points of the transfer function",
+                 range.lo, range.hi, knots.size());
+        }
+    }
+    return TransferFunction::linear(knots);
+}
+
+TransferFunction recolored(const TransferFunction& transfer_function, Colormap colormap) {
+    const auto knots = transfer_function.knots();
+    const double from = colormap.colors.front().value, to = colormap.colors.back().value;
+    const double lo = knots.front().value, hi = knots.back().value;
+    if (lo == hi) {
+        const auto colors = TransferFunction::linear(combine(colormap, {{from, 0}}));
+        const glm::dvec3 middle = colors.at(from + (to - from) / 2).color;
+        return TransferFunction::linear({{lo, {middle, knots.front().optics.extinction}}});
+    }
+    std::vector<ExtinctionPoint> extinctions;
+    for (const TransferKnot& knot : knots)
+        extinctions.push_back({knot.value, knot.optics.extinction, knot.smooth});
+    if (from < to && !colormap.own_range) stretch(colormap, lo, hi);
+    return TransferFunction::linear(combine(colormap, extinctions));
 }
 
 }  // namespace lamina

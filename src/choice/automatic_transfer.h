@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "choice/padding.h"
 #include "choice/value_distribution.h"
 #include "lamina/transfer_function.h"
 #include "optics/colormap.h"
@@ -31,5 +30,19 @@ struct AutomaticTransfer {
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferWishes& wishes = {},
                                            double least_padding_share = least_padding);
+
+// Returns a transfer function for labels (few whole numbers, two or more): the most frequent one is
+// transparent, each other has a colour of its own, which ends halfway to its neighbours.
+AutomaticTransfer label_transfer(const ValueDistribution& values);
+
+// Returns the function with its first and last point moved to the ends of the range, lo < hi, and
+// all others in proportion. Throws Error if it has a single point, or if the range is so narrow
+// that three points would get one value.
+TransferFunction stretched(const TransferFunction& transfer_function, const ValueRange& range);
+
+// Returns the function with the colours of a map, spread from its first to its last point unless
+// the map has a range of its own (Colormap::own_range). A function of one point gets the middle
+// colour.
+TransferFunction recolored(const TransferFunction& transfer_function, Colormap colormap);
 
 }  // namespace lamina

@@ -11,8 +11,8 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/warning.h"
-#include "choice/changed_transfer.h"
-#include "choice/padding.h"
+#include "choice/automatic_transfer.h"
+#include "choice/value_distribution.h"
 #include "image/srgb.h"
 
 namespace lamina {

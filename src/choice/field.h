@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <array>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "choice/value_distribution.h"
 #include "lamina/grid.h"
 #include "lamina/scene.h"
+#include "lamina/volume.h"
+#include "mesh/scalar_range.h"
+#include "scene/scene_mesh.h"
 #include "volume/min_max_bricks.h"
+#include "volume/value_counts.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 
@@ -25,7 +29,8 @@ class Field {
     virtual double spacing() const = 0;
     // Tells whether all values are whole, as labels are.
     virtual bool whole_numbers() const = 0;
-    // Returns the share of the field that a value must have to be padding (choice/padding.h).
+    // Returns the share of the field that a value must have to be padding
+    // (choice/value_distribution.h).
     virtual double least_padding_share() const = 0;
     // Returns the distribution of the finite values, by volume; large data are sampled evenly.
     // Empty if none is finite.
@@ -42,6 +47,61 @@ class Field {
     // rays that miss the data may be left out. Only transfer function, camera and size of the scene
     // matter.
     virtual std::vector<double> optical_depths(const Scene& scene) const = 0;
+};
+
+// A volume with its bricks, and with its values if these are counted already. All must outlive this
+// object.
+class VolumeField : public Field {
+  public:
+    VolumeField(const Volume& volume, const MinMaxBricks& bricks)
+        : volume_(volume), bricks_(bricks) {}
+    explicit VolumeField(const VolumeData& data)
+        : volume_(data.volume),
+          bricks_(data.bricks),
+          values_(data.values ? &*data.values : nullptr) {}
+
+    WorldAxes axes() const override { return volume_.grid().axes; }
+    ValueRange range() const override { return bricks_.whole; }
+    double spacing() const override;
+    bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
+    double least_padding_share() const override { return least_padding; }
+    ValueDistribution distribution() const override;
+    // Returns corners of cells.
+    std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
+                                         double least) const override;
+    std::array<glm::dvec3, 8> corners() const override;
+    // Integrates by a few steps a voxel.
+    std::vector<double> optical_depths(const Scene& scene) const override;
+
+  private:
+    const Volume& volume_;
+    const MinMaxBricks& bricks_;
+    const ValueCounts* values_ = nullptr;  // null: not counted yet
+};
+
+// A mesh with its scalar. The mesh must outlive this object.
+class MeshField : public Field {
+  public:
+    explicit MeshField(const SceneMesh& mesh) : mesh_(mesh) {}
+
+    WorldAxes axes() const override { return WorldAxes::unnamed; }
+    ValueRange range() const override { return measure_range(mesh_.scalar.values).range; }
+    double spacing() const override;                       // the mean over the edges of each tet
+    bool whole_numbers() const override { return false; }  // false: tets interpolate
+    // A single vertex may mark missing data.
+    double least_padding_share() const override { return 0; }
+    // Tets count by their volume. A tet with a corner far from all other values (find_markers())
+    // counts by its corners: values interpolated inside it were not measured.
+    ValueDistribution distribution() const override;
+    // Returns corners of tets.
+    std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
+                                         double least) const override;
+    std::array<glm::dvec3, 8> corners() const override;
+    // Integrates from tet to tet, in closed form.
+    std::vector<double> optical_depths(const Scene& scene) const override;
+
+  private:
+    const SceneMesh& mesh_;
 };
 
 }  // namespace lamina

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "choice/large_volume.h"
 #include "volume/range_answers.h"
 #include "volume/volume_store.h"
 #include "volume/with_sample_type.h"
 
 namespace lamina {
+
 namespace {
 
 using Shows = std::function<bool(const ValueRange&)>;

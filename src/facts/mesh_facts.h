@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "facts/tet_pieces.h"
+#include "facts/drawn_range.h"
 #include "mesh/mesh_shape.h"
+#include "mesh/scalar_range.h"
 #include "scene/scene_mesh.h"
 #include "volume/min_max_bricks.h"
 
@@ -39,7 +40,7 @@ struct MeshFacts {
     // number of tets that show nothing, including those with a value that is not finite
     std::int64_t transparent_tets = 0;
     // The window that whole tets are normalised to (facts/drawn_range.h), and the number of visible
-    // tets that run far outside it (facts/far_scalars.h).
+    // tets that run far outside it (facts/drawn_range.h).
     ValueRange window;
     std::int64_t far_tets = 0;
     // Number of visible cell fragments if the other tets are cut at the transfer function's points.
@@ -91,5 +92,13 @@ MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh);
 std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity);
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
+
+// Throws Error if no value is finite, or if some are not and the scene does not draw them
+// transparent. `found`: the range of the mesh's scalar.
+void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& found);
+
+// Returns rays of the scene's view, all over the picture, as segments in tets, nearest first. Rays
+// that meet no tet are left out, and so are tets with values that are not finite.
+std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh);
 
 }  // namespace lamina

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "choice/binned_values.h"
+#include "choice/value_distribution.h"
 #include "scene/camera.h"
 #include "scene/lighting_check.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/scene.h"
 #include "plan/capabilities.h"
 #include "plan/slab_choice.h"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "compositing/dither.h"
-#include "facts/facts.h"
 #include "facts/mesh_facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/error_figure.h"
 #include "lamina/scene.h"
 #include "plan/brick_cuts.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/scene.h"
 
 namespace lamina {

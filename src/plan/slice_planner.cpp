@@ -11,7 +11,7 @@
 #include "base/number_text.h"
 #include "compositing/tree_shape.h"
 #include "facts/drawn_range.h"
-#include "facts/ray_shares.h"
+#include "facts/rays.h"
 #include "facts/world_unit.h"
 #include "optics/pieces.h"
 #include "optics/segment_integral.h"

@@ -2,7 +2,7 @@
 // The choice of a slicing plan's pre-integration table.
 #pragma once
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/scene.h"
 #include "preintegration/table_cache.h"
 

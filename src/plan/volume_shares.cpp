@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "facts/ray_shares.h"
+#include "facts/rays.h"
 #include "scene/camera.h"
 #include "volume/brick_cache.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/scene.h"
 #include "scene/camera.h"
 #include "volume/min_max_bricks.h"

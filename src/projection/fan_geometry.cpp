@@ -7,7 +7,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
-#include "facts/far_scalars.h"
+#include "facts/drawn_range.h"
 #include "optics/opacity.h"
 
 namespace lamina {
@@ -48,7 +48,7 @@ FanGeometry::Corner FanGeometry::corner_of(std::int32_t point) const {
     return corner;
 }
 
-// Scales normalised scalars so that float32 can compute with them (facts/far_scalars.h).
+// Scales normalised scalars so that float32 can compute with them (facts/drawn_range.h).
 void FanGeometry::bring_near(Corners& corners) {
     const auto [least, largest] =
         std::ranges::minmax(corners, {}, [](const Corner& corner) { return corner.values.x; });

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "facts/far_scalars.h"
+#include "facts/drawn_range.h"
 #include "optics/segment_integral.h"
 #include "projection/stored_gradients.h"
 #include "projection/tet_view-inl.h"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "facts/tet_pieces.h"
+#include "facts/drawn_range.h"
 #include "mesh/tet_mesh.h"
 #include "projection/part_field.h"
 #include "projection/screen_polygon.h"

@@ -280,7 +280,7 @@ LAMINA_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea&
 
 // Returns the segment of a ray through a careful tet. In float32 a short segment through a long tet
 // would be a small difference of large numbers, and so would be a scalar within the window of a tet
-// that runs far outside it (facts/far_scalars.h). `slanted`: lengths along rays are longer than
+// that runs far outside it (facts/drawn_range.h). `slanted`: lengths along rays are longer than
 // differences of z.
 template <class Shader>
 LAMINA_INLINE TetRun find_exact_run(const Shader& shader, const TetFragments& fragments,

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "facts/far_scalars.h"
+#include "facts/drawn_range.h"
 #include "projection/stored_gradients.h"
 #include "projection/tet_record.h"
 #include "projection/tet_setup_lanes.h"
@@ -208,7 +208,7 @@ class TetVectors {
         }
     }
 
-    // Returns true if float32 is good enough for the scalars (facts/far_scalars.h).
+    // Returns true if float32 is good enough for the scalars (facts/drawn_range.h).
     DoubleMask set_whole() {
         const double origin = view_.range.lo, width = view_.range.hi - view_.range.lo;
         set_scalars(origin, width);

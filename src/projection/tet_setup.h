@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "facts/tet_pieces.h"
+#include "facts/drawn_range.h"
 #include "mesh/tet_mesh.h"
 #include "projection/part_area.h"
 #include "projection/tet_record.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compositing/tree_shape.h"
-#include "facts/tet_pieces.h"
+#include "facts/drawn_range.h"
 #include "mesh/eye.h"
 #include "mesh/tet_mesh.h"
 #include "projection/tet_record.h"

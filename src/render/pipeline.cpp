@@ -6,9 +6,9 @@
 
 #include "base/stage.h"
 #include "base/warning.h"
-#include "choice/mesh_field.h"
-#include "choice/volume_field.h"
-#include "facts/finite_check.h"
+#include "choice/field.h"
+#include "facts/mesh_facts.h"
+#include "facts/volume_facts.h"
 #include "gl/memory.h"
 #include "gl/query.h"
 #include "mesh/scalar_range.h"

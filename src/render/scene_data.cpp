@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "base/stage.h"
-#include "choice/mesh_field.h"
-#include "choice/volume_field.h"
+#include "choice/field.h"
 #include "mesh/scalar_range.h"
 #include "scene/scene_mesh.h"
 

@@ -5,8 +5,7 @@
 #include <cstdint>
 
 #include "base/sparse_bytes.h"
-#include "facts/constant_bricks.h"
-#include "facts/occupied_bricks.h"
+#include "facts/bricks.h"
 
 namespace lamina {
 

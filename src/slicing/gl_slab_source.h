@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "executors/gl_transfer_tables.h"
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "lamina/transfer_function.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/grid.h"
 #include "scene/camera.h"
 #include "slicing/tile_volume.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compositing/tree_shape.h"
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/grid.h"
 #include "lamina/scene.h"
 #include "scene/camera.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/volume.h"
 #include "plan/capabilities.h"
 #include "plan/slab_choice.h"

@@ -10,7 +10,7 @@
 
 #include "executors/tile_light.h"
 #include "executors/tile_transfer.h"
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "plan/plan.h"
 #include "slicing/cell_map.h"
 #include "slicing/slab_polygons.h"

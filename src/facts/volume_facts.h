@@ -1,23 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
-#include "facts/constant_bricks.h"
-#include "facts/index_plane.h"
-#include "facts/occupied_bricks.h"
-#include "facts/ray_shares.h"
-#include "facts/scalar_rays.h"
+#include "facts/bricks.h"
+#include "facts/rays.h"
+#include "lamina/clip.h"
+#include "lamina/grid.h"
 #include "lamina/scene.h"
 #include "lamina/volume.h"
 #include "scene/camera.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
+
+// A plane of a clip in a grid's index space: points at distances >= 0 are kept.
+struct IndexPlane {
+    glm::dvec3 normal{0};  // of length 1
+    double offset = 0;
+
+    double distance(const glm::dvec3& index) const;
+    // Returns this plane in an index space that begins at sample `first` of its own.
+    IndexPlane seen_from(const glm::dvec3& first) const { return {normal, distance(first)}; }
+    // Return the least and the largest distance of a box's points.
+    double least_distance(const glm::dvec3& min, const glm::dvec3& max) const;
+    double largest_distance(const glm::dvec3& min, const glm::dvec3& max) const;
+
+    friend bool operator==(const IndexPlane&, const IndexPlane&) = default;
+};
+
+// Returns all planes of the clip, the box's six last.
+std::vector<IndexPlane> index_planes(const Clip& clip, const Grid& grid);
+// Returns those of `planes` that cut something off the grid's box.
+std::vector<IndexPlane> cutting_planes(std::vector<IndexPlane> planes, const Grid& grid);
 
 // A box in index space.
 struct IndexBox {
@@ -54,7 +72,7 @@ struct Facts {
     double max_color = 0;       // largest component of a colour
     std::int64_t knots = 0;     // number strictly inside the range
     std::int64_t pieces = 1;    // number of linear pieces over drawn_range()
-    std::int64_t curves = 1;    // as above, if curves follow smooth points (curved_pieces.h)
+    std::int64_t curves = 1;    // as above, if curves follow smooth points (optics/pieces.h)
 
     // The smallest box of whole min/max bricks outside which nothing is visible. Bricks that the
     // clip cuts away as a whole count as invisible.
@@ -91,5 +109,9 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
 Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 void measure_view(const Scene& scene, Facts& facts);
 void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);
+
+// Throws Error if no sample is finite, or if some are not and the scene does not draw them
+// transparent. `bricks`: those of the volume.
+void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks);
 
 }  // namespace lamina

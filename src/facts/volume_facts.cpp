@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,16 +11,18 @@
 #include <span>
 #include <vector>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
-#include "facts/finite_check.h"
 #include "facts/world_unit.h"
 #include "optics/pieces.h"
 #include "optics/segment_integral.h"
+#include "scene/half_space.h"
 #include "volume/code_counts.h"
 #include "volume/range_answers.h"
 
 namespace lamina {
+
 namespace {
 
 // Margin on both sides of a brick's range, as a share of the range, when asking whether the brick
@@ -301,6 +303,51 @@ void measure_rays(const Scene& scene, const Volume& volume, Facts& facts) {
     facts.ray_shares = measure_ray_shares(scene, volume, facts);
     facts.scalar_rays = {};
     if (may_need_table(scene, facts)) facts.scalar_rays = sample_rays(scene, volume, facts);
+}
+
+void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks) {
+    const VolumeFile* const file = scene.volume_file();
+    const std::string name = file == nullptr ? "volume" : file->path.string();
+    const std::int64_t samples = grid.sample_count();
+    if (bricks.non_finite == samples) fail("{}: all {} samples are NaN or infinite", name, samples);
+    if (bricks.non_finite > 0 && scene.nan == NanPolicy::error) {
+        fail(
+            "{}: found {} NaN or infinite samples of {}, expected none; \"nan\": \"transparent\" "
+            "in the scene draws their cells as transparent",
+            name, bricks.non_finite, samples);
+    }
+}
+
+double IndexPlane::distance(const glm::dvec3& index) const {
+    return glm::dot(normal, index) + offset;
+}
+
+double IndexPlane::least_distance(const glm::dvec3& min, const glm::dvec3& max) const {
+    return distance(0.5 * (min + max)) - glm::dot(glm::abs(normal), 0.5 * (max - min));
+}
+
+double IndexPlane::largest_distance(const glm::dvec3& min, const glm::dvec3& max) const {
+    return distance(0.5 * (min + max)) + glm::dot(glm::abs(normal), 0.5 * (max - min));
+}
+
+std::vector<IndexPlane> index_planes(const Clip& clip, const Grid& grid) {
+    std::vector<IndexPlane> planes;
+    for (const HalfSpace& half : half_spaces(clip)) {
+        glm::dvec3 slope(0);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            slope[static_cast<int>(axis)] = glm::dot(half.normal, grid.step[axis]);
+        const double length = std::hypot(slope.x, slope.y, slope.z);  // voxels may be tiny
+        planes.push_back(
+            {slope / length, glm::dot(half.normal, grid.origin - half.point) / length});
+    }
+    return planes;
+}
+
+std::vector<IndexPlane> cutting_planes(std::vector<IndexPlane> planes, const Grid& grid) {
+    const glm::dvec3 min = grid.index_min(), max = grid.index_max();
+    std::erase_if(planes,
+                  [&](const IndexPlane& plane) { return plane.least_distance(min, max) >= 0; });
+    return planes;
 }
 
 }  // namespace lamina

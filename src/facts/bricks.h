@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
 
 #include "base/sparse_bytes.h"
+#include "lamina/transfer_function.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -50,5 +51,27 @@ struct OccupiedBricks {
     // alone. Boxes that reach the volume's border are endless beyond it.
     bool empty_around(const glm::dvec3& point, glm::dvec3& min, glm::dvec3& max) const;
 };
+
+// The bricks over which the transfer function has one colour and one extinction; empty if they are
+// less than `least_share` of the visible bricks. Neighbouring bricks share their border samples, so
+// constant bricks that touch have the same optical properties.
+struct ConstantBricks {
+    static constexpr double least_share = 0.05;
+    // Number of kinds that are kept, the most frequent ones; other bricks count as varied.
+    static constexpr std::size_t most_kinds = 16;
+
+    double share = 0;  // share of the bricks that show something
+    std::vector<OpticalProperties> kinds;
+    SparseBytes kind;       // for each constant brick an index into kinds; x fastest
+    OccupiedBricks varied;  // distance to the nearest brick that is not constant
+
+    std::uint8_t kind_at(const glm::dvec3& point) const { return kind[varied.place_of(point)]; }
+};
+
+// `occupied` must come from the same bricks and transfer function. `margin`: the largest error of a
+// scalar.
+ConstantBricks find_constant_bricks(const TransferFunction& transfer_function,
+                                    const MinMaxBricks& bricks, const OccupiedBricks& occupied,
+                                    double margin);
 
 }  // namespace lamina
