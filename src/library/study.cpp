@@ -21,7 +21,7 @@ nlohmann::ordered_json begin_record() {
     return {{"begin", begin}};
 }
 
-// A folder with other files is refused; one with a part of this study, unless that is wanted.
+// Throws if the folder has other files, or a part of this study unless `resume`.
 void check_folder(const study::StudyFolder& folder, study::RunList& list, bool resume) {
     folder.own().expect_own(study::StudyFolder::names());
     if (!std::filesystem::exists(folder.run_list())) return;
@@ -60,7 +60,7 @@ StudyOutcome run(const std::filesystem::path& path, const study::StudyFolder& fo
 StudyOutcome run_study(const std::filesystem::path& study, const std::filesystem::path& folder,
                        bool resume, std::stop_token stop, const ProgressCallback& progress) {
     std::vector<std::string> warnings;
-    // Runs of the same data say the same.
+    // Several runs over the same data give the same warnings.
     const WarningTaker taker = [&](const std::string& text) {
         if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(text);
     };

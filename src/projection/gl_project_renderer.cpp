@@ -23,7 +23,8 @@
 namespace lamina {
 namespace {
 
-// Corners of silhouettes lie this many steps of the rasteriser's grid outside (screen_polygon.h).
+// Distance, in steps of the rasteriser's grid, by which corners of silhouettes lie outside
+// (screen_polygon.h).
 constexpr double margin_steps = 2;
 
 constexpr std::array silhouette_attributes{
@@ -126,7 +127,7 @@ void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
     stream_->set_barriers(plan_.blending == Blending::barrier);
 }
 
-// The samples of a ray are the parts, as many in every view.
+// The samples of a ray are the cell fragments, as many in every view.
 void GlProjectRenderer::make_tree() {
     CompositingPlan nodes = plan_;
     if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered

@@ -5,8 +5,8 @@
 
 #include "base/profile.h"
 #include "executors/shader_intervals.h"
-#include "optics/front_weights.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
 
 namespace lamina {
 

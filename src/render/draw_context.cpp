@@ -8,7 +8,7 @@
 namespace lamina {
 namespace {
 
-// Returns null where there is no GPU with OpenGL 4.5.
+// Returns null if there is no GPU with OpenGL 4.5.
 std::unique_ptr<gl::Context> find_gpu() {
     try {
         return gl::Context::create(gl::ContextKind::gpu);

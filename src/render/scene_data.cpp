@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "base/profile.h"
-#include "choice/mesh_field.h"
-#include "choice/volume_field.h"
+#include "choice/field.h"
 #include "mesh/tet_mesh.h"
 #include "scene/scene_mesh.h"
 

@@ -9,8 +9,6 @@
 #include "base/enum_words.h"
 #include "optics/colormap.h"
 #include "optics/opacity.h"
-#include "optics/opacity_slope.h"
-#include "optics/shipped_colormaps.h"
 
 namespace lamina {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/ranges.h>
 #include <glm/vector_relational.hpp>
-#include "optics/shipped_colormaps.h"
+#include "optics/colormap.h"
 #include "scene_files/keys.h"
 #include "scene_files/scene_reader.h"
 

@@ -125,7 +125,7 @@ class SlabBlender {
                 color_of(slab, 2) * opacity, opacity};
     }
 
-    // blend() of tiles/target_pixels-inl.h with what it would ask known.
+    // A form of blend() (tiles/target_pixels-inl.h) for this target, without its questions.
     template <bool behind>
     LAMINA_INLINE void blend_float(int slab, Pixels& there) const {
         const Fragment source = fragment(slab, opacity_of(slab));

@@ -29,7 +29,7 @@ LAMINA_INLINE V code_nearest(V scaled) {
     return floor(scaled + 0.5);
 }
 
-// `code`, or the next code where `up`.
+// Returns `code`, or the next code if `up`.
 template <class V>
 LAMINA_INLINE V step_up(V code, typename V::Mask up) {
     return code + zero_unless(up, V(1.0));

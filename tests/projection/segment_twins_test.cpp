@@ -12,7 +12,6 @@
 #include "gl/gl_fixture.h"
 #include "gl/texture.h"
 #include "lamina/image.h"
-#include "optics/front_weights.h"
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
 #include "preintegration/preintegration_table.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "lamina/color.h"
-#include "optics/color_space.h"
+#include "optics/colors.h"
 #include "scene/given_transfer.h"
 #include "scene_files/scene_reader.h"
 #include "scene_files/transfer_keys.h"

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "optics/shipped_colormaps.h"
+#include "optics/colormap.h"
 
 namespace lamina {
 namespace {

@@ -269,7 +269,7 @@ Scene fixed_tree(const Scene& white, const std::string& name, AlphaRounding roun
 Json row_of(const std::string& colors, const std::string& nodes, const std::string& tree,
             const char* alpha, const ErrorNorms& e) {
     return {{"colors", colors}, {"nodes", nodes}, {"tree", tree}, {"alpha", alpha},
-            {"linf", e.linf},   {"l1", e.mean},     {"l2", e.l2}};
+            {"linf", e.linf},   {"l1", e.mean},   {"l2", e.l2}};
 }
 
 using Errors = std::map<std::string, ErrorNorms>;  // by tree

@@ -43,7 +43,8 @@ struct Precision {
     // Some 16 roundings of a float32 (2^-24). Coordinates in the box have the size of the box at
     // any distance of the eye, because rays are set up in double precision. Faces:
     // docs/numerics.md, section 6 (9e-6 of an edge with coefficients relative to a pixel near the
-    // tet). Colour of a cell fragment: 2.2e-3, from a table of 256 x 256 (optics/front_weights.h).
+    // tet). Colour of a cell fragment: 2.2e-3, from a table of 256 x 256
+    // (optics/segment_integral.h).
     static constexpr Precision drawn() {
         constexpr double ulps = 1.0 / (1 << 20);
         return {ulps, ulps, ulps, 2.2e-3, 9e-6, ulps};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/curved_pieces.h"
+#include "optics/pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,19 +8,22 @@
 #include <span>
 
 namespace lamina {
+
 namespace {
 
-// More pieces than a cubic can follow; it bounds the time that a search takes.
+// Number of pieces that one cubic may replace. It bounds the time of the search; curves bend too
+// much over more pieces than this.
 constexpr std::size_t most_merged = 64;
-// Where colours are compared with a straight line, in full scale: a float's digits.
+// Distance from a straight line below which colours (1 is full scale) count as linear: the digits
+// of a float.
 constexpr double color_tolerance = 1e-6;
 
-// Bends must be floats.
+// Extinctions above this are not replaced by curves, because bends must fit into floats.
 constexpr double largest_extinction = 1e30;
 
 using Pieces = std::span<const CurvedPiece>;
 
-// Not at steps, of which both sides are knots.
+// Tells whether the knot at `value` is smooth. A step is not: it has a knot on each side.
 bool smooth_at(std::span<const TransferKnot> knots, double value) {
     const auto knot = std::ranges::lower_bound(knots, value, {}, &TransferKnot::value);
     if (knot == knots.end() || knot->value != value) return false;
@@ -39,7 +42,8 @@ bool colors_are_linear(Pieces pieces, const CurvedPiece& all) {
     return true;
 }
 
-// Calls visit(share of all, extinction) for places of the pieces, which lie closer where these do.
+// Calls visit(share of all, extinction) for sample places in each piece, closer together if the
+// pieces are short.
 template <typename Visit>
 void for_each_place(Pieces pieces, const CurvedPiece& all, const Visit& visit) {
     constexpr int places = 4;
@@ -54,8 +58,8 @@ void for_each_place(Pieces pieces, const CurvedPiece& all, const Visit& visit) {
     }
 }
 
-// The piece that replaces some, by least squares of the relative error; none where that is too
-// large.
+// Returns the cubic that replaces these pieces, by least squares of the relative error; nothing if
+// that error is too large.
 std::optional<CurvedPiece> merged(Pieces pieces) {
     CurvedPiece all{
         {pieces.front().from, pieces.back().to, pieces.front().at_from, pieces.back().at_to}};

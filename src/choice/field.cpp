@@ -1,27 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "choice/mesh_field.h"
+#include "choice/field.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 
-#include "choice/padding.h"
-#include "facts/view_rays.h"
+#include "choice/shown_cells.h"
+#include "choice/value_distribution.h"
+#include "facts/mesh_facts.h"
+#include "facts/volume_facts.h"
 #include "mesh/predicates.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 
 namespace lamina {
+
+namespace {
+
+std::vector<WeightedValue> weighted(const ValueCounts& counted, SampleType type) {
+    const double lowest =
+        type == SampleType::int16 ? double{std::numeric_limits<std::int16_t>::min()} : 0;
+    std::vector<WeightedValue> values;
+    for (std::size_t code = 0; code < counted.codes.size(); ++code) {
+        if (counted.codes[code] > 0)
+            values.push_back(
+                {static_cast<double>(code) + lowest, static_cast<double>(counted.codes[code])});
+    }
+    for (const float value : counted.some) values.push_back({value, 1});
+    return values;
+}
+
+}  // namespace
+
+double VolumeField::spacing() const {
+    const Grid& grid = volume_.grid();
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (grid.size[axis] > 1) smallest = std::min(smallest, glm::length(grid.step[axis]));
+    }
+    return smallest;
+}
+
+ValueDistribution VolumeField::distribution() const {
+    return ValueDistribution(
+        weighted(values_ != nullptr ? *values_ : count_values(volume_), volume_.type()));
+}
+
+std::vector<glm::dvec3> VolumeField::shown_points(const TransferFunction& transfer_function,
+                                                  double least) const {
+    return hull_of_shown_cells(volume_, bricks_, [&](const ValueRange& range) {
+        return transfer_function.max_extinction(range.lo, range.hi) > least;
+    });
+}
+
+std::array<glm::dvec3, 8> VolumeField::corners() const {
+    const Grid& grid = volume_.grid();
+    std::array<glm::dvec3, 8> corners = box_corners(grid.index_min(), grid.index_max());
+    for (glm::dvec3& corner : corners) corner = grid.to_world(corner);
+    return corners;
+}
+
+std::vector<double> VolumeField::optical_depths(const Scene& scene) const {
+    Facts facts;
+    facts.grid = volume_.grid();
+    measure_view(scene, facts);
+    const bool large = volume_.grid().sample_count() > large_volume;
+    const RaySampling sampling = large ? RaySampling{256, 256} : RaySampling{};
+    std::vector<double> depths;
+    for (const ScalarRays::Ray& ray : sample_rays(scene, volume_, facts, &bricks_, sampling).rays)
+        depths.push_back(ray.optical_depths.back());
+    return depths;
+}
+
 namespace {
 
 constexpr std::size_t most_tets = std::size_t{1} << 19;
 
-// Of a tet, four places that stand for a quarter of it each: the points of the quadrature rule that
-// is exact for quadratic functions (Hammer and Stroud 1956).
+// Quadrature points of a tet, each of which stands for a quarter of it; exact for quadratic
+// functions (Hammer and Stroud 1956).
 constexpr double near_corner = 0.58541019662496845, near_others = 0.13819660112501051;
 
-// Six times the volume of a tet, in units of the mesh's diagonal.
+// Returns six times the volume of a tet, in units of the mesh's diagonal cubed.
 double volume_of(const TetMesh& mesh, const Tet& tet, double diagonal) {
     const auto at = [&](std::size_t corner) {
         return mesh.points()[static_cast<std::size_t>(tet[corner])] / diagonal;
@@ -30,11 +92,11 @@ double volume_of(const TetMesh& mesh, const Tet& tet, double diagonal) {
     return std::abs(glm::dot(at(1) - origin, glm::cross(at(2) - origin, at(3) - origin)));
 }
 
-// Weight of a marker in a large mesh of whose tets only some are looked at, in units of the cube of
-// the mesh's diagonal: more than nothing, and less than any share that counts.
+// Weight of a marker in a large mesh of which only some tets are sampled, in units of the mesh's
+// diagonal cubed: more than 0, and less than any share that counts.
 constexpr double smallest_weight = 1e-30;
 
-// Returns the values at points that are far from those at all others.
+// Returns the point values that are far from all others.
 std::vector<double> markers_of(const SceneMesh& mesh) {
     std::vector<WeightedValue> at_points;
     at_points.reserve(mesh.scalar.values.size());
@@ -97,7 +159,7 @@ ValueDistribution MeshField::distribution() const {
             values.push_back({marked ? value : std::clamp(inside, range.lo, range.hi), weight});
         }
     }
-    // A tet that was left out may have the only corner with a marker.
+    // A tet that is not sampled may have the only corner with a marker.
     if (step > 1) {
         for (const double marker : markers) values.push_back({marker, smallest_weight});
     }

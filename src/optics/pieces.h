@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "lamina/transfer_function.h"
 
 namespace lamina {
 
-// Colour and extinction at `value` on the straight line between two knots of different value. Every
-// term is >= 0, so nothing cancels, and equal ends give exactly their value.
+// Interpolates colour and extinction at `value` on the straight line between two knots of different
+// value. Every term is >= 0, so nothing cancels, and equal ends give exactly their value.
 inline OpticalProperties interpolate(const TransferKnot& a, const TransferKnot& b, double value) {
     const double width = b.value - a.value;
     const double weight_a = (b.value - value) / width;
@@ -30,8 +31,8 @@ struct LinearPiece {
     OpticalProperties at_from, at_to;
 };
 
-// Colour and extinction in one piece. With n knots there are n + 1 pieces: piece j lies between
-// knots j - 1 and j, and the first and the last are the constant ones outside.
+// Returns colour and extinction in one piece. With n knots there are n + 1 pieces: piece j lies
+// between knots j - 1 and j; the first and the last are constant, outside the knots.
 inline OpticalProperties optics_in_piece(std::span<const TransferKnot> knots, std::size_t piece,
                                          double value) {
     if (piece == 0) return knots.front().optics;
@@ -69,7 +70,7 @@ void for_each_linear_piece(std::span<const TransferKnot> knots, double front, do
     }
 }
 
-// The colour at the first place of [lo, hi] with extinction > 0; black where there is none.
+// Returns the colour at the first place of [lo, hi] with extinction > 0; black if there is none.
 inline glm::dvec3 first_color(const TransferFunction& transfer_function, double lo, double hi) {
     glm::dvec3 color(0);
     bool found = false;
@@ -80,5 +81,27 @@ inline glm::dvec3 first_color(const TransferFunction& transfer_function, double 
     });
     return color;
 }
+
+// The pieces of a transfer function, fewer if its points stand for a smooth curve.
+
+// Largest distance of a curve from the straight pieces that it replaces, as a share of their
+// extinction. Curves of slopes of opacity stay within opacity_slope_tolerance on both sides of
+// these pieces.
+inline constexpr double curve_tolerance = 1.3e-3;
+// Error that curve_tolerance may cause in a channel, in 1/255, for colours up to 1
+// (docs/precision.md, "Opacity that is linear").
+inline constexpr double largest_curve_error = 255 * curve_tolerance / 2;
+
+// A piece whose extinction is cubic: at the share u of the way through the piece it is that of the
+// straight line plus u (1 - u) (bend[0] + u bend[1]). It is > 0 inside the piece if any bend is not
+// 0. Colour is linear.
+struct CurvedPiece : LinearPiece {
+    double bend[2] = {0, 0};
+};
+
+// Returns the pieces from lo up to hi. `curved`: pieces that meet at smooth points are replaced by
+// one if a cubic keeps to curve_tolerance and colour is linear; otherwise all are straight.
+std::vector<CurvedPiece> pieces_between(const TransferFunction& transfer_function, double lo,
+                                        double hi, bool curved);
 
 }  // namespace lamina

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,21 +11,24 @@
 #include <span>
 #include <vector>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
-#include "facts/finite_check.h"
 #include "facts/world_unit.h"
-#include "optics/curved_pieces.h"
-#include "optics/front_weights.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
+#include "scene/half_space.h"
 #include "volume/range_answers.h"
 #include "volume/value_counts.h"
 
 namespace lamina {
+
 namespace {
 
-// Interpolated and rescaled values may leave a brick's range by roundings of float32: part of the
-// range that is kept on both sides when asking whether a brick can be seen. Integers are rescaled
-// as they are interpolated, codes from the type's least value on: also a part of the largest.
+// Margin on both sides of a brick's range, as a share of the range, when asking whether the brick
+// is visible: interpolated and rescaled values may leave the range by roundings of float32.
+// Integers are rescaled after interpolation, codes counted from the type's least value, so their
+// margin is also this share of the largest code.
 constexpr double range_margin = 1e-6;
 
 double margin_of(const Facts& facts) {
@@ -49,7 +52,8 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
     const SparseBytes& distance = facts.occupied_bricks.distance;
     const std::size_t count = bricks.ranges.size();
     const double unit = world_unit(box_diagonal(facts.grid));
-    // Counts by the leading bits of floats, which ascend with them where they are 0 or more.
+    // Counts by the leading bits of floats, whose order is that of the floats themselves if these
+    // are >= 0.
     constexpr int rest_bits = 12;
     const auto leading = [&](double extinction) {
         return std::bit_cast<std::uint32_t>(static_cast<float>(extinction / unit)) >> rest_bits;
@@ -77,9 +81,9 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
     facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
 }
 
-// Where the transfer function rises from 0 at a brick's own least or largest value, roundings that
-// leave its range may show this optical depth on a ray through the whole box, of a brick that is
-// transparent: .026 / 255.
+// Optical depth on a ray through the whole box that may come from transparent bricks: .026 / 255.
+// If the transfer function rises from 0 at a brick's own least or largest value, roundings that
+// leave its range may show something there.
 constexpr double faint_depth = 1e-4;
 
 double faint_extinction(const Facts& facts) {
@@ -92,7 +96,7 @@ IndexBox box_of_bricks(const Grid& grid, const std::array<std::int64_t, 3>& coun
                        const std::array<std::int64_t, 3>& last) {
     IndexBox box{grid.index_min(), grid.index_max()};
     for (int axis = 0; axis < 3; ++axis) {
-        // The outermost bricks also hold the half voxels beyond the samples of `cell` axes.
+        // The outermost bricks include the half voxels beyond the samples of `cell` axes.
         if (first[axis] > 0) box.min[axis] = static_cast<double>(first[axis] * MinMaxBricks::edge);
         if (last[axis] + 1 < count[axis])
             box.max[axis] = static_cast<double>((last[axis] + 1) * MinMaxBricks::edge);
@@ -100,7 +104,7 @@ IndexBox box_of_bricks(const Grid& grid, const std::array<std::int64_t, 3>& coun
     return box;
 }
 
-// Bricks that lie wholly behind a plane of the clip.
+// Marks bricks that lie wholly behind a plane of the clip as empty.
 void empty_cut_bricks(Facts& facts) {
     OccupiedBricks& occupied = facts.occupied_bricks;
     const auto [nx, ny, nz] = occupied.count;
@@ -154,7 +158,7 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
     occupied.measure_distances();
 }
 
-// The bricks of some planes of bricks that show something.
+// The visible bricks of some planes of bricks.
 struct SeenBricks {
     std::int64_t count = 0;
     std::array<std::int64_t, 3> first{std::numeric_limits<std::int64_t>::max(),
@@ -176,7 +180,7 @@ struct SeenBricks {
     }
 };
 
-// Distances of 0 are stored as the background's byte.
+// A distance of 0 is stored as the background's byte.
 SeenBricks seen_in_plane(const OccupiedBricks& occupied, std::int64_t z) {
     const std::uint8_t shown = occupied.distance.background();
     SeenBricks seen;
@@ -208,8 +212,8 @@ void measure_occupied(const TransferFunction& transfer_function, const MinMaxBri
         facts.occupied = box_of_bricks(facts.grid, bricks.count, seen.first, seen.last);
 }
 
-// Of one linear piece the planner needs no table where segments are short; the whole view is the
-// longest of them.
+// The planner needs no table for one linear piece if segments are short; the longest possible
+// segment is the whole view.
 bool may_need_table(const Scene& scene, const Facts& facts) {
     const double depth =
         facts.max_extinction * (facts.far_depth - facts.near_depth) * facts.max_length_per_depth;
@@ -288,7 +292,7 @@ Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks&
     facts.curves = count(true);
     measure_occupied(transfer_function, bricks, facts);
     measure_extinctions(transfer_function, bricks, facts);
-    // A brick's range knows nothing of its samples that are no numbers.
+    // The range of a brick ignores samples that are no numbers.
     if (facts.non_finite == 0)
         facts.constant_bricks = find_constant_bricks(transfer_function, bricks,
                                                      facts.occupied_bricks, margin_of(facts));
@@ -299,6 +303,51 @@ void measure_rays(const Scene& scene, const Volume& volume, Facts& facts) {
     facts.ray_shares = measure_ray_shares(scene, volume, facts);
     facts.scalar_rays = {};
     if (may_need_table(scene, facts)) facts.scalar_rays = sample_rays(scene, volume, facts);
+}
+
+void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks) {
+    const VolumeFile* const file = scene.volume_file();
+    const std::string name = file == nullptr ? "volume" : file->path.string();
+    const std::int64_t samples = grid.sample_count();
+    if (bricks.non_finite == samples) fail("{}: all {} samples are NaN or infinite", name, samples);
+    if (bricks.non_finite > 0 && scene.nan == NanPolicy::error) {
+        fail(
+            "{}: found {} NaN or infinite samples of {}, expected none; \"nan\": \"transparent\" "
+            "in the scene draws their cells as transparent",
+            name, bricks.non_finite, samples);
+    }
+}
+
+double IndexPlane::distance(const glm::dvec3& index) const {
+    return glm::dot(normal, index) + offset;
+}
+
+double IndexPlane::least_distance(const glm::dvec3& min, const glm::dvec3& max) const {
+    return distance(0.5 * (min + max)) - glm::dot(glm::abs(normal), 0.5 * (max - min));
+}
+
+double IndexPlane::largest_distance(const glm::dvec3& min, const glm::dvec3& max) const {
+    return distance(0.5 * (min + max)) + glm::dot(glm::abs(normal), 0.5 * (max - min));
+}
+
+std::vector<IndexPlane> index_planes(const Clip& clip, const Grid& grid) {
+    std::vector<IndexPlane> planes;
+    for (const HalfSpace& half : half_spaces(clip)) {
+        glm::dvec3 slope(0);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            slope[static_cast<int>(axis)] = glm::dot(half.normal, grid.step[axis]);
+        const double length = std::hypot(slope.x, slope.y, slope.z);  // voxels may be tiny
+        planes.push_back(
+            {slope / length, glm::dot(half.normal, grid.origin - half.point) / length});
+    }
+    return planes;
+}
+
+std::vector<IndexPlane> cutting_planes(std::vector<IndexPlane> planes, const Grid& grid) {
+    const glm::dvec3 min = grid.index_min(), max = grid.index_max();
+    std::erase_if(planes,
+                  [&](const IndexPlane& plane) { return plane.least_distance(min, max) >= 0; });
+    return planes;
 }
 
 }  // namespace lamina
