@@ -51,7 +51,7 @@ def half_spaces(clip):
 
 
 def spans(clip, origins, directions):
-    """Where in z each ray begins and ends to be kept, and whether it runs along a plane within roundings of it."""
+    """Returns the z at which each ray begins and ends to be kept, and whether it runs along a plane within roundings of it."""
     near, far = numpy.zeros(len(origins)), numpy.full(len(origins), numpy.inf)
     tied = numpy.zeros(len(origins), bool)
     for point, normal in half_spaces(clip or {}):

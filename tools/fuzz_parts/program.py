@@ -44,7 +44,7 @@ class Program:
         self.commands = []
 
     def limit(self, seconds):
-        """Of processor time: other work on the machine does not count."""
+        """Limits processor time: other work on the machine does not count."""
         resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds) + 5))
 
     def report(self, kind, text, times=0):
@@ -101,7 +101,7 @@ class Program:
         return None
 
     def ended_well(self, name, found, picture, stats):
-        """Whether there is a picture; reports what is wrong."""
+        """Tells whether there is a picture; reports what is wrong."""
         text = " | ".join(found.messages[:4])[:400]
         if any(report in line for report in REPORTS for line in found.messages):
             self.report("sanitizer", f"{name}: {text}")

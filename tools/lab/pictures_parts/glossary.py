@@ -135,7 +135,7 @@ def preintegration(folder):
 
 
 def over_of_equal(code, count):
-    """What `count` fragments of one code give together in 8 bits, rounded as OVER rounds."""
+    """The result of `count` fragments of one code in 8 bits, rounded as OVER rounds."""
     stored = 0
     for _ in range(count):
         stored = int((code * 255 + stored * (255 - code)) / 255 + 0.5)
@@ -255,7 +255,7 @@ def projected(folder):
 
 
 def on_edge(first, second):
-    """Where the ray of `projected`, from (60, 372) to (400, 312), crosses the line through two corners."""
+    """The point at which the ray of `projected`, from (60, 372) to (400, 312), crosses the line through two corners."""
     def side(point):
         return (point[1] - 372) * 340 + (point[0] - 60) * 60
     share = side(first) / (side(first) - side(second))
