@@ -16,7 +16,7 @@ struct MeshScalar {
     std::vector<double> values;  // one for each point, or one for each tet
 };
 
-// Numbers of cells and points of a file that are not used as they are, by what became of them.
+// How many cells and points of a file were changed or left out.
 struct CellCounts {
     std::int64_t split = 0;          // hexahedra, wedges and pyramids that were cut into tets
     std::int64_t skipped = 0;        // vertices, lines, polygons: no volume

@@ -45,8 +45,8 @@ struct MeshFile {
 
     bool operator==(const MeshFile&) const = default;
 };
-// Sources of the data: a file, a formula, or the volume from which a mesh is made. A scene of data
-// in memory names none.
+// Sources of the data: a file or a formula; `MeshSettings` if the mesh is made from the scene's
+// volume. A scene of data in memory names none.
 using VolumeSource = std::variant<std::monostate, VolumeFile, GeneratorRequest>;
 using MeshSource = std::variant<std::monostate, MeshFile, MeshSettings>;
 
@@ -75,8 +75,8 @@ struct Scene {
     Method method = Method::slice;
     Auto<Target> target = Target::float32;
     Emulation emulate;  // for Target::emulated
-    // Bound on the picture's error, in 1/255, that the choices keep which the scene leaves open
-    // ("auto").
+    // Bound on the picture's error, in 1/255 of full scale. All choices that the scene leaves open
+    // ("auto") keep it.
     double max_error = 1;
     SliceSettings slice;
     ProjectSettings project;

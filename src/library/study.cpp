@@ -21,7 +21,8 @@ nlohmann::ordered_json begin_record() {
     return {{"begin", begin}};
 }
 
-// Throws if the folder has other files, or a part of this study unless `resume`.
+// Throws if the folder has files of others, another study, this one with changed data, or a part of
+// this one unless `resume`.
 void check_folder(const study::StudyFolder& folder, study::RunList& list, bool resume) {
     folder.own().expect_own(study::StudyFolder::names());
     if (!std::filesystem::exists(folder.run_list())) return;

@@ -96,7 +96,8 @@ class FaceTree {
 
 using Triangle = std::array<glm::dvec3, 3>;
 
-// A plane through a given point, with a bound on its rounding error.
+// The normal of a plane, with a bound on its rounding error. Points are given relative to a point
+// of the plane.
 struct RoundedPlane {
     RoundedPlane() = default;
     RoundedPlane(const glm::dvec3& u, const glm::dvec3& v);  // spanned by these two vectors
@@ -112,12 +113,12 @@ struct RoundedPlane {
 // first corner along the edges from there.
 int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& point);
 
-// The half space on the positive side of a plane, with the plane. Boxes are searched for faces that
-// it may contain.
+// The closed half space on the positive side of a plane. A search of a FaceTree for the faces that
+// it may contain asks it about their boxes.
 class PlaneSide {
   public:
     PlaneSide() = default;
-    // `bounds`: a box around all boxes.
+    // `bounds`: contains all that reaches() is asked about.
     PlaneSide(const RoundedPlane& plane, const glm::dvec3& origin, const FaceTree::Box& bounds);
     // Tells whether a box or a triangle may contain a point of the half space. Rounding never makes
     // this false for one that does.

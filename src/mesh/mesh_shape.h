@@ -10,7 +10,7 @@ namespace lamina {
 
 struct EdgeLengths {
     double shortest = 0, longest = 0;
-    // Returns longest edge over shortest edge; infinite if two points coincide.
+    // Returns longest edge over shortest edge; infinite if the ends of an edge coincide.
     double ratio() const {
         return shortest > 0 ? longest / shortest : std::numeric_limits<double>::infinity();
     }
@@ -25,9 +25,9 @@ enum class Convexity {
 
 // Tells whether the mesh fills a convex body: if its boundary is one closed surface without a
 // concave edge (Tietze 1928, Nakajima 1928) and no face is folded or nonmanifold. within_rounding
-// allows for computed coordinates (a rotated box, for example), which have errors of some 1e-16 of
-// the diagonal; so have the depths of dents between faces of ordinary shape. Files with float
-// coordinates have errors of 1e-8, and their dents are real.
+// allows for dents that come from rounded coordinates alone (a rotated box, for example). Its
+// tolerance of 1e-12 of the diagonal is far above the rounding of doubles (1e-16), and far below
+// that of floats (1e-8): dents of files with float coordinates are in the data, and count.
 Convexity convexity(const TetMesh& mesh);
 
 inline bool convex(const TetMesh& mesh) {
@@ -39,7 +39,7 @@ inline bool convex(const TetMesh& mesh) {
 // no order of them is right. Touching is no overlap. The count is exact for faces that cross,
 // unless that would take too long, as it does among thousands of needles whose boxes all overlap:
 // then some may be missed. Parts inside others count one tet each; if there are more than 500
-// parts, some of them are looked at. Parallel.
+// parts, only 500 are tested. Parallel.
 std::int64_t count_overlapping_tets(const TetMesh& mesh);
 
 }  // namespace lamina

@@ -7,9 +7,10 @@
 
 namespace lamina {
 
-double portable_exp(double x);  // x in -700..700
-
-double portable_cos_turns(double turns);  // cos(2 pi turns)
+// exp(x), x in -700..700, and cos(2 pi turns), with the same bits on every machine: generated data
+// are told apart by their hashes, and libraries round in different ways.
+double portable_exp(double x);
+double portable_cos_turns(double turns);
 
 // Gradient noise (Perlin, "An image synthesizer", SIGGRAPH 1985) with the fade curve of "Improving
 // noise", 2002, and gradients from a hash of the lattice point. Values are about -1..1 with mean 0

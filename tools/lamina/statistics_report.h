@@ -15,12 +15,13 @@ namespace lamina {
 // is no finite value.
 void add_statistics(const ValueStatistics& statistics, nlohmann::ordered_json& info);
 
-// Returns the two keys as lines for people, if `info` has them: 16 intervals of the histogram at
-// most.
+// Return the values of the two keys, which must not be null, as lines for people: at most 16
+// intervals of the histogram.
 std::string percentiles_text(const nlohmann::ordered_json& percentiles);
 std::string histogram_text(const nlohmann::ordered_json& histogram);
 
-// Returns a picture on white, above the one that `below` makes for its width (300 pixels or more).
+// Returns `above` on white, and under it the picture that `below` makes for its width, at least 480
+// pixels.
 CodedImage above_one_another(const CodedImage& above, const std::function<CodedImage(int)>& below);
 
 }  // namespace lamina

@@ -14,8 +14,8 @@
 namespace lamina::papers {
 namespace {
 
-// Moves the points of an index-space grid with `cells` cells to place(index), where the scalar is
-// field(index).
+// Returns the Kuhn mesh of a grid with `cells` cells. Point `index` lies at place(index) and has
+// the scalar field(index).
 template <typename Place, typename Field>
 SceneMesh split_grid(const std::array<std::int32_t, 3>& cells, const Place& place,
                      const Field& field) {
@@ -47,7 +47,7 @@ double blobs(const glm::dvec3& p) {
 }
 
 // Returns the heights of layers 0..count above the body. Thicknesses are first, first * growth,
-// ..., and the last one equals the width of columns.
+// ..., last.
 std::vector<double> layer_heights(std::int32_t count, double first, double last) {
     const double growth = std::pow(last / first, 1.0 / (count - 1));
     std::vector<double> heights{0};

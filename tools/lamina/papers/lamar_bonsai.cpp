@@ -56,7 +56,7 @@ Scene bonsai_scene() {
 // The light that a picture keeps of the leaves, which are the pixels that the exact picture shows
 // in green.
 struct Leaves {
-    double light[3] = {};  // sums of R, G and B over those of the exact picture
+    double light[3] = {};  // sum of each channel over that of the exact picture
     double kept = 0;       // share of the pixels that have at least half of their green
     double black = 0;      // share of the pixels that show nothing
 };
@@ -91,7 +91,7 @@ Scene dithered_by_paper(const Scene& scene) {
     return hardware;
 }
 
-// Draws the picture again and again, and compares each with the exact one.
+// Draws variants of the picture, and compares each with the exact one.
 class Bonsai {
   public:
     Bonsai(std::shared_ptr<const VolumeData> volume, const LamarStage& stage)
@@ -136,11 +136,11 @@ class Bonsai {
 
 // Most of the leaves are kept if more than half of their pixels have at least half of their green.
 //
-// They are not, and this is the method: the opacity of a leaf in one of 512 slabs is a code of 1 or
-// 2, and OVER rounds its product with each channel of the colour to a whole code. At code 2 a
-// leaf's .2, 1 and .1 codes of red, green and blue become 0, 1 and 0, and a twig's 1.1, .8 and .2
-// become 1, 1 and 0, which is olive. Dithering spreads opacity and colour before they are
-// multiplied, so it cannot bring back what the product loses.
+// Fewer than half have it, and the method is the cause, not its implementation: the opacity of a
+// leaf in one of 512 slabs is a code of 1 or 2, and OVER rounds its product with each channel of
+// the colour to a whole code. At code 2 a leaf's .2, 1 and .1 codes of red, green and blue become
+// 0, 1 and 0, and a twig's 1.1, .8 and .2 become 1, 1 and 0, which is olive. Dithering spreads
+// opacity and colour before they are multiplied, so it cannot bring back what the product loses.
 Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     const std::filesystem::path file = bonsai_file();
     if (!std::filesystem::exists(file)) return skipped();

@@ -38,8 +38,8 @@ ErrorNorms error_of(const NamedCurve& named, const std::vector<NamedCurve>& curv
     return papers::error_of(named.curve, curves.front().curve);
 }
 
-// Returns the slope of the straight line through columns 0 .. 127, by least squares. A right ramp
-// of colour 1 has slope 1.
+// Returns the slope of the straight line through columns 0 .. 127, by least squares. The slope of
+// a right ramp is its colour.
 double slope_of_first_half(const Curve& curve) {
     constexpr int count = ramp_width / 2;
     constexpr double middle = 0.5 * (count - 1);
