@@ -324,7 +324,9 @@ std::vector<PipelineStep> pipeline_steps() {
     return {
         {"open_volume(", R"(\b(open_volume\(scene\b))", {"src/scene/scene.cpp"}},
         {"load_mesh(", R"(\b(load_mesh\())", {"src/scene/scene_mesh"}},
-        {"scene_mesh(", R"(\b(scene_mesh\())", {"src/scene/scene_mesh"}},
+        {"scene_mesh(",
+         R"(\b(scene_mesh\())",
+         {"src/scene/scene_mesh", "src/library/sampling.cpp"}},  // samples points, for no picture
         {"choose(", R"(\b(choose\([^)]))", {"src/choice/choose."}},
         {"plan", R"(\b((?:make_plan|plan_alone)\())", {"src/plan/plan."}},
         {"try_samples(", R"(\b(try_samples\())", {"src/slicing/slab_trials."}},
