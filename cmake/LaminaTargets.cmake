@@ -35,11 +35,14 @@ if(NOT LAMINA_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|Mi
     endif()
 endif()
 
-# lamina_room(NAME SOURCES ... LINK rooms and libraries ...)
+# lamina_room(NAME SOURCES ... LINK rooms and libraries ...): a folder in src or, of a program's own, in that program's
+# folder. Files include what it has as "NAME/FILE.h".
 function(lamina_room name)
     cmake_parse_arguments(ROOM "" "" "SOURCES;LINK" ${ARGN})
     add_library(lamina_${name} STATIC ${ROOM_SOURCES})
     target_include_directories(lamina_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
+    cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH beside)
+    target_include_directories(lamina_${name} PUBLIC ${beside})
     target_link_libraries(lamina_${name} PUBLIC lamina_options ${ROOM_LINK})
 endfunction()
 

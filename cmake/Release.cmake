@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # What packages say about themselves: their components, who made them, and when.
-set(LAMINA_CONTACT "The lamina developers <lamina@localhost.invalid>")
+# The default is a placeholder, an address that cannot exist: whoever publishes packages gives their own (README.md).
+set(LAMINA_CONTACT "The lamina developers <lamina@localhost.invalid>" CACHE STRING
+    "Maintainer of the packages, \"Name <address>\"; reports of faults go there")
 set(LAMINA_PACKAGE_RELEASE 1)
 set(LAMINA_COMPONENTS lamina lamina-dev)
 foreach(target IN ITEMS lamina-view lamina-tetrahedralize)

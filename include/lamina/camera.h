@@ -15,17 +15,18 @@ struct Camera {
     glm::dvec3 eye{0, 0, 1};
     glm::dvec3 center{0};
     glm::dvec3 up{0, 1, 0};
-    double fov_y = 40;  // vertical field of view in degrees; perspective views
-    double height = 1;  // height of the picture in world units; orthographic views
+    double fov_y = 40;  // vertical field of view in degrees, for perspective views
+    double height = 1;  // height of the picture in world units, for orthographic views
 };
 
 LAMINA_API const char* name_of(Projection projection);
 
-// The camera with its eye turned by `degrees` about the axis `up` through `center`.
+// Returns the camera with its eye turned by `degrees` about the axis `up` through `center`.
 LAMINA_API Camera turned(const Camera& camera, double degrees);
 
-// Looks at a box from outside, so that all of it is seen: from its +z side at azimuth and elevation
-// 0, to the right (+x) and up (+y) where they grow. Degrees.
+// Returns a perspective camera that sees all of a box from outside. It looks from the box's +z side
+// at azimuth and elevation 0; a larger azimuth moves it to the right (+x), a larger elevation up
+// (+y). All angles are in degrees.
 LAMINA_API Camera orbit(const Grid::Bounds& box, double azimuth, double elevation,
                         double fov_y = 40);
 

@@ -9,15 +9,16 @@
 
 namespace lamina {
 
-// Keeps the side that the normal points to: dot(normal, p - point) >= 0. World units; the normal
-// has any length above 0.
+// Keeps the side to which the normal points: dot(normal, p - point) >= 0. Coordinates are in world
+// units; the normal has any length above 0.
 struct ClipPlane {
     glm::dvec3 point{0}, normal{0, 0, 1};
 
     friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
 
-// Keeps what lies between two corners. World units; min <= max on each axis, or nothing is kept.
+// Keeps what lies between two corners, in world units. Nothing is kept unless min <= max on each
+// axis.
 struct ClipBox {
     glm::dvec3 min{0}, max{0};
 

@@ -25,17 +25,17 @@ struct OpacityPoint {
 // make a step.
 struct Colormap {
     std::vector<ColorPoint> colors;       // at least one
-    std::vector<OpacityPoint> opacities;  // empty where the file has no opacity function
-    // Whether its values are data values (a preset in HU), not to be stretched over other data.
+    std::vector<OpacityPoint> opacities;  // empty if the file has no opacity function
+    // True if its values are data values (a preset in HU), not to be stretched over other data.
     bool own_range = true;
 };
 
-// The names of the colour maps that lamina has with it (docs/scene.md), in order of name.
+// Returns the names of the shipped colour maps (docs/scene.md), in alphabetical order.
 LAMINA_API std::vector<std::string> colormap_names();
 
-// The shipped map of this name, or else the ParaView preset (JSON) of this path, whose colours are
-// converted to the numbers of `space`; lines between its points follow the map within 5e-4. Throws
-// Error: with the nearest name where there is neither.
+// Returns the shipped map of this name, or else the ParaView preset (JSON) of this path, with
+// colours in the numbers of `space`. Lines between its points follow the map within 5e-4. Throws
+// Error, with the most similar name, if there is neither.
 LAMINA_API Colormap load_colormap(const std::string& name_or_path,
                                   ImageColorSpace space = ImageColorSpace::linear);
 

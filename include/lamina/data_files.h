@@ -15,8 +15,8 @@ enum class FileKind { scene, volume, mesh };
 // If `only_below` is a folder, these functions refuse files that are not below it with all links
 // followed, whoever names them (docs/files.md).
 
-// What a file holds: by its content, and by its name where that does not tell. Throws Error where
-// neither does.
+// Returns what a file holds, by its content, or by its name if the content does not tell. Throws
+// Error if neither does.
 LAMINA_API FileKind kind_of_file(const std::filesystem::path& file,
                                  const std::filesystem::path& only_below = {});
 
@@ -28,9 +28,9 @@ LAMINA_API Volume load_volume(const std::filesystem::path& file, const VolumeReq
 LAMINA_API MeshData load_mesh_data(const std::filesystem::path& file,
                                    const std::filesystem::path& only_below = {});
 
-// Writes a NRRD file, from which load_volume() gives back the same volume bit for bit; or a mesh as
-// .vtu with numbers in double precision. The file appears when it is complete. Throws Error, also
-// for other suffixes than .nrrd and .vtu.
+// Writes a volume as .nrrd, from which load_volume() reads the same bits, or a mesh as .vtu in
+// double precision. The file appears under its name when it is complete. Throws Error, also for
+// other suffixes.
 LAMINA_API void save_volume(const Volume& volume, const std::filesystem::path& file);
 LAMINA_API void save_mesh(const MeshData& mesh, const std::filesystem::path& file);
 

@@ -5,14 +5,14 @@
 
 namespace lamina {
 
-// How an opacity becomes a code (LaMar 2004, section 4.1: the paper's hardware truncates).
+// Rounding of an opacity to a code (LaMar 2004, section 4.1: the paper's hardware truncates).
 enum class AlphaRounding { truncate, nearest, stochastic };
 
-// How OVER rounds. separate: each of the two products is rounded, as the paper's hardware does.
+// Rounding of OVER. separate: each of the two products is rounded, as by the paper's hardware.
 // fused: only their sum is rounded.
 enum class OverRounding { separate, fused };
 
-// Fixed-point compositing computed step by step instead of by a blending unit (render.emulate).
+// Fixed-point compositing that is computed step by step, not by a blending unit (render.emulate).
 struct Emulation {
     int bits = 8;
     AlphaRounding alpha = AlphaRounding::truncate;

@@ -7,14 +7,14 @@
 
 namespace lamina {
 
-// The data are bad, or the machine cannot do what was asked. The message is one line that names the
-// file, the field or line, what was found and what was expected.
+// Thrown if data are bad, or if the machine cannot do what was asked. The message is one line that
+// names the file, the field or line, what was found and what was expected.
 class LAMINA_API Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-// A stop was requested before the work was done. The message says what is left behind.
+// Thrown if a stop was requested before the work was done. The message says what is left behind.
 class LAMINA_API Interrupted : public std::runtime_error {
   public:
     Interrupted() : std::runtime_error("interrupted, nothing written") {}

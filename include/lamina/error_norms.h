@@ -6,16 +6,16 @@
 
 namespace lamina {
 
-// Norms of the error e of a picture in units of 1/255 (docs/numerics.md; the signed mean is what
-// LaMar's Table 4 calls L1).
+// Norms of the error e of a picture, in units of 1/255 (docs/numerics.md).
 struct ErrorNorms {
-    double linf = 0;  // max |e|
-    double l1 = 0;    // mean of e, with its sign
-    double l2 = 0;    // root of the mean of e^2
+    double linf = 0;  // largest |e|
+    // Mean of e, with its sign. Files and the command line call it `l1`, as LaMar's Table 4 does.
+    double mean = 0;
+    double l2 = 0;  // root of the mean of e^2
 };
 
 // Measures a picture against the truth, over all pixels and channels (red, green, blue, opacity).
-// Throws Error where their sizes differ or a number is none.
+// Throws Error if their sizes differ or a number is NaN or infinite.
 LAMINA_API ErrorNorms error_of(const Image& picture, const Image& truth);
 LAMINA_API ErrorNorms error_of(const Image& picture, const PreciseImage& truth);
 

@@ -10,13 +10,11 @@
 
 namespace lamina {
 
-// A volume that is made by formula (docs/scene.md, volume.generate).
+// Asks for a volume that is made by a formula (docs/scene.md, volume.generate).
 struct GeneratorRequest {
     std::string name;  // "gaussians", "ramp", ...: docs/scene.md
-    std::optional<std::array<std::int64_t, 3>>
-        // Samples along x, y and z. Without a size a volume has 128^3 samples, and a ramp 256 x 4 x
-        // 1.
-        size;
+    // Samples along x, y and z. Without a size a volume has 128^3 samples, and a ramp 256 x 4 x 1.
+    std::optional<std::array<std::int64_t, 3>> size;
     SampleType type = SampleType::uint8;  // or uint16, float32
 
     bool operator==(const GeneratorRequest&) const = default;

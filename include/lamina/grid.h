@@ -10,10 +10,13 @@
 
 namespace lamina {
 
+// Which box belongs to the samples along an axis: with `node` it spans the samples, with `cell` it
+// spans whole voxels, half a voxel more at each end, and the border value repeats there. A single
+// sample along an axis is a voxel with either.
 enum class Centering { node, cell };
 
-// What the axes of the world mean where the file says so: where x, y and z grow to in a patient's
-// body. All have z to the head.
+// Directions in a patient's body to which the world's x, y and z grow, if the file says so. In all
+// of them z grows to the head.
 enum class WorldAxes {
     unnamed,
     left_posterior_superior,
@@ -21,17 +24,15 @@ enum class WorldAxes {
     left_anterior_superior
 };
 
-// Where the samples of a regular grid lie in the world. In index space sample (i, j, k) lies at (i,
-// j, k). The box that is rendered is chosen axis by axis: with Centering::node it spans the
-// samples; with Centering::cell it spans whole voxels, half a voxel more at each end, where the
-// border value repeats.
+// Places of the samples of a regular grid in the world. In index space sample (i, j, k) lies at (i,
+// j, k). The box that is rendered is chosen axis by axis.
 struct LAMINA_API Grid {
     std::array<std::int64_t, 3> size{1, 1, 1};
-    std::array<Centering, 3> centering{Centering::cell, Centering::cell, Centering::cell};
+    std::array<Centering, 3> centering{Centering::node, Centering::node, Centering::node};
     glm::dvec3 origin{0};  // world position of sample (0, 0, 0)
     std::array<glm::dvec3, 3> step{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0},
                                    glm::dvec3{0, 0, 1}};  // orthogonal
-    WorldAxes axes = WorldAxes::unnamed;                  // for the automatic camera alone
+    WorldAxes axes = WorldAxes::unnamed;                  // used by the automatic camera only
 
     std::int64_t sample_count() const { return size[0] * size[1] * size[2]; }
     glm::dvec3 index_min() const;  // of the box, index space

@@ -24,7 +24,7 @@ struct RgbaImage {
           rgba(4 * static_cast<std::size_t>(width_pixels) *
                static_cast<std::size_t>(height_pixels)) {}
 
-    // Keeps its memory where that suffices; all numbers lose their meaning.
+    // Keeps its memory if that suffices; all numbers lose their meaning.
     void resize(int width_pixels, int height_pixels) {
         width = width_pixels;
         height = height_pixels;
@@ -45,7 +45,7 @@ using Image = RgbaImage<float>;          // what renderers write
 using PreciseImage = RgbaImage<double>;  // what the reference tracer writes
 
 LAMINA_API Image to_float(const PreciseImage& image);
-// The same numbers in double precision.
+// Returns the same numbers in double precision.
 LAMINA_API PreciseImage to_double(const Image& image);
 
 }  // namespace lamina

@@ -5,8 +5,8 @@
 
 namespace lamina {
 
-// The numbers that a picture is composited in. linear: linear light. display: what a screen is
-// given, code / 255 of sRGB, taken as it is; so do VTK and ParaView.
+// Numbers in which a picture is composited. linear: linear light. display: the values that a screen
+// gets, code / 255 of sRGB, as VTK and ParaView composite them.
 enum class ImageColorSpace { linear, display };
 
 LAMINA_API const char* name_of(ImageColorSpace space);

@@ -23,6 +23,7 @@
 #include "lamina/picture_tile.h"
 #include "lamina/plan_summary.h"
 #include "lamina/point_probe.h"
+#include "lamina/sampling.h"
 #include "lamina/scene.h"
 #include "lamina/scene_text.h"
 #include "lamina/session.h"

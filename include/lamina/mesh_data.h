@@ -13,14 +13,14 @@ namespace lamina {
 
 struct MeshScalar {
     std::string name;
-    std::vector<double> values;  // one a point, or one a tet
+    std::vector<double> values;  // one for each point, or one for each tet
 };
 
-// How many cells and points of a file are not used as they are, by what became of them.
+// How many cells and points of a file were changed or left out.
 struct CellCounts {
     std::int64_t split = 0;          // hexahedra, wedges and pyramids that were cut into tets
     std::int64_t skipped = 0;        // vertices, lines, polygons: no volume
-    std::int64_t straightened = 0;   // quadratic cells, of which the corners are used
+    std::int64_t straightened = 0;   // quadratic cells, of which only the corners are used
     std::int64_t ghosts = 0;         // cells that another piece of the mesh has, too: left out
     std::int64_t merged_points = 0;  // points that another piece of the mesh has, too
 };

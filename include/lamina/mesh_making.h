@@ -17,11 +17,11 @@ struct MadeMesh {
     MeshReport report;
 };
 
-// Tetrahedra that fill the volume's box (docs/meshes.md). `transfer_function`: where it shows
-// nothing they may be coarse (chosen_transfer_function() has that of a scene); with null everything
-// counts. Throws Error for samples that are not
-// finite, for a Kuhn split with more than settings.max_tets tets, and where lamina-tetrahedralize
-// is neither beside the program or the library nor in PATH; Interrupted once a stop is requested.
+// Makes tetrahedra that fill the volume's box (docs/meshes.md). They may be coarse for values that
+// `transfer_function` does not show (chosen_transfer_function() returns that of a scene); if it is
+// null, all values count. Throws Error for samples that are not finite, for a Kuhn split with more
+// than settings.max_tets tets, and if lamina-tetrahedralize is neither beside the program or the
+// library nor in PATH; Interrupted once a stop is requested.
 LAMINA_API MadeMesh make_mesh(const Volume& volume, const MeshSettings& settings = {},
                               const TransferFunction* transfer_function = nullptr,
                               std::stop_token stop = {}, const ProgressCallback& progress = {});

@@ -5,12 +5,12 @@
 
 namespace lamina {
 
-// How a mesh is made from a volume (scene file: "mesh").
+// Settings for a mesh that is made from a volume (scene file: "mesh").
 struct MeshSettings {
     double tolerance = 0.02;  // largest error, as a share of the volume's range of values; > 0
     std::int64_t max_tets = 5000000;
-    // Every sample of the volume becomes a point, with six tets a cell (the Kuhn split). Otherwise
-    // the mesh has as few tets as the tolerance allows.
+    // If true, every sample of the volume becomes a point, and every cell six tets (the Kuhn
+    // split). Otherwise the mesh has as few tets as the tolerance allows.
     bool kuhn = false;
 
     friend bool operator==(const MeshSettings&, const MeshSettings&) = default;

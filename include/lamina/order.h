@@ -3,7 +3,7 @@
 
 namespace lamina {
 
-// The order in which samples of a ray are composited. The first sample is the nearest to the eye.
+// Order in which samples of a ray are composited. The first sample is the nearest to the eye.
 enum class Order { back_to_front, front_to_back };
 
 }  // namespace lamina

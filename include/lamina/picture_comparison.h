@@ -16,34 +16,36 @@
 
 namespace lamina {
 
-// How a picture A differs from a picture B: e = A - B in units of 1/255.
+// Difference of a picture A from a picture B: e = A - B in units of 1/255.
 struct PictureComparison {
-    std::vector<std::string> channels;  // R, G, B, A; of PNG files what they have
+    std::vector<std::string> channels;  // R, G, B, A; for PNG files those that they have
     std::vector<ErrorNorms> of_channel;
     ErrorNorms all;
-    // Where |e| is largest: the first such component.
+    // Pixel and channel of the largest |e|, the first if there are several.
     int column = 0, row = 0;
     std::size_t channel = 0;  // index into `channels`
 };
 
-// Throws Error where the sizes differ or a number is none.
+// Throws Error if the sizes differ or a number is NaN or infinite.
 LAMINA_API PictureComparison compare(const PreciseImage& a, const PreciseImage& b);
-// EXR and NPY files with each other, PNG with PNG as stored codes; otherwise the same.
+// Compares EXR and NPY files with each other, or PNG files by their stored codes.
 LAMINA_API PictureComparison compare_files(const std::filesystem::path& a,
                                            const std::filesystem::path& b);
 
-// The bytes of a PNG file: the largest difference of each pixel's channels in false colour, from
-// -range (dark blue) over 0 (white) to range (dark red), in 1/255, over a colour bar.
+// Returns the bytes of a PNG file that shows the largest difference of each pixel's channels in
+// false colour, from -range (dark blue) over 0 (white) to range (dark red), in 1/255, over a colour
+// bar.
 LAMINA_API std::string difference_png(const PreciseImage& a, const PreciseImage& b, double range);
 
-// The false colours in which difference_png() shows these differences, in 1/255, red, green and
-// blue of each: for a screen. Throws Error where one of them is none, or the range not above 0.
+// Returns the false colours in which difference_png() shows these differences (in 1/255): codes of
+// red, green and blue for each. Throws Error if a difference is NaN or infinite, or if the range is
+// not above 0.
 LAMINA_API std::vector<std::uint8_t> difference_codes(std::span<const float> differences,
                                                       double range);
 
 struct LoadedPicture {
     PreciseImage image;
-    std::optional<ImageColorSpace> space;  // where the file says it: EXR
+    std::optional<ImageColorSpace> space;  // known only for EXR files
 };
 
 // Reads an EXR or NPY file. Throws Error.

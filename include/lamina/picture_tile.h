@@ -5,7 +5,7 @@ namespace lamina {
 
 // A rectangle of pixels; row 0 is the top.
 struct PictureTile {
-    int column = 0, row = 0;  // of its upper left pixel
+    int column = 0, row = 0;  // upper left pixel
     int width = 0, height = 0;
 };
 

@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// A short account of what runs for a picture.
+// Short account of what runs for a picture.
 struct PlanSummary {
     // Something that the scene does not need, and why it may be left out.
     struct LeftOut {
@@ -18,8 +18,8 @@ struct PlanSummary {
 
     Method method = Method::slice;
     Target target = Target::float32;
-    int slabs = 0;  // of slicing
-    // The picture's error with what compositing rounds, below 255.
+    int slabs = 0;  // number of slabs of slicing
+    // Error of the picture, with the rounding of compositing; below 255.
     ErrorFigure error;
     std::vector<LeftOut> left_out;
 };

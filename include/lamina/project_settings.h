@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// How the colour of a projected tetrahedron is computed.
+// Ways to compute the colour of a projected tetrahedron.
 enum class Coloring {
     preintegrated,  // a table over (scalar at the front, at the back, length), Roettger et al. 2000
     attenuation,    // mean of colours and mean extinction of front and back, Stein et al. 1994
@@ -27,7 +27,7 @@ enum class ProjectGeometry {
     silhouette,  // one polygon around the tet, faces as linear functions of the pixel
     triangles    // three or four triangles around a thick vertex (Kraus 2004, Figure 3)
 };
-// How opacity is rounded at random to codes of 8 or 16 bits.
+// Ways to round opacity at random to codes of 8 or 16 bits.
 enum class ProjectDither {
     none,
     alpha,       // the fragment's opacity, before the blending unit rounds again (Kraus 2004,
@@ -44,7 +44,8 @@ struct ProjectSettings {
     Auto<ProjectGeometry> geometry;
     ProjectDither dither = ProjectDither::none;
     Auto<TableSettings> table;
-    // An automatic one is refused: a tree over tets needs factors.
+    // Without one tets are blended one by one. An automatic one is refused: a tree over tets needs
+    // factors.
     std::optional<Auto<TreeSettings>> tree;
 };
 

@@ -31,7 +31,7 @@ enum class Target { float32, float16, fixed16, fixed8, emulated };
 enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };
 
-// A volume in a file or a folder, and what of it is drawn.
+// A volume in a file or a folder, and the part of it that is drawn.
 struct VolumeFile {
     std::filesystem::path path;
     VolumeRequest selection = {};
@@ -45,8 +45,8 @@ struct MeshFile {
 
     bool operator==(const MeshFile&) const = default;
 };
-// These say where the data come from: a file, a formula, or the volume that a mesh is made from. A
-// scene of data in memory names none.
+// Sources of the data: a file or a formula; `MeshSettings` if the mesh is made from the scene's
+// volume. A scene of data in memory names none.
 using VolumeSource = std::variant<std::monostate, VolumeFile, GeneratorRequest>;
 using MeshSource = std::variant<std::monostate, MeshFile, MeshSettings>;
 
@@ -57,26 +57,26 @@ struct Scene {
     std::filesystem::path file;
     VolumeSource volume;
     MeshSource mesh;
-    std::string scalar;  // of the mesh file; empty: its first point array
+    std::string scalar;  // array of the mesh file; its first point array if empty
     NanPolicy nan = NanPolicy::error;
-    // Automatic ones are what the data suggest (docs/first-picture.md).
+    // They are chosen from the data if automatic (docs/first-picture.md).
     Auto<TransferFunction> transfer_function = TransferFunction::linear({TransferKnot{}});
     Auto<Camera> camera = Camera{};
     Clip clip;
     // The transfer function as a scene file gives it; null if it gives none. If it is a colour map
     // without a range, an automatic transfer function is that map, stretched over the data.
     std::shared_ptr<const GivenTransfer> given_transfer;
-    std::optional<Lighting> lighting;  // none: colours are shown as they are
+    std::optional<Lighting> lighting;  // without it colours are shown as they are
     int width = 800;
     int height = 600;
-    // Colours and background are given, and pictures composited, in its numbers.
+    // Space of the numbers of colours, background and compositing.
     ImageColorSpace color_space = ImageColorSpace::linear;
     glm::dvec3 background{0};
     Method method = Method::slice;
     Auto<Target> target = Target::float32;
     Emulation emulate;  // for Target::emulated
-    // In 1/255. Choices that the scene leaves open ("auto") keep the picture's error below this
-    // bound.
+    // Bound on the picture's error, in 1/255 of full scale. All choices that the scene leaves open
+    // ("auto") keep it.
     double max_error = 1;
     SliceSettings slice;
     ProjectSettings project;
@@ -85,13 +85,13 @@ struct Scene {
 
     bool has_volume() const { return !std::holds_alternative<std::monostate>(volume); }
     bool has_mesh() const { return !std::holds_alternative<std::monostate>(mesh); }
-    // Null if the volume or the mesh comes from elsewhere.
+    // Return null if the volume or the mesh comes from elsewhere.
     const VolumeFile* volume_file() const { return std::get_if<VolumeFile>(&volume); }
     VolumeFile* volume_file() { return std::get_if<VolumeFile>(&volume); }
     const MeshFile* mesh_file() const { return std::get_if<MeshFile>(&mesh); }
     MeshFile* mesh_file() { return std::get_if<MeshFile>(&mesh); }
     const MeshSettings* made_mesh() const { return std::get_if<MeshSettings>(&mesh); }
-    // Whether the mesh is drawn. The volume is then needed at most to make it.
+    // Returns true if the mesh is drawn. The volume is then needed at most to make it.
     bool draws_mesh() const {
         return method == Method::project || (method == Method::trace && trace_of == TraceOf::mesh);
     }
@@ -112,13 +112,12 @@ LAMINA_API const char* name_of(NodeCode code);
 LAMINA_API const char* name_of(AlphaRounding rounding);
 LAMINA_API const char* name_of(OverRounding rounding);
 
-// Loads the volume that the scene names: it is read from its file, or generated. `only_below`: as
-// for files (lamina/data_files.h).
+// Loads the volume that the scene names: reads its file, or generates it. `only_below` means what
+// it means for files (lamina/data_files.h).
 LAMINA_API Volume load_volume(const Scene& scene, const std::filesystem::path& only_below = {});
 
-// Reads a scene file (docs/scene.md), or makes a scene that draws a data file, with all else
-// automatic. Writes one with every key written out. Both throw Error. `only_below`: as
-// for load_volume().
+// load_scene() reads a scene file (docs/scene.md), or makes a scene that draws a data file, with
+// all else automatic. save_scene() writes one with every key written out. Both throw Error.
 LAMINA_API Scene load_scene(const std::filesystem::path& file,
                             const std::filesystem::path& only_below = {});
 LAMINA_API void save_scene(const Scene& scene, const std::filesystem::path& file);

@@ -12,9 +12,9 @@
 namespace lamina {
 
 // Reads a scene (docs/scene.md) from text instead of a file. `name` stands for the file: messages
-// have it, and relative paths start at its folder. With data in memory the scene need not name any:
-// they are what a Session of scene and data draws. `only_below`: as for load_volume() of files
-// (lamina/data_files.h). Throws Error.
+// name it, and relative paths start at its folder. If data in memory are given, the scene need not
+// name any: a Session of scene and data draws these. `only_below` means what it means for
+// load_volume() (lamina/data_files.h). Throws Error.
 LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::path& name,
                              const std::filesystem::path& only_below = {});
 LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::path& name,
@@ -22,7 +22,8 @@ LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::pat
 LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::path& name,
                              const MeshData& data, const std::filesystem::path& only_below = {});
 
-// A scene file with every key written out, as save_scene() writes it. Data in memory are not in it.
+// Returns a scene file with every key written out, as save_scene() writes it. Data in memory are
+// not in it.
 LAMINA_API std::string scene_text(const Scene& scene);
 
 }  // namespace lamina

@@ -24,27 +24,28 @@ namespace lamina {
 
 struct SessionOptions {
     Auto<ContextChoice> context;
-    int threads = 0;  // that the session takes at most; 0: one for each processor
-    // Many pictures will be drawn: choices may take longer where they make each of them quicker.
-    // Otherwise the time to the first one counts.
+    int threads = 0;  // largest number of threads of the session; 0: one for each processor
+    // True if many pictures will be drawn: choices may then take longer to make each picture
+    // quicker. Otherwise the time to the first one counts.
     bool many_frames = false;
-    // A folder: the session reads no data outside it, whoever names them (docs/files.md). Empty:
-    // from anywhere.
+    // Folder outside of which the session reads no data, whoever names them (docs/files.md). If
+    // empty, it reads from anywhere.
     std::filesystem::path only_below = {};
     // Ends the constructor, which reads and measures the data, by Interrupted.
     std::stop_token stop = {};
 };
 
-// Hears how far a picture is: what is done ("slicing") and its share from 0 to 1. It is called in
-// one thread at a time, not always the caller's, and must not call the session.
+// Called with the progress of a picture: the present activity ("slicing") and its share from 0
+// to 1. Calls come from one thread at a time, not always the caller's, and must not call the
+// session.
 using ProgressCallback = std::function<void(const std::string& activity, double share)>;
 
-// Hears which tile of a picture that is being traced is complete: of the picture, only the pixels
-// of such tiles have a meaning yet. It is called as ProgressCallback is.
+// Called with each complete tile of a picture that is being traced. Only pixels of such tiles have
+// a meaning yet. Calls come as those of ProgressCallback do.
 using TileCallback = std::function<void(const PictureTile&, const PreciseImage&)>;
 
 // Draws a scene from the first picture to the last, while camera, transfer function and settings
-// change. It does again what a change makes necessary, when a picture is next asked for:
+// change. When a picture is next asked for, it does again only what a change makes necessary:
 //
 //   camera              measures the view and plans; no upload, no table, no shader
 //   size                that, and buffers of that size
@@ -54,10 +55,10 @@ using TileCallback = std::function<void(const PictureTile&, const PreciseImage&)
 //   clip                measures the data against it, makes tables; a mesh is cut again
 //   settings            all of that, and what is automatic is chosen again
 //
-// What is automatic ("auto" in scene files) is chosen for the first picture and kept, transfer
-// function and camera (docs/first-picture.md) when the session gets the scene: resolved_scene() has
-// it written out. With the native engine (ContextChoice::cpu) a picture is,
-// bit for bit, the one that `lamina render` draws of that scene.
+// Automatic values ("auto" in scene files) are chosen for the first picture and kept; transfer
+// function and camera (docs/first-picture.md) are chosen when the session gets the scene.
+// resolved_scene() has all of them written out. With the native engine (ContextChoice::cpu) a
+// picture is, bit for bit, the one that `lamina render` draws of that scene.
 //
 // Every call may throw Error. Sessions of several threads do not disturb each other; calls of one
 // session must not overlap. Nothing is written to the standard streams, no signal is handled, and
@@ -78,52 +79,54 @@ class LAMINA_API Session {
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
     void set_transfer_function(const TransferFunction& transfer_function);
-    // The transfer function of another scene: a colour map without a range is stretched over the
-    // data.
+    // Takes the transfer function of another scene. A colour map without a range is stretched over
+    // the data.
     void set_transfer_function_of(const Scene& like);
     void set_clip(const Clip& clip);
-    // Another scene of the same data, of any method that can draw them. What it says of files is
-    // not read again.
+    // Takes another scene of the same data, of any method that can draw them. Files that it names
+    // are not read.
     void set_scene(Scene scene);
-    void choose_again();  // what is automatic
+    void choose_again();  // chooses all automatic values again
 
-    // As it was asked for, and with what was chosen where it is automatic. The file of the latter
-    // (docs/scene.md) names the data by the scene's own file names: a scene of data in memory has
-    // to name files that hold the same, or `lamina render` will not find them.
+    // Return the scene: as it was asked for; with transfer function and camera that were chosen;
+    // and with all automatic values chosen. The file of the last one (docs/scene.md) names the data
+    // by the scene's own file names: a scene of data in memory has to name files that hold the
+    // same, or `lamina render` will not find them.
     const Scene& scene() const;
-    const Scene& chosen_scene() const;  // transfer function and camera alone
+    const Scene& chosen_scene() const;
     const Scene& resolved_scene();
     void save_resolved_scene(const std::filesystem::path& file);
 
     PlanSummary plan();
-    std::string explanation();  // the same for people, line by line, with what is left out and why
+    std::string explanation();  // the plan for people, line by line, and what is left out and why
 
-    // A picture, complete when it returns; valid until the next call that draws, and without an
-    // allocation of its own where the size stays. Throws Interrupted once a stop is requested; the
-    // next picture is then drawn from the start. The method trace gives the truth, see trace().
+    // Returns a complete picture, which is valid until the next call that draws. It allocates
+    // nothing if the size stays. Throws Interrupted once a stop is requested; the next picture is
+    // then drawn from the start. A scene of the method trace gives the truth, see trace().
     const Image& draw(std::stop_token stop = {}, const ProgressCallback& progress = {});
-    // The same into the caller's picture, whose memory is kept where it suffices. An exception
-    // leaves its numbers without a meaning.
+    // Draws into the caller's picture, whose memory is kept if it suffices. An exception leaves its
+    // numbers without a meaning.
     void draw(Image& picture, std::stop_token stop = {}, const ProgressCallback& progress = {});
-    // The truth: the same view by the reference tracer, in double precision, to
-    // `scene().trace_tolerance` of full scale. It takes seconds to minutes.
-    // Tiles come from the middle outwards, all pixels once.
+    // Returns the truth: this view by the reference tracer, in double precision, to
+    // `scene().trace_tolerance` of full scale. It takes seconds to minutes. Tiles come from the
+    // middle outwards, each pixel once.
     const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {},
                               const TileCallback& tile_done = {});
 
-    Grid::Bounds bounds();  // of the data that are drawn, world
-    // Finds what is seen in the picture of the scene as it is now.
+    Grid::Bounds bounds();  // bounds of the data that are drawn, in world units
+    // Returns a probe for the picture of the scene as it is now.
     PointProbe probe();
 
-    // Of the values of the data that the scene draws, over their finite range in at most `bins`
-    // (>= 1) intervals; of whole numbers each interval has equally many, in its middle. Large data
-    // are counted in part: 2^21 samples of float32, evenly chosen. They are counted once.
+    // Returns the distribution of the values that the scene draws, over their finite range, in at
+    // most `bins` (>= 1) intervals. For whole numbers each interval has equally many of them,
+    // around its middle. Of float32 data at most 2^21 samples count, evenly chosen. Values are
+    // counted once.
     ValueHistogram histogram(int bins);
 
-    const FrameStatistics& statistics() const;        // of the last picture that was drawn
-    const FrameStatistics& trace_statistics() const;  // of the last one that was traced
-    // The warnings since the last call, each once: what is noteworthy in the data and shows in no
-    // picture, and pictures that show nothing or are saturated.
+    const FrameStatistics& statistics() const;        // those of the last picture that was drawn
+    const FrameStatistics& trace_statistics() const;  // those of the last one that was traced
+    // Returns the warnings since the last call, each once: about data that a picture cannot show as
+    // they are, and about pictures that show nothing or are saturated.
     std::vector<std::string> take_warnings();
 
   private:

@@ -14,7 +14,7 @@ enum class Classification { post, preintegrated, exact };
 enum class Filter { exact, hardware };
 
 struct DitherSettings {
-    Auto<int> period = 16;  // slabs after which the pattern repeats; automatic: all of them
+    Auto<int> period = 16;  // slabs after which the pattern repeats; all of them if automatic
     std::uint32_t seed = 1;
     bool color = false;
     int increment = 1;
@@ -22,11 +22,11 @@ struct DitherSettings {
 
 inline constexpr int max_slabs = 65536;
 
-// The size of a pre-integration table whose nodes lie on the transfer function's points.
+// Size of a pre-integration table whose nodes lie on the transfer function's points.
 struct SliceTableSettings {
-    int scalars = 256;      // number of scalar nodes, about
+    int scalars = 256;      // about the number of scalar nodes
     int lengths = 1;        // number of layers along length
-    double max_length = 0;  // of a segment that the table knows, world units
+    double max_length = 0;  // largest length of a segment in the table, in world units
 };
 
 struct SliceSettings {
@@ -35,7 +35,7 @@ struct SliceSettings {
     Order order = Order::back_to_front;
     Auto<Filter> filter = Filter::exact;
     std::optional<DitherSettings> dither;
-    std::optional<Auto<TreeSettings>> tree;  // none: slabs are blended one by one
+    std::optional<Auto<TreeSettings>> tree;  // without one, slabs are blended one by one
     Auto<SliceTableSettings> table;
 };
 

@@ -12,17 +12,17 @@
 
 namespace lamina {
 
-// A finished study. Its results are in its folder (docs/study.md, "What it writes").
+// Outcome of a finished study. Its results are in its folder (docs/study.md, "What it writes").
 struct StudyOutcome {
-    std::size_t runs = 0;  // that are finished, failed ones among them
+    std::size_t runs = 0;  // finished runs, failed ones among them
     std::vector<std::string> findings, failures;
-    std::vector<std::string> messages;  // of work that was done again, and how long the rest takes
+    std::vector<std::string> messages;  // about work done again, and how long the rest takes
 };
 
 // Draws and measures all runs of a study file (docs/study.md) and writes results.csv, results.json,
-// report.html and pictures into `folder`, which is empty or not there yet; with `resume` it may
-// hold a part of this study. Throws Error; and Interrupted once a stop is requested: what is
-// finished is kept.
+// report.html and pictures into `folder`, which must be empty or not there yet; with `resume` it
+// may hold a part of this study. Throws Error, and Interrupted once a stop is requested; finished
+// runs are kept.
 LAMINA_API StudyOutcome run_study(const std::filesystem::path& study,
                                   const std::filesystem::path& folder, bool resume = false,
                                   std::stop_token stop = {}, const ProgressCallback& progress = {});

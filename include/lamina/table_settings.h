@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// At which segment lengths the layers of a table lie, and which coordinate is linear between two
+// Segment lengths at which the layers of a table lie, and the coordinate that is linear between two
 // layers. With L layers and dl = max_length / 2^(L-2), `octave` and `log2` have layers at 0, dl, 2
 // dl, 4 dl, ..., max_length.
 enum class LengthMapping {
@@ -28,10 +28,10 @@ enum class TableConstruction {
     incremental  // layers come from those of shorter segments, as in the paper (Weiler et al. 2003)
 };
 
-// A pre-integration table with equally spaced scalars: so many scalars, so many lengths.
+// Settings of a pre-integration table with equally spaced scalars.
 struct TableSettings {
-    int scalar = 256;
-    int length = 16;
+    int scalar = 256;  // number of scalars
+    int length = 16;   // number of lengths
     LengthMapping mapping = LengthMapping::octave;
     TableStore store = TableStore::mean_extinction;
     TableFormat format = TableFormat::fixed16;

@@ -11,7 +11,7 @@
 namespace lamina {
 
 struct OpticalProperties {
-    glm::dvec3 color{0};    // of the scene's colour space, not associated, >= 0
+    glm::dvec3 color{0};    // in the scene's colour space, not associated, >= 0
     double extinction = 0;  // per world unit, >= 0
     bool operator==(const OpticalProperties&) const = default;
 };
@@ -52,19 +52,18 @@ class LAMINA_API TransferFunction {
     // The knots, without those that lie on the straight line between their neighbours.
     std::span<const TransferKnot> knots() const { return knots_; }
     OpticalProperties at(double value) const;
-    // The same function with all extinctions times `factor`; they are clamped to the largest finite
+    // Returns this function with all extinctions times `factor`, clamped to the largest finite
     // number.
     TransferFunction attenuated(double factor) const;
     bool operator==(const TransferFunction&) const = default;
 
-    // The following are about the closed interval [lo, hi]; both sides of steps in it count.
-    // Largest extinction:
+    // These answer for the closed interval [lo, hi]; both sides of a step in it count.
     double max_extinction(double lo, double hi) const;
     bool transparent(double lo, double hi) const { return max_extinction(lo, hi) == 0; }
     bool constant(double lo, double hi) const;  // one colour and one extinction
     bool constant_extinction(double lo, double hi) const;
     bool constant_color(double lo, double hi) const;  // colours where extinction is 0 count, too
-    // Whether the colour is the same wherever extinction is > 0.
+    // Returns true if all values with extinction > 0 have one colour.
     bool single_color(double lo, double hi) const;
 
   private:

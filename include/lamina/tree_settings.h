@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// How a node of a compositing tree stores its optical depth S as a code. Here sigma is the optical
+// Codes by which a node of a compositing tree stores its optical depth S. Here sigma is the optical
 // depth of a whole ray that is filled like the node's share of it (docs/numerics.md, section 4).
 //
 //   phi:     1 - exp(-sigma), as in the paper: the opacity if the node's share filled the whole ray
@@ -16,8 +16,8 @@ namespace lamina {
 //   minimax: rounding has the same worst effect on the ray's opacity for every sigma
 enum class NodeCode { minimax, phi, alpha };
 
-// What composites the children of a node: a program with float arithmetic, or a fixed-point buffer
-// as in the paper.
+// Arithmetic that composites the children of a node. shader: floats in a program. fixed: a
+// fixed-point buffer, as in the paper.
 enum class NodeArithmetic { shader, fixed };
 
 struct TreeSettings {
@@ -27,7 +27,7 @@ struct TreeSettings {
     int alpha_bits = 8;
 };
 
-// Returns the tree whose factors are given, or null.
+// Returns the tree if its factors are given, else null.
 inline const TreeSettings* given_tree(const std::optional<Auto<TreeSettings>>& tree) {
     return tree && tree->is_given() ? &**tree : nullptr;
 }

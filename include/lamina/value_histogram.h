@@ -5,12 +5,12 @@
 
 namespace lamina {
 
-// How much of the data has which values, by volume: shares[i] of all that is finite lies in
-// interval i of equally wide ones from `lo` to `hi`.
+// Distribution of the data's values, by volume: the share shares[i] of all finite values lies in
+// interval i. The intervals are equally wide and reach from `lo` to `hi`.
 struct ValueHistogram {
     double lo = 0, hi = 0;
     double least = 0, most = 0;  // the finite values' range
-    std::vector<double> shares;  // >= 0, the sum is 1; empty where no value is finite
+    std::vector<double> shares;  // >= 0, their sum is 1; empty if no value is finite
 };
 
 }  // namespace lamina

@@ -20,8 +20,8 @@ class VolumeStore;
 
 // Scalars on a regular grid, in the file's own type; x changes fastest. A volume is immutable, and
 // copies share the samples. Volumes that do not fit the memory limit (lamina/memory.h) stay in
-// their files, and parts of them are read when they are drawn; the library's functions return and
-// take volumes in memory alone.
+// their files, and parts of them are read when they are drawn. The library's functions return and
+// take only volumes in memory.
 class Volume {
   public:
     // `samples`: grid.sample_count() values of `type` in native byte order.
@@ -34,10 +34,10 @@ class Volume {
     const Grid& grid() const { return grid_; }
     SampleType type() const { return type_; }
     bool in_memory() const { return store_ == nullptr; }
-    const VolumeStore& store() const { return *store_; }  // of a volume that is not in memory
-    const void* data() const { return samples_.get(); }   // null where it is not in memory
+    const VolumeStore& store() const { return *store_; }  // only if it is not in memory
+    const void* data() const { return samples_.get(); }   // null if it is not in memory
     const std::shared_ptr<const void>& shared_data() const { return samples_; }
-    // The same samples on another grid, with as many of them along each axis.
+    // Returns these samples on another grid, which has as many of them along each axis.
     Volume on(const Grid& grid) const {
         Volume placed = *this;
         placed.grid_ = grid;
@@ -50,8 +50,8 @@ class Volume {
         return static_cast<std::size_t>(grid_.sample_count()) * bytes_of(type_);
     }
 
-    // Calls visitor(pointer to the first sample), of a volume in memory. The pointer has the type
-    // of the samples: std::uint8_t, std::int16_t, std::uint16_t or float.
+    // Calls visitor(pointer to the first sample); the volume must be in memory. The pointer has the
+    // type of the samples: std::uint8_t, std::int16_t, std::uint16_t or float.
     template <typename Visitor>
     decltype(auto) visit(Visitor&& visitor) const {
         switch (type_) {

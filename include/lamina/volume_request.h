@@ -12,7 +12,7 @@
 
 namespace lamina {
 
-// How the samples lie in a file without a header; x changes fastest.
+// Layout of the samples in a file without a header; x changes fastest.
 struct RawLayout {
     std::array<std::int64_t, 3> size{1, 1, 1};  // samples along x, y and z
     // int8, uint8, int16, uint16, int32, uint32, int64, uint64, float or double
@@ -23,17 +23,17 @@ struct RawLayout {
     bool operator==(const RawLayout&) const = default;
 };
 
-// Which volume of a data file is wanted, where it holds several, and what the file itself does not
-// say (docs/scene.md, "What is drawn"). Numbers count from 0.
+// Selects a volume of a data file that holds several, and gives what the file itself does not say
+// (docs/scene.md, "What is drawn"). Numbers count from 0.
 struct LAMINA_API VolumeRequest {
-    std::string array;  // its name; empty: the first
-    // Of a pyramid, of the samples' components, of the steps in time. The first unless told; what
-    // was taken is then said in a warning.
+    std::string array;  // name of the array; empty for the first
+    // Level of a pyramid, component of the samples, step in time. The first is taken unless one is
+    // given, and a warning says so.
     std::optional<std::int64_t> level, channel, time;
-    std::optional<glm::dvec3>
-        spacing;                       // distances between samples, above 0, in place of the file's
-    std::optional<glm::dvec3> origin;  // the first sample's place, in place of the file's
-    std::optional<RawLayout> raw;      // the file has no header
+    // Distances between samples, above 0, and place of the first one, instead of the file's.
+    std::optional<glm::dvec3> spacing;
+    std::optional<glm::dvec3> origin;
+    std::optional<RawLayout> raw;  // given if the file has no header
 
     bool operator==(const VolumeRequest&) const = default;
 };

@@ -14,7 +14,7 @@ A notebook shows ``picture``; ``picture.array`` has its numbers, ``picture.save(
     >>> picture.compare(truth).linf < 1     # the largest error, in 1/255: max_error was 1
     True
 
-Data: ``Volume``, ``Mesh``, ``read``, ``mesh``.
+Data: ``Volume``, ``Mesh``, ``read``, ``mesh``, ``Sampler`` (values and gradients at points).
 Looks: ``TransferFunction``, ``Camera``, ``Lighting``, ``Light``; everything else by the names that scene files have
 (``Scene``; types: ``Keywords``, ``Changes``, ``lamina.keywords``).
 Pictures: ``render``, ``trace``, ``Session`` (to change things and draw again), ``Picture``, ``Turntable``.
@@ -37,6 +37,7 @@ from ._lighting import Light, Lighting
 from ._mesh import Mesh, mesh
 from ._picture import Omission, Picture, Plan
 from ._reading import read
+from ._sampling import Sampler
 from ._scene import Scene
 from ._session import Session
 from ._study import Study, study
@@ -48,8 +49,8 @@ colormaps = ("cividis", "cool-warm", "ct-bone", "ct-soft-tissue", "greys", "infe
 
 __all__ = [
     "Camera", "Changes", "Comparison", "Error", "Keywords", "Light", "Lighting", "Mesh", "Norms", "Omission",
-    "Picture", "PictureWarning", "Plan", "PrecisionWarning", "Scene", "Session", "Study", "TransferFunction", "Turntable",
-    "Volume", "colormaps", "compare", "mesh", "read", "render", "study", "trace",
+    "Picture", "PictureWarning", "Plan", "PrecisionWarning", "Sampler", "Scene", "Session", "Study", "TransferFunction",
+    "Turntable", "Volume", "colormaps", "compare", "mesh", "read", "render", "study", "trace",
 ]
 
 for _name in __all__:

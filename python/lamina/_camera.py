@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where a picture is seen from."""
+"""Cameras."""
 from __future__ import annotations
 
 import dataclasses

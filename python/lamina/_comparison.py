@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How two pictures differ."""
+"""Differences of pictures."""
 from __future__ import annotations
 
 import os
@@ -16,27 +16,45 @@ from ._volume import Path
 
 
 class Norms(NamedTuple):
-    """Of e = A - B in 1/255: ``linf`` = max |e|, ``l1`` = mean of e with its sign, ``l2`` = root of the mean of e^2."""
+    """Norms of e = A - B in 1/255: ``linf`` = max |e|, ``mean`` = mean of e with its sign, ``l2`` = root of the mean of e^2.
+
+    ``l1`` is the same as ``mean``: files and the command line call it so, as LaMar's paper does.
+
+    >>> norms = lamina.compare(np.full((2, 2, 4), -1 / 255), np.zeros((2, 2, 4))).channels["R"]
+    >>> norms.mean == norms.l1
+    True
+    """
 
     linf: float
     l1: float
     l2: float
 
+    @property
+    def mean(self) -> float:
+        """Mean of e with its sign; the same as ``l1``."""
+        return self.l1
+
 
 class Comparison:
-    """How a picture A differs from a picture B: e = A - B in units of 1/255.
+    """Difference of a picture A from a picture B: e = A - B in units of 1/255.
 
-    ``linf``, ``l1``, ``l2``: over all pixels and channels. ``channels``: the same of each, by its name. ``worst``:
-    column, row and channel of the largest |e|. ``array``: e itself, (height, width, channels) float64; of PNG files None.
+    ``linf``, ``mean``, ``l2``: the ``Norms`` over all pixels and channels; ``l1`` is the same as ``mean``. ``channels``: the
+    ``Norms`` of each channel, by its name. ``worst``: column, row and channel of the largest |e|. ``array``: e itself,
+    (height, width, channels) float64; None for PNG files.
     """
 
     def __init__(self, found: tuple[Any, ...], a: np.ndarray | None = None, b: np.ndarray | None = None) -> None:
         everything, channels, worst = found
-        self.linf, self.l1, self.l2 = everything
+        self.linf, self.l1, self.l2 = Norms(*everything)
         self.channels = {name: Norms(*norms) for name, norms in channels.items()}
         column, row, channel = worst
         self.worst: tuple[int, int, str] = (column, row, channel)
         self._a, self._b = a, b
+
+    @property
+    def mean(self) -> float:
+        """Mean of e with its sign; the same as ``l1``."""
+        return self.l1
 
     @property
     def array(self) -> np.ndarray | None:
@@ -67,7 +85,7 @@ class Comparison:
 
 
 def compare(a: Any, b: Any) -> Comparison:
-    """How a picture A differs from a picture B.
+    """Compares a picture A with a picture B.
 
     Each is a ``Picture``, an array (height, width, 4) or a file: EXR and NPY compare with everything but PNG, PNG with
     PNG alone, as codes. Raises ``lamina.Error`` for sizes that differ, numbers that are none, and linear light beside
@@ -91,7 +109,7 @@ def _is_png(picture: Any) -> bool:
 
 
 def _pixels(name: str, picture: Any) -> tuple[np.ndarray, str | None]:
-    """Numbers and, where it is known, colour space."""
+    """Returns the numbers and, if it is known, the colour space."""
     if isinstance(picture, (str, os.PathLike)):
         pixels, space = _lamina.load_picture(pathlib.Path(picture))
         return pixels, space

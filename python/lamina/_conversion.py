@@ -14,13 +14,13 @@ LARGEST_COORDINATE = 1e100
 
 
 def shown(value: Any) -> str:
-    """A value in a message."""
+    """Returns a value as messages show it."""
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
 
 def triple(name: str, value: Any) -> tuple[float, float, float]:
-    """Three numbers for x, y and z that are finite and no farther than scenes may be."""
+    """Checks three numbers for x, y and z: finite, and no farther than scenes may be."""
     try:
         numbers = tuple(float(number) for number in value)
     except TypeError:
@@ -44,7 +44,7 @@ def directions_of(value: Any) -> tuple[tuple[float, float, float], ...]:
     if np.shape(value) != (3, 3):
         raise ValueError(f"directions: found {shown(value)}, expected three vectors, one for each of x, y and z")
     matrix = np.array([triple("directions", vector) for vector in value])
-    # As readers of files have it: it moves samples by less than a hundredth of a voxel over 1000 voxels.
+    # The tolerance of the readers of files: it moves samples by less than a hundredth of a voxel over 1000 voxels.
     if np.abs(matrix @ matrix.T - np.eye(3)).max() > 1e-5:
         raise ValueError(f"directions: found {shown(value)}, expected perpendicular vectors of length 1")
     x, y, z = (triple("directions", vector) for vector in matrix)
@@ -52,7 +52,7 @@ def directions_of(value: Any) -> tuple[tuple[float, float, float], ...]:
 
 
 def centers_of(value: str | Sequence[str], shape: tuple[int, ...]) -> tuple[str, str, str]:
-    """Of x, y and z; an axis with one sample is a cell."""
+    """Returns the centers along x, y and z; an axis with one sample is a cell."""
     words = (value,) * 3 if isinstance(value, str) else tuple(value)
     if len(words) != 3 or any(word not in ("node", "cell") for word in words):
         raise ValueError(f"centers: found {shown(value)}, expected \"node\" or \"cell\", or one of them for each of "
@@ -62,7 +62,7 @@ def centers_of(value: str | Sequence[str], shape: tuple[int, ...]) -> tuple[str,
 
 
 def plain_array(values: Any, what: str) -> np.ndarray:
-    """Numbers in an array, whatever they come in."""
+    """Returns numbers as an array, whatever they come in."""
     if isinstance(values, np.ma.MaskedArray) and bool(np.any(values.mask)):
         raise TypeError(f"{what}: found a masked array, expected an array without a mask; "
                         "values.filled(numpy.nan) with nan=\"transparent\" shows nothing where values are masked")
@@ -73,7 +73,7 @@ def plain_array(values: Any, what: str) -> np.ndarray:
 
 
 def array_zyx(values: Any, axes: str) -> np.ndarray:
-    """A view with the axes z, y, x."""
+    """Returns a view with the axes z, y, x."""
     array = plain_array(values, "array")
     if not isinstance(axes, str):
         raise TypeError(f"axes: found {shown(axes)}, expected a text like \"zyx\"")
@@ -88,7 +88,7 @@ def array_zyx(values: Any, axes: str) -> np.ndarray:
 
 
 def drawn_array(array: np.ndarray) -> tuple[np.ndarray, str]:
-    """The array itself where it is contiguous and of a type that is drawn, else a copy; and what was lost, or ""."""
+    """Returns the array itself if it is contiguous and of a type that is drawn, else a copy; and what was lost, or ""."""
     native = array.dtype.newbyteorder("=")
     if native in DRAWN:
         return np.require(array, dtype=native, requirements=["C_CONTIGUOUS", "ALIGNED"]), ""
@@ -107,7 +107,7 @@ def drawn_array(array: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def rounded(array: np.ndarray) -> tuple[np.ndarray, str]:
-    """In float32, and by how much that differs."""
+    """Returns the array in float32, and by how much that differs."""
     with np.errstate(over="ignore"):
         result = np.ascontiguousarray(array, dtype=np.float32)
     overflows = int(np.count_nonzero(np.isinf(result) & np.isfinite(array)))

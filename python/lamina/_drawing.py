@@ -41,7 +41,7 @@ def render(data: Any, transfer_function: Any = None, *, context: str = "auto", t
 
 def trace(data: Any, transfer_function: Any = None, *, threads: int = 0, progress: Progress | None = None,
           only_below: Path | None = None, **keywords: Unpack[Keywords]) -> Picture:
-    """The truth: the same picture by the reference tracer, in double precision (``Picture.array`` is float64).
+    """Draws the truth: the same picture by the reference tracer, in double precision (``Picture.array`` is float64).
 
     Arguments are those of ``render``; ``trace={"tolerance": 1e-7}`` asks for less error than 1e-5 of full scale. It takes
     seconds to minutes.

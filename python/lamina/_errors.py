@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is raised and what is warned of."""
+"""Errors and warnings."""
 import pathlib
 import sys
 import warnings
 
 
 class Error(RuntimeError):
-    """The data are bad, or the machine cannot do what was asked.
+    """Raised if data are bad, or if the machine cannot do what was asked.
 
     The message is one line that names the file or the scene's key, what was found and what was expected. Wrong
     arguments (shapes, types, axes, unknown keywords) are ``TypeError`` and ``ValueError`` instead; a stopped picture is

@@ -10,7 +10,7 @@ from ._errors import Error
 
 
 def _mode_of(file: pathlib.Path) -> int:
-    """The permissions of the file that is replaced, or those of a new one."""
+    """Returns the permissions of the file that is replaced, or those of a new one."""
     try:
         return file.stat().st_mode & 0o777
     except OSError:
@@ -20,7 +20,7 @@ def _mode_of(file: pathlib.Path) -> int:
 
 
 def write_file(file: pathlib.Path, content: bytes) -> None:
-    """Writes beside the file and renames. Raises lamina.Error where that cannot be done."""
+    """Writes beside the file and renames. Raises lamina.Error if that cannot be done."""
     try:
         descriptor, name = tempfile.mkstemp(dir=file.parent, prefix=f"{file.name}.", suffix=".part")
         try:

@@ -15,9 +15,9 @@ class Held:
     """VTK's picture and lamina's of one scene.
 
     ``vtk``: (height, width, 3) float64, display values 0..1 over the background, row 0 on top. ``picture``: lamina's.
-    ``shown``: the same as ``vtk``, of lamina's picture. ``difference``: vtk - shown in 1/255. ``linf``, ``l1``, ``l2``: its
-    norms over all pixels and channels. In a notebook it is the difference in false colour, from blue (VTK is darker)
-    over white to red.
+    ``shown``: the same as ``vtk``, of lamina's picture. ``difference``: vtk - shown in 1/255. ``linf``, ``mean``, ``l2``:
+    its ``lamina.Norms`` over all pixels and channels; ``l1`` is the same as ``mean``. A notebook shows the difference in
+    false colour, from blue (VTK is darker) over white to red.
     """
 
     def __init__(self, vtk: np.ndarray, picture: Picture, background: Sequence[float]) -> None:
@@ -28,6 +28,11 @@ class Held:
         self.linf = float(np.abs(self.difference).max())
         self.l1 = float(self.difference.mean())
         self.l2 = float(np.sqrt(np.mean(self.difference ** 2)))
+
+    @property
+    def mean(self) -> float:
+        """Mean of the difference with its sign; the same as ``l1``."""
+        return self.l1
 
     @property
     def norms(self) -> Norms:

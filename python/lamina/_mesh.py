@@ -92,7 +92,7 @@ class Mesh:
 
     @property
     def values(self) -> np.ndarray:
-        """The first of the arrays, which is drawn where the scene names none."""
+        """The first of the arrays, which is drawn if the scene names none."""
         return next(iter(self.scalars.values()))
 
     @property
@@ -104,9 +104,9 @@ class Mesh:
 
     @property
     def report(self) -> dict[str, Any]:
-        """Of a mesh that ``lamina.mesh`` made: ``error`` (largest difference to the volume's trilinear field, in its
+        """Report on a mesh that ``lamina.mesh`` made: ``error`` (largest difference to the volume's trilinear field, in its
         units), ``relative_error`` (as a share of its range), ``within_tolerance``, ``stopped_by_max_tets``, ``tets``,
-        ``kuhn_tets``. Else empty."""
+        ``kuhn_tets``. It is empty for other meshes."""
         return self._report
 
     @property
@@ -124,7 +124,7 @@ class Mesh:
 
 def mesh(volume: Volume | Any, tolerance: float = 0.02, *, max_tets: int = 5000000, kuhn: bool = False,
          transfer_function: Any = None, progress: Callable[[str, float], object] | None = None) -> Mesh:
-    """Tetrahedra made from a volume (or an array), as few as keep to ``tolerance``.
+    """Makes tetrahedra from a volume (or an array), as few as keep to ``tolerance``.
 
     ``tolerance``: largest difference to the volume's trilinear field anywhere, as a share of its range of values.
     ``max_tets``: where the making stops. ``kuhn``: every sample and six tets a cell instead; needs no TetGen.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What was drawn."""
+"""Pictures."""
 from __future__ import annotations
 
 import functools
@@ -24,7 +24,7 @@ class Omission(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """What ran for a picture. ``slabs``: of slicing. ``text``: all of it for people, line by line."""
+    """The way in which a picture was drawn. ``slabs``: number of slabs of slicing. ``text``: all of it for people."""
 
     method: str
     target: str
@@ -64,32 +64,32 @@ class Picture:
 
     @property
     def error_kind(self) -> str:
-        """How ``error`` is known. ``"derived"``: a bound, no pixel is worse. ``"trials"``: found with the number of slabs
+        """Evidence for ``error``. ``"derived"``: a bound, no pixel is worse. ``"trials"``: found with the number of slabs
         that was chosen, on rays of the view. ``"sampled"``: found on rays of the view and tets of the mesh.
         ``"estimated"``: by the tracer, of a traced picture. ``"unknown"``."""
         return self._drawn.error_kind
 
     @property
     def plan(self) -> Plan:
-        """What ran."""
+        """The way in which the picture was drawn."""
         scene, traced = self._drawn.scene, self._drawn.scene.method == "trace"
         return Plan(scene.method, "float64" if self._drawn.traced else "float32" if traced else self._drawn.target,
                     self._drawn.slabs, self._drawn.explanation)
 
     @property
     def omitted(self) -> list[Omission]:
-        """What was left out, and why. It does not change the picture."""
+        """Work that was left out, and why. It does not change the picture."""
         return [Omission(*omission) for omission in self._drawn.omitted]
 
     @property
     def stats(self) -> dict[str, Any]:
         """``drawn_by``, ``draw_ms``, ``stages_ms`` (by name), ``fragments`` (segments of rays; 0: not counted),
-        ``bytes`` (of memory beside the data)."""
+        ``bytes`` (memory beside the data)."""
         return self._drawn.statistics
 
     @property
     def warnings(self) -> list[str]:
-        """What is noteworthy in data and picture, each said once by a session."""
+        """Warnings about data and picture, each said once by a session."""
         return list(self._drawn.warnings)
 
     @functools.cached_property
@@ -109,7 +109,7 @@ class Picture:
         _lamina.save_picture(self._array, pathlib.Path(file), scene.background, scene.color_space, attributes)
 
     def compare(self, other: Any) -> Comparison:
-        """How this picture differs from another one (a picture, an array, an EXR or NPY file): ``lamina.compare``."""
+        """Compares this picture with another one (a picture, an array, an EXR or NPY file): ``lamina.compare``."""
         return compare(self, other)
 
     def _repr_png_(self) -> bytes:

@@ -10,7 +10,7 @@ import numpy as np
 
 
 def plain(value: Any, key: str = "") -> Any:
-    """What a scene file would have for a value; `key`: where it stands, for messages."""
+    """Returns a value as a scene file would have it. `key` is its place, for messages."""
     if hasattr(value, "to_scene"):
         return value.to_scene()
     if value is None or isinstance(value, (str, bool, int)):

@@ -49,7 +49,7 @@ class Scene(dict[str, Any]):
 
     @classmethod
     def load(cls, file: Path) -> Scene:
-        """The scene in a file. Raises ``lamina.Error`` where the file is not one."""
+        """Reads the scene in a file. Raises ``lamina.Error`` if the file is not one."""
         path = pathlib.Path(file)
         try:
             document = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_without_duplicates)
@@ -86,13 +86,13 @@ class Scene(dict[str, Any]):
         return os.path.abspath(self.folder / name)
 
     def _parsed(self, without: str = "") -> _lamina.Scene:
-        """Checked and read by the library; `without`: a key that does not matter, because it may take long to read."""
+        """Has the library check and read it. `without` is a key that does not matter, because it may take long to read."""
         text = json.dumps({key: value for key, value in self.items() if key != without}, allow_nan=False)
         return _lamina.Scene.parse(text, str(self.folder / self._name), None if self.data is None else self.data._core,
                                    self._only_below)
 
     def _changed(self, keywords: Mapping[str, Any]) -> Scene:
-        """A copy with the keys that keyword arguments stand for."""
+        """Returns a copy with the keys that keyword arguments stand for."""
         scene = Scene(copy.deepcopy(dict(self)), self.data, self.folder)
         scene._name, scene._only_below = self._name, self._only_below
         for name, value in keywords.items():
@@ -121,7 +121,7 @@ class Scene(dict[str, Any]):
 
 def scene_of(data: Any, transfer_function: Any = None, keywords: Mapping[str, Any] | None = None,
              only_below: Path | None = None) -> Scene:
-    """The scene that draws what a caller names, in any of the ways that ``Scene`` lists."""
+    """Returns the scene that draws what a caller names, in any of the ways that ``Scene`` lists."""
     changes = {"transfer_function": transfer_function, **(keywords or {})}
     folder = folder_name(only_below)
     scene = _plain_scene_of(data, folder)._changed(changes)
@@ -153,12 +153,12 @@ def _file_scene(path: pathlib.Path, only_below: str) -> Scene:
     kind = _lamina.kind_of_file(path, only_below)
     if kind == "scene":
         return Scene.load(path)
-    # As the command line has it (docs/first-picture.md).
+    # The command line has the same rule (docs/first-picture.md).
     return Scene({"version": 1, kind: str(path.absolute()), "nan": "transparent"})
 
 
 def _kept(data: Volume | Mesh, beside: pathlib.Path) -> pathlib.Path:
-    """The file that has the data: their own, or a new one."""
+    """Returns the file that has the data: their own, or a new one."""
     if data.file is not None:
         return data.file
     data.save(beside)

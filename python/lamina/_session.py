@@ -72,23 +72,23 @@ class Session:
 
     @property
     def resolved_scene(self) -> Scene:
-        """The same with every key written out, as it was chosen where it is automatic."""
+        """The scene with every key written out, automatic ones as they were chosen: a copy."""
         return Scene(json.loads(self._core.resolved().text()), self._scene.data)
 
     @property
     def explanation(self) -> str:
-        """What runs, line by line, and what is left out and why."""
+        """The way in which pictures are drawn, line by line, and what is left out and why."""
         return self._core.explanation()
 
     def draw(self, progress: Progress | None = None) -> Picture:
-        """A picture, complete when it returns. ``progress(activity, share)`` hears how far it is, some 20 times a
+        """Draws a picture. ``progress(activity, share)`` is called with how far it is, some 20 times a
         second. Ctrl-C ends it (``KeyboardInterrupt``), as does an exception of ``progress``; the next picture is then
         drawn from the start."""
         self._read_if_changed()
         return self._picture(self._core.draw(progress))
 
     def trace(self, progress: Progress | None = None) -> Picture:
-        """The truth: the same view by the reference tracer in double precision, to ``render.trace.tolerance`` (1e-5 of
+        """Draws the truth: the same view by the reference tracer in double precision, to ``render.trace.tolerance`` (1e-5 of
         full scale). It takes seconds to minutes."""
         self._read_if_changed()
         return self._picture(self._core.trace(progress))
@@ -115,12 +115,12 @@ class Session:
         self._scene = changed
 
     def choose_again(self) -> None:
-        """Chooses what is automatic once more."""
+        """Chooses all automatic values again."""
         self._core.choose_again()
 
     @property
     def camera(self) -> Camera:
-        """As it was set, or chosen. To be set to a ``Camera``, a dictionary or ``"auto"``."""
+        """The camera, as it was set or chosen. Set it to a ``Camera``, a dictionary or ``"auto"``."""
         return Camera(**self.resolved_scene["camera"])
 
     @camera.setter
@@ -129,7 +129,7 @@ class Session:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height in pixels. To be set."""
+        """Width and height in pixels. Set it to change them."""
         parsed = self._scene._parsed(without="transfer_function")
         return parsed.width, parsed.height
 
@@ -139,7 +139,7 @@ class Session:
 
     @property
     def transfer_function(self) -> dict[str, Any]:
-        """The points that are drawn, as a scene file has them: value, colour, extinction. To be set to a
+        """The points that are drawn, as a scene file has them: value, colour, extinction. Set it to a
         ``TransferFunction``, a dictionary or ``"auto"``."""
         points: dict[str, Any] = self.resolved_scene["transfer_function"]
         return points

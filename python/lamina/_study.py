@@ -36,7 +36,7 @@ class Study(Mapping[str, np.ndarray]):
 
     @property
     def runs(self) -> int:
-        """How many there are."""
+        """Number of runs."""
         return len(self["run"])
 
     def __getitem__(self, name: str) -> np.ndarray:
@@ -91,7 +91,7 @@ def study(study: Mapping[str, Any] | Path, folder: Path | None = None, *, resume
 
 
 def _entry(scene: Any, number: int, inputs: pathlib.Path, beside: str) -> dict[str, Any]:
-    """What a study file has for a scene; scenes in memory become files."""
+    """Returns a scene as a study file names it; scenes in memory become files."""
     keys = scene if isinstance(scene, Mapping) and "scene" in scene else {"scene": scene}
     entry, own = {key: plain(value) for key, value in keys.items() if key != "scene"}, keys["scene"]
     if isinstance(own, Mapping):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From scalar values to colour and extinction."""
+"""Transfer functions, from scalar values to colour and extinction."""
 from __future__ import annotations
 
 from typing import Any, Iterable, Mapping, Sequence
@@ -41,9 +41,9 @@ class TransferFunction:
     @classmethod
     def from_opacity(cls, points: Iterable[tuple[float, Color, float]], *, unit_length: float = 1,
                      interpolation: str = "linear") -> TransferFunction:
-        """From points ``(value, color, opacity)``: opacity (0..1) is what ``unit_length`` world units of a homogeneous
-        medium would have, and is linear between points, as VTK and ParaView have it. (With
-        ``interpolation="extinction"`` extinction is.)
+        """Makes one from points ``(value, color, opacity)``. Opacity (0..1) is that of ``unit_length`` world units of a
+        homogeneous medium, and is linear between points, as in VTK and ParaView. (With
+        ``interpolation="extinction"`` extinction is linear.)
 
         >>> lamina.TransferFunction.from_opacity([(0, "black", 0), (1, "white", 0.9)], unit_length=0.5).to_scene()
         {'unit_length': 0.5, 'interpolation': 'linear', 'points': [{'value': 0, 'color': 'black', 'opacity': 0}, \
@@ -85,7 +85,7 @@ class TransferFunction:
 
     @property
     def points(self) -> list[dict[str, Any]]:
-        """As in a scene file: ``value``, ``color``, ``extinction`` or ``opacity``."""
+        """The points as in a scene file: ``value``, ``color``, ``extinction`` or ``opacity``."""
         return list(self._keys.get("points", []))
 
     def to_scene(self) -> dict[str, Any]:

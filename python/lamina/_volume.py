@@ -16,7 +16,7 @@ Path = str | os.PathLike[str]
 
 
 def folder_name(folder: Path | None) -> str:
-    """The full name of a folder that data must be in, without links; empty if None."""
+    """Returns the full name of a folder that data must be in, without links; empty if None."""
     if folder is None:
         return ""
     if not os.path.isdir(folder):
@@ -76,7 +76,7 @@ class Volume:
     @classmethod
     def _of(cls, core: _lamina.Volume, file: pathlib.Path | None = None,
             source: str | dict[str, Any] | None = None) -> Volume:
-        """`source`: what scenes call the volume."""
+        """`source` is the name of the volume in scenes."""
         volume = cls.__new__(cls)
         volume._core, volume._conversion, volume._file, volume._source = core, "", file, source
         volume._changeable = None
@@ -131,7 +131,7 @@ class Volume:
 
     @property
     def conversion(self) -> str:
-        """What the conversion to the drawn type lost; empty: nothing."""
+        """Text that says what the conversion to the drawn type lost; empty if it lost nothing."""
         return self._conversion
 
     @property

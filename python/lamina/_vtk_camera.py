@@ -11,7 +11,7 @@ from ._errors import Error, PictureWarning, warn
 
 
 def camera_keys(renderer: Any) -> dict[str, Any]:
-    """What a scene file has for a renderer's camera."""
+    """Returns a renderer's camera as a scene file has it."""
     camera = renderer.GetActiveCamera()
     _refuse_what_bends(camera)
     width, height = renderer.GetSize()
@@ -46,7 +46,7 @@ def _is_identity(matrix: Any) -> bool:
 
 
 def check_clipping_range(renderer: Any, data: Any) -> None:
-    """Warns where VTK's near or far plane cuts the data: lamina has neither."""
+    """Warns if VTK's near or far plane cuts the data: lamina has neither."""
     camera = renderer.GetActiveCamera()
     lowest, highest = np.array(data.bounds)
     corners = np.array([[(lowest, highest)[bits >> axis & 1][axis] for axis in range(3)] for bits in range(8)])

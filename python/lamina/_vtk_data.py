@@ -67,7 +67,7 @@ def _affine(matrix: Any) -> np.ndarray:
 
 
 def scale_of(volume: Any) -> float:
-    """How much larger the volume's matrix makes it."""
+    """Returns the factor by which the volume's matrix enlarges it."""
     factors = np.linalg.norm(_affine(volume.GetMatrix())[:3, :3], axis=0)
     if np.ptp(factors) > 1e-6 * factors.max():
         raise Error(f"volume: found a matrix that scales x, y and z by {', '.join(f'{f:g}' for f in factors)}, expected one "
@@ -102,7 +102,7 @@ def _tets(grid: Any, values: np.ndarray, matrix: np.ndarray, name: str) -> Mesh:
 
 
 def clip_keys(volume: Any) -> dict[str, Any]:
-    """What a scene file has for clipping planes and a cropping box."""
+    """Returns clipping planes and a cropping box as a scene file has them."""
     mapper, keys = volume.GetMapper(), dict[str, Any]()
     planes = mapper.GetClippingPlanes()
     if planes is not None and planes.GetNumberOfItems():

@@ -15,7 +15,7 @@ RGB, LINEAR = 0, 0  # VTK_CTF_RGB, VTK_CTF_LINEAR
 
 
 def transfer_function_keys(properties: Any, data: Volume | Mesh, scale: float = 1) -> dict[str, Any]:
-    """What a scene file has for a vtkVolumeProperty; `scale`: of the volume, whose own unit is the unit distance's."""
+    """Returns a vtkVolumeProperty as a scene file has it. `scale` is that of the volume: unit distances are in its unit."""
     _refuse_what_is_more(properties, data)
     unit = properties.GetScalarOpacityUnitDistance()
     if not unit > 0:
@@ -61,7 +61,7 @@ def _node(function: Any, index: int, parts: int) -> tuple[float, list[float], fl
 
 
 def _sampled(function: Any, parts: int, curved: bool) -> Pieces:
-    """The function at its nodes, and between them where it is not straight there."""
+    """Returns the function at its nodes, and between them if it is not straight there."""
     nodes = [_node(function, index, parts) for index in range(function.GetSize())]
     if not nodes:
         raise Error(f"property: found a {function.GetClassName()} without points, expected one or more")
@@ -80,7 +80,7 @@ def _sampled(function: Any, parts: int, curved: bool) -> Pieces:
 
 
 def _ended(pieces: Pieces, clamped: bool) -> Pieces:
-    """Beyond its ends a function that is not clamped is 0."""
+    """Adds the ends: beyond them a function that is not clamped is 0."""
     if clamped:
         return pieces
     values, rows = pieces
@@ -103,7 +103,7 @@ def _pieces_of_color(properties: Any) -> Pieces:
 
 
 def _limit(pieces: Pieces, value: float, side: str) -> np.ndarray:
-    """From below or above."""
+    """Returns the value from below or above."""
     values, rows = pieces
     index = int(np.searchsorted(values, value, "left" if side == "below" else "right"))
     near = index if side == "below" else index - 1

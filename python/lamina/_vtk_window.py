@@ -12,7 +12,7 @@ GL_RGBA, GL_RGBA32F, GL_FLOAT, VTK_FLOAT = 0x1908, 0x8814, 0x1406, 10
 
 
 def pixels_of(renderer: Any, precise: bool) -> np.ndarray:
-    """What VTK draws into a renderer's viewport: (height, width, 3) display values 0..1, row 0 on top."""
+    """Returns what VTK draws into a renderer's viewport: (height, width, 3) display values 0..1, row 0 on top."""
     window = renderer.GetRenderWindow()
     if window is None:
         raise Error("renderer: found no window, expected one (renderWindow.AddRenderer(renderer))")

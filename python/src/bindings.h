@@ -16,6 +16,7 @@ namespace py = pybind11;
 void bind_errors(py::module_& module);
 void bind_volume(py::module_& module);
 void bind_mesh(py::module_& module);
+void bind_sampling(py::module_& module);
 void bind_scene(py::module_& module);
 void bind_camera(py::module_& module);
 void bind_session(py::module_& module);

@@ -12,8 +12,8 @@ namespace lamina::python {
 
 // A picture and what belongs to it, as it was when it was drawn.
 struct Drawn {
-    std::shared_ptr<Image> picture;       // one of the two
-    std::shared_ptr<PreciseImage> truth;  // of a traced picture
+    std::shared_ptr<Image> picture;       // null if it was traced
+    std::shared_ptr<PreciseImage> truth;  // null if it was drawn
     Scene scene;                          // resolved
     PlanSummary plan;                     // of slicing and projection
     std::string explanation;

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_lamina, module) {
     bind_volume(module);
     bind_scene(module);
     bind_mesh(module);
+    bind_sampling(module);
     bind_camera(module);
     bind_session(module);
     bind_pictures(module);

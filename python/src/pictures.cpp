@@ -50,7 +50,7 @@ py::bytes png_of(const FloatPixels& pixels, const Vector& background, const std:
 }
 
 py::tuple norms_of(const ErrorNorms& norms) {
-    return py::make_tuple(norms.linf, norms.l1, norms.l2);
+    return py::make_tuple(norms.linf, norms.mean, norms.l2);
 }
 
 // (all, {channel: norms}, (column, row, channel))

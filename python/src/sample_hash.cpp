@@ -9,18 +9,18 @@
 namespace lamina::python {
 namespace {
 
-constexpr std::size_t line_bytes = 64;         // what memory gives at a time
-constexpr std::size_t most_bytes = 64u << 20;  // that all parts have together
-constexpr std::size_t small_bytes = 1u << 16;  // of which each part has all, in a few microseconds
-// Lines that are asked for before they are needed: as many as memory fetches side by side.
+constexpr std::size_t line_bytes = 64;         // a cache line
+constexpr std::size_t most_bytes = 64u << 20;  // all parts together read at most as many
+constexpr std::size_t small_bytes = 1u << 16;  // up to here each part reads all, in microseconds
+// Lines that are prefetched: as many as memory fetches side by side.
 constexpr std::size_t lines_ahead = 16;
 
 static_assert(std::has_single_bit(sample_parts));
 
 using Words = std::array<std::uint64_t, line_bytes / sizeof(std::uint64_t)>;
 
-// FNV-1a over words of 64 bits, eight side by side: a line is at another place only in another
-// state.
+// Multiplies and rotates eight words of 64 bits side by side. The state depends on all lines
+// before, so their order counts. The factor is that of FNV-1a.
 void add(const char* from, std::size_t count, Words& state) {
     Words line{};
     std::memcpy(line.data(), from, count);
@@ -31,8 +31,9 @@ void add(const char* from, std::size_t count, Words& state) {
 }  // namespace
 
 std::uint64_t hash_of_part(const char* samples, std::size_t bytes, std::size_t part) {
-    // A part has one line of each block, at another place in each: rows of samples may be as long
-    // as a block, whose lines are a power of two.
+    // A part reads one line of each block, at a place that changes from block to block: at a fixed
+    // place it would read one column alone if rows of samples are as long as blocks. Of
+    // `lines_a_part` lines that fall to a part in a block it reads one.
     const std::size_t lines_a_part = std::bit_ceil((bytes + most_bytes - 1) / most_bytes);
     const std::size_t block = bytes <= small_bytes ? 1 : sample_parts * lines_a_part;
     const auto place_in = [&](std::size_t number) {

@@ -19,7 +19,7 @@ Auto<ContextChoice> context_of(const std::string& word) {
                           "\", expected \"auto\", \"osmesa\", \"egl\" or \"cpu\"");
 }
 
-// `data`: a volume or a mesh in memory, or None: what the scene names.
+// Opens a session. `data`: a Volume, a MeshData, or None for the data that the scene names.
 std::unique_ptr<SharedSession> opened(const Scene& scene, const py::object& data,
                                       const std::string& context, int threads, bool many_frames,
                                       const std::string& only_below) {

@@ -8,7 +8,7 @@
 
 namespace lamina::python {
 
-// An array over memory that `owner` keeps.
+// Returns an array over memory that `owner` keeps.
 template <typename Element, typename Owner>
 py::array array_over(const Element* first, std::vector<py::ssize_t> shape,
                      std::shared_ptr<Owner> owner) {
@@ -17,7 +17,7 @@ py::array array_over(const Element* first, std::vector<py::ssize_t> shape,
     return py::array_t<Element>(std::move(shape), first, keeper);
 }
 
-// The same, that cannot be written to.
+// Returns such an array that cannot be written to.
 template <typename Element, typename Owner>
 py::array constant_array_over(const Element* first, std::vector<py::ssize_t> shape,
                               std::shared_ptr<Owner> owner) {
@@ -26,7 +26,7 @@ py::array constant_array_over(const Element* first, std::vector<py::ssize_t> sha
     return array;
 }
 
-// The caller's Python object, kept as long as the pointer is: also by threads without the GIL.
+// Keeps the caller's Python object as long as the pointer, also in threads without the GIL.
 inline std::shared_ptr<const void> keep(py::object object, const void* data) {
     auto* const kept = new py::object(std::move(object));
     const std::shared_ptr<py::object> holder(kept, [](py::object* last) {

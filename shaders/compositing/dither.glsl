@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compositing/codes.glsl"
 
-// Twin of dither_code in compositing/dither.h. DITHER_PERIOD and DITHER_INCREMENT describe the pattern.
+// Twin of dither_code in compositing/codes.h. DITHER_PERIOD and DITHER_INCREMENT describe the pattern.
 uint dither_code(double scaled, uint rank) {
     ScaledValue value = split_scaled(scaled / double(DITHER_INCREMENT));
     double terms = floor(double(DITHER_PERIOD) * value.rest + code_noise);

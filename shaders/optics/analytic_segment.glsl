@@ -7,11 +7,12 @@
 uniform vec3 single_color;
 #endif
 
-// Returns the associated colour and opacity of a segment on which the scalar is linear from `front` to `back`,
-// normalised so that the intervals cover [0, 1]; the first and the last interval go on outside. It integrates exactly, interval by interval of the transfer function
-// (docs/numerics.md, section 5). LIT: with what light_on_piece() adds. This is the twin of integrate_segment (optics/segment_integral.h) in float32.
-// Optical depth is a sum of terms >= 0. Extinction times length is finite (executors/shader_intervals.h) for lengths
-// up to 1e8.
+// Returns the associated colour and opacity of a segment on which the scalar is linear from `front`
+// to `back`, normalised so that the intervals cover [0, 1]; the first and the last interval go on
+// outside. It integrates exactly, interval by interval of the transfer function (docs/numerics.md,
+// section 5). LIT: including light_on_piece(). This is the twin of integrate_segment
+// (optics/segment_integral.h) in float32. Optical depth is a sum of terms >= 0. Extinction times
+// length is finite (executors/shader_intervals.h) for lengths up to 1e8.
 vec4 integrate_segment(float front, float back, float world_length) {
     int interval = find_interval(clamp(front, 0.0, 1.0));
     int last = find_interval(clamp(back, 0.0, 1.0));
@@ -57,7 +58,7 @@ vec4 integrate_segment(float front, float back, float world_length) {
     }
 #ifdef TABLE_COLORED
 #ifdef LIT
-    color = max(color, 0.0);  // rounding may leave less than nothing
+    color = max(color, 0.0);  // rounding may leave less than 0
 #endif
     return vec4(color, opacity_from_depth(depth));
 #else

@@ -5,7 +5,7 @@
 #include "optics/intervals.glsl"
 #include "optics/opacity.glsl"
 
-// Parts of larger optical depth are split, because up to here seen_share() is good to .01 / 255.
+// Optical depth above which parts are split: up to here seen_share() is accurate to .01 / 255.
 const float largest_part_depth = 0.75;
 
 // One interval of the transfer function. Colour and extinction are linear in the share, which is 0 at the left end and
@@ -13,7 +13,7 @@ const float largest_part_depth = 0.75;
 struct Interval {
     float left_end, right_end;  // the right end of the last one lies beyond all scalars
     float inverse_width;
-    float shown_beyond;         // from its left end on, nothing shows up to this scalar
+    float shown_beyond;         // from its left end on, nothing is visible up to this scalar
     vec4 left, change;          // colour and extinction (a)
 };
 
@@ -37,8 +37,9 @@ LinearPart linear_part(Interval interval, vec4 scalar, float world_length) {
     return LinearPart(share, interval.left.a * world_length, interval.change.a * world_length);
 }
 
-// Returns the optical depth. It is exact, because the extinction is a cubic. In an interval whose extinction changes, the
-// share is one; beside samples far outside the range it may be less exact than that.
+// Returns the optical depth. It is exact, because the extinction is a cubic. In an interval whose
+// extinction changes, the share is a cubic; next to samples far outside the range it may be less
+// exact.
 float depth_of(LinearPart part) {
     return max(part.extinction + part.change * clamp(cubic_mean(part.share), 0.0, 1.0), 0.0);
 }

@@ -15,14 +15,14 @@ vec2 cubic_range(vec4 c) {
     return vec2(min(min(c.x, one), min(two, end)), max(max(c.x, one), max(two, end)));
 }
 
-// Returns numerator / divisor where that lies between 0 and 1, else 1.
+// Returns numerator / divisor if that lies between 0 and 1, else 1.
 float place_or_end(float numerator, float divisor) {
     bool inside = numerator != 0.0 && (numerator > 0.0) == (divisor > 0.0) && abs(numerator) < abs(divisor);
     return inside ? numerator / divisor : 1.0;
 }
 
-// Returns the places, in order, between which the cubic is monotone; 1 where there are fewer. The quotient form has no
-// cancellation (Press et al., Numerical Recipes, 5.6).
+// Returns the places, in order, between which the cubic is monotone; 1 for missing ones. The
+// quotient form has no cancellation (Press et al., Numerical Recipes, 5.6).
 vec2 cubic_turns(vec4 c) {
     float discriminant = c.z * c.z - 3.0 * c.w * c.y;
     if (discriminant <= 0.0) return vec2(1.0);
@@ -32,13 +32,14 @@ vec2 cubic_turns(vec4 c) {
     return vec2(min(one, other), max(one, other));
 }
 
-// A bracket around the place where a monotone cubic has a value, and the best place known.
+// A bracket around the place at which a monotone cubic has a value, and the best place known.
 struct RootBracket {
     float from, to, t;
 };
 
-// Moves to where a parabola that touches the cubic has the value (Euler's method, of third order, also near places
-// where the cubic turns), or to the middle of the bracket where that lies outside.
+// Moves to the place at which a parabola that touches the cubic has the value (Euler's method, of
+// third order, also near places where the cubic turns), or to the middle of the bracket if that
+// place lies outside.
 void approach_root(vec4 c, float value, bool rising, inout RootBracket bracket) {
     float rest = cubic_at(c, bracket.t) - value;
     if ((rest < 0.0) == rising) bracket.from = bracket.t;
@@ -51,9 +52,10 @@ void approach_root(vec4 c, float value, bool rising, inout RootBracket bracket) 
     bracket.t = inside ? nearer : 0.5 * (bracket.from + bracket.to);
 }
 
-// Returns the place where a cubic, which is monotone from one place to another, has a value between those that it has
-// there. Even t^3 = 1e-4 takes no more than six steps. They are not a loop, because software rasterisers have a limit
-// for the rounds of all loops together (plan/march_limit.h).
+// Returns the place at which a cubic, which is monotone from one place to another, has a value
+// between its values there. Even t^3 = 1e-4 takes no more than six steps. They are not a loop,
+// because software rasterisers have a limit for the rounds of all loops together
+// (plan/march_limit.h).
 float cubic_root(vec4 c, float value, vec2 places, vec2 values) {
     bool rising = values.y >= values.x;
     float share = clamp((value - values.x) / (values.y - values.x), 0.0, 1.0);

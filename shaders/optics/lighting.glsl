@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of RayLights (optics/ray_lights.h): what light does to a place with a gradient. All vectors have the same axes.
-// LIGHTS: their number, up to 8. GRAY_LIGHT: all components of each colour are equal. HIGHLIGHTS: specular > 0.
+// Twin of RayLights (optics/ray_lights.h): the effect of light at a place with a gradient. All
+// vectors have the same axes. LIGHTS: their number, up to 8. GRAY_LIGHT: all components of each
+// colour are equal. HIGHLIGHTS: specular > 0.
 #ifdef GRAY_LIGHT
 #define LIGHT_COLOR float
 #define COLOR_OF_LIGHT(i) light_colors[i].r
@@ -11,10 +12,10 @@
 
 uniform vec3 light_terms;                // ambient - 1, diffuse, specular
 uniform float half_power;                // of the square of a cosine
-uniform vec4 light_directions[LIGHTS];   // unit vectors to the lights; w = 1: a headlight, whatever the vector
+uniform vec4 light_directions[LIGHTS];   // unit vectors to the lights; w = 1: a headlight
 uniform vec4 light_colors[LIGHTS];
 
-// To a colour c light adds c * change + highlight.
+// The effect of light: it adds c * change + highlight to a colour c.
 struct LightEffect {
     LIGHT_COLOR change, highlight;
 };
@@ -47,15 +48,16 @@ void add_effect_of(int i, vec3 normal, vec3 to_eye, float along_eye, inout Light
     effect.change += light_terms.y * abs(along_light) * COLOR_OF_LIGHT(i);
 #ifdef HIGHLIGHTS
     float both = along_light + along_eye;
-    float sum = 2.0 + 2.0 * dot(to_light, to_eye);  // |l + v|^2; where it is 0 there is no highlight
+    float sum = 2.0 + 2.0 * dot(to_light, to_eye);  // |l + v|^2; if it is 0: no highlight
     float halfway_square = min(both * both / max(sum, 1e-12), 1.0);
     float shine = sum > 1e-6 && halfway_square > 0.0 ? pow(halfway_square, half_power) : 0.0;
     effect.highlight += light_terms.z * shine * COLOR_OF_LIGHT(i);
 #endif
 }
 
-// Returns what light does where the gradient is so, of a length whose square float32 holds. `smallest_square`: of the
-// smallest gradient, in the same unit. `to_eye`: a unit vector.
+// Returns the effect of light on a place with this gradient, whose length has a square that float32
+// holds. `smallest_square`: square of the smallest gradient, in the same unit. `to_eye`: a unit
+// vector.
 LightEffect light_effect(vec3 gradient, float smallest_square, vec3 to_eye) {
     float square = dot(gradient, gradient);
     float weight = square / (square + smallest_square);
@@ -68,13 +70,15 @@ LightEffect light_effect(vec3 gradient, float smallest_square, vec3 to_eye) {
     return LightEffect(weight * effect.change, weight * effect.highlight);
 }
 
-// The cuts of light (executors/light_cuts.h): x is the largest effect of highlights, and y the square of how far, as a
-// share of its length in the middle of a piece, the gradient may go before they may hide; z and w are those of all else.
+// The cuts of light (executors/light_cuts.h): x is the largest effect of highlights, and y the
+// square of the distance that the gradient may go, as a share of its length in the middle of a
+// piece, before highlights may hide; z and w are those of everything else.
 uniform vec4 hidden_limits;
 
-// Returns what light may do between the nodes of a piece, whose gradient has this square in the middle and goes as far
-// from that as the root of `reach`: nothing where it stays near. Beyond, a highlight may lie between the nodes; what
-// else light does changes without peaks, and by as much as light can only where the gradient goes three times as far.
+// Returns the effect that light may have between the nodes of a piece. The gradient has this square
+// in the middle and differs from that by up to the root of `reach`. If it stays near, nothing is
+// hidden. Otherwise a highlight may lie between the nodes; everything else changes without peaks,
+// and its full effect is possible only if the gradient differs three times as much.
 float hidden_effect(float square, float reach, float smallest_square) {
     float steepest = 2.0 * (square + reach);  // |a + b|^2 <= 2 |a|^2 + 2 |b|^2
     float weight = steepest / (steepest + smallest_square);

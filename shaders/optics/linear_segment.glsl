@@ -2,7 +2,7 @@
 #include "optics/opacity.glsl"
 
 // A segment on which colour and extinction are linear. Opacity has a closed form; colour needs the weight of the
-// segment's front (optics/front_weights.h), which is a polynomial for THIN segments.
+// segment's front (optics/segment_integral.h), which is a polynomial for THIN segments.
 #ifdef TABLE_COLORED
 #ifdef THIN
 float front_weight(float p, float q) {

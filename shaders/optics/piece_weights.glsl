@@ -7,12 +7,12 @@ vec3 opacity_before(vec3 x, float p, float q) {
     return vec3(opacity_from_depth(depth.x), opacity_from_depth(depth.y), opacity_from_depth(depth.z));
 }
 
-// Returns the weight of the front's colour on a piece with extinction * length = p >= 0 at its front and q >= 0 at
-// its back (docs/numerics.md, section 5). It is 1 - G, the mean over the piece of the opacity in front of a place,
-// where u(x) = p x + k x^2 is the optical depth in front of x. Nine-point Gauss-Legendre quadrature integrates the
-// part [0, seen] with u < 12; behind it opacity is taken as 1. All terms are >= 0. The error is below 2e-6 for all p
-// and q up to 1e30, and below 1e-6 of the result where u stays below 1. The back's weight is the rest of the opacity
-// of the piece.
+// Returns the weight of the front's colour on a piece with extinction * length = p >= 0 at its
+// front and q >= 0 at its back (docs/numerics.md, section 5). It is 1 - G, the mean over the piece
+// of the opacity in front of a place; u(x) = p x + k x^2 is the optical depth in front of x.
+// Nine-point Gauss-Legendre quadrature integrates the part [0, seen] with u < 12; behind it opacity
+// is taken as 1. All terms are >= 0. The error is below 2e-6 for all p and q up to 1e30, and below
+// 1e-6 of the result if u stays below 1. The back's weight is the rest of the opacity of the piece.
 float front_weight(float p, float q) {
     const float most_depth = 12.0;
     const vec3 near = vec3(0.015919880246187, 0.0819844463366821, 0.193314283649705);

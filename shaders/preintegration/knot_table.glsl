@@ -10,7 +10,7 @@ uniform float layers_per_length;
 #else
 uniform sampler2D knot_table;
 #endif
-// TABLE_LIT: front parts (optics/front_parts.h) of emission in rgb and of extinction in a, in the same places.
+// TABLE_LIT: front parts (optics/segment_integral.h) of emission in rgb and of extinction in a, in the same places.
 #ifdef TABLE_LIT
 uniform sampler3D front_parts;
 #endif
@@ -49,7 +49,7 @@ float table_extinction(vec2 nodes) {
 }
 
 #ifdef TABLE_COLORED
-// Returns what a table has at table nodes and a length.
+// Returns the numbers of a table at table nodes and a length.
 vec4 table_numbers(sampler3D table, vec2 nodes, float world_length) {
     float layer = min(world_length * layers_per_length, float(TABLE_LAYERS - 1));
 #ifdef TABLE_FILTERED
@@ -73,8 +73,8 @@ vec4 table_entry(vec2 nodes, float world_length) {
 #endif
 }
 
-// A segment from the front on: associated colour, optical depth in a. Of lit ones also the front parts of colour and
-// opacity, and the share of the segment's length that is still behind.
+// A segment from the front on: associated colour, optical depth in a. For lit ones also the front
+// parts of colour and opacity, and the share of the segment's length that is still behind.
 struct RunSum {
     vec4 whole;
 #ifdef TABLE_LIT

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light along a run on which extinction and gradient are linear: twin of projection/light_along-inl.h.
+// Light along a segment on which extinction and gradient are linear: twin of
+// projection/light_along-inl.h.
 #include "optics/opacity.glsl"
 #include "optics/lighting.glsl"
 
-// The square of the smallest gradient, and how far light may bend (executors/tile_light.h).
+// The square of the smallest gradient, and the largest bend of light (executors/tile_light.h).
 uniform vec2 light_limits;
 
 struct LitRun {
@@ -12,8 +13,8 @@ struct LitRun {
     vec3 to_eye;
 };
 
-// Where the colour at the front of a run is f and that at its back b, light adds f * change + (b - f) * farther +
-// highlight.
+// The contribution of light: with the colour f at the front of a segment and b at its back, light
+// adds f * change + (b - f) * farther + highlight.
 struct LightSums {
     LIGHT_COLOR change, farther, highlight;
 };
@@ -25,14 +26,15 @@ vec3 light_added(LightSums sums, vec3 front, vec3 back) {
 float largest_of(float v) { return abs(v); }
 float largest_of(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
-// Returns what the nodes of a piece may not see.
+// Returns the bend that the nodes of a piece may miss.
 float hidden_bend(LitRun run, float at, float extent) {
     vec3 center = run.gradient + (at + 0.5 * extent) * run.turn;
     vec3 reach = 0.5 * extent * run.turn;
     return hidden_effect(dot(center, center), dot(reach, reach), light_limits.x);
 }
 
-// The place behind `at` where the gradient is perpendicular to the light, 2 where there is none.
+// Returns the place behind `at` at which the gradient is perpendicular to the light, 2 if there is
+// none.
 float kink_behind(LitRun run, float at, int light) {
     vec3 to_light = direction_to_light(light, run.to_eye);
     float from = dot(run.gradient, to_light), change = dot(run.turn, to_light);
@@ -57,7 +59,7 @@ LIGHT_COLOR add_node(LitRun run, float place, float amount, inout LightSums sums
     return effect.change + effect.highlight;
 }
 
-// `in_front`: transmittance in front of the run.
+// `in_front`: transmittance in front of the segment.
 LightSums light_along(LitRun run, float in_front) {
     const float deepest = 1e12, shallow = 0.75, goal = 0.7;
     LightSums sums = LightSums(LIGHT_COLOR(0.0), LIGHT_COLOR(0.0), LIGHT_COLOR(0.0));
@@ -68,7 +70,8 @@ LightSums light_along(LitRun run, float in_front) {
         float rest = 1.0 - at;
         float front = max(first + change * at, 0.0);
         float extent = min(min(longest, rest), next_kink(run, at) - at);
-        // To the depth of a shallow piece: a quadratic equation, in the form without cancellation.
+        // Cuts deep pieces to the depth of a shallow one: a quadratic equation, in the form without
+        // cancellation.
         if (extent * (front + 0.5 * change * extent) > shallow) {
             float root = sqrt(max(front * front + 2.0 * goal * change, 0.0));
             extent = min(max(2.0 * goal / max(front + root, 1e-30), 1e-6), rest);

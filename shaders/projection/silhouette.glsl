@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds where a fragment's ray is inside its cell fragment, from the planes of the faces (projection/tet_record.h).
-// Coverage, too, is decided here, because the polygon covers a little more than the tet, and rasterisers move its
-// corners.
+// Finds the span of a fragment's ray inside its cell fragment, from the planes of the faces
+// (projection/tet_record.h). Coverage, too, is decided here, because the polygon covers a little
+// more than the tet, and rasterisers move its corners.
 #ifdef CAREFUL
 flat in vec4 face_depths[6];
-uniform dvec3 ray_perturbation;  // pixels: moves rays that run along faces to one side, the same for all tets
+uniform dvec3 ray_perturbation;  // pixels: moves rays along faces to one side, equal for all tets
 uniform float near_depth;  // "depth" of the near plane
 #else
 flat in vec4 face_depths[3];
@@ -31,8 +31,8 @@ uniform vec2 image_middle;  // window coordinates
 uniform float pixel_size;   // at depth 1
 
 #ifdef OPACITY_ONLY
-// The number of all parts over that of the tree's leaf (docs/numerics.md, section 3). It scales the length, because
-// optical depth is mean extinction times length.
+// The number of all cell fragments over that of the tree's leaf (docs/numerics.md, section 3). It
+// scales the length, because optical depth is mean extinction times length.
 uniform float depth_scale;
 #endif
 
@@ -42,7 +42,7 @@ uint front_faces() { return floatBitsToUint(limits.z) & 7u; }
 
 struct TetRun {
     float front, back;   // scalars, of a range that is [0, 1]
-    float world_length;  // 0 where the ray misses the tet
+    float world_length;  // 0 if the ray misses the tet
 #ifdef LIT
     vec3 front_gradient, back_gradient;
     vec3 to_eye;  // unit vector
@@ -63,9 +63,9 @@ dvec4 depths_of_faces(dvec2 moved) {
            four_doubles(face_depths[4], face_depths[5]) * moved.y;
 }
 
-// Returns the depths, less the center's, between which the ray is inside the tet. They are double because faces that
-// are nearly edge-on are steep functions of the pixel, and both tets that share such a face must find it in the same
-// place.
+// Returns the depths, minus the center's, between which the ray is inside the tet. They are double
+// because faces that are nearly edge-on are steep functions of the pixel, and both tets that share
+// such a face must find it in the same place.
 dvec2 find_exact_depths(dvec2 moved) {
     dvec4 depths = depths_of_faces(moved);
     uint fronts = front_faces();
@@ -84,7 +84,7 @@ dvec2 find_exact_depths(dvec2 moved) {
 vec2 find_depths(vec2 place) { return vec2(find_exact_depths(moved_place(place))); }
 #elif defined(SCALARS)
 // Returns the scalars at these depths. In float32 a scalar within the window would be a small difference of large
-// numbers, in a tet that runs far outside it (facts/far_scalars.h).
+// numbers, in a tet that runs far outside it (facts/drawn_range.h).
 vec2 exact_ends(dvec2 depths, dvec2 moved) {
     dvec4 of = dvec4(scalars) + dvec4(scalars_low);
 #ifdef ORTHOGRAPHIC
@@ -98,7 +98,7 @@ vec2 exact_ends(dvec2 depths, dvec2 moved) {
 }
 #endif
 #else
-// The same in float32, for tets with 1 to 3 front faces, none of them nearly edge-on.
+// Returns the depths in float32, for tets with 1 to 3 front faces, none of them nearly edge-on.
 vec2 find_depths(vec2 place) {
     vec4 depths = face_depths[0] + face_depths[1] * place.x + face_depths[2] * place.y;
     uint fronts = front_faces();
@@ -114,9 +114,9 @@ vec2 find_depths(vec2 place) {
 #endif
 
 #ifdef CUT
-// Returns the stretch of a ray's run on which the scalar is between the cell fragment's least and largest. The cell
-// fragment on the other side of a cut computes the same numbers, so that nothing is lost or counted twice between
-// them.
+// Returns the piece of a ray's segment on which the scalar is between the cell fragment's least and
+// largest. The cell fragment on the other side of a cut computes the same numbers, so that nothing
+// is lost or counted twice between them.
 vec2 cut_depths(vec2 depths, vec2 place) {
     uint fronts = floatBitsToUint(limits.z);
     bool lower_front = (fronts & 8u) != 0u, upper_front = (fronts & 16u) != 0u;
@@ -129,12 +129,12 @@ vec2 cut_depths(vec2 depths, vec2 place) {
 #endif
 
 #ifdef LIT
-// Sets what light needs. `from_center`, `reach`: of the run's ends, as below.
+// Sets the values that light needs. `from_center`, `reach`: of the segment's ends, as below.
 void find_gradients(vec2 place, vec2 from_center, vec2 reach, inout TetRun run) {
     for (int axis = 0; axis < 3; ++axis) {
         vec4 of = gradients[axis];
         vec2 ends = of.x + from_center * of.y + reach * dot(place, of.zw);
-        ends = clamp(ends, -1.0, 1.0);  // nowhere longer than at the points, but for rounding in slivers
+        ends = clamp(ends, -1.0, 1.0);  // rounding in slivers may make it longer than at the points
         run.front_gradient[axis] = ends.x;
         run.back_gradient[axis] = ends.y;
     }

@@ -26,16 +26,17 @@ flat out vec4 center;           // column, row, depth, z
 flat out vec4 scalars;          // at the center, per z, per column, per row
 #endif
 #if defined(EXACT_RUNS) && defined(SCALARS)
-flat out vec4 scalars_low;      // what these lack of double precision
+flat out vec4 scalars_low;      // remainders of these that float does not hold
 #endif
 flat out vec4 limits;           // least and largest scalar; CUT: upper cut per column and row; bits: fronts, number
 #ifdef CUT
 flat out vec4 cuts;             // lower: depth, per column, per row; upper: depth
-flat out OPTICS low_optics, high_optics;  // colour (where TABLE_COLORED) and extinction at least and largest scalar
+flat out OPTICS low_optics, high_optics;  // at least and largest scalar; a: extinction
 #endif
 
 #ifdef LIT
-// Of each component of the gradient: at the center, per z, per column, per row (projection/tet_record.h).
+// For each component of the gradient: at the center, per z, per column, per row
+// (projection/tet_record.h).
 flat out vec4 gradients[3];
 #endif
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Associated colour and opacity of a fragment's part of its tet.
+// Associated colour and opacity of a fragment's segment in its tet.
 #include "optics/opacity.glsl"
 #ifdef LIT
 #include "projection/light_along.glsl"
@@ -13,8 +13,8 @@ vec4 tet_color() {
     TetRun run = find_run();
     float front = clamp(run.front, 0.0, 1.0), back = clamp(run.back, 0.0, 1.0);
 #ifdef WINDOWED
-    // The run before the window, within it and behind it, where the transfer function is constant. In a loop, because
-    // LLVM takes minutes for three copies of the look-ups.
+    // The pieces of the segment before the window, within it and behind it; the transfer function
+    // is constant outside. In a loop, because LLVM takes minutes for three copies of the look-ups.
     vec3 lengths = vec3(0.0, run.world_length, 0.0);
     if (front != back && (front != run.front || back != run.back)) {
         float per_scalar = run.world_length / abs(run.back - run.front);
@@ -45,7 +45,7 @@ vec4 integrate_lit(vec4 front, vec4 back, TetRun run) {
     LitRun lit = LitRun(vec2(front.a, back.a) * run.world_length, run.front_gradient,
                         run.back_gradient - run.front_gradient, run.to_eye);
     vec3 added = light_added(light_along(lit, 1.0), front.rgb, back.rgb);
-    return vec4(max(unlit.rgb + added, 0.0), unlit.a);  // rounding may leave less than nothing
+    return vec4(max(unlit.rgb + added, 0.0), unlit.a);  // rounding may leave less than 0
 }
 #endif
 vec4 tet_color() {
@@ -100,7 +100,7 @@ void set_lit_segment(vec3 front_gradient, vec3 back_gradient, vec3 to_eye) {
     segment_to_eye = to_eye;
 }
 
-// Returns what light adds to the part of the segment from one share to the other.
+// Returns the contribution of light to the part of the segment from one share to the other.
 vec3 light_on_piece(float from, float to, vec2 depths, vec3 near, vec3 far, float in_front) {
     LitRun run = LitRun(depths, segment_gradient + from * segment_turn, (to - from) * segment_turn, segment_to_eye);
     return light_added(light_along(run, in_front), near, far);

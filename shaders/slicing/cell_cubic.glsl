@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scalar along a part of a ray inside one cell of the grid, normalised so that the volume's range is [0, 1].
 uniform sampler3D volume;
-uniform vec3 last_sample;        // the brick's size in samples, less one
+uniform vec3 last_sample;        // the brick's size in samples, minus one
 uniform vec2 code_normalisation; // the code that becomes 0, and the scale
 uniform float largest_code;
 
@@ -29,8 +29,8 @@ Corners fetch_corners(ivec3 cell) {
                         fetch_code(ivec3(upper.x, cell.y, upper.z)), fetch_code(upper)));
 }
 
-// Returns the trilinear field of a cell along place + t * change, less `base`. It is computed from differences of
-// corners, so that a constant cell is exactly constant.
+// Returns the trilinear field of a cell along place + t * change, minus `base`. It is computed from
+// differences of corners, so that a constant cell is exactly constant.
 vec4 cubic_along(Corners corners, float base, vec3 place, vec3 change) {
     vec4 x = corners.upper - corners.lower;
     float y = corners.lower.y - corners.lower.x, z = corners.lower.z - corners.lower.x;
@@ -49,14 +49,16 @@ vec4 cubic_along(Corners corners, float base, vec3 place, vec3 change) {
 
 bool is_nan(float value) { return (floatBitsToUint(value) & 0x7fffffffu) > 0x7f800000u; }
 
-// Returns whether a corner is no number. Compilers may assume that comparisons meet no NaN, so its bits are looked at.
+// Tells whether a corner is NaN. Compilers may assume that comparisons meet no NaN, so the bits are
+// read.
 bool has_nan(Corners corners) {
     vec4 sums = corners.lower + corners.upper;
     return is_nan((sums.x + sums.y) + (sums.z + sums.w));
 }
 
-// Returns the cubic of the part of a ray from `place`, counted from a cell's lowest sample, to place + change. Beyond
-// the samples (`cell` axes) the border value repeats. `transparent`: a corner is no number.
+// Returns the cubic of the part of a ray from `place`, counted from a cell's lowest sample, to
+// place + change. Beyond the samples (`cell` axes) the border value repeats. `transparent`: a
+// corner is NaN.
 vec4 cell_cubic(ivec3 cell, vec3 place, vec3 change, out bool transparent) {
     ivec3 last = ivec3(last_sample);
     ivec3 lowest = clamp(cell, ivec3(0), max(last - 1, 0));

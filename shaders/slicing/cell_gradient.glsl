@@ -19,8 +19,9 @@ Corners corners_of(vec3 lower[4], vec3 upper[4], int axis) {
                    vec4(upper[0][axis], upper[1][axis], upper[2][axis], upper[3][axis]));
 }
 
-// Returns the gradient along the part of a ray from `place`, counted from a cell's lowest sample, to place + change.
-// Beyond the samples (`cell` axes) both corners are the border's: a neighbour may be too long to be subtracted again.
+// Returns the gradient along the part of a ray from `place`, counted from a cell's lowest sample,
+// to place + change. Beyond the samples (`cell` axes) both corners are the border's: a neighbour
+// may be too long to be subtracted again.
 CellGradient cell_gradient(ivec3 cell, vec3 place, vec3 change) {
     ivec3 last = ivec3(last_sample);
     ivec3 lower = clamp(cell, ivec3(0), last), upper = clamp(cell + 1, ivec3(0), last);

@@ -7,8 +7,8 @@ ivec3 brick_of(ivec3 cell) {
     return clamp((cell + ivec3(first_sample)) / BRICK_EDGE, ivec3(0), ivec3(last_distance));
 }
 
-// Moves a ray to where it leaves the cube of `reach` bricks on each side of `brick`, itself counted, or to depth `end`.
-// Cubes at the volume's border go on beyond it. `left`: the depth up to the end.
+// Moves a ray to the end of the cube of `reach` bricks on each side of `brick`, itself counted, or
+// to depth `end`. Cubes at the volume's border go on beyond it. `left`: the depth up to the end.
 void leap(Ray ray, CellRay cells, ivec3 brick, int reach, REAL end, inout CellPlace at, inout REAL left) {
     const int beyond = 2;
     ivec3 upper = brick + reach, lower = brick - reach + 1;

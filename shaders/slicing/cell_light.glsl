@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light adds to parts of rays in one cell (docs/numerics.md, section 10). The native engine does the same
-// (slicing/tile_light-inl.h).
+// Light on parts of rays in one cell (docs/numerics.md, section 10). The engine `cpu` computes it
+// in slicing/cpu_light-inl.h.
 #include "optics/cell_optics.glsl"
 #include "optics/lighting.glsl"
 #include "slicing/cell_gradient.glsl"
 
-uniform float most_bend;  // where light bends more along a part, the part is cut
+uniform float most_bend;  // bend of light along a part above which the part is cut
 
-// Light is not looked at more closely than that (plan/march_limit.cpp counts the rounds).
+// Shortest piece for which light is computed, as a share of the part (plan/march_limit.cpp counts
+// the rounds).
 const float shortest_lit_piece = 1.0 / 256.0;
-// Half of the native engine's: the number of rounds is bounded anyway, and pieces grow more slowly.
+// Half of the share on the engine `cpu` (executors/light_cuts.h): the number of rounds is bounded
+// anyway, and pieces grow more slowly.
 const float faint_share = 1.0 / 4.0;
 
 float length_square(vec3 v) { return dot(v, v); }
 
-// Returns what the nodes of a piece of `extent` from `at` on may not see.
+// Returns a bound on the light that the nodes of a piece of `extent` from `at` on miss, as a bend.
 float hidden_bend(CellGradient gradient, float at, float extent) {
     float reach = 0.5 * extent, middle = at + reach;
     vec3 c2 = vec3(gradient.x.z, gradient.y.z, gradient.z.z), c3 = vec3(gradient.x.w, gradient.y.w, gradient.z.w);
@@ -24,7 +26,7 @@ float hidden_bend(CellGradient gradient, float at, float extent) {
     return hidden_effect(square, way, gradient.smallest_square);
 }
 
-// Returns what a light adds to the two numbers of hidden_kinks().
+// Returns the contribution of a light to the two numbers of hidden_kinks().
 vec2 beyond_kink(int i, vec3 front, vec3 middle, vec3 back, vec3 to_eye) {
     vec3 to_light = direction_to_light(i, to_eye);
     vec3 color = light_colors[i].rgb;
@@ -33,9 +35,10 @@ vec2 beyond_kink(int i, vec3 front, vec3 middle, vec3 back, vec3 to_eye) {
     return largest * abs(ends) * vec2(lessThan(ends * dot(middle, to_light), vec2(0.0)));
 }
 
-// Returns what the rule of three nodes misses of kinks, where the gradient is perpendicular to a light, as a bend. A
-// kink at k of the piece's length from an end, up to .5, costs up to .113 of what the cosine is at that end: k of it
-// where k < .113, which no node sees, and less beyond.
+// Returns a bound on the error of the rule of three nodes at kinks, where the gradient is
+// perpendicular to a light, as a bend. A kink at k of the piece's length from an end, up to .5,
+// costs up to .113 of the cosine at that end: k of it if k < .113, which no node sees, and less
+// beyond.
 float hidden_kinks(CellGradient gradient, vec3 to_eye, float at, float extent) {
     vec3 front = gradient_along(gradient, at), back = gradient_along(gradient, at + extent);
     vec3 middle = gradient_along(gradient, at + 0.5 * extent);
@@ -48,7 +51,8 @@ float hidden_kinks(CellGradient gradient, vec3 to_eye, float at, float extent) {
     return 0.113 / 0.045 * light_terms.y * max(seen.x, seen.y);
 }
 
-// What light does to the colours at both ends of an interval, summed over nodes, and how it bends from node to node.
+// The effect of light on the colours at both ends of an interval, summed over nodes, and its bend
+// from node to node.
 struct LightSum {
     LIGHT_COLOR change, shared_change, highlight, bend;
 };
@@ -63,9 +67,10 @@ void add_node(LightEffect effect, float amount, float share, float bend, inout L
 float largest_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 float largest_component(float v) { return v; }
 
-// Adds light to a part's associated colour by Gauss' rule with three nodes, whose weights add up to the part's opacity.
-// The part is the piece of `extent` from `at` on of that along which the gradient is given. Returns by how much light
-// bends from node to node to node: what the rule misses of a kink is .045 times that.
+// Adds light to a part's associated colour by Gauss' rule with three nodes, whose weights add up to
+// the part's opacity. The part is the piece of `extent` from `at` on of that along which the
+// gradient is given. Returns the bend of light from node to node to node: the rule misses .045
+// times that of a kink.
 float add_light(CellGradient gradient, vec3 to_eye, Interval interval, LinearPart part, float at, float extent,
                 float depth, float opacity, inout vec3 color) {
     const vec3 nodes = vec3(0.112701665, 0.5, 0.887298335);
@@ -91,11 +96,12 @@ float add_light(CellGradient gradient, vec3 to_eye, Interval interval, LinearPar
                max(hidden_bend(gradient, at, extent), hidden_kinks(gradient, to_eye, at, extent)));
 }
 
-// Returns whether a part's light bends too much for one rule. `seen`: what the eye sees of the part's opacity.
+// Returns whether a part's light bends too much for one rule. `seen`: the visible share of the
+// part's opacity.
 bool bends(float bend, float seen) {
     float largest_effect = hidden_limits.x + hidden_limits.z;
     return bend > most_bend && bend * seen * max(largest_effect, 1.0) > faint_share * most_bend;
 }
 
-// Returns how long the first piece of a part may be: what is missed of a kink falls with the square of that.
+// Returns the length of a part's first piece: the error at a kink falls with the square of that.
 float longest_piece(float bend) { return clamp(sqrt(most_bend / max(bend, 1e-30)), 1.0 / 8.0, 1.0); }

@@ -2,8 +2,8 @@
 // A ray that goes from cell to cell of the grid.
 #include "slicing/ray.glsl"
 
-// Where a ray is: in a cell, from 0 to 1 along each axis. A ray that enters a cell does so exactly on its face, and
-// within a cell floats have all digits that are needed.
+// A place of a ray: in a cell, from 0 to 1 along each axis. A ray that enters a cell does so
+// exactly on its face, and within a cell floats have all digits that are needed.
 struct CellPlace {
     ivec3 cell;
     vec3 place;

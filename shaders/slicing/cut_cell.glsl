@@ -13,7 +13,7 @@ struct PartSum {
 #ifndef SINGLE_COLOR
 // Returns the associated colour of a part in one interval.
 vec3 color_of(Interval interval, LinearPart part, float depth, float opacity) {
-    // The shortest parts may be too deep even so: their colour hardly changes.
+    // The shortest parts may still be too deep: their colour hardly changes.
     float share = depth > largest_part_depth ? opacity * clamp(part.share.x, 0.0, 1.0)
                                              : seen_share(part, depth, opacity);
     return interval.left.rgb * opacity + interval.change.rgb * share;
@@ -42,8 +42,8 @@ bool shorten(inout LinearPart part, inout float extent) {
     bool whole = true;
     for (float depth = depth_of(part); depth > largest_part_depth && extent > shortest; depth = depth_of(part)) {
         whole = false;
-        // Optical depth grows at least with the first power of the extent from where it is 0; a root does not
-        // overshoot where it grows with the second.
+        // Optical depth grows at least with the first power of the extent from a place at which it
+        // is 0; a root does not overshoot if it grows with the second.
         float share = clamp(sqrt(0.7 / depth), min(shortest / extent, 0.5), 0.5);
         extent *= share;
         part.extinction *= share;
@@ -54,7 +54,7 @@ bool shorten(inout LinearPart part, inout float extent) {
 }
 #endif
 
-// Nothing behind this optical depth can be seen.
+// Optical depth behind which nothing is visible.
 bool is_opaque(PartSum sum) {
 #ifdef SINGLE_COLOR
     return sum.depth > 20.0;
@@ -63,13 +63,15 @@ bool is_opaque(PartSum sum) {
 #endif
 }
 
-// A cubic from a place on: there its value is `scalar`, and the interval of the transfer function is given.
+// A cubic from a place on: there its value is `scalar`, and the interval of the transfer function
+// is given.
 struct CutPlace {
     float t, scalar;
     int interval;
 };
 
-// Returns where a cubic begins. At an end of an interval it begins on the side to which it goes.
+// Returns the beginning of a cubic. At an end of an interval it begins on the side to which it
+// goes.
 CutPlace first_place(vec4 cubic, vec2 turns) {
     int interval = find_interval(clamp(cubic.x, 0.0, 1.0));
     bool falling = cubic_at(cubic, turns.x) < cubic.x;
@@ -77,7 +79,7 @@ CutPlace first_place(vec4 cubic, vec2 turns) {
     return CutPlace(0.0, cubic.x, interval);
 }
 
-// The monotone stretch of a part from a place on, as far as it stays in one interval.
+// The monotone piece of a part from a place on, as far as it stays in one interval.
 struct Stretch {
     Interval interval;
     float to, at_to;    // its end, and the scalar there
@@ -95,7 +97,7 @@ Stretch next_stretch(vec4 cubic, vec2 turns, CutPlace place) {
     return Stretch(interval, to, crosses ? knot : at_end, place.interval + (crosses ? rising ? 1 : -1 : 0));
 }
 
-// Returns the piece of `extent` from a place on, up to where the scalar is `at_end`.
+// Returns the piece of `extent` from a place on, up to a place at which the scalar is `at_end`.
 LinearPart piece_from(CutPlace place, Interval interval, vec4 cubic, float extent, float at_end, float world_length) {
     vec4 piece = vec4(place.scalar, 0.0, (cubic.z + 3.0 * cubic.w * place.t) * extent * extent,
                       cubic.w * extent * extent * extent);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds where a ray comes near visible parts of the volume.
+// Finds the slabs in which a ray comes near visible parts of the volume.
 #include "slicing/brick_distances.glsl"
 
 const float brick_edge = float(BRICK_EDGE);
 
-// A ray in units of the volume's bricks. Its parameter is the depth from where it enters the box.
+// A ray in units of the volume's bricks. Its parameter is the depth from its entry into the box.
 struct BrickRay {
     vec3 start;
     vec3 change;
@@ -19,7 +19,8 @@ BrickRay brick_ray(Ray ray, REAL entry) {
     bricks.start = (point_at(ray, entry) + first_sample) / brick_edge;
     bricks.change = mix(change, vec3(1e-20), lessThan(abs(change), vec3(1e-20)));
     bricks.inverse = 1.0 / bricks.change;
-    // The margin is a hundredth of a voxel, and 16 roundings of float where the ray begins far from the box.
+    // The margin is a hundredth of a voxel, and 16 roundings of float if the ray begins far from
+    // the box.
     vec3 size = abs(vec3(ray.origin)) / brick_edge + last_distance + 1.0;
     bricks.margin = 0.01 / brick_edge + 1e-6 * max(size.x, max(size.y, size.z));
     bricks.entry = entry;
@@ -31,8 +32,8 @@ struct Stretch {
     bool shown;
 };
 
-// Returns a stretch of slabs from number `slab` on. Either all of them are empty, or they may show something; then
-// the stretch ends where the next look is worth while.
+// Returns a run of slabs from number `slab` on. Either all of them are empty, or they may be
+// visible; then the run ends at the next slab that is worth a test.
 Stretch next_stretch(BrickRay ray, float slab) {
     float depth = float(REAL(slab) * slab_thickness - ray.entry);
     vec3 place = ray.start + depth * ray.change;
@@ -41,7 +42,7 @@ Stretch next_stretch(BrickRay ray, float slab) {
     float reach = max(to_shown, 1.0);
     vec3 ahead = vec3(reach - ray.margin), behind = vec3(1.0 - reach + ray.margin);
     vec3 leave = (brick + mix(behind, ahead, greaterThan(ray.change, vec3(0.0))) - place) * ray.inverse;
-    // Where a side is closer than the margin, it is not certain that the point lies between the sides.
+    // If a side is closer than the margin, it is not certain that the point lies between the sides.
     bool between = all(greaterThanEqual(place - brick, behind)) && all(lessThanEqual(place - brick, ahead));
     float exit = float(ray.entry) + depth + min(leave.x, min(leave.y, leave.z));
     float end = floor(exit / float(slab_thickness));

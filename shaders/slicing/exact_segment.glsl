@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Integrates a ray between two depths cell by cell through the trilinear field (docs/numerics.md, section 9). The
-// result does not depend on where segments begin. OCCUPIED_ONLY: leaps over empty space. ENDS_EARLY: ends the ray where
-// the rest cannot be seen.
+// Integrates a ray between two depths cell by cell through the trilinear field (docs/numerics.md,
+// section 9). The result does not depend on where segments begin. OCCUPIED_ONLY: leaps over empty
+// space. ENDS_EARLY: ends the ray once the rest is invisible.
 #include "slicing/cell_cubic.glsl"
 #include "slicing/cell_ray.glsl"
 #include "slicing/cut_cell.glsl"

@@ -9,10 +9,11 @@ struct LitStep {
     vec3 to_eye;
 };
 
-// How long the pieces of a part may be. It doubles after two of that length: so pieces whose light bends too much
-// overlap only where one is at least twice as long as the other, which bounds their number (plan/march_limit.cpp).
+// Lengths of the pieces of a part. The length doubles after two of that length: so pieces whose
+// light bends too much overlap only if one is at least twice as long as the other, which bounds
+// their number (plan/march_limit.cpp).
 struct PieceLength {
-    float first;    // where a stretch begins
+    float first;    // beginning of the stretch
     float longest;  // now
     bool passed_one;
 };
@@ -23,8 +24,8 @@ void choose_length(bool again, bool whole, bool full, float extent, inout PieceL
     pieces.passed_one = !again && !whole && full != pieces.passed_one;
 }
 
-// Adds the next stretch of a part, or the beginning of it, and moves the place to its end; where its light bends too
-// much it is not added.
+// Adds the next piece of a part, or the beginning of it, and moves the place to its end; if its
+// light bends too much it is not added.
 void add_lit_piece(vec4 cubic, vec2 turns, float world_length, CellGradient gradient, vec3 to_eye,
                    inout PieceLength pieces, inout CutPlace place, inout PartSum sum) {
     Stretch stretch = next_stretch(cubic, turns, place);

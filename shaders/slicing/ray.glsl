@@ -30,7 +30,7 @@ uniform float pixel_size;       // at depth 1
 
 uniform vec3 box_min;  // the brick's part of the volume's box, index space
 uniform vec3 box_max;
-uniform vec3 last_face;  // box_max if the volume ends there, else beyond all places (slicing/texture_bricks.h)
+uniform vec3 last_face;  // box_max, or beyond all places (slicing/texture_bricks.h)
 
 struct Ray {
     REAL3 origin;
@@ -61,8 +61,9 @@ vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direct
 // Returns the depths of the front and the back of `count` slabs from number `slab` on.
 REAL2 slab_depths(float slab, float count) { return REAL2(REAL(slab), REAL(slab + count)) * slab_thickness; }
 
-// Returns the depths between which the ray is inside the box and inside the slab. If there are none, y <= x. A ray that
-// runs in the box's first face is inside, and one in its last face is if that is last_face.
+// Returns the depths between which the ray is inside the box and inside the slab. If there are
+// none, y <= x. A ray that runs in the box's first face is inside; one in its last face is inside
+// if that is last_face.
 REAL2 clip_to_box(Ray ray, REAL2 slab) {
     const REAL3 least = REAL3(1e-20);  // a ray that runs along a face never crosses it
     // A ray in a face stays inside if it is taken to leave the face into the box.
@@ -75,7 +76,7 @@ REAL2 clip_to_box(Ray ray, REAL2 slab) {
     REAL3 leave = max(one, other);
     REAL2 inside = REAL2(max(slab.x, max(enter.x, max(enter.y, enter.z))),
                          min(slab.y, min(leave.x, min(leave.y, leave.z))));
-#ifdef CLIP_PLANES  // and where the clip keeps it
+#ifdef CLIP_PLANES  // and on the kept side of the clip
     inside = clip_to_planes(ray, inside);
 #endif
     return inside;

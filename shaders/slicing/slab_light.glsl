@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light on segments: at the sample in the middle, or at both ends and linear between them (docs/numerics.md, section
-// 10). The native engine does the same (slicing/tile_lit_slabs-inl.h).
+// Light on segments: at the sample in the middle, or at both ends and linear between them
+// (docs/numerics.md, section 10). The engine `cpu` computes it in slicing/tile_lit_slabs-inl.h.
 #include "optics/lighting.glsl"
 #include "volume/gradient.glsl"
 
@@ -8,13 +8,15 @@ vec3 mix_x(CornerGradients corners, int row, float share) {
     return mix(corners.lower_x[row], corners.upper_x[row], share);
 }
 
-// Returns what light does at a depth of a ray. Beyond the samples (`cell` axes) the border's gradient repeats.
+// Returns the effect of light at a depth of a ray. Beyond the samples (`cell` axes) the border's
+// gradient repeats.
 LightEffect light_at(Ray ray, REAL depth) {
     vec3 point = clamp(point_at(ray, depth), vec3(0.0), last_sample);
     ivec3 lower = ivec3(min(point, max(last_sample - 1.0, 0.0)));
     ivec3 upper = min(lower + 1, ivec3(last_sample));
     vec3 share = point - vec3(lower);
-    // There lower corners do not count: they may be too long to be subtracted again.
+    // Beyond the last samples lower corners do not count: they may be too long to be subtracted
+    // again.
     lower = ivec3(mix(vec3(lower), vec3(upper), greaterThanEqual(share, vec3(1.0))));
     CornerGradients corners = corner_gradients(lower, upper);
     vec3 near = mix(mix_x(corners, 0, share.x), mix_x(corners, 1, share.x), share.y);
@@ -24,8 +26,8 @@ LightEffect light_at(Ray ray, REAL depth) {
 }
 
 #ifndef PREINTEGRATED
-// Lights a segment that takes its scalar at this depth. A loop, because software rasterisers skip loops but not
-// branches.
+// Lights a segment that takes its scalar at this depth. A loop, because software rasterisers skip
+// loops but not branches.
 void light_segment(Ray ray, REAL depth, inout Segment segment) {
     int lit = segment.depth > DEPTH(0.0) ? 1 : 0;
     for (int i = 0; i < lit; ++i) {
@@ -34,7 +36,7 @@ void light_segment(Ray ray, REAL depth, inout Segment segment) {
     }
 }
 #else
-// Where segments meet: the light there, if it is known.
+// An end at which segments meet: the light there, if it is known.
 struct LitEnd {
     LightEffect effect;
     bool known;

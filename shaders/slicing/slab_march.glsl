@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Composites the slabs of a leaf along a ray, front to back, in registers. OCCUPIED_ONLY: leaps over empty space.
-// ENDS_EARLY: ends the ray where the rest cannot be seen.
+// Composites the slabs of a leaf along a ray, front to back, in registers. OCCUPIED_ONLY: leaps
+// over empty space. ENDS_EARLY: ends the ray once the rest is invisible.
 #ifdef OCCUPIED_ONLY
 #include "slicing/empty_space.glsl"
 #endif
@@ -8,8 +8,8 @@
 uniform float opaque_depth;
 #endif
 
-// Returns the associated colour and the optical depth of the part of a ray between the depths `whole`, which `slabs`
-// slabs from number `slab` on hold.
+// Returns the associated colour and the optical depth of the part of a ray between the depths
+// `whole`, which `slabs` slabs from number `slab` on hold.
 void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associated_color, out float optical_depth) {
     float first = max(slab, floor(float(whole.x / slab_thickness)) - 1.0);
     float end = min(slab + slabs, ceil(float(whole.y / slab_thickness)) + 1.0);
@@ -25,7 +25,7 @@ void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associa
 #endif
 #ifdef OCCUPIED_ONLY
     BrickRay bricks = brick_ray(ray, whole.x);
-    float shown_end = first;  // slabs before this may show something
+    float shown_end = first;  // slabs before this may be visible
 #endif
     for (float i = first; i < end; ++i) {
 #ifdef OCCUPIED_ONLY

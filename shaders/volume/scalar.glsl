@@ -2,7 +2,7 @@
 // Computes the scalar at a point of the brick in index space, normalised so that the volume's range is [0, 1].
 #if SAMPLING != SAMPLING_NONE
 uniform sampler3D volume;
-uniform vec3 last_sample;     // the brick's size in samples, less one
+uniform vec3 last_sample;     // the brick's size in samples, minus one
 uniform vec2 normalisation;   // scale and offset from texel to normalised scalar
 
 #if SAMPLING == SAMPLING_FETCH

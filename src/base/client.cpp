@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/client.h"
 
+#include <mutex>
 #include <system_error>
 #include <utility>
 
 #include "base/error.h"
-#include "base/shortened.h"
+#include "base/text.h"
 
 namespace lamina {
+
+void warn(const std::string& text) {
+    static std::mutex one_at_a_time;
+    const WarningTaker* const taker = ClientScope::current().warnings;
+    if (taker == nullptr || !*taker) return;
+    const std::lock_guard lock(one_at_a_time);
+    (*taker)(text);
+}
+
 namespace {
 
 thread_local Client client_of_thread;
@@ -48,5 +58,9 @@ OwnFilesScope::OwnFilesScope()
           client.only_below = nullptr;
           return client;
       }()) {}
+
+void check_interrupt() {
+    if (ClientScope::current().stop.stop_requested()) throw Interrupted();
+}
 
 }  // namespace lamina

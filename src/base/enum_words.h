@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -10,14 +11,15 @@
 
 namespace lamina {
 
-// Tells whether an enum class names this value: compilers write others as (Enum)number.
+// Tells whether an enum class has an enumerator of this value. Compilers write other values as
+// (Enum)number.
 template <auto value>
 constexpr bool is_enumerator() {
     return std::string_view(__PRETTY_FUNCTION__).find("value = (") == std::string_view::npos;
 }
 
-// Returns the value's word from the only table of an enum's words, which stands in its name_of(),
-// in the order of the enum; null behind the last one. The enum's values must be 0, 1, 2, ...
+// Returns a value's word, or null beyond the last one. `words` is the enum's only table of words,
+// in the order of the enum, and stands in its name_of(). The enum's values must be 0, 1, 2, ...
 template <typename Enum, std::size_t count>
 const char* word_of(Enum value, const char* const (&words)[count]) {
     static_assert(is_enumerator<static_cast<Enum>(count - 1)>(), "a word without a value");
@@ -26,8 +28,8 @@ const char* word_of(Enum value, const char* const (&words)[count]) {
     return number < count ? words[number] : nullptr;
 }
 
-// Lists the words of an enum class that files and messages use, with their values, in the order of
-// the enum. Its name_of() is made with word_of().
+// Lists an enum's words, as files and messages use them, with their values, in the order of the
+// enum. The enum's name_of() must be made with word_of().
 template <typename Enum>
 std::vector<std::pair<const char*, Enum>> enum_words() {
     std::vector<std::pair<const char*, Enum>> words;
@@ -39,7 +41,7 @@ std::vector<std::pair<const char*, Enum>> enum_words() {
     }
 }
 
-// None where the word is none of the enum's.
+// Returns the value of a word, or nothing if the enum has no such word.
 template <typename Enum>
 std::optional<Enum> value_of_word(std::string_view word) {
     for (const auto& [known, value] : enum_words<Enum>()) {
@@ -48,7 +50,7 @@ std::optional<Enum> value_of_word(std::string_view word) {
     return std::nullopt;
 }
 
-// "a, b or c", for messages.
+// Returns the words as "a, b or c", for messages.
 template <typename Enum>
 std::string alternatives() {
     const auto words = enum_words<Enum>();
@@ -58,6 +60,14 @@ std::string alternatives() {
         text += words[i].first;
     }
     return text;
+}
+
+// Marks the end of a `switch` over an enum class that returns in a case for every value. Such a
+// switch has no `default:`, so that the compiler (-Wswitch) warns of a new value without a case;
+// but without this mark it warns, too, that numbers outside of the enum would return nothing.
+[[noreturn]] inline void unreachable_enum() {
+    assert(false);
+    __builtin_unreachable();
 }
 
 }  // namespace lamina

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/json_text.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -9,16 +15,17 @@
 #include <utility>
 #include <vector>
 
-#include "base/interrupt.h"
-#include "base/shortened.h"
+#include "base/client.h"
+#include "base/text.h"
 
 namespace lamina {
+
 namespace {
 
 using Json = nlohmann::json;
 
-// An iterator over a text. It reports how far it has come, because parsers copy their iterators,
-// and checks for a requested stop.
+// An iterator over a text that checks for a requested stop. Parsers copy their iterators, so it
+// reports to the outside how far it has come.
 class Cursor {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -42,8 +49,8 @@ class Cursor {
     const char** farthest_;
 };
 
-// Builds the document from the parser's events. The library's own builder, with a callback, looks
-// through a whole list again after each object in it, which takes quadratic time.
+// Builds the document from the parser's events. The library's own builder, with a callback,
+// searches the whole list again after each object in it, which takes quadratic time.
 class Builder : public nlohmann::json_sax<Json> {
   public:
     explicit Builder(std::string_view text) : text_(text), farthest_(text.data()) {}
@@ -125,7 +132,7 @@ class Builder : public nlohmann::json_sax<Json> {
     const char* farthest_;
     Json root_;
     std::vector<Json*> open_;  // lists and objects that have not ended, each in the one before
-    Json* member_ = nullptr;   // of the innermost object: the one whose key was read last
+    Json* member_ = nullptr;   // the value of the key that was read last, in the innermost object
     std::size_t values_ = 0;
 };
 
@@ -156,6 +163,45 @@ nlohmann::json load_json(const std::filesystem::path& file) {
         return parse_json(bytes_of(file));
     } catch (const Error& problem) {
         fail("{}: {}", file.string(), problem.what());
+    }
+}
+
+namespace {
+
+constexpr int milliseconds_between_checks = 100;
+
+// Waits until something can be read, or the other end is closed.
+void wait_for_input() {
+    for (;;) {
+        check_interrupt();
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        const int ready = poll(&input, 1, milliseconds_between_checks);
+        if (ready > 0 || (ready < 0 && errno != EINTR)) return;
+    }
+}
+
+std::string text_of_stdin() {
+    std::string text;
+    std::array<char, 1 << 16> bytes{};
+    for (;;) {
+        wait_for_input();
+        const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail("cannot read: {}", std::strerror(errno));
+        if (count == 0) return text;
+        text.append(bytes.data(), static_cast<std::size_t>(count));
+        if (text.size() > most_json_bytes)
+            fail("found more than {} bytes, expected at most as many of JSON", most_json_bytes);
+    }
+}
+
+}  // namespace
+
+nlohmann::json load_json_from_stdin() {
+    try {
+        return parse_json(text_of_stdin());
+    } catch (const Error& problem) {
+        fail("{}: {}", stdin_name, problem.what());
     }
 }
 

@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include "base/error.h"
 
 namespace lamina {
@@ -24,18 +25,25 @@ class JsonSyntaxError : public Error {
 
 // Parses a JSON text. All JSON that a user can write is parsed here: time and memory are
 // proportional to the text's length, and a requested stop is noticed (throws Interrupted). Throws
-// JsonSyntaxError, and Error where a key occurs twice in one object or a limit is exceeded. Both
+// JsonSyntaxError, and Error if a key occurs twice in one object or a limit is exceeded. Both
 // give line and column.
 nlohmann::json parse_json(std::string_view text);
 
 // Parses a JSON file. Error messages begin with its name.
 nlohmann::json load_json(const std::filesystem::path& file);
 
-// `json` as text for a file or a message. Names of files, names inside files, and words of the
-// command line may have any encoding, so bytes that are not UTF-8 become U+FFFD.
+// Returns `json` as text for a file or a message. Names of files, names inside files, and words of
+// the command line may have any encoding; bytes that are not UTF-8 become U+FFFD.
 template <typename Json>
 std::string json_text(const Json& json, int indent = -1) {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
+
+// The name of a JSON text from stdin in messages, in place of a file's.
+inline constexpr const char* stdin_name = "stdin";
+
+// Parses all that comes from stdin, within the limits above. Error messages begin with stdin_name.
+// Throws Interrupted once a stop is requested, also while nothing comes.
+nlohmann::json load_json_from_stdin();
 
 }  // namespace lamina

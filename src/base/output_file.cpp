@@ -1,8 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/output_file.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
 #include <cerrno>
+#include <climits>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "base/client.h"
+#include "base/error.h"
+#include "base/input_file.h"
+#include "base/process.h"
 
 namespace lamina {
 
@@ -12,6 +28,283 @@ void OutputFile::write(const void* bytes, std::size_t count) {
 
 void OutputFile::give_up(int error) const {
     throw WriteError(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(error)));
+}
+
+namespace {
+
+constexpr int most_links = 40;  // Linux follows as many
+
+// Returns the file that symbolic links lead to, which need not exist yet: that file is written, and
+// the links stay.
+std::filesystem::path without_links(std::filesystem::path path) {
+    std::error_code failure;
+    for (int links = 0; std::filesystem::is_symlink(path, failure); ++links) {
+        if (links == most_links)
+            throw WriteError(path.string() + ": cannot write: links in a loop");
+        const auto target = std::filesystem::read_symlink(path, failure);
+        if (failure) throw WriteError(path.string() + ": cannot write: " + failure.message());
+        path = path.parent_path() / target;
+    }
+    return path;
+}
+
+std::filesystem::path name_beside(const std::filesystem::path& path, int number) {
+    const std::string suffix = fmt::format(".lamina-{}.part", number);
+    const std::string name = path.filename().string();
+    return path.parent_path() / (name.substr(0, NAME_MAX - suffix.size()) + suffix);
+}
+
+// Returns true if the file is locked now, and also if its file system has no locks.
+bool lock(int descriptor) {
+    return flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+bool is_at(int descriptor, const std::filesystem::path& path) {
+    struct stat opened = {};
+    struct stat named = {};
+    return fstat(descriptor, &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
+           opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+// Removes the file of this name if a killed process left it, which nobody has locked. Returns false
+// if the file is in use or is not one of ours.
+bool remove_abandoned(const std::filesystem::path& path) {
+    const int descriptor = open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) return errno == ENOENT;
+    const bool abandoned = flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_at(descriptor, path);
+    const bool removed = abandoned && unlink(path.c_str()) == 0;
+    close(descriptor);
+    return removed;
+}
+
+std::string descriptor_path(int descriptor) {
+    return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path path) : OutputFile(without_links(std::move(path))) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path_, ignored);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        throw WriteError(fmt::format(
+            "{}: cannot write: it is {}, expected a regular file", path_.string(),
+            std::filesystem::is_directory(status) ? "a directory" : "a device, pipe or socket"));
+    }
+    if (path_.filename().string().size() > NAME_MAX) give_up(ENAMETOOLONG);
+    if (!open_nameless()) open_named();
+    keep_mode();
+    open_stream();
+}
+
+AtomicFile::~AtomicFile() {
+    if (stream_ != nullptr) std::fclose(stream_);
+    if (!temporary_.empty()) unlink(temporary_.c_str());
+    close(descriptor_);
+}
+
+bool AtomicFile::open_nameless() {
+    const std::string folder = path_.has_parent_path() ? path_.parent_path().string() : ".";
+    descriptor_ = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) return false;
+    lock(descriptor_);
+    // A file without a name gets one through /proc alone.
+    if (access(descriptor_path(descriptor_).c_str(), F_OK) == 0) return true;
+    close(descriptor_);
+    return false;
+}
+
+void AtomicFile::open_named() {
+    for (int number = 0;;) {
+        const std::filesystem::path name = name_beside(path_, number);
+        descriptor_ = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ >= 0) {
+            temporary_ = name;
+            if (lock(descriptor_) && is_at(descriptor_, name)) return;
+            close(descriptor_);  // before the lock, another process took the file for abandoned
+            temporary_.clear();
+            continue;
+        }
+        if (errno != EEXIST) give_up(errno);
+        if (!remove_abandoned(name)) ++number;
+    }
+}
+
+// Gives the new file the permissions of the file that it replaces, before anything is written:
+// private data stay private. A file system without modes refuses, and then there is none to keep.
+void AtomicFile::keep_mode() const {
+    struct stat replaced = {};
+    if (stat(path_.c_str(), &replaced) != 0) return;
+    constexpr mode_t permissions = S_IRWXU | S_IRWXG | S_IRWXO;
+    fchmod(descriptor_, replaced.st_mode & permissions);
+}
+
+void AtomicFile::open_stream() {
+    const int copy = fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+    if (copy >= 0) stream_ = fdopen(copy, "wb");
+    if (stream_ != nullptr) return;
+    const int error = errno;
+    if (copy >= 0) close(copy);
+    close(descriptor_);
+    if (!temporary_.empty()) unlink(temporary_.c_str());
+    give_up(error);
+}
+
+void AtomicFile::close_stream() {
+    if (stream_ == nullptr) return;
+    std::FILE* const stream = stream_;
+    stream_ = nullptr;
+    // Some libraries write in their destructors and pass over errors there, so the stream is asked.
+    const bool broken = std::ferror(stream) != 0;
+    if (std::fclose(stream) != 0) give_up(errno);
+    if (broken) give_up(EIO);
+}
+
+// linkat() cannot replace a file, so the new file gets a temporary name first; rename() then
+// replaces the old file.
+void AtomicFile::give_name() {
+    const std::string unnamed = descriptor_path(descriptor_);
+    for (int number = 0; temporary_.empty();) {
+        const std::filesystem::path name = name_beside(path_, number);
+        if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0)
+            temporary_ = name;
+        else if (errno != EEXIST)
+            give_up(errno);
+        else if (!remove_abandoned(name))
+            ++number;
+    }
+}
+
+void AtomicFile::complete() {
+    close_stream();
+    give_name();
+}
+
+void AtomicFile::commit() {
+    complete();
+    std::error_code error;
+    std::filesystem::rename(temporary_, path_, error);
+    if (error) give_up(error.value());
+    temporary_.clear();
+}
+
+namespace {
+
+[[noreturn]] void give_up(int error) {
+    fail("{}: cannot write temporary files: {}: set TMPDIR to a folder with room for them",
+         temporary_folder(), std::strerror(error));
+}
+
+int open_nameless(const std::string& folder) {
+    const int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (descriptor >= 0) return descriptor;
+    std::string name = folder + "/lamina-XXXXXX";  // some file systems have no O_TMPFILE
+    const int named = mkostemp(name.data(), O_CLOEXEC);
+    if (named >= 0) unlink(name.c_str());
+    return named;
+}
+
+}  // namespace
+
+std::string temporary_folder() {
+    const char* const named = std::getenv("TMPDIR");
+    return named != nullptr && *named != '\0' ? named : "/tmp";
+}
+
+TemporaryFile::TemporaryFile() {
+    const int descriptor = open_nameless(temporary_folder());
+    if (descriptor < 0) give_up(errno);
+    stream_ = fdopen(descriptor, "w+b");
+    if (stream_ != nullptr) return;
+    const int error = errno;
+    close(descriptor);
+    give_up(error);
+}
+
+void TemporaryFile::write(const void* bytes, std::size_t count) {
+    if (std::fwrite(bytes, 1, count, stream_) != count) give_up(errno);
+}
+
+void TemporaryFile::rewind() {
+    if (std::fflush(stream_) != 0 || std::fseek(stream_, 0, SEEK_SET) != 0) give_up(errno);
+}
+
+PipedFile::PipedFile() : OutputFile("stdout") {
+    stream_ = file_.stream();
+}
+
+void PipedFile::commit() {
+    // Some libraries write in their destructors and pass over errors there, so the stream is asked.
+    if (std::ferror(stream_) != 0) give_up(EIO);
+    file_.rewind();
+    std::array<char, 1 << 16> bytes{};
+    for (std::size_t count = bytes.size(); count == bytes.size();) {
+        count = std::fread(bytes.data(), 1, bytes.size(), stream_);
+        write_result({bytes.data(), count});
+    }
+    if (std::ferror(stream_) != 0) give_up(errno);
+    flush_results();
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail("{}: cannot make this folder: {}", folder.string(), error.message());
+}
+
+namespace {
+
+constexpr const char* first_line = "Written by lamina, which replaces nothing else here:";
+
+bool is_there(const std::filesystem::path& path) {
+    std::error_code ignored;  // a link that leads nowhere is there, too
+    return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
+}
+
+}  // namespace
+
+OwnFiles::OwnFiles(std::filesystem::path folder, std::string verb)
+    : folder_(std::move(folder)), verb_(std::move(verb)) {}
+
+std::set<std::string> OwnFiles::listed() const {
+    const std::filesystem::path list = folder_ / list_name;
+    if (!is_there(list)) return {};
+    const OwnFilesScope own;
+    std::istringstream lines(read_file_bytes(list));
+    std::string line;
+    if (!std::getline(lines, line) || line != first_line)
+        fail("{}: not a list of files that lamina wrote: expected a folder without it",
+             list.string());
+    std::set<std::string> listed;
+    while (std::getline(lines, line)) listed.insert(line);
+    return listed;
+}
+
+void OwnFiles::expect_own(const std::vector<std::string>& names) const {
+    // The order matters: another process that writes into the folder at the same time puts its
+    // files on the list before it makes them, so the folder is read before the list.
+    std::vector<std::string> there;
+    for (const std::string& name : names) {
+        if (is_there(folder_ / name)) there.push_back(name);
+    }
+    const std::set<std::string> own = listed();
+    for (const std::string& name : there) {
+        if (own.contains(verb_ + ": " + name)) continue;
+        fail("{}: not written by lamina {}: expected a folder without it, or --force to replace it",
+             (folder_ / name).string(), verb_);
+    }
+}
+
+void OwnFiles::add(const std::vector<std::string>& names) const {
+    make_folder(folder_);
+    std::set<std::string> lines = listed();
+    const std::size_t before = lines.size();
+    for (const std::string& name : names) lines.insert(verb_ + ": " + name);
+    if (lines.size() == before) return;
+    AtomicFile file(folder_ / list_name);
+    file.write(std::string(first_line) + "\n");
+    for (const std::string& line : lines) file.write(line + "\n");
+    file.commit();
 }
 
 }  // namespace lamina

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 
@@ -18,8 +20,8 @@ class WriteError : public Error {
     using Error::Error;
 };
 
-// What an output is written to: a stream that can seek. Nothing of it reaches its destination
-// before commit(), and without commit() nothing does.
+// A stream that can seek, for a result. Nothing reaches its destination before commit(), and
+// nothing at all without commit().
 class OutputFile {
   public:
     virtual ~OutputFile() = default;
@@ -39,6 +41,92 @@ class OutputFile {
 
     std::filesystem::path path_;
     std::FILE* stream_ = nullptr;
+};
+
+// An output file that appears under its name only when it is complete. It is opened before long
+// work begins, so that a path that cannot be written fails at once. Without commit() nothing is
+// left behind, not even if the process is killed: on file systems that allow it, the file has no
+// name until then. On others (NFS), and during commit(), it lies beside its destination as
+// NAME.lamina-N.part and is locked. If a killed process leaves such a file there, the next one of
+// this name removes it. A file that is replaced keeps its mode.
+class AtomicFile : public OutputFile {
+  public:
+    explicit AtomicFile(
+        std::filesystem::path path);  // throws WriteError when the folder cannot be written
+    ~AtomicFile() override;
+
+    // Writes the whole file to disk under a temporary name beside its destination. commit() is then
+    // only a renaming, so that files that belong together appear together. Throws WriteError.
+    void complete();
+    void commit() override;  // throws WriteError
+
+  private:
+    void close_stream();
+    bool open_nameless();  // false if the file system does not allow it
+    void open_named();
+    void keep_mode() const;
+    void open_stream();
+    void give_name();
+
+    std::filesystem::path temporary_;  // temporary name; empty if there is none
+    int descriptor_ = -1;              // open until the end, for its lock and to give it a name
+};
+
+// Returns the folder of temporary files: TMPDIR, or /tmp if it is not set.
+std::string temporary_folder();
+
+// A temporary file without a name. It disappears with this object, and with the process, however
+// that ends.
+class TemporaryFile {
+  public:
+    TemporaryFile();  // throws Error
+    ~TemporaryFile() { std::fclose(stream_); }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    std::FILE* stream() const { return stream_; }
+    void write(const void* bytes, std::size_t count);  // throws Error
+    // Writes out what is buffered and goes to the first byte, for any reader. Throws Error.
+    void rewind();
+
+  private:
+    std::FILE* stream_ = nullptr;
+};
+
+// An output that goes to stdout, which need not be able to seek: it is kept in a temporary file
+// until commit() copies it, so that a reader gets all of it or nothing.
+class PipedFile : public OutputFile {
+  public:
+    PipedFile();             // throws Error
+    void commit() override;  // throws Error
+
+  private:
+    TemporaryFile file_;
+};
+
+// Makes a folder and its parent folders if they do not exist yet. Throws Error.
+void make_folder(const std::filesystem::path& folder);
+
+// The files of a folder that a verb wrote itself and may therefore replace. The folder's
+// lamina-files.txt lists them, with a line "VERB: NAME" for each file.
+class OwnFiles {
+  public:
+    static constexpr const char* list_name = "lamina-files.txt";
+
+    OwnFiles(std::filesystem::path folder, std::string verb);
+
+    // Throws Error if a file or folder of these names exists that the verb did not write.
+    void expect_own(const std::vector<std::string>& names) const;
+    // Adds names to the list, and makes the folder if it does not exist. Call it before the files
+    // are written: then a file that is not on the list belongs to somebody else, even after a run
+    // was stopped.
+    void add(const std::vector<std::string>& names) const;
+
+  private:
+    std::set<std::string> listed() const;  // lines of the list
+
+    std::filesystem::path folder_;
+    std::string verb_;
 };
 
 }  // namespace lamina

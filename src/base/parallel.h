@@ -1,19 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_sort.h>
-
-#include <algorithm>
-#include <cstdint>
-
 #include "base/client.h"
-#include "base/hand_over.h"
-#include "base/interrupt.h"
+
+#if defined(__SANITIZE_THREAD__)
+#define LAMINA_THREAD_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define LAMINA_THREAD_SANITIZER 1
+#endif
+#endif
+
+#ifdef LAMINA_THREAD_SANITIZER
+#include <sanitizer/tsan_interface.h>
+#define LAMINA_UNSEEN_BY_THREAD_SANITIZER __attribute__((no_sanitize("thread")))
+#else
+#define LAMINA_UNSEEN_BY_THREAD_SANITIZER
+#endif
 
 namespace lamina {
+
+// Tells the thread sanitizer what oneTBB guarantees, which it cannot see in a library that was
+// built without it: a task runs after what its caller did before the loop, and the caller goes on
+// after all tasks. No order between tasks is claimed, so that races among them are found. In every
+// other build it does nothing.
+class HandOver {
+  public:
+    HandOver() { release(&given_); }
+    ~HandOver() { acquire(&returned_); }
+    HandOver(const HandOver&) = delete;
+    HandOver& operator=(const HandOver&) = delete;
+
+    // Calls `work` as a task. The function that calls this reads the task's captures, which oneTBB
+    // may have copied on another core, so it must be marked LAMINA_UNSEEN_BY_THREAD_SANITIZER.
+    template <typename Work>
+    void task(const Work& work) {
+        acquire(&given_);
+        const Return at_the_end{this};
+        work();
+    }
+
+  private:
+    struct Return {
+        HandOver* hand_over;
+        ~Return() { hand_over->release(&hand_over->returned_); }
+    };
+
+#ifdef LAMINA_THREAD_SANITIZER
+    static void acquire(char* mark) {
+        __tsan_acquire(mark);
+    }
+    static void release(char* mark) {
+        __tsan_release(mark);
+    }
+#else
+    static void acquire(char* /*mark*/) {}
+    static void release(char* /*mark*/) {}
+#endif
+
+    char given_ = 0, returned_ = 0;
+};
 
 // Calls body(i) for every i in [0, count) on all cores, in no particular order. The loop ends early
 // on an exception, which is rethrown, and when its client requests a stop. `grain`: number of calls
@@ -34,8 +87,8 @@ void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
                       });
 }
 
-// Calls both functions, on two cores where possible. An exception of one is rethrown after both
-// have ended.
+// Calls both functions, on two cores if possible. An exception of one is rethrown after both have
+// ended.
 template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second) {
     HandOver hand_over;
@@ -51,8 +104,8 @@ void parallel_invoke(const First& first, const Second& second) {
 }
 
 // Sorts on all cores. Elements that `less` does not distinguish come in any order. Under the thread
-// sanitizer it sorts on one core, because oneTBB passes data between tasks inside its sort, where
-// HandOver cannot be called.
+// sanitizer it sorts on one core, because oneTBB passes data between tasks inside its sort, out of
+// HandOver's reach.
 template <typename Iterator, typename Less>
 void parallel_sort(Iterator begin, Iterator end, const Less& less) {
 #ifdef LAMINA_THREAD_SANITIZER

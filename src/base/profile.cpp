@@ -5,9 +5,10 @@
 #include <cassert>
 
 namespace lamina {
+
 namespace {
 
-// The spans of some thousand frames fit without taking more memory.
+// Spans for which memory is taken at once: enough for some thousand frames.
 constexpr std::size_t spans_at_first = 1 << 14;
 
 std::atomic<Profile*> current = nullptr;

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/standard_streams.h"
+#include "base/process.h"
 
 namespace lamina {
 namespace {
@@ -33,7 +33,7 @@ Progress::~Progress() {
     if (drawn_ && listener_ == nullptr) replace_line("");
 }
 
-// Returns false where nobody listens, or where an outer piece of work reports already.
+// Returns false if nobody listens, or if an outer piece of work reports already.
 bool Progress::begin() {
     if (listener_ != nullptr) return listener_->report && !listener_->busy.exchange(true);
     return !quiet_process && isatty(STDERR_FILENO) != 0 && !one_is_shown.exchange(true);
@@ -47,8 +47,9 @@ bool Progress::is_quiet() {
     return quiet_process;
 }
 
-// One thread draws at a time and the others go on: a listener may run tasks that come back here.
-// Whoever has drawn looks whether the end has come meanwhile, which a listener always hears.
+// Only one thread draws at a time, and the others go on: a listener may run tasks that come back
+// here. After drawing, a thread looks whether the end has come meanwhile, which a listener must
+// always hear.
 void Progress::advance(std::int64_t steps) {
     done_ += steps;
     if (!visible_) return;

@@ -6,14 +6,15 @@
 #include <string>
 
 #include "base/client.h"
-#include "base/stopwatch.h"
+#include "base/profile.h"
 
 namespace lamina {
 
 // A line on stderr with the share done and the time left, for work that takes longer than a second
-// or so. Drawn only on a terminal, at most twice a second, and wiped when done; silent everywhere
-// else. Of several at a time only the first is drawn: the one of the whole work. Work for a client
-// that listens (base/client.h) reports to that instead, some 20 times a second and at its end.
+// or so. It is drawn only on a terminal, at most twice a second, and wiped at the end; elsewhere
+// nothing is shown. If several exist at a time, only the first is drawn, that of the whole work.
+// Work for a client that listens (base/client.h) reports to the client, some 20 times a second and
+// at its end.
 class Progress {
   public:
     Progress(std::string label, std::int64_t total);
@@ -35,8 +36,8 @@ class Progress {
     std::int64_t total_;
     bool visible_;
     std::atomic<std::int64_t> done_{0};
-    std::atomic_flag drawing_;        // whether a thread draws
-    std::atomic<bool> ended_{false};  // whether a listener has heard the end
+    std::atomic_flag drawing_;        // set while a thread draws
+    std::atomic<bool> ended_{false};  // true once a listener has heard the end
     double last_drawn_ = 0;
     bool drawn_ = false;
     Stopwatch watch_;

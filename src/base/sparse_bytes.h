@@ -9,13 +9,22 @@
 #include <memory>
 #include <span>
 
-#include "base/all_zero.h"
-#include "base/reserved_memory.h"
+#include "base/memory.h"
 
 namespace lamina {
 
-// Bytes of which most have one value, the background: pages that hold nothing else take no memory.
-// Copies share the bytes. Different ones may be set from several threads.
+// Tells whether all bytes have one value. `count`: 1 or more.
+inline bool all_equal(const void* bytes, std::size_t count, std::uint8_t value) {
+    const auto* const first = static_cast<const std::uint8_t*>(bytes);
+    return *first == value && std::memcmp(first, first + 1, count - 1) == 0;
+}
+
+inline bool all_zero(const void* bytes, std::size_t count) {
+    return all_equal(bytes, count, 0);
+}
+
+// An array of bytes most of which have one value, the background. Pages of memory that hold nothing
+// else take none. Copies share the bytes. Different bytes may be set from several threads.
 class SparseBytes {
   public:
     SparseBytes() = default;
@@ -52,13 +61,13 @@ class SparseBytes {
         }
     }
 
-    // The bytes combined with the background by exclusive or. Three more than size() may be read,
-    // because vectors read four at a time.
+    // Returns the bytes as they are stored: each combined with the background by exclusive or.
+    // Three more than size() may be read, because vector code reads four at a time.
     const std::uint8_t* coded() const {
         return reinterpret_cast<const std::uint8_t*>(memory_->data());
     }
 
-    // The first place from `first` on that has this value; `end`: none before it has.
+    // Returns the first place in first .. end - 1 that has this value, or `end` if none has it.
     std::size_t find(std::uint8_t value, std::size_t first, std::size_t end) const {
         const auto code = static_cast<std::uint8_t>(value ^ background_);
         if (first == end || coded()[first] == code) return first;

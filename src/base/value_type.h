@@ -47,7 +47,7 @@ auto with_type(ValueType type, const Action& action) {
 constexpr ValueType value_types[] = {
     ValueType::int8,   ValueType::uint8, ValueType::int16,  ValueType::uint16,  ValueType::int32,
     ValueType::uint32, ValueType::int64, ValueType::uint64, ValueType::float32, ValueType::float64};
-// In the order of value_types.
+// The names of the types, in the order of value_types.
 constexpr const char* value_type_words[] = {"int8",   "uint8", "int16",  "uint16", "int32",
                                             "uint32", "int64", "uint64", "float",  "double"};
 
@@ -61,7 +61,7 @@ inline std::optional<ValueType> value_type_of(std::string_view word) {
     return {};
 }
 
-// All words, for messages.
+// Returns all names, for messages.
 inline std::string value_type_list() {
     std::string list;
     for (const char* const word : value_type_words)
@@ -77,8 +77,8 @@ inline bool is_integer(ValueType type) {
     return type != ValueType::float32 && type != ValueType::float64;
 }
 
-// A stored value as To (double or int64). Integers beyond int64 become its largest value, which no
-// count or index reaches.
+// Converts a stored value to To (double or int64). Integers beyond int64 become its largest value,
+// which no count or index reaches.
 template <typename To, typename From>
 To value_as(From value) {
     if constexpr (std::is_same_v<From, std::uint64_t> && std::is_same_v<To, std::int64_t>) {

@@ -13,15 +13,15 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double three_quarter_azimuth = 30, three_quarter_elevation = 20;
 constexpr double fov_y = 30;
-constexpr double margin = 1.0 / 25;  // of half the picture
+constexpr double margin = 1.0 / 25;  // as a share of half the picture
 constexpr double least_across = 0.02;
 
-// Right-handed, orthonormal: a camera's own axes.
+// A camera's own axes: right-handed and orthonormal.
 struct Axes {
-    glm::dvec3 right, up, toward;  // toward: from what is seen to the eye
+    glm::dvec3 right, up, toward;  // from the scene to the eye
 };
 
-// In front of a patient: right is the patient's left.
+// The camera stands in front of the patient: its right is the patient's left.
 Axes axes_of(WorldAxes axes) {
     switch (axes) {
         case WorldAxes::left_posterior_superior:
@@ -36,7 +36,7 @@ Axes axes_of(WorldAxes axes) {
     return {};
 }
 
-// Along the axes of the world cosine and sine are exact, and so is a turn of nothing.
+// Quarter turns have exact cosines and sines, and so has a turn by 0.
 Axes turned(const Axes& axes, const ViewTurn& turn) {
     const double a = turn.azimuth * degree, e = turn.elevation * degree;
     const glm::dvec3 right = std::cos(a) * axes.right - std::sin(a) * axes.toward;
@@ -54,7 +54,8 @@ struct Extent {
     double middle() const { return lo + (hi - lo) / 2; }
 };
 
-// How far a point reaches along a direction. Turned all around an axis it describes a circle.
+// Distance that a point reaches along a direction. If the camera turns all around an axis, the
+// point describes a circle.
 class Reach {
   public:
     Reach(const glm::dvec3& axis, bool all_around) : axis_(axis), all_around_(all_around) {}
@@ -84,16 +85,15 @@ glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
 }  // namespace
 
 // A point at (r, u) across and depth d behind the eye at (R, U, D) is in a picture of slope s if
-// |r - R| <= s (d - D). So R lies between max(r - s d) + s D and min(r + s d) - s D, and the
-// nearest D for which there is such an R makes the two ends the same; likewise for U.
+// |r - R| <= s (d - D). So R lies between max(r - s d) + s D and min(r + s d) - s D; the nearest D
+// with such an R makes both ends equal. U follows likewise.
 Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const ViewTurn& turn,
                      int width, int height, bool all_around) {
     const Axes to = turned(axes_of(axes), {three_quarter_azimuth + turn.azimuth,
                                            three_quarter_elevation + turn.elevation});
     Camera camera;
     camera.fov_y = fov_y;
-    // The data's own up where that is a direction across the view, so that turntables stand
-    // upright.
+    // The data's own up, if it is not along the view, so that turntables stand upright.
     const glm::dvec3 up = axes_of(axes).up;
     camera.up = glm::dot(up, to.up) > least_across ? up : to.up;
     const double slope_up = std::tan(fov_y / 2 * degree) * (1 - margin);
@@ -116,8 +116,8 @@ Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const V
     const double eye_up = (up_far.lo + up_near.hi) / 2;
     const glm::dvec3 across = eye_right * to.right + eye_up * to.up;
     camera.eye = middle + across - eye_depth * to.toward;
-    // Of the points on the view's axis, the one in the middle of what shows; turned all around, the
-    // one that the circles have as their centre.
+    // The camera's centre: the middle of the visible points along the view's axis or, if the camera
+    // turns all around, the common centre of their circles.
     const glm::dvec3 level = to.toward - glm::dot(to.toward, camera.up) * camera.up;
     const double along =
         all_around ? -glm::dot(across, level) / glm::dot(to.toward, level) : toward.middle();
@@ -131,7 +131,7 @@ Camera turned(const Camera& camera, const ViewTurn& turn) {
     const double distance = glm::length(arm);
     const glm::dvec3 toward = arm / distance;
     const glm::dvec3 right = glm::normalize(glm::cross(camera.up, toward));
-    // Azimuth goes around the camera's own up, which need not be at a right angle to its view.
+    // Azimuth turns around the camera's own up, which need not be at a right angle to its view.
     const Axes around = turned(Axes{right, glm::cross(toward, right), toward}, turn);
     Camera result = camera;
     result.eye = camera.center + distance * around.toward;

@@ -2,28 +2,27 @@
 #include "choice/automatic_transfer.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "base/number_text.h"
-#include "choice/changed_transfer.h"
-#include "choice/common_values.h"
-#include "choice/label_colors.h"
-#include "choice/padding.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "choice/value_distribution.h"
 
 namespace lamina {
+
 namespace {
 
-// Few whole numbers are labels: each has a colour of its own.
+// Largest number of different whole numbers that count as labels, each with a colour of its own.
 constexpr std::size_t most_labels = 24;
 
 // Colours in linear light, from values next to the common ones to the rarest. They become lighter
@@ -39,22 +38,23 @@ glm::dvec3 color_at(std::span<const glm::dvec3> colors, double place) {
     return glm::mix(colors[first], colors[first + 1], scaled - static_cast<double>(first));
 }
 
-// What is rare shows: values that a share s of those beyond the common ones lie beyond have an
-// extinction of about s^-rarity, up to most_contrast times the least.
+// Rare values show more: if a share s of all values beyond the common ones is farther out than a
+// value, the extinction of that value is about s^-rarity, up to most_contrast times the least
+// extinction.
 constexpr double rarity = .8;
 constexpr double least_rest = .004;
-// Over this part of its way, extinction rises from 0 at the border of what is common.
+// Share of a side over which extinction rises from 0 at the border of the common values.
 constexpr double rise = .1;
 constexpr int steps = 8;
-// The outermost of a side: there its colours end.
+// Share of a side's values up to which its colours change; the outermost have the last colour.
 constexpr double far_share = .998;
-// A side with less than this share of all that is not common shows nothing: it is noise, or the
-// foot of a peak, and would take half of the hues.
+// A side with less than this share of all uncommon values shows nothing: it is noise, or the foot
+// of a peak, and would take half of the hues.
 constexpr double least_side = .05;
-// Where common values are no background, they show this share of what lies next to them.
+// Extinction of common values that are no background, as a share of that next to them.
 constexpr double faint = .25;
 
-// The values on one side of the common ones: place 0 at their border, 1 where colours end.
+// The values on one side of the common ones: place 0 at their border, 1 at the end of the colours.
 class Side {
   public:
     Side(ValueDistribution values, double border, double end)
@@ -72,12 +72,12 @@ class Side {
     double border() const { return border_; }
     double end() const { return end_; }
 
-    // The share of the side's values that lie beyond.
+    // Returns the share of the side's values that lie beyond.
     double rest(double value) const {
         return end_ > border_ ? 1 - values_.share_up_to(value) : values_.share_below(value);
     }
-    // Between the place by value and the place by rank: where values gather, colours change faster,
-    // and nowhere do they stand still.
+    // Mixes the place by value and the place by rank: colours change faster where many values lie,
+    // and change everywhere.
     double place(double value) const {
         const double by_value = std::clamp((value - border_) / (end_ - border_), 0.0, 1.0);
         return (by_value + (1 - rest(value))) / 2;
@@ -99,7 +99,8 @@ class Side {
     double border_, end_;
 };
 
-// Points from the border to the side's end, in that order. `start`: the extinction at the border.
+// Returns the points from the border to the side's end, in that order. `start`: the extinction at
+// the border.
 std::vector<TransferKnot> points_of(const Side& side, std::span<const glm::dvec3> colors,
                                     double start) {
     std::vector<TransferKnot> points{{side.border(), {colors.front(), start}}};
@@ -152,8 +153,9 @@ AutomaticTransfer within(const ValueDistribution& values, const ValueRange& rang
             fmt::format("values from {} to {} show, as wished", range.lo, range.hi)};
 }
 
-// A transfer function that shows values beyond the common ones, on one side of them or both.
-// A side whose values would make a shell around what was measured shows nothing if the other does.
+// Returns a transfer function that shows values beyond the common ones, on one or both sides. A
+// side whose values would form a shell around the measured data shows nothing if the other side
+// does.
 AutomaticTransfer beyond_common(const Padding& padding, const CommonValues& common) {
     const ValueDistribution& values = padding.rest;
     Side down = Side::below(values, common.lo), up = Side::above(values, common.hi);
@@ -183,7 +185,7 @@ AutomaticTransfer beyond_common(const Padding& padding, const CommonValues& comm
                     100 * (1 - padding.share) * values.share(common.lo, common.hi), hidden, shown)};
 }
 
-// The function with nothing that shows below or above a value.
+// Returns the function made transparent below a value; shown_below() does it above.
 TransferFunction shown_above(const TransferFunction& function, double value) {
     if (function.transparent(std::numeric_limits<double>::lowest(), value)) return function;
     const OpticalProperties optics = function.at(value);
@@ -204,7 +206,7 @@ TransferFunction shown_below(const TransferFunction& function, double value) {
     return TransferFunction::linear(points);
 }
 
-// Empty where there is none.
+// Returns the sentence on padding; empty if there is none.
 std::string padding_text(const Padding& padding) {
     std::string text;
     for (const double value : padding.values)
@@ -240,7 +242,7 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
     TransferFunction& function = chosen.transfer_function;
     function = in_colors_of(function, wishes.colormap);
     if (wishes.range) {
-        // Below the range nothing shows. Padding inside it was asked for.
+        // Values below the range show nothing. Padding inside the range was asked for.
         if (!padding.above || *padding.above <= wishes.range->hi) return chosen;
         function = shown_below(function, std::max(padding.edge_above(), wishes.range->hi));
     } else {
@@ -249,6 +251,106 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
     }
     chosen.padding = padding_text(padding);
     return chosen;
+}
+
+namespace {
+
+// Linear light; neighbours differ in hue.
+constexpr std::array<glm::dvec3, 8> label_colors{{{.75, .20, .05},
+                                                  {.06, .30, .65},
+                                                  {.80, .55, .08},
+                                                  {.10, .45, .15},
+                                                  {.45, .12, .50},
+                                                  {.08, .50, .50},
+                                                  {.75, .30, .40},
+                                                  {.70, .65, .55}}};
+
+// Rare labels are denser, by up to ten times.
+double extinction_of(double share) {
+    return std::pow(std::max(share, .01), -.5);
+}
+
+}  // namespace
+
+AutomaticTransfer label_transfer(const ValueDistribution& values) {
+    std::size_t common = 0;
+    double most = 0;
+    for (std::size_t i = 0; i < values.distinct(); ++i) {
+        const double share = values.share(values.value(i), values.value(i));
+        if (share > most) {
+            most = share;
+            common = i;
+        }
+    }
+    std::vector<TransferKnot> points;
+    double largest = 0;
+    for (std::size_t i = 0; i < values.distinct(); ++i) {
+        const double share = values.share(values.value(i), values.value(i)) / (1 - most);
+        OpticalProperties optics{label_colors[(i + (i > common ? 7 : 0)) % label_colors.size()],
+                                 extinction_of(share)};
+        if (i == common) optics = {};
+        largest = std::max(largest, optics.extinction);
+        points.push_back({values.value(i), optics});
+    }
+    for (TransferKnot& point : points) point.optics.extinction /= largest;
+    return {TransferFunction::nearest(points),
+            fmt::format("{} whole numbers are taken for labels: {:g}, {:.3g} % of the field, is "
+                        "transparent, each of the others has a colour",
+                        values.distinct(), values.value(common), 100 * most)};
+}
+
+namespace {
+
+// A linear map that keeps the order of values and hits both ends exactly.
+class Stretch {
+  public:
+    Stretch(double from_lo, double from_hi, const ValueRange& to)
+        : lo_(from_lo), width_(from_hi - from_lo), to_(to) {}
+    double operator()(double value) const {
+        const double place = (value - lo_) / width_;
+        return place == 1 ? to_.hi : std::min(to_.lo + (to_.hi - to_.lo) * place, to_.hi);
+    }
+
+  private:
+    double lo_, width_;
+    ValueRange to_;
+};
+
+}  // namespace
+
+TransferFunction stretched(const TransferFunction& transfer_function, const ValueRange& range) {
+    std::vector<TransferKnot> knots(transfer_function.knots().begin(),
+                                    transfer_function.knots().end());
+    if (knots.front().value == knots.back().value)
+        fail(
+            "transfer function: has a single value, {}, expected two that a range could lie "
+            "between",
+            knots.front().value);
+    const Stretch stretch(knots.front().value, knots.back().value, range);
+    for (TransferKnot& knot : knots) knot.value = stretch(knot.value);
+    for (std::size_t i = 2; i < knots.size(); ++i) {
+        if (knots[i].value == knots[i - 2].value) {
+            fail("range from {} to {}: is too narrow for the {} points of the transfer function",
+                 range.lo, range.hi, knots.size());
+        }
+    }
+    return TransferFunction::linear(knots);
+}
+
+TransferFunction recolored(const TransferFunction& transfer_function, Colormap colormap) {
+    const auto knots = transfer_function.knots();
+    const double from = colormap.colors.front().value, to = colormap.colors.back().value;
+    const double lo = knots.front().value, hi = knots.back().value;
+    if (lo == hi) {
+        const auto colors = TransferFunction::linear(combine(colormap, {{from, 0}}));
+        const glm::dvec3 middle = colors.at(from + (to - from) / 2).color;
+        return TransferFunction::linear({{lo, {middle, knots.front().optics.extinction}}});
+    }
+    std::vector<ExtinctionPoint> extinctions;
+    for (const TransferKnot& knot : knots)
+        extinctions.push_back({knot.value, knot.optics.extinction, knot.smooth});
+    if (from < to && !colormap.own_range) stretch(colormap, lo, hi);
+    return TransferFunction::linear(combine(colormap, extinctions));
 }
 
 }  // namespace lamina

@@ -8,20 +8,20 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/number_text.h"
-#include "base/warning.h"
-#include "choice/changed_transfer.h"
-#include "choice/padding.h"
+#include "base/text.h"
+#include "choice/automatic_transfer.h"
+#include "choice/value_distribution.h"
 #include "image/srgb.h"
 
 namespace lamina {
 namespace {
 
-// The opacity of the median ray, of those through what shows.
+// Opacity of the median ray among those that meet something visible.
 constexpr double median_opacity = .9;
-// Parts of the data with less than this share of the largest extinction do not count as seen when
-// a camera is fitted.
+// Share of the largest extinction below which a part of the data does not count as visible when a
+// camera is fitted.
 constexpr double seen_share = 1e-3;
 
 double largest_extinction(const TransferFunction& transfer_function) {
@@ -50,14 +50,14 @@ std::string camera_text(const Camera& camera) {
                        vector_text(camera.up, fineness_of(0, 1)), camera.fov_y);
 }
 
-// A file has a name.
+// Returns the file's name, or the name of data that are in memory.
 std::string name_of_data(const Scene& scene) {
     if (const VolumeFile* const volume = scene.volume_file()) return volume->path.string();
     const MeshFile* const mesh = scene.mesh_file();
     return mesh != nullptr ? mesh->path.string() : "data";
 }
 
-// Rays with less than this share of the deepest one's optical depth meet noise alone.
+// Share of the deepest ray's optical depth; rays below it meet noise alone.
 constexpr double least_depth = 0.002;
 
 // Depths are measured in float32: in the data's own unit of length they neither vanish nor
@@ -67,7 +67,8 @@ TransferFunction per_diagonal(const TransferFunction& transfer_function, const F
     return transfer_function.attenuated(1 / glm::distance(corners.front(), corners.back()));
 }
 
-// The factor that makes the median ray as opaque as wanted; 1 where no ray meets anything.
+// Returns the factor on extinction that makes the median ray as opaque as wanted; 1 if no ray meets
+// anything.
 double density_of(const Scene& scene, const Field& field) {
     std::vector<double> depths = field.optical_depths(scene);
     if (depths.empty()) return 1;
@@ -79,7 +80,7 @@ double density_of(const Scene& scene, const Field& field) {
     return -std::log1p(-median_opacity) / *middle;
 }
 
-// Its colours as display values.
+// Returns the transfer function with its colours as display values.
 TransferFunction displayed(const TransferFunction& transfer_function) {
     std::vector<TransferKnot> knots(transfer_function.knots().begin(),
                                     transfer_function.knots().end());
@@ -89,14 +90,14 @@ TransferFunction displayed(const TransferFunction& transfer_function) {
     return TransferFunction::linear(knots);
 }
 
-// Gradients below this share of the range of values over the spacing are taken for noise.
+// Gradients below this share of (range of values / spacing) count as noise.
 constexpr double smallest_gradient_share = .01;
 
 bool leaves_gradient_open(const Scene& scene) {
     return scene.lighting && scene.lighting->smallest_gradient.is_automatic();
 }
 
-// Of the values that were measured.
+// Returns the range of the measured values, without padding.
 ValueRange range_without_padding(const Field& field) {
     const Padding padding =
         find_padding(field.distribution(), field.whole_numbers(), field.least_padding_share());
@@ -109,7 +110,7 @@ void choose_smallest_gradient(Choices& choices, const Field& field) {
     if (!leaves_gradient_open(scene)) return;
     const ValueRange range = range_without_padding(field);
     const double height = range.empty() ? 0 : range.hi - range.lo;
-    // Data of one value have no gradient: any number serves.
+    // Data of a single value have no gradient, so any number will do.
     const double chosen = height > 0 ? smallest_gradient_share * height / field.spacing() : 1;
     scene.lighting->smallest_gradient =
         std::clamp(chosen, Lighting::least_gradient, Lighting::largest_gradient);
@@ -170,7 +171,7 @@ Choices choose(Scene asked, const Field& field, const Wishes& wishes) {
             fmt::format("transfer function: {}; extinction up to {:.4g} per unit of length", reason,
                         wishes.density * largest_extinction(*scene.transfer_function)));
     }
-    // As it is read from a file again: without points that rounding has put on straight lines.
+    // Removes points that rounding has put on straight lines, as reading from a file does.
     const TransferFunction dense = scene.transfer_function->attenuated(wishes.density);
     scene.transfer_function =
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Transfer function and camera are chosen from the data where a scene leaves them open.
+// Chooses transfer function and camera from the data if a scene leaves them open.
 #pragma once
 
 #include <string>
@@ -12,36 +12,35 @@
 
 namespace lamina {
 
-// Differences that are wanted from the scene, or from what would be chosen.
+// Changes that the user wants to the scene, or to what would be chosen.
 struct Wishes {
     TransferWishes transfer{};
     double density = 1;  // factor on extinction
     ViewTurn turn{};
     double zoom = 1;
-    bool all_around = false;  // an automatic camera fits what shows from wherever it is turned to
+    bool all_around = false;  // an automatic camera fits all views around its axis
 
     bool transfer_function() const { return transfer.colormap || transfer.range || density != 1; }
     bool camera() const { return turn.azimuth != 0 || turn.elevation != 0 || zoom != 1; }
 };
 
-// Whether the data decide on something in the scene: its transfer function, its camera or the
+// Tells whether the data decide on something in the scene: its transfer function, its camera or the
 // smallest gradient that is lit.
 bool leaves_something_open(const Scene& scene);
 
-// A scene with nothing automatic in what the data decide on, and sentences that say what was
-// chosen.
+// A scene in which everything that depends on the data has been chosen, and sentences that say what
+// was chosen.
 struct Choices {
     Scene scene;
     std::vector<std::string> reasons;
 };
 
-// Chooses transfer function, camera and the smallest gradient that is lit, where the scene leaves
-// them open (an open colour map must be closed before), and changes them as wished. The same data
-// and wishes give the same scene. Throws Error if there is something to choose and the field has no
-// finite value.
+// Chooses transfer function, camera and the smallest lit gradient if the scene leaves them open (an
+// open colour map must be closed before), and applies the wishes. The result depends on data and
+// wishes alone. Throws Error if there is something to choose and the field has no finite value.
 Choices choose(Scene asked, const Field& field, const Wishes& wishes = {});
 
-// The first lines of an explanation of the plan: they say what was chosen.
+// Returns the first lines of an explanation of the plan, which say what was chosen.
 std::string chosen_text(const std::vector<std::string>& reasons);
 
 }  // namespace lamina

@@ -9,19 +9,20 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "choice/large_volume.h"
 #include "volume/range_answers.h"
+#include "volume/sample_source.h"
 #include "volume/volume_store.h"
-#include "volume/with_sample_type.h"
 
 namespace lamina {
+
 namespace {
 
 using Shows = std::function<bool(const ValueRange&)>;
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
 
-// From the near side of the first cell to the far side of the last; first > last: none.
+// An interval from the near side of the first cell to the far side of the last; empty if first >
+// last.
 struct Span {
     std::int64_t first = INT64_MAX, last = -1;
     void include(const Span& span) {
@@ -38,8 +39,8 @@ std::array<std::int64_t, 3> cells_of(const Grid& grid) {
     return cells;
 }
 
-// Calls visit(x) for the bricks of a row that show something. Most have the range of their
-// neighbour, a hole's.
+// Calls visit(x) for the visible bricks of a row. Most bricks have the range of their neighbour, so
+// the last answer is kept.
 template <typename Visit>
 void for_shown_bricks(const MinMaxBricks& bricks, std::int64_t y, std::int64_t z,
                       const Shows& shows, const Visit& visit) {
@@ -53,7 +54,7 @@ void for_shown_bricks(const MinMaxBricks& bricks, std::int64_t y, std::int64_t z
     }
 }
 
-// The cells of one row along x, in a window that holds their samples.
+// One row of cells along x, in a window that holds its samples.
 template <typename T>
 class CellRow {
   public:
@@ -85,7 +86,7 @@ class CellRow {
     std::array<const T*, 4> lines_;
 };
 
-// Looks into bricks that show something alone, from both ends.
+// Finds the visible cells of a row, searching visible bricks alone, from both ends.
 template <typename T>
 Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
                   const std::vector<std::int64_t>& shown_bricks, const Shows& shows) {
@@ -107,8 +108,8 @@ Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
     }
 }
 
-// Finds what the rows of cells show, a block of rows of bricks at a time: a block's samples are
-// read at once where the volume stays in its files.
+// Finds the visible cells of all rows, a block of rows of bricks at a time: the samples of a block
+// are read at once if the volume stays in its files.
 template <typename T>
 class RowSpans {
   public:
@@ -120,7 +121,7 @@ class RowSpans {
           cells_(cells_of(grid_)),
           spans_(static_cast<std::size_t>(cells_[1] * cells_[2])) {}
 
-    // For each row of cells along x, y fastest.
+    // Returns one span for each row of cells along x, y fastest.
     std::vector<Span> find() {
         const std::int64_t along = blocks(1);
         parallel_for(along * blocks(2), 1, [&](std::int64_t block) {
@@ -161,7 +162,7 @@ class RowSpans {
         for (const BrickRow& row : rows) find_in_row(row, window);
     }
 
-    // `columns`: of bricks. `samples`: memory for those of a volume that stays in its files.
+    // `columns`: of bricks. `samples`: memory for the samples of a volume that stays in its files.
     SampleWindow<T> window_of(const Span& columns, std::int64_t first_y, std::int64_t first_z,
                               std::unique_ptr<T[]>& samples) const {
         if (volume_.in_memory())
@@ -195,14 +196,14 @@ class RowSpans {
     std::vector<Span> spans_;
 };
 
-// The index of the plane between cells number `plane - 1` and `plane` along an axis.
+// Returns the index of the plane between cells `plane - 1` and `plane` along an axis.
 double plane_at(const Grid& grid, int axis, std::int64_t plane, std::int64_t cells) {
     if (plane == 0) return grid.index_min()[axis];
     if (plane == cells) return grid.index_max()[axis];
     return static_cast<double>(plane);
 }
 
-// The ends of each row of bricks along x that shows something.
+// Returns the ends of each row of bricks along x that has visible ones.
 std::vector<glm::dvec3> hull_of_shown_bricks(const Grid& grid, const MinMaxBricks& bricks,
                                              const Shows& shows) {
     const auto cells = cells_of(grid);
@@ -246,7 +247,7 @@ std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBr
     const std::vector<Span> rows = with_sample_type(volume.type(), [&](auto zero) {
         return RowSpans<decltype(zero)>(volume, bricks, shows).find();
     });
-    // A line of cells' edges lies between up to four rows.
+    // A line of cell edges has up to four rows around it.
     const std::int64_t lines_y = cells[1] + 1;
     std::vector<Span> lines(static_cast<std::size_t>(lines_y * (cells[2] + 1)));
     for (std::int64_t row = 0; row < cells[1] * cells[2]; ++row) {

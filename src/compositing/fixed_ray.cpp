@@ -3,9 +3,8 @@
 
 #include <vector>
 
+#include "compositing/codes.h"
 #include "compositing/over.h"
-#include "compositing/random_bits.h"
-#include "compositing/unit_opacity.h"
 
 namespace lamina {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point compositing of one ray on the processor. It gives what an emulated target holds, and
-// what LaMar 2004 plots.
+// Fixed-point compositing of one ray on the processor: the values that an emulated target holds,
+// and that LaMar 2004 plots.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "compositing/tree_shape.h"
 #include "lamina/emulation.h"
 #include "lamina/order.h"
@@ -26,8 +26,8 @@ struct RaySample {
     double alpha = 0;
 };
 
-// The pixel after all samples; sample 0 is the nearest to the eye. `column`, `row`: the pixel's
-// place, for stochastic rounding.
+// Returns the pixel after all samples; sample 0 is the nearest to the eye. `column`, `row`: the
+// pixel's place, for stochastic rounding.
 FixedPixel composite_straight(std::span<const RaySample> samples, const Emulation& emulation,
                               const std::optional<Dither>& dither = {},
                               Order order = Order::back_to_front, std::uint32_t column = 0,

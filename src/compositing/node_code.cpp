@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 
 namespace lamina {
 namespace {
 
 constexpr double e = std::numbers::e;
-constexpr double low_end = 1 - 1 / e;  // where sigma = 1, times Y
+constexpr double low_end = 1 - 1 / e;  // value at sigma = 1, times Y
 
 double encode_minimax(double depth, double share) {
     const double sigma = depth / share, log_part = -std::log(share) / e;

@@ -15,15 +15,14 @@ struct SampleSpan {
     int end() const { return first + count; }
 };
 
-// The samples of child i of a node with k children and n samples (docs/numerics.md, section 3):
-// floor(i n / k) .. floor((i + 1) n / k). The children's sizes differ by at most one; some are
-// empty where k > n.
+// Returns the samples of child i of a node with k children and n samples (docs/numerics.md, section
+// 3): floor(i n / k) .. floor((i + 1) n / k). The children's sizes differ by at most one; some are
+// empty if k > n.
 SampleSpan child_span(const SampleSpan& node, int child, int children);
 
 // A compositing tree over N samples (LaMar 2004, section 6), given by bifurcation factors from the
 // root to the leaves, for any factors and any N >= 1. A node on the last level is a leaf: its
-// children are samples. Where the product of the factors is less than N, another level takes the
-// rest.
+// children are samples. If the product of the factors is less than N, another level takes the rest.
 class TreeShape {
   public:
     TreeShape(const std::vector<int>& factors, int samples);
@@ -33,16 +32,17 @@ class TreeShape {
     int factor(int level) const { return factors_[static_cast<std::size_t>(level)]; }
     SampleSpan root() const { return {0, samples_}; }
 
-    // A node of one sample is a leaf on any level.
+    // Tells whether a node is a leaf; on any level, a node of one sample is.
     bool is_leaf(int level, const SampleSpan& node) const {
         return level + 1 == levels() || node.count <= 1;
     }
-    // Where nodes are computed in float, a node on any level whose children are single samples
-    // composites them one after the other. The result is the same as with child nodes.
+    // Tells whether a node is marched: if nodes are computed in float, a node on any level whose
+    // children are single samples composites them one after the other, with the result of child
+    // nodes.
     bool is_marched(int level, const SampleSpan& node) const {
         return is_leaf(level, node) || factor(level) >= node.count;
     }
-    // The number of nodes that hold samples.
+    // Returns the number of nodes that hold samples.
     std::int64_t node_count() const;
     std::int64_t leaf_count() const;
 

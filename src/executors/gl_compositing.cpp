@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "compositing/codes.h"
 #include "gl/api.h"
 

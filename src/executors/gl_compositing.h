@@ -14,7 +14,7 @@ namespace lamina {
 gl::TextureFormat color_format(const CompositingPlan& plan);    // RGBA of the target
 gl::TextureFormat opacity_format(const CompositingPlan& plan);  // one channel of the same precision
 
-// Sets the definitions of the plan's codes, rounding and OVER for shaders/compositing, in programs
+// Sets the definitions of the plan's codes, rounding and OVER for shaders/compositing in programs
 // that round fragments to codes. A program that must read its target reads it at texture unit
 // `target_unit`.
 void set_compositing(gl::Defines& defines, const CompositingPlan& plan);
@@ -32,11 +32,11 @@ class CompositingState {
     bool native_;
 };
 
-// Decodes a picture in which the program stored codes of n bits in 8 or 16 bits: code / (2^n - 1).
+// Decodes a picture that the program stored as codes of n bits in 8 or 16 bits: code / (2^n - 1).
 void decode(Image& image, const CompositingPlan& plan);
 
-// Must be called between draws that may cover the same pixel. It waits, where needed, until the
-// result of the first draw can be read.
+// Must be called between draws that may cover the same pixel. It waits, if needed, until the result
+// of the first draw can be read.
 void finish_layer(const CompositingPlan& plan);
 
 }  // namespace lamina

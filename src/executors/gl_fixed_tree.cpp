@@ -5,11 +5,11 @@
 
 #include <span>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "executors/gl_compositing.h"
 #include "executors/swizzle.h"
 #include "gl/api.h"
-#include "gl/full_screen.h"
+#include "gl/framebuffer.h"
 
 namespace lamina {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 constexpr int child_unit = 6, swizzle_unit = 7;
 constexpr int swizzle_width = 256;  // shaders/slicing/swizzle.frag
 
-// Uploads the opacity in the node, as a scaled value, for each code of a child's image.
+// Uploads, for each code of a child's image, its opacity in the node as a scaled value.
 gl::Texture upload_swizzle(const Swizzle& swizzle) {
     const std::size_t codes = swizzle.whole.size();
     const int rows = static_cast<int>((codes + swizzle_width - 1) / swizzle_width);

@@ -8,9 +8,9 @@
 #include "base/progress.h"
 #include "compositing/tree_shape.h"
 #include "executors/tree_leaves.h"
+#include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
-#include "gl/vertex_array.h"
 #include "plan/compositing_plan.h"
 
 namespace lamina {

@@ -30,7 +30,7 @@ class GlTransferTables {
     int nodes() const { return node_count_; }  // along an axis of the table; 0 without a table
     void bind(gl::Program& program) const;     // binds textures and sets uniforms
 
-    // The anchors of the pre-integration table.
+    // Returns the anchors of the pre-integration table.
     const std::vector<KnotTable::Anchor>& anchors() const { return anchors_; }
 
   private:

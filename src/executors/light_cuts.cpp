@@ -9,10 +9,10 @@
 namespace lamina {
 namespace {
 
-// The gradient then is nowhere shorter than .3 of what it is in the middle.
+// With this growth the gradient is nowhere shorter than .3 of what it is in the middle.
 constexpr double most_growth = 0.7;
-// A highlight falls to exp(-1/2) at an angle of 1 / sqrt(power). Of six times that, a node of three
-// lies within 1.2 times that of any peak.
+// Width of a highlight's peak, in units of 1 / sqrt(power), the angle at which it falls to
+// exp(-1/2). Three nodes on six of these units have one within 1.2 units of any peak.
 constexpr double peak_widths = 3;
 
 }  // namespace

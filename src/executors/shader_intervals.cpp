@@ -18,7 +18,8 @@ void append_optics(const OpticalProperties& optics, std::vector<float>& row) {
     row.push_back(static_cast<float>(std::min(optics.extinction, max_shader_extinction)));
 }
 
-// For each interval its right end, and from where on, at its left end or later, something shows.
+// Sets for each interval its right end, and the scalar, from its left end on, from which something
+// is visible.
 void set_ends(std::vector<float>& last_row, const std::vector<float>& places,
               const std::vector<float>& left, const std::vector<float>& right) {
     float right_end = beyond_all_scalars, shown_beyond = beyond_all_scalars;

@@ -7,8 +7,8 @@
 
 namespace lamina {
 
-// The smallest gradient of a lighting, which has one, as mantissa * 2^exponent. It may be smaller
-// or larger than all numbers of float32.
+// The smallest gradient of a lighting that has one, as mantissa * 2^exponent. It may be smaller or
+// larger than all numbers of float32.
 struct SmallestGradient {
     float mantissa = 1;  // 1 to 2
     int exponent = 0;

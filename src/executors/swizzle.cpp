@@ -2,7 +2,7 @@
 #include "executors/swizzle.h"
 
 #include "compositing/codes.h"
-#include "compositing/unit_opacity.h"
+#include "compositing/over.h"
 
 namespace lamina {
 namespace {

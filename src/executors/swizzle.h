@@ -16,8 +16,8 @@ struct Swizzle {
     std::vector<float> whole, rest;
 };
 
-// All swizzles that a tree of fixed-point nodes needs. The key is the number of samples of the
-// child and of the node. `bits`: length of a code.
+// Swizzles that a tree of fixed-point nodes needs. The key is the number of samples of the child
+// and of the node. `bits`: length of a code.
 using Swizzles = std::map<std::pair<int, int>, Swizzle>;
 Swizzles make_swizzles(const TreeShape& shape, int bits);
 

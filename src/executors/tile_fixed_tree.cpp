@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "executors/tile_fixed_tree.h"
 
-#include "base/interrupt.h"
+#include "base/client.h"
 
 namespace lamina {
 

@@ -23,9 +23,9 @@ class TileLeaves {
     virtual void draw(const SampleSpan& span, double depth_scale, TilePixels::Plane& opacity) = 0;
 };
 
-// LaMar's exponent-factoring (2004, section 6) in tiles; GlFixedTree does the same with OpenGL.
-// Every node composites opacity in a plane of fixed-point codes, which goes through a table into
-// the plane of its parent. One plane a level is enough, because a node's plane is used up at once.
+// LaMar's exponent-factoring (2004, section 6) on the CPU; GlFixedTree does it with OpenGL. Every
+// node composites opacity in a plane of fixed-point codes, which goes through a table into the
+// plane of its parent. One plane a level is enough, because a node's plane is used up at once.
 class TileFixedTree {
   public:
     // `plan`: how the nodes composite. Leaves may be drawn in another way.
@@ -35,9 +35,9 @@ class TileFixedTree {
     // Replaces a tile by the picture of the leaves. Safe from several threads at a time.
     void draw(const TileGrid::Tile& area, TileLeaves& leaves, TilePixels& pixels) const;
 
-    // The steps of draw(), for callers that evaluate the tree themselves. put_into_parent() puts a
-    // child's opacity into that of its node; `number` counts these calls in a frame. colorize()
-    // replaces pixels by what the root shows.
+    // These steps of draw() are for callers that evaluate the tree themselves. put_into_parent()
+    // puts a child's opacity into that of its node; `number` counts these calls in a frame.
+    // colorize() replaces pixels by what the root shows.
     void put_into_parent(const SampleSpan& child, const SampleSpan& node, std::uint32_t number,
                          const TileGrid::Tile& area, const TilePixels::Plane& from,
                          TilePixels::Plane& to) const;

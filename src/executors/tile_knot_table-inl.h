@@ -101,8 +101,8 @@ struct EntryNumbers {
     alignas(64) float front[lit ? 4 * most_lanes : 1];
 };
 
-// Calls entry_at(lane) for the lanes that are `wanted`; the entries of other lanes become 0. It
-// goes lane by lane, because the numbers of an entry lie side by side: this is several times as
+// Calls entry_at(lane) for the lanes that are `wanted`; the entries of other lanes become 0. Lanes
+// are read one by one, because the numbers of an entry lie side by side: this is several times as
 // fast as gathers of one number each.
 template <bool lit, class EntryAt>
 LAMINA_INLINE void set_entries(FloatMask wanted, EntryNumbers<lit>& entries,
@@ -188,13 +188,14 @@ LAMINA_INLINE TablePlace table_place(const TileTransfer& transfer, Float scalar)
                           look_up<kind>(transfer.first_node, interval)};
 }
 
-// Associated colour and optical depth of the front of a segment, behind which the next run is
+// Associated colour and optical depth of the front of a segment, behind which the next piece is
 // added.
 struct RunSum {
     Float color[3];
     Float depth;
 };
-// With front parts of colour and opacity (optics/front_parts.h), as colour is: associated, or not.
+// A sum with front parts of colour and opacity (optics/segment_integral.h), associated if the
+// colour is.
 struct LitSum : RunSum {
     Float front_color[3];
     Float front_share;
@@ -211,8 +212,8 @@ LAMINA_INLINE SumOf<lit> no_sum() {
         return {{zero, zero, zero}, zero};
 }
 
-// Adds a run with the given table entry behind `sum`. Of lit segments `share` is the run's share
-// of the segment's length and `left` that of what is behind it.
+// Adds a piece with the given table entry behind `sum`. For lit segments `share` is the piece's
+// share of the segment's length and `left` that of everything behind it.
 struct RunShares {
     Float share, left;
 };
@@ -243,19 +244,19 @@ struct RunEnds {
     TablePlace front_place, back_place;
 };
 
-// The stretch of a segment that one look-up integrates.
+// The piece of a segment that one look-up integrates.
 struct TableRun {
     TableCell cell;
     Float length;
 };
 
-// A segment before the table is looked up. Where the segment crosses ends of intervals, it is cut
-// at the first and at the last of these. `first` is the stretch before the first cut, or all of the
-// segment. Most segments that are cut cross one end only and have nothing `between`.
+// A segment before its look-ups in the table. If it crosses ends of intervals, it is cut at the
+// first and at the last of these. `first` is the piece before the first cut, or the whole segment.
+// Most segments that are cut cross one end only and have nothing `between`.
 struct Segment {
     TableRun first, between, last;
     Float length;
-    FloatMask seen, cut, parted;  // shows something; is cut; has something between
+    FloatMask seen, cut, parted;  // lanes: visible; cut; with something between
     bool some_cut;
 };
 
@@ -330,7 +331,7 @@ struct SegmentEntries {
     EntryOf<lit> first, last;
 };
 
-// Optical depth of the lanes that are cut. The values of other lanes have no meaning.
+// Returns the optical depth of the lanes that are cut. The values of other lanes have no meaning.
 LAMINA_INLINE Float depth_of_parts(const TileTransfer& transfer, const Segment& segment,
                                    bool some_parted) {
     Float depth(0);
@@ -343,8 +344,8 @@ LAMINA_INLINE Float depth_of_parts(const TileTransfer& transfer, const Segment& 
     return depth;
 }
 
-// Associated colour and optical depth of the lanes that are cut. The values of other lanes have no
-// meaning.
+// Returns associated colour and optical depth of the lanes that are cut. The values of other lanes
+// have no meaning.
 template <bool lit>
 LAMINA_INLINE SumOf<lit> sum_of_parts(const TileTransfer& transfer, const Segment& segment,
                                       const SegmentEntries<lit>& entries) {
@@ -369,7 +370,7 @@ LAMINA_INLINE SumOf<lit> sum_of_parts(const TileTransfer& transfer, const Segmen
     return sum;
 }
 
-// Calls visit(number of one, the same of the other) for what a sum has of colours.
+// Calls visit(number of `one`, its counterpart of `other`) for each colour component of a sum.
 template <bool lit, class Visit>
 LAMINA_INLINE void visit_colors(SumOf<lit>& one, const SumOf<lit>& other, const Visit& visit) {
     for (int channel = 0; channel < 3; ++channel) visit(one.color[channel], other.color[channel]);
@@ -380,7 +381,7 @@ LAMINA_INLINE void visit_colors(SumOf<lit>& one, const SumOf<lit>& other, const 
     }
 }
 
-// The segment's optical depth and colour, which is not associated, from its table entries.
+// Returns the segment's optical depth, and its colour, not associated, from its table entries.
 template <bool lit>
 LAMINA_INLINE SumOf<lit> integrate_colors(const TileTransfer& transfer, const Segment& segment,
                                           const SegmentEntries<lit>& entries) {
@@ -407,7 +408,7 @@ LAMINA_INLINE SumOf<lit> integrate_colors(const TileTransfer& transfer, const Se
     return sum;
 }
 
-// Optical depth alone, of tables without colour.
+// Returns the optical depth alone, from tables without colour.
 LAMINA_INLINE Float integrate_depth(const TileTransfer& transfer, const Segment& segment) {
     const Float whole =
         table_extinction(*transfer.table, segment.first.cell) * segment.first.length;
@@ -416,7 +417,7 @@ LAMINA_INLINE Float integrate_depth(const TileTransfer& transfer, const Segment&
     return select(segment.cut, depth_of_parts(transfer, segment, some_parted), whole);
 }
 
-// A segment's colour, which is not associated, and its optical depth. `entries` are used for tables
+// Returns a segment's colour, not associated, and its optical depth. `entries` are used for tables
 // with colour.
 template <bool lit>
 LAMINA_INLINE SumOf<lit> integrate_segment(const TileTransfer& transfer, bool colored,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light does to colours (docs/numerics.md, section 10): vector form of optics/ray_lights.h.
+// The effect of light on colours (docs/numerics.md, section 10): vector form of
+// optics/ray_lights.h.
 #if defined(LAMINA_EXECUTORS_TILE_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_EXECUTORS_TILE_LIGHT_INL_H_
 #undef LAMINA_EXECUTORS_TILE_LIGHT_INL_H_
@@ -17,7 +18,8 @@ LAMINA_INLINE Float dot(const Float (&a)[3], const Float (&b)[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Makes each x, 0 to 1, x^half_power. Side by side, because each power waits for the one before.
+// Replaces each x, 0 to 1, by x^half_power. All are computed side by side, because each
+// multiplication waits for the one before.
 template <std::size_t count>
 LAMINA_INLINE void set_shine(const TileLight& light, Float (&x)[count]) {
     if (light.whole_half_power == 0) {
@@ -38,15 +40,15 @@ LAMINA_INLINE void set_shine(const TileLight& light, Float (&x)[count]) {
     for (std::size_t i = 0; i < count; ++i) x[i] = power[i];
 }
 
-// What light does to a colour c at a place: it adds c * change + highlight. Of one channel where
-// light is grey.
+// The effect of light on a colour c at a place: it adds c * change + highlight. One channel is
+// enough if light is grey.
 template <std::size_t channels>
 struct EffectLanes {
     Float change[channels], highlight[channels];
 };
 
-// At some places of a ray, with the gradients g. `smallest_square`: of the smallest gradient, in
-// the unit of g.
+// Computes the effects at some places of a ray, with the gradients g. `smallest_square`: square of
+// the smallest gradient, in the unit of g.
 template <std::size_t channels, std::size_t count>
 LAMINA_INLINE void set_effects(const TileLight& light, const Float (&g)[count][3],
                                Float smallest_square, const Float (&to_eye_unit)[3],
@@ -64,7 +66,7 @@ LAMINA_INLINE void set_effects(const TileLight& light, const Float (&g)[count][3
     for (const TileLight::Direction& direction : light.directions) {
         const Float to_light[3] = {Float(direction.to_light[0]), Float(direction.to_light[1]),
                                    Float(direction.to_light[2])};
-        // |l + v|^2; where it is 0 there is no highlight.
+        // |l + v|^2; if it is 0 there is no highlight.
         const Float sum = 2 + 2 * dot(to_light, to_eye_unit);
         Float along[count], shine[count];
         for (std::size_t i = 0; i < count; ++i) {
@@ -109,10 +111,10 @@ LAMINA_INLINE EffectLanes<channels> effect_of(const TileLight& light, const Floa
     return effects[0];
 }
 
-// What light may do between the nodes of a piece, whose gradient has this square in the middle and
-// goes as far from that as the root of `reach`: nothing where it stays near. Beyond, a highlight
-// may lie between the nodes; what else light does changes without peaks, and by as much as light
-// can only where the gradient goes three times as far.
+// Returns the effect that light may have between the nodes of a piece. The gradient has this square
+// in the middle and differs from that by up to the root of `reach`. If it stays near, nothing is
+// hidden. Otherwise a highlight may lie between the nodes; everything else changes without peaks,
+// and its full effect is possible only if the gradient differs three times as much.
 LAMINA_INLINE Float hidden_effect(const TileLight& light, Float square, Float reach,
                                   Float smallest_square) {
     const FloatMask peaks = reach > light.most_turn * light.most_turn * square;
@@ -127,8 +129,8 @@ LAMINA_INLINE Float hidden_effect(const TileLight& light, Float square, Float re
     return effect * weight;
 }
 
-// Light at the nodes of Gauss' rule with three nodes, whose amounts add up to a piece's opacity.
-// `share`: where a node lies for colours that change along the piece.
+// Light at the nodes of Gauss' rule with three nodes, whose weights add up to a piece's opacity.
+// `share`: place of a node for colours that change along the piece.
 template <std::size_t channels>
 struct LitNodes {
     Float total, change[channels], shared[channels], highlight[channels], bend[channels];
@@ -155,8 +157,8 @@ struct LitNodes {
         }
     }
 
-    // By how much light bends from node to node to node: what the rule misses of a kink is .045
-    // times that.
+    // Returns the largest bend of light from node to node to node. The rule misses .045 times that
+    // of a kink.
     LAMINA_INLINE Float largest_bend() const {
         Float most(0);
         for (const Float& each : bend) most = max(most, abs(each));
@@ -164,18 +166,18 @@ struct LitNodes {
     }
 };
 
-// How long the first piece of a part may be: what is missed of a kink falls with the square of
-// that. Half as long again, since most parts bend by less than may be hidden in them.
+// Returns the length of a piece's first sub-piece. The error at a kink falls with the square of
+// that. It is half as long again, since most pieces bend by less than they may hide.
 LAMINA_INLINE Float longest_piece(const TileLight& light, Float bend) {
     const Float least(1.0f / 8), longer(1.5f);
     const Float share = light.most_bend / max(bend, 1e-30f);
     return max(min(longer * sqrt(share), 1), least);
 }
 
-// Light is not looked at more closely than that.
+// Shortest sub-piece for which light is computed, as a share of the piece.
 inline constexpr float shortest_lit_piece = 1.0f / 256;
 
-// Parts whose light bends too much for one rule.
+// Returns the pieces whose light bends too much for one rule.
 LAMINA_INLINE FloatMask bends(const TileLight& light, Float bend, Float opacity) {
     return (bend > light.most_bend) & (bend * opacity > light.faint_bend);
 }

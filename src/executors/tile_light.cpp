@@ -12,9 +12,9 @@
 namespace lamina {
 namespace {
 
-// Cuts of light (executors/light_cuts.h) serve where light does so many times what it may bend, as
-// usual light does at max_error 1. What a rule of three nodes misses of what is smooth falls with
-// the sixth power of the turn.
+// Effect of usual light, as a multiple of the bend that it may have, at max_error 1: the cuts of
+// executors/light_cuts.h are right for it. The error of a rule of three nodes on smooth light falls
+// with the sixth power of the turn.
 constexpr double usual_effect = 25, order = 6;
 
 TileLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {

@@ -23,15 +23,16 @@ struct TileLight {
     bool gray = false;  // all components of each colour are equal
     float ambient = 0, diffuse = 0, specular = 0;
     float half_power = 0;      // of the square of a cosine
-    int whole_half_power = 0;  // the same where it is a whole number, else 0
+    int whole_half_power = 0;  // half_power if it is a whole number, else 0
     SmallestGradient smallest;
     std::array<float, 3> spacing{};  // lengths of the axes
-    // Where light bends more along a part of a ray than this, the part is cut.
+    // Bend of light along a piece of a ray above which the piece is cut ...
     float most_bend = 0;
-    // Unless it bends, times the part's opacity, by less than this: too faint to be looked at.
+    // ... unless the bend times the piece's opacity is below this: too faint to matter.
     float faint_bend = 0;
-    // Of the gradient's length in the middle of a part, how far it may be from that: beyond, there
-    // may be highlights between the nodes, and dips of all else (executors/light_cuts.h).
+    // Largest distance of the gradient from that in the middle of a piece, as a share of its length
+    // there; beyond it, there may be highlights between the nodes, and dips of everything else
+    // (executors/light_cuts.h).
     float most_turn = 0, highlight_effect = 0;
     float most_plain_turn = 0, plain_effect = 0;
 };

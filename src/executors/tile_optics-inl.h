@@ -14,7 +14,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// How the interval of a scalar is looked up. one: there is only one interval. permute: by
+// Ways to look up the interval of a scalar. one: there is only one interval. permute: by
 // permutations of vectors that hold all intervals. gather: by gathers from memory.
 enum class Lookup { one, permute, gather };
 
@@ -41,7 +41,7 @@ LAMINA_INLINE Float look_up(const std::vector<float>& values, Int interval) {
     }
 }
 
-// The interval that holds a scalar in [0, 1]. At the value of a step it is the upper one.
+// Returns the interval that holds a scalar in [0, 1]. At the value of a step it is the upper one.
 template <Lookup kind>
 LAMINA_INLINE Int find_interval(const TileTransfer& transfer, Float scalar) {
     Int interval(0);
@@ -64,7 +64,7 @@ LAMINA_INLINE Int find_interval(const TileTransfer& transfer, Float scalar) {
     }
 }
 
-// The position of a scalar in its interval, 0 to 1.
+// Returns the position of a scalar in its interval, 0 to 1.
 template <Lookup kind>
 LAMINA_INLINE Float share_of_interval(const TileTransfer& transfer, Int interval, Float scalar) {
     const Float end = look_up<kind>(transfer.left_end, interval);
@@ -78,9 +78,9 @@ LAMINA_INLINE Float optics_at(const TileTransfer& transfer, std::size_t channel,
            look_up<kind>(transfer.left[channel], interval);
 }
 
-// Whether there is extinction anywhere from a scalar, which interval `first` holds, to `largest`:
-// in an interval before the last one, or in the last one. The last interval does not count where
-// `largest` is its left end and the extinction there is 0.
+// Tells whether extinction is > 0 anywhere from a scalar, which interval `first` holds, to
+// `largest`: in an interval before the last one, or in the last one. The last interval does not
+// count if `largest` is its left end and the extinction there is 0.
 template <Lookup kind>
 LAMINA_INLINE FloatMask shows_something(const TileTransfer& transfer, Int first, Float largest) {
     const Int last = find_interval<kind>(transfer, largest);
@@ -89,7 +89,7 @@ LAMINA_INLINE FloatMask shows_something(const TileTransfer& transfer, Int first,
     return before | (largest > look_up<kind>(transfer.shown_beyond, last));
 }
 
-// The extinction, in double precision.
+// Returns the extinction in double precision.
 template <Lookup kind>
 LAMINA_INLINE Float64 precise_extinction_at(const TileTransfer& transfer, Int interval,
                                             Float share) {

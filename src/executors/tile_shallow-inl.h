@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rules for parts of rays that are not deep.
+// Quadrature rules for pieces of rays of small optical depth.
 #if defined(LAMINA_EXECUTORS_TILE_SHALLOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_EXECUTORS_TILE_SHALLOW_INL_H_
 #undef LAMINA_EXECUTORS_TILE_SHALLOW_INL_H_
@@ -11,11 +11,12 @@
 
 LAMINA_SIMD_BEGIN
 
-// Parts of larger optical depth are split: up to here Gauss' rules below are good to .01 / 255.
+// Optical depth above which pieces are split: up to here the Gauss rules below are accurate to .01
+// / 255.
 inline constexpr float largest_piece_depth = 0.75f;
 
-// 1 - exp(-depth) for depths up to largest_piece_depth, with a relative error of 2e-5: interpolated
-// at Chebyshev's nodes.
+// Returns 1 - exp(-depth) for depths up to largest_piece_depth, with a relative error of 2e-5:
+// interpolated at Chebyshev's nodes.
 LAMINA_INLINE Float shallow_opacity(Float depth) {
     return depth * polynomial(depth, {0.99998385f, -0.49930894f, 0.16195904f, -0.031068699f});
 }

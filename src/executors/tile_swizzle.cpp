@@ -52,7 +52,7 @@ void colorize_pixels(const TargetBlend& target, bool emulated,
         const Float code = color_code(target, color);
         for (std::size_t place = 0; place < TileGrid::pixels; place += Float::lanes) {
             const Float alpha = load<Float>(root.data() + place);
-            // OVER of nothing is the product, rounded.
+            // OVER onto nothing is the product, rounded.
             const Float associated =
                 emulated ? composite_channel(target, code, alpha, Float(0), Float(0))
                          : native_code(target.largest, color * (alpha * unit));

@@ -28,7 +28,7 @@ TileTransfer::Aligned texels_of(const KnotTable& table) {
     return texels;
 }
 
-// For `count` intervals, of which the last ones are copies.
+// For `count` intervals, the last of which are copies.
 std::array<std::vector<float>, 2> bends_of(const std::vector<CurvedPiece>& pieces,
                                            std::size_t count) {
     std::array<std::vector<float>, 2> bends;

@@ -3,14 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <vector>
 
+#include "mesh/tet_mesh.h"
+
 namespace lamina {
+
 namespace {
 
-// Samples farther away, in widths of the range, are moved here. Between such a sample and one in
-// the range, a ray is in the range for less than 1e-9 of the cell in either case.
+// Distance from the range, in widths of it, to which samples farther away are moved. Between such a
+// sample and one in the range, a ray is in the range for less than 1e-9 of the cell in either case.
 constexpr double farthest = 0x1p30;
 
 bool changes(const TransferKnot& from, const TransferKnot& to) {
@@ -18,7 +23,7 @@ bool changes(const TransferKnot& from, const TransferKnot& to) {
     return !(from.optics == to.optics);
 }
 
-// The values between which something visible changes; empty where nothing does.
+// Returns the values between which something visible changes; empty if nothing does.
 ValueRange changing_range(const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();
     ValueRange found;
@@ -30,16 +35,16 @@ ValueRange changing_range(const TransferFunction& transfer_function) {
     return found;
 }
 
-// Share of a window's inner width that is added on each side, so that no value that counts lies at
+// Share of a window's inner width that is added on each side, so that no value that matters lies at
 // an end, where rounding may move it outside.
 constexpr double window_margin = 1.0 / 16;
 
-// The window of a single step is as wide as this share of the values is near to it. A smaller one
-// costs time, because more tets then run far outside the window, and a larger one costs digits.
+// Share of the values that lies in the window of a single step. A smaller one costs time, because
+// more tets then run far outside the window; a larger one costs digits.
 constexpr double share_near_step = 0.1;
 
-// Returns the distance from `step` within which that share of the values lies, without those that
-// are equal to it; 0 if there are no others.
+// Returns the distance from `step` within which share_near_step of the values lies, not counting
+// those equal to it; 0 if there are no others.
 double distance_near(double step, std::span<const double> values) {
     std::vector<double> distances;
     distances.reserve(values.size());
@@ -54,8 +59,8 @@ double distance_near(double step, std::span<const double> values) {
     return distances[static_cast<std::size_t>(place)];
 }
 
-// The first of three halves of `range`, side by side and overlapping, that holds `inner` well
-// inside, or to an end of `whole`, beyond which there are no samples; else `range`.
+// Returns the first of three overlapping halves of `range` that holds `inner` with a margin, or up
+// to an end of `whole`, beyond which there are no samples; else `range`.
 ValueRange half_around(const ValueRange& range, const ValueRange& inner, const ValueRange& whole) {
     const double width = (range.hi - range.lo) / 2, margin = width / 16;
     for (const double part : {0.0, 0.5, 1.0}) {
@@ -70,8 +75,8 @@ ValueRange half_around(const ValueRange& range, const ValueRange& inner, const V
 }  // namespace
 
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range) {
-    // A power of two divides whole numbers without rounding: all samples are 0 exactly, the value
-    // whose optics are drawn.
+    // Dividing whole numbers by a power of two does not round: all samples become exactly 0, the
+    // value whose optics are drawn.
     if (range.lo == range.hi) {
         const double width = std::max(1.0, std::exp2(std::ceil(std::log2(std::abs(range.lo)))));
         return {range.lo, range.lo + width};
@@ -103,7 +108,7 @@ ValueRange mesh_window(const TransferFunction& transfer_function, std::span<cons
     ValueRange inner = changing_range(transfer_function);
     if (inner.empty() || inner.hi < drawn.lo || inner.lo > drawn.hi) return drawn;
     inner = {std::max(inner.lo, drawn.lo), std::min(inner.hi, drawn.hi)};
-    // Values that lie closer are hardly different in double precision.
+    // Values closer than this hardly differ in double precision.
     const double largest = std::max(std::abs(inner.lo), std::abs(inner.hi));
     double width = std::max(inner.hi - inner.lo, 0x1p-40 * largest);
     if (inner.lo == inner.hi) width = std::max(width, distance_near(inner.lo, values));
@@ -128,8 +133,8 @@ ValueRange exact_range(const TransferFunction& transfer_function, const ValueRan
     const ValueRange whole{lo, lo + std::exp2(std::ceil(std::log2(drawn.hi - lo)))};
     if (inner.empty()) return whole;
     ValueRange found = whole;
-    // Floats near a value have digits enough at this width. A step alone, at 0 say, has no width of
-    // its own: no sample may be too far from it (`farthest`).
+    // Floats near a value have enough digits at this width. A single step, at 0 say, has no width
+    // of its own: no sample may be too far from it (`farthest`).
     const double largest = std::max(std::abs(inner.lo), std::abs(inner.hi));
     const double narrowest = inner.lo < inner.hi ? 0x1p-120 : 0x1p-28 * (whole.hi - whole.lo);
     const double least = whole_numbers ? 4 : std::max(0x1p-10 * largest, narrowest);
@@ -139,6 +144,50 @@ ValueRange exact_range(const TransferFunction& transfer_function, const ValueRan
         found = half;
     }
     return found;
+}
+
+TetPieces::TetPieces(const TransferFunction& transfer_function, const ValueRange& range) {
+    for_each_linear_piece(
+        transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
+            const bool transparent = piece.at_from.extinction == 0 && piece.at_to.extinction == 0;
+            if (transparent && !pieces_.empty() && this->transparent(last())) {  // one gap
+                pieces_.back().to = piece.to;
+                pieces_.back().at_to = piece.at_to;
+                return;
+            }
+            pieces_.push_back(piece);
+            visible_before_.push_back(visible_before_.back() + (transparent ? 0 : 1));
+        });
+}
+
+TetPieces::Span TetPieces::met(std::span<const double> scalar, const Tet& tet) const {
+    const ValueRange range = range_in(scalar, tet);
+    if (range.empty()) return {};
+    const auto [lo, hi] = range;
+    // The first piece that begins above lo lies behind the one that has it. If the scalar varies,
+    // so does the first that does not end below hi.
+    const auto above = std::ranges::upper_bound(pieces_, lo, {}, &LinearPiece::from);
+    Span span;
+    span.first =
+        static_cast<std::int32_t>(std::max<std::ptrdiff_t>(above - pieces_.begin() - 1, 0));
+    const auto end = std::ranges::lower_bound(pieces_, hi, {}, &LinearPiece::to);
+    const auto last_of_range =
+        static_cast<std::int32_t>(std::min<std::ptrdiff_t>(end - pieces_.begin(), last()));
+    span.last = lo < hi ? last_of_range : span.first;
+    return span;
+}
+
+TetPieces::Span TetPieces::visible(std::span<const double> scalar, const Tet& tet) const {
+    Span span = met(scalar, tet);
+    while (!span.empty() && transparent(span.first)) ++span.first;
+    while (!span.empty() && transparent(span.last)) --span.last;
+    return span;
+}
+
+int TetPieces::count(const Span& span) const {
+    if (span.empty()) return 0;
+    return visible_before_[static_cast<std::size_t>(span.last) + 1] -
+           visible_before_[static_cast<std::size_t>(span.first)];
 }
 
 }  // namespace lamina

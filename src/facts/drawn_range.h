@@ -1,40 +1,112 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <span>
+#include <vector>
 
+#include "lamina/tet.h"
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
+#include "optics/pieces.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
 
-// The range of a scalar as it is drawn, lo < hi. It is widened where all values are the same, and a
-// little where the transfer function has a step at its end, because the later side of the step
+// Returns the range of a scalar as it is drawn, lo < hi. It is widened if all values are equal, and
+// a little if the transfer function has a step at its end, because the later side of the step
 // counts there.
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range);
 
-// The range that exact segments normalise to [0, 1]. It holds all values at which something visible
-// changes, with a margin; beyond it the transfer function is constant or shows nothing. Samples
-// may lie far outside it: a few odd values must not take the digits of those that show. Its width
-// is a power of two, and of samples that are whole numbers its lower end is one, so that in float32
-// samples stay exact: cells whose value is a step lie on the side of that value.
+// Returns the range that exact segments normalise to [0, 1]. It holds all values at which something
+// visible changes, with a margin; beyond it the transfer function is constant or shows nothing.
+// Samples may lie far outside it: a few odd values must not take the digits of the visible ones.
+// Its width is a power of two, and its lower end is whole if the samples are, so that samples stay
+// exact in float32: cells whose value is a step lie on the side of that value.
 ValueRange exact_range(const TransferFunction& transfer_function, const ValueRange& range,
                        SampleType type);
 
-// The range that whole tets normalise to [0, 1]: all values at which something visible changes,
-// with a margin, cut to the drawn range. Beyond it the transfer function is constant, or there are
-// no values. It is the drawn range if nothing visible changes there. `values`: at the mesh's
-// points, with `range` as the range of the finite ones. They say how wide the window of a single
-// step is.
+// Returns the range that whole tets normalise to [0, 1]: all values at which something visible
+// changes, with a margin, cut to the drawn range. Beyond it the transfer function is constant, or
+// there are no values. If nothing visible changes it is the drawn range. `values`: at the mesh's
+// points; they decide how wide the window of a single step is. `range`: of the finite ones.
 ValueRange mesh_window(const TransferFunction& transfer_function, std::span<const double> values,
                        const ValueRange& range);
 
-// The largest component of a colour in a range.
+// Returns the largest component of a colour in a range.
 double largest_color(const TransferFunction& transfer_function, const ValueRange& range);
 
-// A sample with `range` as [0, 1], as textures of floats hold it. NaN where it is not finite;
+// Maps a sample from `range` to [0, 1], as textures of floats hold it. NaN if it is not finite;
 // clamped far outside the range.
 float normalised_sample(double value, const ValueRange& range);
+
+// Tets whose scalar runs far outside the window that is drawn, such as those around a value that
+// marks missing data (docs/precision.md, "Exact segments").
+
+// Distance in widths of the window: scalars of a tet that runs farther outside are computed in
+// double precision at each fragment. A scalar within the window is a difference of numbers up to
+// this large, so float32 would lose as many digits.
+inline constexpr double far_for_floats = 16;
+
+// Distance in widths of the window up to which a tet keeps its digits if it is cut at the transfer
+// function's points and normalised piece by piece. A piece may be a tenth of the window; float32
+// then has 1e-4 of it.
+inline constexpr double far_for_parts = 128;
+
+// Distance in widths of the window up to which normalised scalars are numbers that float32 can
+// square. A tet that runs farther outside is drawn as if the window were wider: in either case less
+// than 1e-18 of it lies in the window, less than opaque points (optics/opacity.h) need to show.
+inline constexpr double farthest_normalised = 0x1p60;
+
+// Tells whether a range of scalars meets the window and also reaches more than `far` widths beyond
+// it.
+inline bool runs_beyond(const ValueRange& scalars, const ValueRange& window, double far) {
+    const double most = far * (window.hi - window.lo);
+    return scalars.lo < window.hi && scalars.hi > window.lo &&
+           (window.lo - scalars.lo > most || scalars.hi - window.hi > most);
+}
+
+// Returns the factor on a tet's normalised scalars that keeps all within `farthest_normalised` of
+// 0.
+inline double far_scale(double least, double largest) {
+    const double most = std::max(-least, largest);
+    return most > farthest_normalised ? farthest_normalised / most : 1.0;
+}
+
+// The first piece that begins above lo lies behind the one that has it. If the scalar varies, so
+// does the first that does not end below hi.
+class TetPieces {
+  public:
+    // range: finite, lo < hi.
+    TetPieces(const TransferFunction& transfer_function, const ValueRange& range);
+
+    const std::vector<LinearPiece>& pieces() const { return pieces_; }  // ascending
+    bool transparent(std::int32_t piece) const {
+        const auto place = static_cast<std::size_t>(piece);
+        return visible_before_[place] == visible_before_[place + 1];
+    }
+
+    // The first and the last of some consecutive pieces; last < first if there are none.
+    struct Span {
+        std::int32_t first = 0, last = -1;
+
+        bool empty() const { return last < first; }
+    };
+    // Returns the pieces in which some point of the tet lies; empty if a corner's value is not
+    // finite.
+    Span met(std::span<const double> scalar, const Tet& tet) const;
+    // Returns met() without the transparent pieces at both ends.
+    Span visible(std::span<const double> scalar, const Tet& tet) const;
+    // The number of pieces in a span that show something.
+    int count(const Span& span) const;
+
+  private:
+    std::int32_t last() const { return static_cast<std::int32_t>(pieces_.size()) - 1; }
+
+    std::vector<LinearPiece> pieces_;
+    // Number of pieces that show something before each piece, and in all.
+    std::vector<int> visible_before_{0};
+};
 
 }  // namespace lamina

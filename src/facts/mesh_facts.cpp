@@ -6,15 +6,18 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "facts/drawn_range.h"
-#include "facts/far_scalars.h"
-#include "facts/finite_check.h"
-#include "mesh/mesh_overlap.h"
-#include "mesh/scalar_range.h"
+#include "facts/volume_facts.h"
+#include "mesh/face_tree.h"
+#include "mesh/mesh_shape.h"
+#include "mesh/ray_walk.h"
+#include "mesh/tet_mesh.h"
 #include "scene/camera.h"
 #include "scene/coloring.h"
 
 namespace lamina {
+
 namespace {
 
 void measure_edges(const TetMesh& mesh, MeshFacts& facts) {
@@ -94,6 +97,118 @@ void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
     const TetPieces pieces(*scene.transfer_function,
                            drawn_range(*scene.transfer_function, facts.range));
     facts.trial_rays = find_trial_rays(scene, mesh, pieces);
+}
+
+void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& found) {
+    const std::string name = name_of_mesh(scene);
+    if (found.range.empty()) {
+        fail("{}: all {} values of \"{}\" are NaN or infinite", name, mesh.mesh.points().size(),
+             mesh.scalar.name);
+    }
+    if (found.non_finite > 0 && scene.nan == NanPolicy::error) {
+        fail(
+            "{}: found {} NaN or infinite values of \"{}\", expected none; \"nan\": "
+            "\"transparent\" in the scene draws their tets as transparent",
+            name, found.non_finite, mesh.scalar.name);
+    }
+}
+
+namespace {
+
+// Number of rays along each side of the picture: enough to meet what fills a thousandth of it. A
+// picture with fewer pixels has a ray for each.
+constexpr int trial_rays_along_side = 32, most_rays = trial_rays_along_side * trial_rays_along_side;
+
+double longest_edge(const TetMesh& mesh, std::int32_t number) {
+    const Tet& tet = mesh.tets()[static_cast<std::size_t>(number)];
+    const auto corner = [&](std::size_t i) {
+        return mesh.points()[static_cast<std::size_t>(tet[i])];
+    };
+    double longest = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = i + 1; j < 4; ++j)
+            longest = std::max(longest, glm::distance(corner(i), corner(j)));
+    }
+    return longest;
+}
+
+std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column, int row,
+                                    const TetMesh& mesh, std::span<const double> scalar) {
+    const View::Ray ray = view.ray(column, row);
+    walk.aim(ray.origin, ray.direction);
+    const double length_per_depth = glm::length(ray.direction);
+    const double diagonal = glm::distance(mesh.bounds().min, mesh.bounds().max);
+    std::vector<TetSegment> segments;
+    walk.list(segments);
+    std::vector<MeshFacts::Run> runs;
+    for (const TetSegment& segment : segments) {
+        const double in = std::max(segment.in.at, 0.0), length = segment.out.at - in;
+        if (!(length > 0)) continue;
+        // Tets around the eye begin at the near plane, whose distance is a share of the mesh's
+        // size.
+        const bool around_eye = segment.in.at < in;
+        const double share = length / (segment.out.at - segment.in.at);
+        const double back = segment.out.interpolate(scalar);
+        const double front = std::lerp(back, segment.in.interpolate(scalar), share);
+        const MeshFacts::Run run{front, back, length * length_per_depth,
+                                 around_eye ? diagonal : longest_edge(mesh, segment.tet)};
+        if (std::isfinite(run.front) && std::isfinite(run.back)) runs.push_back(run);
+    }
+    return runs;
+}
+
+// Visible tets, evenly from the whole mesh, because few rays may miss narrow peaks. Each is a ray
+// of its own along its edge of most change, there and back.
+constexpr std::size_t most_trial_tets = 20000;
+
+void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
+                 std::vector<std::vector<MeshFacts::Run>>& rays) {
+    const auto& values = mesh.scalar.values;
+    const auto points = mesh.mesh.points();
+    std::vector<const Tet*> seen;
+    for (const Tet& tet : mesh.mesh.tets()) {
+        if (!pieces.visible(values, tet).empty()) seen.push_back(&tet);
+    }
+    const std::size_t step = seen.size() / most_trial_tets + 1;
+    for (std::size_t i = 0; i < seen.size(); i += step) {
+        const auto value = [&](std::int32_t corner) {
+            return values[static_cast<std::size_t>(corner)];
+        };
+        const auto [low, high] = std::ranges::minmax_element(*seen[i], {}, value);
+        const double length = glm::distance(points[static_cast<std::size_t>(*low)],
+                                            points[static_cast<std::size_t>(*high)]);
+        rays.push_back({{value(*low), value(*high), length, length}});
+        rays.push_back({{value(*high), value(*low), length, length}});
+    }
+}
+
+}  // namespace
+
+std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh) {
+    const View view(*scene.camera, scene.width, scene.height);
+    const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
+    const bool all = view.width * std::int64_t{view.height} <= most_rays;
+    const int columns = all ? view.width : std::min(trial_rays_along_side, view.width);
+    const int rows = all ? view.height : std::min(trial_rays_along_side, view.height);
+    std::vector<std::vector<MeshFacts::Run>> rays(static_cast<std::size_t>(columns * rows));
+    parallel_for(rows, 1, [&](std::int64_t row) {
+        RayWalk walk(mesh.mesh, boundary);
+        for (int column = 0; column < columns; ++column) {
+            rays[static_cast<std::size_t>(row * columns + column)] =
+                runs_of(walk, view, (2 * column + 1) * view.width / (2 * columns),
+                        static_cast<int>((2 * row + 1) * view.height / (2 * rows)), mesh.mesh,
+                        mesh.scalar.values);
+        }
+    });
+    std::erase_if(rays, [](const auto& ray) { return ray.empty(); });
+    return rays;
+}
+
+std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
+                                                         const TetPieces& pieces) {
+    std::vector<std::vector<MeshFacts::Run>> rays = find_view_rays(scene, mesh);
+    append_tets(mesh, pieces, rays);
+    return rays;
 }
 
 }  // namespace lamina

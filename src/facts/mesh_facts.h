@@ -6,91 +6,99 @@
 #include <string>
 #include <vector>
 
-#include "facts/tet_pieces.h"
+#include "facts/drawn_range.h"
 #include "mesh/mesh_shape.h"
+#include "mesh/tet_mesh.h"
 #include "scene/scene_mesh.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
 
-// Facts say what a mesh and the view really contain: they are measured, not taken from files.
+// Properties of a mesh and its view. They are measured, not taken from files.
 struct MeshFacts {
     std::int64_t points = 0;
     std::int64_t tets = 0;
-    std::string scalar;  // its name
+    std::string scalar;  // name of the scalar
     ValueRange range;    // range of the finite values
     std::int64_t non_finite = 0;
     MeshFindings findings;
-    // The clip leaves nothing of the mesh. All else then describes the mesh before it was cut.
+    // True: the clip leaves nothing of the mesh, and all else describes the mesh before it was cut.
     bool clipped_away = false;
 
     double shortest_edge = 0, longest_edge = 0;  // world units
     double diagonal = 0;                         // diagonal of the bounding box, world units
     Convexity convexity = Convexity::none;
-    std::int64_t overlapping_tets = 0;  // tets that share space with others (mesh/mesh_overlap.h)
+    std::int64_t overlapping_tets = 0;  // tets that share space with others (mesh/mesh_shape.h)
 
     // The following describe the transfer function over `range`.
     bool constant = false;  // one colour, one extinction
-    // One colour wherever there is extinction. Where colours are interpolated between vertices: one
+    // One colour wherever extinction is > 0; if colours are interpolated between vertices: one
     // colour everywhere.
     bool single_color = false;
     double max_extinction = 0;  // per world unit
     double max_color = 0;       // largest component of a colour
-    // Number of tets that show nothing, including those with a value that is not finite.
+    // number of tets that show nothing, including those with a value that is not finite
     std::int64_t transparent_tets = 0;
-    // The window that whole tets are normalised to (facts/drawn_range.h), and the number of tets
-    // that show something in it and run far outside it (facts/far_scalars.h).
+    // The window that whole tets are normalised to (facts/drawn_range.h), and the number of visible
+    // tets that run far outside it (facts/drawn_range.h).
     ValueRange window;
     std::int64_t far_tets = 0;
-    // Number of cell fragments that show something, where the other tets are cut at the transfer
-    // function's points.
+    // Number of visible cell fragments if the other tets are cut at the transfer function's points.
     std::int64_t parts = 0;
 
     // The following describe the view.
     bool orthographic = false;
     bool in_front = true;  // some point lies in front of the eye's plane
 
-    // Rays on which ways to integrate segments are tried: rays through pixels all over the picture,
-    // as runs through tets, nearest first; and single tets that show something. Empty where the
+    // Rays on which methods to integrate segments are tried: rays through pixels all over the
+    // picture, each as its segments in tets, nearest first; and single visible tets. Empty if the
     // scene leaves no choice.
     struct Run {
         double front, back;  // scalars
         double length;       // world units
-        double edge = 0;     // longest one of the tet, world units
+        double edge = 0;     // longest edge of the tet, world units
     };
     std::vector<std::vector<Run>> trial_rays;
-    // Errors that were found on trial rays, in 1/255.
+    // Errors found on trial rays, in 1/255.
     struct TrialError {
-        double segments = 0;  // of integrating runs
-        double places = 0;    // more, of faces that are not quite in their places
+        double segments = 0;  // of integrating segments
+        double places = 0;    // additional ones, of faces that are not quite in their places
         std::int64_t rays = 0;
 
         friend bool operator==(const TrialError&, const TrialError&) = default;
     };
-    TrialError last_error;  // on the rays of an earlier view, if there are none for this one
+    TrialError last_error;  // as found on the rays of an earlier view, if this one has none
 };
 
-// Tells whether an order is right on every ray. Other orders are there to be studied, with their
+// Tells whether an order is right on every ray. Other orders exist to be studied, with their
 // mistakes.
 inline bool is_right_order(const Auto<ProjectOrder>& order) {
     return order.is_automatic() || order == ProjectOrder::exact;
 }
 
-// Makes MeshFacts::trial_rays from rays of the view, and from tets of the mesh one by one.
+// Finds MeshFacts::trial_rays: rays of the view, and single tets of the mesh.
 std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
                                                          const TetPieces& pieces);
 
-// Measures all facts. Throws Error where the scalar has values that are not finite and the scene
-// does not say how to treat them, or where no value is finite.
+// Measures all facts. Throws Error if the scalar has values that are not finite and the scene does
+// not say how to treat them, or if no value is finite.
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh);
 
-// These measure in steps: the facts of the mesh and the transfer function; those of the view
-// except for rays; trial_rays.
+// These measure in steps: facts of the mesh and the transfer function; facts of the view except for
+// rays; trial_rays.
 MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh);
-// Returns MeshFacts::overlapping_tets, which measure_data() leaves out: it takes longer, and
+// Returns MeshFacts::overlapping_tets. measure_data() leaves it out because it takes longer and
 // depends on the mesh alone.
 std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity);
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
+
+// Throws Error if no value is finite, or if some are not and the scene does not draw them
+// transparent. `found`: the range of the mesh's scalar.
+void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& found);
+
+// Returns rays of the scene's view, all over the picture, as segments in tets, nearest first. Rays
+// that meet no tet are left out, and so are tets with values that are not finite.
+std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh);
 
 }  // namespace lamina

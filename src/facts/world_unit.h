@@ -7,12 +7,12 @@
 
 namespace lamina {
 
-// Worlds may be as small as atoms or as large as galaxies, and float32 overflows at the square of
-// 1e20. So renderers measure lengths in a unit in which the scene has about size 1. The unit is a
-// power of two, so that no digit changes: a world twice as large, with half the extinction, gives
+// Lengths are measured in a unit in which the scene has about size 1, because worlds may be as
+// small as atoms or as large as galaxies, and float32 overflows at the square of 1e20. The unit is
+// a power of two, so that no digit changes: a world twice as large, with half the extinction, gives
 // the same picture bit for bit.
 
-// The factor from world lengths to these units: `diagonal` becomes 1 to 2. It is 1 where the
+// Returns the factor from world lengths to these units: `diagonal` becomes 1 to 2. It is 1 if the
 // diagonal is 0.
 double world_unit(double diagonal);
 double box_diagonal(const Grid& grid);

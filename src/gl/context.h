@@ -2,25 +2,31 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <thread>
 
 #include "gl/api.h"
-#include "gl/context_counts.h"
-#include "gl/program_cache.h"
+#include "gl/program.h"
 #include "plan/capabilities.h"
 
 namespace lamina::gl {
 
-// any: a GPU through EGL where there is one, else OSMesa, else EGL with a software renderer.
+// Counts of one context.
+struct ContextCounts {
+    std::int64_t bytes_allocated = 0;  // those that buffers and textures hold now
+    std::int64_t bytes_uploaded = 0;   // those that textures got so far
+};
+
+// any: a GPU through EGL if there is one, else OSMesa, else EGL with a software renderer.
 // gpu: a GPU through EGL.
-// egl: a GPU where there is one, else a software renderer.
+// egl: a GPU if there is one, else a software renderer.
 enum class ContextKind { any, gpu, osmesa, egl };
 
-// An OpenGL 4.5 core context without a window or a display server. Several may be there, each is
-// current in one thread at a time (gl/current_context.h). Every object of this room belongs to the
-// context that was current when it was made: that is current, too, when it is used and when it
-// goes, and goes later.
+// An OpenGL 4.5 core context without a window or a display server. There may be several; each is
+// current in one thread at a time (CurrentContext). Every object of this module belongs to the
+// context that was current when it was made. That context must be current, too, when the object is
+// used and when it is destroyed, and must outlive it.
 class Context {
   public:
     // Makes a context. Throws Error, which says what was tried, why each attempt failed, and what
@@ -40,8 +46,8 @@ class Context {
 
     Context();
 
-    // To be called once the context can be made current: loads OpenGL's functions, fills the
-    // capabilities and sets the state that the whole project relies on. `interface_name` goes in
+    // Must be called once the context can be made current. Loads OpenGL's functions, fills the
+    // capabilities, and sets the state that the whole project relies on. `interface_name` goes in
     // front of GL_RENDERER.
     void initialise(LoadFunction load, const char* interface_name, bool software);
 
@@ -49,7 +55,8 @@ class Context {
     friend class CurrentContext;
     friend const GladGLContext& api();
 
-    // In this thread, in which the library has no other current one; an Error where it fails.
+    // Make the context current in this thread, in which the library has no other current one, and
+    // end that. Throw Error on failure.
     virtual void bind() = 0;
     virtual void release() = 0;
 
@@ -57,8 +64,57 @@ class Context {
     Capabilities capabilities_;
     ContextCounts counts_;
     ProgramCache programs_;
-    std::atomic<std::thread::id> thread_{};  // whose CurrentContexts are there; none: nobody's
-    int scopes_ = 0;                         // so many of them
+    std::atomic<std::thread::id> thread_{};  // the thread in which it is current; none if nowhere
+    int scopes_ = 0;                         // CurrentContexts that exist for it
 };
+
+enum class EglDevices { hardware, any };
+
+std::unique_ptr<Context> create_osmesa_context();
+std::unique_ptr<Context> create_egl_context(EglDevices devices);
+
+// The context that EGL (OSMesa) has current in this thread, whoever made it; `context` is null if
+// there is none.
+struct EglBinding {
+    unsigned api = 0;  // the one that eglBindAPI() chose; 0 if EGL is not loaded
+    void *display = nullptr, *draw = nullptr, *read = nullptr, *context = nullptr;
+};
+struct OsmesaBinding {
+    void *context = nullptr, *buffer = nullptr;
+    unsigned type = 0;  // type of the buffer's components
+    int width = 0, height = 0;
+};
+
+// release_...() returns what was current and ends that; restore() makes it current again. Neither
+// loads a library.
+EglBinding release_egl();
+void restore(const EglBinding& binding);
+OsmesaBinding release_osmesa();
+void restore(const OsmesaBinding& binding);
+
+// Makes a context current in this thread while it exists. Afterwards the context before it is
+// current again: one of this module, or one that the caller has made with EGL or OSMesa. Contexts
+// of GLX are unknown to it: a caller that has one takes another thread. Scopes of a thread must end
+// in the reverse order of their beginnings.
+class CurrentContext {
+  public:
+    // Throws Error if the context is current in another thread.
+    explicit CurrentContext(Context& context);
+    ~CurrentContext();
+    CurrentContext(const CurrentContext&) = delete;
+    CurrentContext& operator=(const CurrentContext&) = delete;
+
+  private:
+    void take();
+    void give_back() const;
+
+    Context& context_;
+    Context* const before_;  // the context of this module before; null if there was none
+    EglBinding egl_;         // what EGL had current before, whoever made it
+    OsmesaBinding osmesa_;
+};
+
+// Returns the context of this module that is current in this thread, or null.
+Context* current_context();
 
 }  // namespace lamina::gl

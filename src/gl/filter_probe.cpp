@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 
@@ -24,14 +23,14 @@ constexpr int samples = 16;  // a side of the image
 template <typename Value>
 using Values = std::array<Value, texels * texels * texels>;
 
-// How a format's values are probed. Textures give them as value / scale, scattered over [least,
-// least + range). Of codes there are so few that rounding of results shows beside rounding of
-// weights.
+// The values with which a format is probed: numbers in [least, least + range), which the texture
+// gives back as value / scale. Codes have a small range, so that rounding of results shows beside
+// rounding of weights.
 struct Probe {
     double scale, least, range;
 };
 
-// A linear ramp would hide errors of the weights that cancel.
+// Returns values without an order: a linear ramp would hide errors of the weights that cancel.
 template <typename Value>
 Values<Value> scattered_values(const Probe& probe) {
     Values<Value> values;

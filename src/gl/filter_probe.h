@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gl/texture_format.h"
+#include "gl/texture.h"
 
 namespace lamina::gl {
 
@@ -10,7 +10,8 @@ namespace lamina::gl {
 struct FilterError {
     double found = 0;
     double eight_bit = 0;  // error of weights rounded to 8 bits, at the same places
-    // Truncated weights, or those of 7 bits, are twice as bad.
+    // Tells whether the filter's weights are rounded to 8 bits or better. Truncated weights, or
+    // those of 7 bits, err twice as much.
     bool as_good_as_eight_bits() const { return found <= 1.1 * eight_bit; }
 };
 

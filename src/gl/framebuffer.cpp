@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/framebuffer.h"
 
-#include <glad/gl.h>
-
 #include <algorithm>
 #include <cassert>
 #include <utility>
 
+#include <glad/gl.h>
 #include "base/error.h"
 #include "gl/api.h"
-#include "gl/check.h"
 
 namespace lamina::gl {
+
 namespace {
 
 unsigned new_framebuffer() {
@@ -95,6 +94,17 @@ void LayerFramebuffer::clear() {
     for (int target = 0; target < bound_; ++target) {
         api().ClearNamedFramebufferfv(handle_.id(), GL_COLOR, target, zero);
     }
+}
+
+void draw_full_screen(const Program& program) {
+    draw_full_screen(program, VertexArray());
+}
+
+void draw_full_screen(const Program& program, const VertexArray& any) {
+    any.bind();
+    program.use();
+    api().DrawArrays(GL_TRIANGLES, 0, 3);
+    check("drawing over the whole target");
 }
 
 }  // namespace lamina::gl

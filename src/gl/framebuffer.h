@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec4.hpp>
-
 #include <cstddef>
 #include <initializer_list>
 #include <vector>
 
-#include "gl/handle.h"
+#include <glm/vec4.hpp>
+#include "gl/api.h"
+#include "gl/buffer.h"
+#include "gl/program.h"
 #include "gl/texture.h"
 #include "lamina/image.h"
 
@@ -17,15 +18,15 @@ namespace lamina::gl {
 // shader's output `location = i`.
 class Framebuffer {
   public:
-    // Throws Error where the driver cannot draw into these formats.
+    // Throws Error if the driver cannot draw into these formats.
     explicit Framebuffer(std::vector<Texture> colors);
     explicit Framebuffer(Texture color);
 
     void bind() const;  // for drawing; the viewport covers all of it
     void clear(const glm::vec4& rgba, std::size_t target = 0);
 
-    // Target `target` as floats. OpenGL's row 0 is the bottom one, the image's row 0 the top one.
-    // Into `image`: without taking memory where that has the size.
+    // Reads a target as floats. OpenGL's row 0 is the bottom one, the image's row 0 the top one.
+    // Reading into `image` takes no memory if that has the target's size.
     Image read_back(std::size_t target = 0) const;
     void read_back(Image& image, std::size_t target = 0) const;
 
@@ -53,5 +54,11 @@ class LayerFramebuffer {
     Handle<ObjectKind::framebuffer> handle_;
     int bound_ = 0;
 };
+
+// Runs the program, whose vertex shader is "gl/full_screen.vert", once for every pixel of the bound
+// framebuffer.
+void draw_full_screen(const Program& program);
+// Draws with a given vertex array, so that frames need not make one.
+void draw_full_screen(const Program& program, const VertexArray& any);
 
 }  // namespace lamina::gl

@@ -1,18 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/shader_source.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <sstream>
 
+#include <fmt/ranges.h>
 #include "base/error.h"
-#include "gl/shader_files.h"
 
 namespace lamina::gl {
+
+namespace {
+
+std::optional<std::string> find_in_override(const std::string& name) {
+    const char* directory = std::getenv("LAMINA_SHADER_DIR");
+    if (!directory || !*directory) return std::nullopt;
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(directory, ignored))
+        fail("{}: no such folder (LAMINA_SHADER_DIR)", directory);
+    const std::filesystem::path path = std::filesystem::path(directory) / name;
+    if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file) fail("{}: cannot be read (LAMINA_SHADER_DIR)", path.string());
+    return text;
+}
+
+}  // namespace
+
+std::vector<std::string> shader_names() {
+    std::vector<std::string> names;
+    for (const EmbeddedFile& shader : embedded_shaders()) names.emplace_back(shader.name);
+    return names;
+}
+
+std::optional<std::string> find_shader(const std::string& name) {
+    if (auto text = find_in_override(name)) return text;
+    for (const EmbeddedFile& shader : embedded_shaders()) {
+        if (shader.name == name) return std::string(shader.text);
+    }
+    return std::nullopt;
+}
+
 namespace {
 
 // Returns the word after the line's '#', such as "include" or "version". It is empty if the line is
@@ -40,7 +75,7 @@ class Composer {
     }
 
   private:
-    // `wanted_by` begins the message where the file is missing.
+    // `wanted_by` begins the message if the file is missing.
     void append_file(const std::string& name, const std::string& wanted_by) {
         const std::optional<std::string> text = find_(name);
         if (!text) fail("{}: no such shader file: {}", wanted_by, name);
@@ -72,8 +107,8 @@ class Composer {
         if (!std::regex_match(line, pattern)) fail_without_version();
         has_version_ = true;
         append_text("#version 450 core", place);
-        // Without this NVIDIA's compiler makes 1 - (p + q) of (1 - p) - q, and small opacities lose
-        // their digits. Other compilers ignore it (GLSL 4.50, 3.3).
+        // Without this pragma NVIDIA's compiler turns (1 - p) - q into 1 - (p + q), and small
+        // opacities lose their digits. Other compilers ignore it (GLSL 4.50, 3.3).
         append_text("#pragma optionNV(fastmath off)", place);
         for (const auto& [name, value] : source_.defines.list) {
             append_text("#define " + name + ' ' + value, place);
@@ -95,7 +130,8 @@ class Composer {
         if (std::find(open_.begin(), open_.end(), name) != open_.end()) {
             fail("{}: {} includes itself: {} -> {}", where, name, fmt::join(open_, " -> "), name);
         }
-        // Repetitions are left to the preprocessor: only it knows which #if branches are alive.
+        // Repeated includes are left to the preprocessor: only it knows which #if branches are
+        // alive.
         const std::string guard = guard_of(name);
         append_text("#ifndef " + guard, place);
         append_text("#define " + guard, place);
@@ -138,7 +174,8 @@ ShaderSource compose_shader(const std::string& name, const Defines& defines,
 }
 
 std::string readable_log(const std::string& log, const ShaderSource& source) {
-    // Mesa "0:12(3): error: ...", NVIDIA "0(12) : error ...", glslang "ERROR: 0:12: ...".
+    // Positions look like "0:12(3): error: ..." (Mesa), "0(12) : error ..." (NVIDIA) or "ERROR:
+    // 0:12: ..." (glslang).
     static const std::regex place(
         "^(?:ERROR: |WARNING: )?\\d+[:(](\\d{1,8})(?:\\(\\d+\\)|\\))?\\s*:\\s*");
     std::string text;

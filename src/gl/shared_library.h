@@ -6,18 +6,18 @@
 
 namespace lamina::gl {
 
-// A library loaded at run time. It is never unloaded, because Mesa and LLVM leave threads and exit
-// handlers behind.
+// A library that is loaded at run time. It is never unloaded, because Mesa and LLVM leave threads
+// and exit handlers behind.
 class SharedLibrary {
   public:
     // Loads the first of `names` that the dynamic linker finds. Throws Error, which says why each
     // could not be loaded.
     explicit SharedLibrary(std::initializer_list<const char*> names);
 
-    // Whether somebody in this process has loaded it.
+    // Tells whether this process has loaded the library already.
     static bool is_loaded(const char* name);
 
-    // The function `name`; an Error that names the library where it has none.
+    // Returns the function `name`. Throws Error, which names the library, if it has none.
     template <typename Function>
     Function function(const char* name) const {
         return reinterpret_cast<Function>(symbol(name));

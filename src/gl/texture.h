@@ -6,11 +6,25 @@
 #include <span>
 #include <vector>
 
-#include "gl/handle.h"
-#include "gl/memory.h"
-#include "gl/texture_format.h"
+#include "gl/api.h"
 
 namespace lamina::gl {
+
+// r8, r16, rgba8, rgba16: codes that read as code/255 and code/65535. rgba16i: whole numbers, for
+// isamplers.
+enum class TextureFormat { r8, r16, r16f, r32f, rg32f, rgba8, rgba16, rgba16i, rgba16f, rgba32f };
+
+struct TextureFormatInfo {
+    const char* name;
+    int channels;
+    int bytes_per_texel;       // in GPU memory
+    unsigned internal_format;  // GL_R8, ...
+    unsigned layout;           // layout in host memory: GL_RED, GL_RG, GL_RGBA or GL_RGBA_INTEGER
+    // Type of components there: GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_SHORT or GL_FLOAT.
+    unsigned component_type;
+};
+
+const TextureFormatInfo& info_of(TextureFormat format);
 
 enum class TextureFilter { nearest, linear };
 
@@ -28,10 +42,10 @@ struct PixelStore {
     int slice_rows = 0;
 };
 
-// A texture of fixed size with one level, clamped to its edge, filtered `nearest` unless specified
-// otherwise. Contents are undefined until uploaded or drawn. Throws Error for sizes below 1 or over
-// the context's limits, for more than Capabilities::max_texture_bytes, and where the driver is out
-// of memory.
+// A texture of fixed size with one level, clamped to its edge, and filtered `nearest` unless
+// set_filter() says otherwise. Its contents are undefined until uploaded or drawn. Throws Error for
+// sizes below 1 or over the context's limits, for more than Capabilities::max_texture_bytes, and if
+// the driver is out of memory.
 class Texture {
   public:
     Texture() = default;
@@ -54,8 +68,9 @@ class Texture {
     void set_filter(TextureFilter filter);
     void bind(unsigned unit) const;
 
-    // All texels as RGBA floats, x fastest, then y, then z: row 0 is OpenGL's, the bottom one of a
-    // drawn image. Absent channels read as 0, absent alpha as 1. Not of rgba16i.
+    // Reads all texels as RGBA floats, x fastest, then y, then z: row 0 is OpenGL's, the bottom one
+    // of a drawn image. Absent channels read as 0, absent alpha as 1. Must not be called for
+    // rgba16i.
     std::vector<float> read_rgba() const;
     void read_rgba(std::span<float> rgba) const;  // 4 floats a texel, exactly
 

@@ -1,15 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/timeline.h"
 
-#include <glad/gl.h>
-
 #include <algorithm>
 #include <limits>
 
+#include <glad/gl.h>
 #include "base/profile.h"
 #include "gl/api.h"
 
 namespace lamina::gl {
+
+Fence::~Fence() {
+    if (sync_ != nullptr) api().DeleteSync(static_cast<GLsync>(sync_));
+}
+
+void Fence::set() {
+    if (sync_ != nullptr) api().DeleteSync(static_cast<GLsync>(sync_));
+    sync_ = api().FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+void Fence::wait() {
+    if (sync_ == nullptr) return;
+    constexpr GLuint64 nanoseconds = 1'000'000'000;
+    while (api().ClientWaitSync(static_cast<GLsync>(sync_), GL_SYNC_FLUSH_COMMANDS_BIT,
+                                nanoseconds) == GL_TIMEOUT_EXPIRED) {
+    }
+    api().DeleteSync(static_cast<GLsync>(sync_));
+    sync_ = nullptr;
+}
+
+namespace {
+
+GLenum target_of(Query::Kind kind) {
+    return kind == Query::Kind::samples_passed ? GL_SAMPLES_PASSED : GL_TIMESTAMP;
+}
+
+unsigned new_query(Query::Kind kind) {
+    GLuint id = 0;
+    api().CreateQueries(target_of(kind), 1, &id);
+    return id;
+}
+
+}  // namespace
+
+Query::Query(Kind kind) : kind_(kind), handle_(new_query(kind)) {
+    check("making a query");
+}
+
+void Query::begin() {
+    api().BeginQuery(target_of(kind_), handle_.id());
+}
+
+void Query::end() {
+    api().EndQuery(target_of(kind_));
+}
+
+void Query::stamp() {
+    api().QueryCounter(handle_.id(), GL_TIMESTAMP);
+}
+
+std::uint64_t Query::result() const {
+    GLuint64 value = 0;
+    api().GetQueryObjectui64v(handle_.id(), GL_QUERY_RESULT, &value);
+    check("reading a query");
+    return value;
+}
+
 namespace {
 
 bool is_recording() {
@@ -19,8 +75,9 @@ bool is_recording() {
     return bits > 0;
 }
 
-// Returns what is added to OpenGL's clock to get the host's. OpenGL's clock is read between two
-// readings of the host's, several times, and the pair with the shortest time between them counts.
+// Returns the nanoseconds to add to OpenGL's clock to get the host's. OpenGL's clock is read
+// between two readings of the host's, several times, and the pair with the shortest time between
+// them counts.
 std::int64_t clock_offset() {
     constexpr int looks = 5;
     std::int64_t shortest = std::numeric_limits<std::int64_t>::max(), offset = 0;
@@ -38,8 +95,8 @@ std::int64_t clock_offset() {
 
 }  // namespace
 
-// A renderer that draws tile after tile (llvmpipe) meets a query once a tile and keeps the last
-// time. So what is submitted before and after the beginning of a span must not be drawn together.
+// Submits the commands before a span apart from those in it: a renderer that draws tile after tile
+// (llvmpipe) meets a query once a tile and keeps the last time.
 void Timeline::begin(const char* name) {
     if (!is_recording()) return;
     api().Flush();

@@ -5,12 +5,48 @@
 #include <cstdint>
 #include <vector>
 
-#include "gl/query.h"
+#include "gl/api.h"
 
 namespace lamina::gl {
 
-// OpenGL's row of a Profile (base/profile.h): when the context executed submitted commands. Does
-// nothing where no Profile records, or where the context has no clock of its own.
+// A point in the stream of OpenGL commands that the program can wait for.
+class Fence {
+  public:
+    Fence() = default;
+    ~Fence();
+    Fence(const Fence&) = delete;
+    Fence& operator=(const Fence&) = delete;
+
+    void set();  // places the fence at the current point
+    // Waits until all commands before the fence are complete; returns at once if it was not set.
+    void wait();
+
+  private:
+    void* sync_ = nullptr;
+};
+
+// Counts events of the draws between begin() and end(). Two queries of one kind must not overlap. A
+// timestamp has no span: stamp() records the time at which all commands submitted before it are
+// done.
+class Query {
+  public:
+    enum class Kind { samples_passed, timestamp };
+
+    explicit Query(Kind kind);
+
+    void begin();
+    void end();
+    void stamp();
+    // Waits for the draws and returns the count; a timestamp is in nanoseconds of OpenGL's clock.
+    std::uint64_t result() const;
+
+  private:
+    Kind kind_;
+    Handle<ObjectKind::query> handle_;
+};
+
+// Records OpenGL's row of a Profile (base/profile.h): when the context executed submitted commands.
+// Does nothing if no Profile records, or if the context has no clock of its own.
 class Timeline {
   public:
     // begin() and end() enclose the commands of one span; spans do not nest. `name`: a literal.

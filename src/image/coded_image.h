@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace lamina {
@@ -24,5 +26,24 @@ struct CodedImage {
           codes(static_cast<std::size_t>(width_pixels) * static_cast<std::size_t>(height_pixels) *
                 static_cast<std::size_t>(channel_count)) {}
 };
+
+using PixelColor = std::array<std::uint16_t, 3>;  // sRGB codes of 8 bits
+
+// Height in dots of the letters of pictures' labels: ASCII in 5 x 7 dots, each `dot` x `dot`
+// pixels, 6 dots apart. Other characters show as "?".
+inline constexpr int text_dots_high = 7;
+int text_width(std::string_view text, int dot);  // pixels
+
+// Draws the text with its top left corner at (left, top). Parts outside the picture, which must
+// have three channels of 8 bits, are cut off.
+void draw_text(CodedImage& image, int left, int top, std::string_view text, int dot,
+               const PixelColor& color);
+
+// Fills the part of the rectangle that lies in the picture.
+void fill_rectangle(CodedImage& image, int left, int top, int width, int height,
+                    const PixelColor& color);
+
+// Copies a picture, as far as it fits, into another one, its top left corner to (left, top).
+void copy_into(CodedImage& image, const CodedImage& part, int left, int top);
 
 }  // namespace lamina

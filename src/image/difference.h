@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "image/coded_image.h"
+#include "lamina/error_norms.h"
 #include "lamina/image.h"
 
 namespace lamina {
@@ -18,7 +20,7 @@ struct Difference {
     std::vector<double> e;
 };
 
-// Both throw Error where the sizes differ (the message has both), and for PNGs where the channels
+// Both throw Error if the sizes differ (the message has both); for PNGs also if the channels
 // differ.
 template <typename RealA, typename RealB>
 Difference difference(const RgbaImage<RealA>& a, const RgbaImage<RealB>& b);
@@ -30,5 +32,26 @@ extern template Difference difference(const Image&, const Image&);
 extern template Difference difference(const Image&, const PreciseImage&);
 extern template Difference difference(const PreciseImage&, const Image&);
 extern template Difference difference(const PreciseImage&, const PreciseImage&);
+
+struct ImageError {
+    struct Worst {
+        int column = 0, row = 0;
+        std::size_t channel = 0;  // index into `channels`
+        double e = 0;
+    };
+
+    std::vector<std::string> channels;
+    std::vector<ErrorNorms> of_channel;
+    ErrorNorms all;
+    Worst worst;  // the first component with |e| = all.linf
+};
+
+// Throws Error if some e is not finite.
+ImageError measure(const Difference& difference);
+
+template <typename RealA, typename RealB>
+ImageError image_error(const RgbaImage<RealA>& a, const RgbaImage<RealB>& b) {
+    return measure(difference(a, b));
+}
 
 }  // namespace lamina

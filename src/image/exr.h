@@ -14,7 +14,7 @@ namespace lamina {
 // Writes channels R, G, B, A as 32-bit float with ZIP compression, and the attributes as strings.
 // Display values are marked by one more, "color_space" of "display"; without it a file holds linear
 // light.
-// There is no time stamp: equal images make equal files. Throws Error where a component is not
+// There is no time stamp: equal images make equal files. Throws Error if a component is not
 // finite or the disk is full. The caller commits the file.
 void write_exr(OutputFile& file, const Image& image,
                const std::map<std::string, std::string>& attributes,
@@ -25,7 +25,7 @@ void write_exr(OutputFile& file, const Image& image,
 // for damaged files and for sizes beyond image_limits.h.
 Image read_exr(const std::filesystem::path& path);
 
-// What the numbers of a file are that read_exr() reads.
+// Tells whether the numbers of a file that read_exr() reads are linear light or display values.
 ImageColorSpace color_space_of_exr(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamina/image.h"
-
 #include <algorithm>
+
+#include "base/enum_words.h"
+#include "lamina/image.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina {
 
@@ -16,6 +18,10 @@ PreciseImage to_double(const Image& image) {
     PreciseImage precise(image.width, image.height);
     precise.rgba.assign(image.rgba.begin(), image.rgba.end());
     return precise;
+}
+
+const char* name_of(ImageColorSpace space) {
+    return word_of(space, {"linear", "display"});
 }
 
 }  // namespace lamina

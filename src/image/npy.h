@@ -1,21 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/output_file.h"
 #include "lamina/image.h"
 
 namespace lamina {
 
+constexpr std::string_view npy_magic = "\x93NUMPY";
+
+// The header of a file in NumPy's format (NEP 1): the literal of a Python dictionary. Throws Error
+// for what cannot be read as one.
+class NpyHeader {
+  public:
+    explicit NpyHeader(const std::filesystem::path& path);
+
+    std::string descr() const;  // "<f4"; empty if it is no string
+    bool is_fortran_order() const;
+    std::vector<std::int64_t> shape() const;  // empty if it is no tuple of whole numbers
+    std::int64_t data_offset() const { return data_offset_; }
+
+    // Throws an Error about the value of a key: what was found and what was expected.
+    [[noreturn]] void wrong(const char* key, std::string_view expected) const;
+
+  private:
+    std::string_view value(std::string_view key) const;  // the text behind the key
+
+    std::string name_;  // name of the file
+    std::string text_;
+    std::int64_t data_offset_ = 0;
+};
+
 // Writes NumPy's format (NEP 1), version 1.0: float32 or float64 as the image has them, little
-// endian, C order, shape (height, width, 4). Throws Error where a component is not finite or the
+// endian, C order, shape (height, width, 4). Throws Error if a component is not finite or the
 // disk is full. The caller commits the file.
 void write_npy(OutputFile& file, const Image& image);
 void write_npy(OutputFile& file, const PreciseImage& image);
 
 // Reads '<f4' or '<f8' in C order with shape (height, width, 4), or (height, width, 3) with A = 1.
-// Throws Error for anything else, and where the file's length does not match the header.
+// Throws Error for anything else, and if the file's length does not match the header.
 PreciseImage read_npy(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -1,11 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/picture.h"
 
+#include <algorithm>
+#include <cctype>
+#include <type_traits>
+
+#include "base/error.h"
 #include "image/exr.h"
+#include "image/image_limits.h"
 #include "image/npy.h"
 #include "image/png.h"
 
 namespace lamina {
+
+namespace {
+
+std::string lower_suffix(const std::filesystem::path& path) {
+    std::string suffix = path.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return suffix;
+}
+
+template <typename Real>
+LoadedImage finite(std::string name, RgbaImage<Real> image) {
+    require_finite(name, image);
+    return {std::move(name), std::move(image), {}};
+}
+
+LoadedImage load_exr(const std::filesystem::path& path) {
+    LoadedImage image = finite(path.string(), read_exr(path));
+    image.space = color_space_of_exr(path);
+    return image;
+}
+
+template <typename A, typename B>
+Difference pixel_difference(const A& a, const B& b) {
+    constexpr bool coded_a = std::is_same_v<A, CodedImage>;
+    constexpr bool coded_b = std::is_same_v<B, CodedImage>;
+    if constexpr (coded_a == coded_b)
+        return difference(a, b);
+    else
+        fail(
+            "a PNG holds sRGB codes over a background, EXR and NPY hold linear light before any "
+            "background; compare PNG with PNG, EXR and NPY with each other");
+}
+
+}  // namespace
+
+LoadedImage load_image(const std::filesystem::path& path) {
+    const std::string suffix = lower_suffix(path);
+    if (suffix == ".exr") return load_exr(path);
+    if (suffix == ".npy") return finite(path.string(), read_npy(path));
+    if (suffix == ".png") return {path.string(), read_png(path), {}};
+    fail("{}: suffix '{}'; expected .exr, .npy or .png", path.string(), suffix);
+}
+
+Difference difference(const LoadedImage& a, const LoadedImage& b) {
+    if (a.space && b.space && *a.space != *b.space) {
+        fail(
+            "{}, {}: one holds linear light, the other display values (image.color_space); "
+            "expected "
+            "the same of both",
+            a.name, b.name);
+    }
+    try {
+        return std::visit([](const auto& x, const auto& y) { return pixel_difference(x, y); },
+                          a.pixels, b.pixels);
+    } catch (const Error& error) {
+        fail("{}, {}: {}", a.name, b.name, error.what());
+    }
+}
 
 std::size_t write_picture(OutputFile& file, const Image& image, const glm::dvec3& background,
                           const std::map<std::string, std::string>& attributes,

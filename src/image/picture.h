@@ -1,21 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <cstddef>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <variant>
 
+#include <glm/vec3.hpp>
 #include "base/output_file.h"
+#include "image/coded_image.h"
+#include "image/difference.h"
 #include "lamina/image.h"
 #include "lamina/image_color_space.h"
 
 namespace lamina {
 
-// Writes a PNG file (image/png.h) where the suffix is .png, NumPy's (image/npy.h) where it is .npy,
-// else an EXR file (image/exr.h) with the attributes. `space`: of image and background. Returns how
-// many pixels were clamped. The caller commits the file.
+// A picture from a file of any kind that this module reads.
+struct LoadedImage {
+    std::string name;  // name of the file
+    std::variant<Image, PreciseImage, CodedImage> pixels;
+    std::optional<ImageColorSpace> space;  // only EXR files say it
+};
+
+// Loads a picture; the suffix (.exr, .npy or .png, of any case) gives its kind. Throws Error for
+// other suffixes, bad files, and components that are not finite.
+LoadedImage load_image(const std::filesystem::path& path);
+
+// Compares EXR and NPY with each other, and PNG with PNG as stored codes. Throws Error, with the
+// names of the files, if they differ in kind or size, or if one is known to hold linear light and
+// the other display values.
+Difference difference(const LoadedImage& a, const LoadedImage& b);
+
+// Writes a PNG file (image/png.h) if the suffix is .png, NumPy's format (image/npy.h) if it is
+// .npy, else an EXR file (image/exr.h) with the attributes. `space`: that of image and background.
+// Returns how many pixels were clamped. The caller commits the file.
 std::size_t write_picture(OutputFile& file, const Image& image, const glm::dvec3& background,
                           const std::map<std::string, std::string>& attributes,
                           ImageColorSpace space = ImageColorSpace::linear);

@@ -13,7 +13,6 @@
 #include <memory>
 
 #include "base/error.h"
-#include "image/finite.h"
 #include "image/image_limits.h"
 #include "image/srgb.h"
 
@@ -39,7 +38,7 @@ template <typename Body>
     return true;
 }
 
-// libpng's own function would not say why a write fails.
+// Writes bytes; unlike libpng's own function, it says why a write fails.
 void write_block(png_structp png, png_bytep bytes, std::size_t count) {
     auto* const stream = static_cast<std::FILE*>(png_get_io_ptr(png));
     if (std::fwrite(bytes, 1, count, stream) != count) png_error(png, std::strerror(errno));

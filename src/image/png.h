@@ -26,12 +26,12 @@ std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& ba
 // Writes the codes unchanged, marked as sRGB.
 void write_png(OutputFile& file, const CodedImage& image);
 
-// The bytes of a PNG file with an RGB picture of 8 bits; the second of the codes that write_png()
-// writes of a picture.
+// Return the bytes of a PNG file with an RGB picture of 8 bits; for an image it has the codes that
+// write_png() writes.
 std::string encode_png(const CodedImage& image);
 std::string encode_png(const Image& image, const glm::dvec3& background, ImageColorSpace space);
 
-// The codes alone: red, green and blue, row 0 on top.
+// Returns only the codes: red, green and blue, row 0 on top.
 std::vector<std::uint8_t> png_codes(const Image& image, const glm::dvec3& background,
                                     ImageColorSpace space);
 

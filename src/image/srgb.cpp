@@ -14,7 +14,8 @@ long code_of_linear(double linear) {
     return std::lround(255 * srgb_from_linear(linear));
 }
 
-// The codes of linear light 0..1 without a power for each: where they begin.
+// Table of the codes of linear light 0..1, which saves a power for each: the number at which each
+// code begins, and the first code in each of 4096 equal cells.
 class CodeSteps {
   public:
     CodeSteps() {
@@ -25,7 +26,7 @@ class CodeSteps {
                 code_of_linear(static_cast<double>(cell) / static_cast<double>(cells)));
     }
 
-    // A cell has two codes at most: the curve is steepest at 0, where one is 1.2 cells.
+    // A cell has two codes at most: the curve is steepest at 0, and there a code is 1.2 cells wide.
     std::uint16_t code_of(double linear) const {
         const auto cell =
             std::min(static_cast<std::size_t>(linear * static_cast<double>(cells)), cells - 1);
@@ -37,7 +38,7 @@ class CodeSteps {
   private:
     static constexpr std::size_t cells = 4096;
 
-    // The least number with this code or a higher one.
+    // Returns the least number with this code or a higher one.
     static double begin_of(long code) {
         double below = 0, there = 1;
         if (code == 0) return 0;

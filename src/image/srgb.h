@@ -12,8 +12,8 @@ namespace lamina {
 double srgb_from_linear(double linear);
 double linear_from_srgb(double stored);
 
-// The 8-bit code that shows a number of a picture: of linear light, or a display value; clamped to
-// 0..1.
+// Returns the 8-bit code that shows a number of a picture, linear light or a display value, clamped
+// to 0..1.
 std::uint16_t display_code(double value, ImageColorSpace space);
 
 }  // namespace lamina

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/data_files.h"
 
-#include "base/atomic_file.h"
 #include "base/client.h"
 #include "base/error.h"
+#include "base/output_file.h"
 #include "mesh_files/mesh_file.h"
 #include "volume/nrrd_writer.h"
 #include "volume_files/volume_file.h"

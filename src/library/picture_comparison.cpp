@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "image/difference.h"
 #include "image/difference_picture.h"
-#include "image/false_color.h"
-#include "image/loaded_image.h"
-#include "image/metrics.h"
+#include "image/picture.h"
 #include "image/png.h"
 
 namespace lamina {

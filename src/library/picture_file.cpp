@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/picture_file.h"
 
-#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/output_file.h"
 #include "image/npy.h"
 #include "image/picture.h"
 #include "image/png.h"

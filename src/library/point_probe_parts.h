@@ -13,7 +13,7 @@
 
 namespace lamina {
 
-// The data of one kind are there.
+// The members of one kind of data are set.
 struct PointProbe::Parts {
     Scene scene;
     std::shared_ptr<const VolumeData> volume;

@@ -6,7 +6,6 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {

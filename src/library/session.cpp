@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/stopwatch.h"
+#include "base/profile.h"
 #include "library/point_probe_parts.h"
 #include "library/session_parts.h"
 #include "scene/half_space.h"
@@ -62,7 +62,7 @@ void Session::set_transfer_function_of(const Scene& like) {
 }
 
 void Session::set_clip(const Clip& clip) {
-    half_spaces(clip);  // checks it
+    half_spaces(clip);  // throws if the clip is wrong
     parts_->run([&] { parts_->pipeline->set_clip(clip); });
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "choice/binned_values.h"
+#include "choice/value_distribution.h"
 #include "scene/camera.h"
 #include "scene/lighting_check.h"
 
@@ -39,7 +39,7 @@ Session::Parts::~Parts() {
     run([&] { pipeline.reset(); });
 }
 
-// A warning of a picture comes again with every picture.
+// Each picture repeats its warnings, so they are kept once.
 void Session::Parts::keep_warning(const std::string& text) {
     const std::lock_guard lock(keeping);
     if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(text);

@@ -19,13 +19,13 @@ namespace lamina {
 // Throws Error if there is no such view: scene files are checked for that when they are read.
 void check_view(const Camera& camera, int width, int height);
 
-// A session is the pipeline of its scene with what a client has of its own: threads, a folder that
-// it may read, a keeper of warnings.
+// A session: the pipeline of its scene with a client's own settings, such as threads, a folder that
+// it may read, and its warnings.
 struct Session::Parts {
     Parts(Scene scene, const SessionOptions& options);
     ~Parts();
 
-    // Calls work() for the session's client: in its threads, its warnings kept.
+    // Calls work() for the session's client: in its threads, with its warnings kept.
     template <typename Work>
     void run(const Work& work, std::stop_token stop = {}, const ProgressCallback& progress = {}) {
         const WarningTaker taker = [this](const std::string& text) { keep_warning(text); };
@@ -44,7 +44,7 @@ struct Session::Parts {
     std::mutex keeping;
     std::vector<std::string> warnings;
     std::unique_ptr<Pipeline> pipeline;
-    // Of the data that the histogram was last asked of.
+    // the data of the last histogram
     std::weak_ptr<const void> counted;
     ValueDistribution counts;
     Image picture;

@@ -7,7 +7,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "study/machine.h"
+#include "study/frame_times.h"
 #include "study/study_output.h"
 #include "study/study_runner.h"
 
@@ -21,7 +21,8 @@ nlohmann::ordered_json begin_record() {
     return {{"begin", begin}};
 }
 
-// A folder with other files is refused; one with a part of this study, unless that is wanted.
+// Throws if the folder has files of others, another study, this one with changed data, or a part of
+// this one unless `resume`.
 void check_folder(const study::StudyFolder& folder, study::RunList& list, bool resume) {
     folder.own().expect_own(study::StudyFolder::names());
     if (!std::filesystem::exists(folder.run_list())) return;
@@ -60,7 +61,7 @@ StudyOutcome run(const std::filesystem::path& path, const study::StudyFolder& fo
 StudyOutcome run_study(const std::filesystem::path& study, const std::filesystem::path& folder,
                        bool resume, std::stop_token stop, const ProgressCallback& progress) {
     std::vector<std::string> warnings;
-    // Runs of the same data say the same.
+    // Several runs over the same data give the same warnings.
     const WarningTaker taker = [&](const std::string& text) {
         if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(text);
     };

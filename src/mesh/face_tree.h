@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <glm/common.hpp>
-#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include "mesh/tet_mesh.h"
 
 namespace lamina {
@@ -41,7 +42,8 @@ class FaceTree {
         visit_nodes([&](std::size_t node) { return meets(nodes_[node].box); }, visit);
     }
 
-    // The same, but the test gets the number of the node: meets(number of the node).
+    // Calls visit() like the function above, but the test gets the number of the node:
+    // meets(number).
     template <typename Meets, typename Visit>
     void visit_nodes(const Meets& meets, const Visit& visit) const {
         std::array<std::int32_t, 64> stack;  // the tree is balanced: its height is below 32
@@ -63,8 +65,8 @@ class FaceTree {
 
     std::size_t node_count() const { return nodes_.size(); }
 
-    // Sums up what add_face(index, node) adds for the faces below each node. `nodes` has one
-    // element a node; all start from `nothing` and are combined by add().
+    // Sums up, for each node, what add_face(index, node) adds for the faces below it. `nodes` has
+    // one element a node; all start from `nothing` and are combined by add().
     template <typename Known, typename AddFace>
     void sum(std::span<Known> nodes, const Known& nothing, const AddFace& add_face) const {
         for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before their parents
@@ -90,6 +92,52 @@ class FaceTree {
 
     std::vector<Node> nodes_;
     std::vector<std::int32_t> order_;
+};
+
+using Triangle = std::array<glm::dvec3, 3>;
+
+// The normal of a plane, with a bound on its rounding error. Points are given relative to a point
+// of the plane.
+struct RoundedPlane {
+    RoundedPlane() = default;
+    RoundedPlane(const glm::dvec3& u, const glm::dvec3& v);  // spanned by these two vectors
+
+    glm::dvec3 normal{0};
+    double error = 0;  // error of its value at a point, per unit (1-norm) of distance
+    // Returns the sign (1 or -1) of the true plane's value, or 0 if rounding leaves it unknown.
+    int sign(const glm::dvec3& from_origin) const;
+};
+
+// Returns the exact side of a triangle's plane on which a point lies: 1 if the corners are seen
+// counter-clockwise from it, -1 on the other side, 0 on the plane. `plane`: the plane through the
+// first corner along the edges from there.
+int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& point);
+
+// The closed half space on the positive side of a plane. A search of a FaceTree for the faces that
+// it may contain asks it about their boxes.
+class PlaneSide {
+  public:
+    PlaneSide() = default;
+    // `bounds`: contains all that reaches() is asked about.
+    PlaneSide(const RoundedPlane& plane, const glm::dvec3& origin, const FaceTree::Box& bounds);
+    // Tells whether a box or a triangle may contain a point of the half space. Rounding never makes
+    // this false for one that does.
+    bool reaches(const FaceTree::Box& box) const {
+        // The corner of the box that is farthest along the normal.
+        const auto most = [&](int axis) {
+            return normal_[axis] * (normal_[axis] > 0 ? box.max[axis] : box.min[axis]);
+        };
+        return most(0) + most(1) + most(2) >= limit_;
+    }
+    bool reaches(const Triangle& triangle) const {
+        return at(triangle[0]) >= limit_ || at(triangle[1]) >= limit_ || at(triangle[2]) >= limit_;
+    }
+
+  private:
+    double at(const glm::dvec3& point) const { return glm::dot(normal_, point); }
+
+    glm::dvec3 normal_{0};
+    double limit_ = 0;
 };
 
 }  // namespace lamina

@@ -13,7 +13,7 @@ namespace lamina {
 namespace {
 
 constexpr int room = 8;                  // pixels around and between the panels
-constexpr double pixels_for_edges = 40;  // pieces smaller than this, on average, get no edges
+constexpr double pixels_for_edges = 40;  // pieces that cover fewer pixels on average get no edges
 constexpr std::array<std::uint16_t, 3> paper{255, 255, 255};
 constexpr glm::dvec3 no_value(200, 30, 30);
 
@@ -29,7 +29,7 @@ glm::dvec3 color_of(double value, const ValueRange& range) {
     return glm::mix(colors[below], colors[below + 1], place - static_cast<double>(below));
 }
 
-// One picture of four: which piece each pixel shows, and in which colour.
+// One of the four pictures: the piece that each pixel shows, and its colour.
 class Panel {
   public:
     // Looks along right x up = towards the eye; the mesh's box fits into the panel.

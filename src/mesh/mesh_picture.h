@@ -9,11 +9,12 @@
 
 namespace lamina {
 
-// A picture of a mesh for a quick look: the open faces from above the corner (1, -1, 1) of the box,
-// and cuts through its middle across x, y and z. Each of the four is fitted into `side` x `side`
-// pixels, in two rows. Colour follows the scalar over `range` from blue (lo) to yellow (hi); values
-// that are not finite are red. Edges of faces and tets are dark where faces and tets cover enough
-// pixels. `scalar`: one value a point, or empty. `side`: 16 to 4096.
+// A picture of a mesh for a quick look: the open faces, shaded, in a parallel projection seen from
+// direction (1, -1, 1), and cuts through the middle of its box across x, y and z. Each of the four
+// is fitted into `side` x `side` pixels, in two rows. Colour follows the scalar over `range` from
+// purple (lo) to yellow (hi); values that are not finite are red. Edges of faces and tets are dark
+// where faces and tets cover enough pixels. `scalar`: one value a point, or empty. `side`: 16 to
+// 4096.
 CodedImage mesh_picture(const TetMesh& mesh, std::span<const double> scalar,
                         const ValueRange& range, int side);
 

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "base/double_double.h"
+#include "base/arithmetic.h"
 
 namespace lamina {
+
 namespace {
 
 // Half an ulp of 1, which Shewchuk calls epsilon.

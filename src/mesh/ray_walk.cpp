@@ -6,18 +6,29 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "base/clone_for_fma.h"
-#include "mesh/norm1.h"
 #include "mesh/predicates.h"
 
+// LAMINA_CLONE_FOR_FMA before a function compiles it for processors with fused multiply-add, too,
+// and the loader chooses: without the instruction, std::fma is a call of the C library with the
+// same result. Functions that such a function calls need LAMINA_IN_CLONES, to be compiled into it.
+// Sanitizers are not ready when glibc's loader chooses between clones.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define LAMINA_CLONE_FOR_FMA __attribute__((target_clones("default", "fma")))
+#define LAMINA_IN_CLONES __attribute__((always_inline)) inline
+#else
+#define LAMINA_CLONE_FOR_FMA
+#define LAMINA_IN_CLONES inline
+#endif
+
 namespace lamina {
+
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// An open face that is met by this share of the scale before the last exit still counts as met
-// after it, because crossings are good to some epsilon of the distance, and meshes may touch
-// themselves.
+// Distance after the last exit, as a share of the scale, up to which an open face counts as met
+// before it: crossings are good to some epsilon of the distance, and meshes may touch themselves.
 constexpr double touching = 1e-12;
 
 // Computes a * b - c * d to 2 ulps (Kahan; Jeannerod, Louvet, Muller 2013), so that faces seen
@@ -29,7 +40,7 @@ LAMINA_IN_CLONES double difference_of_products(double a, double b, double c, dou
 
 // The point nearest to the line (0, 0) on the segment from a to b.
 struct Nearest {
-    double share;  // of b
+    double share;  // weight of b
     double distance;
 };
 Nearest nearest(double ax, double ay, double bx, double by) {
@@ -94,10 +105,10 @@ LAMINA_IN_CLONES RayWalk::Side RayWalk::side(const Corner& a, const Corner& b) c
     return {area * sign > 0 ? area : 0, sign};
 }
 
-// Returns the sign of det(d, p - o, q - o). Where that is 0, it returns the sign for the perturbed
-// line, which is moved by o += (e, e^2, e^3) and then turned by d += (f, f^2, f^3), f infinitely
-// smaller than any power of e. The terms follow in the order of their size (E = q - p). For two
-// points p != q one of them is not 0.
+// Returns the sign of det(d, p - o, q - o). If that is 0, returns the sign for the perturbed line:
+// moved by o += (e, e^2, e^3) and then turned by d += (f, f^2, f^3), with f infinitely smaller than
+// any power of e. The terms follow in the order of their size (E = q - p). For two points p != q
+// one of them is not 0.
 int RayWalk::exact_side(const glm::dvec3& p, const glm::dvec3& q) const {
     const glm::dvec3 none(0);
     const glm::dvec3 &origin = line_.origin, &direction = line_.direction;
@@ -140,13 +151,14 @@ FaceCrossing RayWalk::crossing(const RayFront& front) {
             result.weights[j] = place.share;
         }
     }
-    // This is relative to one corner's parameter, so that far from the origin no digits are lost.
+    // Parameters are taken relative to one corner's, so that no digits are lost far from the
+    // origin.
     result.at = corners[0].at + (result.weights[1] * (corners[1].at - corners[0].at) +
                                  result.weights[2] * (corners[2].at - corners[0].at));
     return result;
 }
 
-// The corners are counter-clockwise for a line that comes in.
+// Returns the corners of a face, counter-clockwise for a line that comes in.
 LAMINA_IN_CLONES std::array<RayWalk::Corner, 3> RayWalk::see_face(const TetFace& face) const {
     const auto [a, b, c] = corners_of_face(mesh_.tets()[static_cast<std::size_t>(face.tet)],
                                            static_cast<std::size_t>(face.face));
@@ -164,7 +176,8 @@ LAMINA_CLONE_FOR_FMA RayFront RayWalk::front_of(const TetFace& face) const {
     return {corners, {first.area, second.area, third.area}};
 }
 
-// Whether the line passes the corners on one side of an axis across it, whatever their rounding.
+// Tells whether the line passes the corners on one side of an axis across it, whatever their
+// rounding.
 LAMINA_IN_CLONES bool RayWalk::passes(const std::array<Corner, 3>& p) {
     const double reach = std::max({p[0].reach, p[1].reach, p[2].reach});
     const auto aside = [&](double a, double b, double c) {
@@ -209,10 +222,11 @@ void RayWalk::sort_crossings() {
     }
 }
 
-// The line passes inside the front's three edges. Turning about the line from corner to corner, the
-// edges to the fourth corner change from one side of the line to the other and back: the line
-// leaves through the face of the two corners i, j where they change from negative to positive. The
-// fourth corner takes the place of the one that is left behind.
+// Finds the face through which the line leaves. The line passes inside the front's three edges.
+// Turning about the line from corner to corner, the edges to the fourth corner change from one side
+// of the line to the other and back: the line leaves through the face of the two corners i, j
+// between which they change from negative to positive. The fourth corner replaces the corner that
+// the line leaves behind.
 LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, RayFront& front) const {
     const Tet& tet = mesh_.tets()[static_cast<std::size_t>(segment.tet)];
     auto& [p, areas] = front;

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the tets that a line passes, from open face to open face through the neighbours. Every face
-// is decided exactly, so that no line leaks between two tets, through an edge or through a point.
 #pragma once
-
-#include <glm/vec3.hpp>
 
 #include <array>
 #include <cstdint>
@@ -11,12 +7,39 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
+#include "lamina/tet.h"
 #include "mesh/face_tree.h"
-#include "mesh/line_frame.h"
-#include "mesh/ray_front.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina {
+
+// A line origin + t * direction for all real t, taken as exact, and axes across it.
+struct LineFrame {
+    glm::dvec3 origin{0}, direction{0};
+    glm::dvec3 across_x{0}, across_y{0};  // unit vectors; x, y, direction are right-handed
+    double direction_square = 1;
+};
+
+// A face through which a line enters a tet, as it is seen along the line.
+struct RayFront {
+    // A corner: its position in the plane across the line, and the line's parameter there.
+    struct Corner {
+        std::int32_t point;
+        double x, y, at;
+        double reach;  // bounds the rounding of x and y
+    };
+    std::array<Corner, 3> corners;  // counter-clockwise
+    // Twice the areas of the triangles of the line and the edges 01, 12 and 20. None is negative;
+    // an area is 0 if rounding alone made it negative.
+    std::array<double, 3> areas;
+};
+
+// Returns the corner of a tet that is not one of three given corners.
+inline std::int32_t corner_opposite(const Tet& tet, std::int32_t a, std::int32_t b,
+                                    std::int32_t c) {
+    return tet[0] ^ tet[1] ^ tet[2] ^ tet[3] ^ a ^ b ^ c;  // the others cancel
+}
 
 // The crossing of a line with a face.
 struct FaceCrossing {
@@ -38,9 +61,11 @@ struct TetSegment {
     FaceCrossing in, out;  // in.at <= out.at
 };
 
-// A line. Where it meets an edge or a point, it is displaced by an infinitesimal amount that is the
-// same for all tets (simulation of simplicity, Edelsbrunner and Muecke 1990). Each thread needs its
-// own object, which keeps its memory from line to line.
+// Finds the tets that a line passes, from open face to open face through the neighbours. Every face
+// is decided exactly, so that no line leaks between two tets, through an edge or through a point. A
+// line that meets an edge or a point is displaced by an infinitesimal amount that is the same for
+// all tets (simulation of simplicity, Edelsbrunner and Muecke 1990). Each thread needs its own
+// object, which keeps its memory from line to line.
 class RayWalk {
   public:
     RayWalk(const TetMesh& mesh, const FaceTree& open_faces) : mesh_(mesh), tree_(open_faces) {}
@@ -52,7 +77,7 @@ class RayWalk {
 
     // Sets the line and finds where it enters and leaves the mesh.
     void aim(const glm::dvec3& origin, const glm::dvec3& direction);
-    // The same. `faces`: open faces by their indices, among them all that the line meets.
+    // Sets the line, too. `faces`: open faces by their indices, among them all that the line meets.
     void aim(const glm::dvec3& origin, const glm::dvec3& direction,
              std::span<const std::int32_t> faces);
     const LineFrame& line() const { return line_; }
@@ -62,7 +87,8 @@ class RayWalk {
         double at;
     };
     std::span<const Entry> entries() const { return entries_; }  // ascending
-    // Whether the mesh overlaps itself along this line: the line enters again before it has left.
+    // Tells whether the mesh overlaps itself along this line: the line enters again before it has
+    // left.
     bool overlapping() const { return overlapping_; }
 
     // Calls visit(TetSegment) from the entry on until the line leaves the mesh, or until visit
@@ -80,11 +106,11 @@ class RayWalk {
         }
     }
 
-    // The steps of follow(): the face where the line enters, ...
+    // follow() in two steps: the face through which the line enters, ...
     RayFront front_of(const TetFace& face) const;
     static FaceCrossing crossing(const RayFront& front);
-    // ... and one tet. Fills in where the line leaves segment.tet, and moves the front there;
-    // returns the tet behind, or TetMesh::no_neighbor.
+    // ... and one tet. Fills in how the line leaves segment.tet, and moves the front there; returns
+    // the tet behind, or TetMesh::no_neighbor.
     std::int32_t step(TetSegment& segment, RayFront& front) const;
 
     // Lists all segments of all entries, in ascending order of their entry.
@@ -95,7 +121,7 @@ class RayWalk {
     // The side of the line on which the edge from a to b passes, and twice the area of the triangle
     // of the line, a and b.
     struct Side {
-        double area;  // has the sign below, or is 0 where rounding gave the other sign
+        double area;  // has the sign below, or is 0 if rounding gave the other sign
         int sign;     // exact, never 0
     };
 
@@ -114,7 +140,7 @@ class RayWalk {
     const TetMesh& mesh_;
     const FaceTree& tree_;
     LineFrame line_;
-    // How far a unit along each axis reaches across the line.
+    // Lengths across the line of a unit along each axis.
     glm::dvec3 extent_x_{0}, extent_y_{0};
     double origin_norm_ = 0;
     std::vector<Entry> entries_;

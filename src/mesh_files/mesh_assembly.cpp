@@ -3,18 +3,36 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <string_view>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/warning.h"
 #include "mesh_files/cell_split.h"
 
 namespace lamina {
 namespace {
+
+bool has_nan(const glm::dvec3& place) {
+    return std::isnan(place.x) || std::isnan(place.y) || std::isnan(place.z);
+}
+
+// splitmix64 over the bits of each coordinate.
+std::uint64_t hash_of(const glm::dvec3& place) {
+    std::uint64_t hash = 0;
+    for (const double coordinate : {place.x, place.y, place.z}) {
+        hash +=
+            std::bit_cast<std::uint64_t>(coordinate + 0.0) + 0x9e3779b97f4a7c15;  // -0 becomes 0
+        hash = (hash ^ hash >> 30) * 0xbf58476d1ce4e5b9;
+        hash = (hash ^ hash >> 27) * 0x94d049bb133111eb;
+        hash ^= hash >> 31;
+    }
+    return hash;
+}
 
 constexpr std::size_t most_points = std::numeric_limits<std::int32_t>::max();
 
@@ -34,9 +52,8 @@ void check_ends(const MeshPiece& piece) {
     }
 }
 
-// Returns the corners of a cell as indices into the points of the whole mesh. (The other points of
-// a quadratic cell are not used. An index of theirs that is out of range still means a damaged
-// file.)
+// Returns the corners of a cell as indices into the points of the whole mesh. The other points of a
+// quadratic cell are not used, but an index of theirs that is out of range means a damaged file.
 std::span<const std::int32_t> corners_of(const MeshPiece& piece, std::size_t cell,
                                          std::span<const std::int32_t> indices,
                                          std::array<std::int32_t, most_cell_points>& corners) {
@@ -58,7 +75,7 @@ std::span<const std::int32_t> corners_of(const MeshPiece& piece, std::size_t cel
     return std::span(corners).first(type.corners);
 }
 
-// The scalars of a piece in the order of those of the pieces before it.
+// Returns the scalars of a piece in the order of those of the pieces before it.
 std::vector<const MeshScalar*> matched(const std::vector<MeshScalar>& all,
                                        const std::vector<MeshScalar>& more, const MeshPiece& piece,
                                        const char* kind) {
@@ -66,7 +83,8 @@ std::vector<const MeshScalar*> matched(const std::vector<MeshScalar>& all,
         fail("{}: found {} scalars in its {}, expected {} as in the pieces before", piece.label,
              more.size(), kind, all.size());
     }
-    std::multimap<std::string_view, const MeshScalar*> by_name;  // of one name: in order
+    // Several of one name keep their order.
+    std::multimap<std::string_view, const MeshScalar*> by_name;
     for (const MeshScalar& scalar : more) by_name.emplace(scalar.name, &scalar);
     std::vector<const MeshScalar*> found;
     for (const MeshScalar& scalar : all) {
@@ -84,7 +102,8 @@ std::vector<const MeshScalar*> matched(const std::vector<MeshScalar>& all,
 // vtkDataSetAttributes.h: DUPLICATECELL, REFINEDCELL, HIDDENCELL.
 constexpr int hiding_bits = 1 | 8 | 32;
 
-// Removes the arrays that say which cells (points) are another piece's; returns the cells.
+// Removes the arrays that say which cells (or points) are another piece's. Returns a flag for each
+// cell.
 std::vector<bool> take_ghosts(std::vector<MeshScalar>& scalars, std::size_t count) {
     std::vector<bool> ghosts(count, false);
     std::erase_if(scalars, [&](const MeshScalar& scalar) {
@@ -105,6 +124,50 @@ bool same(double a, double b) {
 }
 
 }  // namespace
+
+// Returns the slot that has this place, or the empty one to which it belongs.
+std::size_t PointTable::slot_of(const glm::dvec3& place) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = hash_of(place) & mask;
+    while (slots_[slot] != 0 &&
+           points_[static_cast<std::size_t>(std::abs(slots_[slot]) - 1)] != place) {
+        slot = (slot + 1) & mask;
+    }
+    return slot;
+}
+
+void PointTable::grow(std::size_t slots) {
+    std::vector<std::int32_t> old(slots, 0);
+    old.swap(slots_);
+    for (const std::int32_t entry : old) {
+        if (entry == 0) continue;
+        slots_[slot_of(points_[static_cast<std::size_t>(std::abs(entry) - 1)])] = entry;
+    }
+}
+
+void PointTable::add(std::int32_t point) {
+    const glm::dvec3& place = points_[static_cast<std::size_t>(point)];
+    if (has_nan(place)) return;
+    if (2 * (used_ + 1) > slots_.size()) grow(slots_.empty() ? 64 : 2 * slots_.size());
+    std::int32_t& entry = slots_[slot_of(place)];
+    used_ += entry == 0;
+    entry = entry == 0 ? point + 1 : -std::abs(entry);
+}
+
+void PointTable::add_all() {
+    if (2 * (used_ + points_.size()) > slots_.size())
+        grow(std::bit_ceil(2 * (used_ + points_.size()) + 2));
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        if ((i & 0xfffff) == 0) check_interrupt();
+        add(static_cast<std::int32_t>(i));
+    }
+}
+
+std::int32_t PointTable::find(const glm::dvec3& place) const {
+    if (slots_.empty() || has_nan(place)) return -1;
+    const std::int32_t entry = slots_[slot_of(place)];
+    return entry > 0 ? entry - 1 : -1;
+}
 
 std::vector<glm::dvec3> points_from_values(const std::vector<double>& values) {
     std::vector<glm::dvec3> points(values.size() / 3);
@@ -166,7 +229,7 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
                                                   std::span<const std::int32_t> indices) {
     std::vector<std::int64_t> cell_of_tet;
     cell_of_tet.reserve(piece.cells.types.size());
-    // Memory is reserved for the first piece only. Reserved for each of many small pieces, the
+    // Memory is reserved for the first piece only: reserved for each of many small pieces, the
     // vector would grow by one piece at a time.
     if (mesh_.tets.empty()) mesh_.tets.reserve(piece.cells.types.size());
     std::array<std::int32_t, most_cell_points> corners{};
@@ -199,7 +262,7 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
     return cell_of_tet;
 }
 
-// A point that a piece before has, too, keeps the value that it has there.
+// A point that an earlier piece has, too, keeps the value that it has there.
 void MeshAssembly::add_point_scalars(MeshPiece& piece, std::size_t points_before,
                                      std::span<const std::int32_t> indices) {
     if (first_) {

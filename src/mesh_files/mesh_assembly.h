@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
+#include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,9 +11,31 @@
 #include <vector>
 
 #include "lamina/mesh_data.h"
-#include "mesh_files/point_table.h"
 
 namespace lamina {
+
+// Finds points by their exact coordinates (0 equals -0; a point with NaN is never found). If
+// several points lie at one place, as on both sides of a crack, none is found there.
+class PointTable {
+  public:
+    // `points`: those that the indices refer to; they may grow, and outlive the table.
+    explicit PointTable(const std::vector<glm::dvec3>& points) : points_(points) {}
+
+    void add(std::int32_t point);
+    void add_all();  // all points that there are now
+    // Returns the index of the only added point at this place, or -1.
+    std::int32_t find(const glm::dvec3& place) const;
+
+  private:
+    std::size_t slot_of(const glm::dvec3& place) const;
+    void grow(std::size_t slots);
+
+    const std::vector<glm::dvec3>& points_;
+    // A hash table with linear probing: its size is a power of two, at most half full. An entry is
+    // 0 (empty), i + 1 (the point i), or -(i + 1) (several points, the first of which is i).
+    std::vector<std::int32_t> slots_;
+    std::size_t used_ = 0;
+};
 
 // Cells in the form of VTK's unstructured grids: cell i has the type types[i] and the points
 // connectivity[ends[i - 1]] ... connectivity[ends[i] - 1].
@@ -34,20 +56,20 @@ struct MeshPiece {
 
 std::vector<glm::dvec3> points_from_values(const std::vector<double>& values);
 
-// Whether an array gives scalars: with one component the array itself; with three components the
-// length of the vector, under its name, then the components, under its name with .x, .y and .z.
-// Other arrays give none.
+// Tells if an array gives scalars. With one component it is the scalar itself; with three
+// components it gives the length of the vector, under its name, then the components, under its name
+// with .x, .y and .z. Others give none.
 inline bool makes_scalar(std::int64_t components) {
     return components == 1 || components == 3;
 }
 void add_scalars(std::vector<MeshScalar>& scalars, const std::string& name, std::int64_t components,
                  std::vector<double> values);
 
-// Joins pieces into one mesh. A point at exactly the place of a point of another piece is that
-// point (where each piece has one there), so that the mesh goes on from piece to piece. Cells are
-// cut into tets by the indices of all points, so that faces between pieces conform; cells that an
-// array "vtkGhostType" or "vtkGhostLevels" marks as another piece's are left out. Throws Error for
-// invalid cells.
+// Joins pieces into one mesh. Points of two pieces at exactly one place become one point (unless a
+// piece has several there), so that the mesh goes on from piece to piece. Cells are cut into tets
+// by the indices of all points, so that faces between pieces conform. Cells that an array
+// "vtkGhostType" or "vtkGhostLevels" marks as another piece's are left out. Throws Error if a cell
+// is invalid.
 class MeshAssembly {
   public:
     explicit MeshAssembly(std::string file) : file_(std::move(file)) {}
@@ -55,7 +77,7 @@ class MeshAssembly {
     MeshAssembly& operator=(const MeshAssembly&) = delete;
 
     void add(MeshPiece piece);
-    MeshData finish();  // throws Error where there is no point or no tet
+    MeshData finish();  // throws Error if there is no point or no tet
 
   private:
     std::vector<std::int32_t> add_points(const MeshPiece& piece);
@@ -66,7 +88,7 @@ class MeshAssembly {
 
     std::string file_;
     MeshData mesh_;
-    std::optional<PointTable> table_;  // of mesh_.points, once there are several pieces
+    std::optional<PointTable> table_;  // finds mesh_.points, once there are several pieces
     bool first_ = true;
 };
 

@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "mesh_files/node_ele.h"
-#include "mesh_files/pvd_reader.h"
-#include "mesh_files/pvtu_reader.h"
-#include "mesh_files/vtk_reader.h"
-#include "mesh_files/vtu_reader.h"
+#include "mesh_files/vtk_legacy.h"
+#include "mesh_files/vtu.h"
 
 namespace lamina {
 
@@ -19,7 +17,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// Text that VTK's files begin with.
+// The text that legacy VTK files begin with.
 constexpr const char* vtk_magic = "# vtk DataFile";
 
 MeshData read_first_of_pvd(const Path& path) {
@@ -36,7 +34,7 @@ bool is_vtk(const std::string& beginning) {
     return beginning.starts_with(vtk_magic);
 }
 
-// The beginning of the VTKFile element of a VTK XML file; else nothing.
+// Returns the beginning of the VTKFile element of a VTK XML file, or nothing.
 std::string vtk_xml_tag(const std::string& beginning) {
     const std::size_t tag = beginning.find("<VTKFile");
     return tag == std::string::npos ? "" : beginning.substr(tag);

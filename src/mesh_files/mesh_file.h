@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "lamina/mesh_data.h"
 
 namespace lamina {
 
-// Whether a path names a mesh: by its content (VTK's formats), else by its extension: .vtu, .pvtu,
+// Tells if a path names a mesh: by its content (VTK's formats), else by its extension: .vtu, .pvtu,
 // .pvd, .vtk, .node or .ele.
 bool is_mesh_file(const std::filesystem::path& path);
 
@@ -21,25 +21,25 @@ bool is_mesh_file(const std::filesystem::path& path);
 // counted. Point and cell arrays of one component become scalars, and those of three components the
 // lengths of their vectors and three scalars NAME.x, .y and .z. Other arrays are skipped. All
 // corner indices of the result are in range. `time`: the step, counted from 0 in the order of time;
-// what is no .pvd has one only. Throws Error: one line that names the file, what was found and what
-// was expected. Takes no memory for data that the file cannot hold.
+// only a .pvd has several. Throws Error: one line that names the file, what was found and what was
+// expected. Takes no memory for data that the file cannot hold.
 MeshData read_mesh(const std::filesystem::path& path, std::int64_t time = 0);
 
 // The extensions of mesh files, for people.
 inline constexpr const char* mesh_format_list = ".vtu, .pvtu, .pvd, .vtk, .node, .ele";
 
-// The number of steps of a mesh file: 1, but of a .pvd. Throws Error.
+// Returns the number of steps of a mesh file: 1, except of a .pvd. Throws Error.
 std::int64_t steps_of_mesh(const std::filesystem::path& path);
 
-// The files that reading the mesh means, of all steps: itself first. Throws Error.
+// Returns the files that hold the mesh, with all its steps: `path` first. Throws Error.
 std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);
 
 // Writes a VTK XML unstructured grid. All numbers are Float64, appended raw with zlib, in this
-// machine's byte order. Throws Error where it cannot be written. Does not commit the file.
+// machine's byte order. Does not commit the file. Throws Error.
 void write_vtu(AtomicFile& file, const MeshData& mesh);
 
 // Write TetGen's pair of files, counted from 1, with 17 digits. Point scalars become point
-// attributes and cell scalars become attributes of the tets. Their names stand in comments
+// attributes and cell scalars become attributes of the tets; comments hold their names
 // (mesh_files/node_ele.h).
 void write_node(AtomicFile& file, const MeshData& mesh);
 void write_ele(AtomicFile& file, const MeshData& mesh);

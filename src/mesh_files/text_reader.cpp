@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "base/warning.h"
+#include "base/client.h"
 
 namespace lamina {
 

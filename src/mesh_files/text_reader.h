@@ -10,13 +10,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/value_type.h"
 
 namespace lamina {
 
-// Warns of the characters of `text` that are not blanks. `behind`: what ends before it.
+// Warns of the characters of `text` that are not blanks. `behind`: names what ends before it.
 void warn_of_surplus(const std::string& what, std::string_view text, const char* behind);
 
 // Reads words and numbers from a text, independently of the locale.
@@ -32,7 +32,7 @@ class TextReader {
         while (at_ != end_ && is_blank(*at_)) ++at_;
         return at_ == end_;
     }
-    // Whether anything but blanks comes before the next newline. line() would not do here: in a
+    // Tells if anything but blanks comes before the next newline. line() would not do here: in a
     // file without newlines it searches all of the text.
     bool line_goes_on() const {
         const char* at = at_;
@@ -50,7 +50,7 @@ class TextReader {
     std::string_view word();  // empty at the end
     std::string_view line();  // from here to the newline, which is skipped
 
-    // Reads the next word as a T and moves past it. Where the word is no T or does not fit, returns
+    // Reads the next word as a T and moves past it. If the word is no T or does not fit, returns
     // false and does not move. Numbers too small for a floating-point type become 0; "nan" and
     // "inf" are numbers.
     template <typename T>
@@ -79,10 +79,10 @@ class TextReader {
     const char* end_;
 };
 
-// The next word for messages: "'abc'", shortened where it is long, or "the end".
+// Returns the next word for messages: "'abc'", shortened if it is long, or "the end".
 std::string next_word(TextReader reader);
 
-// As VTK XML files have it: "Float32".
+// Returns the name that VTK XML files give a type: "Float32".
 const char* vtk_name_of(ValueType type);
 
 // Reads `count` numbers of `type`. Throws Error. `what`: names the file and the array in messages.

@@ -10,22 +10,22 @@
 #include <unordered_set>
 #include <vector>
 
-#include "base/compensated_sum.h"
+#include "base/arithmetic.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "meshing/kuhn_mesh.h"
+#include "meshing/volume_mesh.h"
 
 namespace lamina {
 namespace {
 
 constexpr double finest_lattice = 256;  // places for points per sample
-// A point this near to the box's surface, as a share of its tet's extent, is moved onto it.
-// Otherwise the flat tets between the two would stay.
+// Distance from the box's surface, as a share of its tet's extent, at which a point is moved onto
+// the surface. Otherwise the flat tets between the two would stay.
 constexpr double surface_share = 0.125;
-constexpr double tets_per_point = 7;  // more than a point adds on average (6.77 for random points)
+constexpr double tets_per_point = 7;  // estimate, above the average (6.77 for random points)
 constexpr std::int64_t tets_per_task = 16;
-constexpr double worth_a_round = 0.005;  // share of max_tets; refinement ends where less is left
+constexpr double worth_a_round = 0.005;  // share of max_tets; refinement ends if less is left
 
 struct PlaceHash {
     std::size_t operator()(const std::array<std::int64_t, 3>& place) const {
@@ -47,7 +47,7 @@ class Points {
   public:
     explicit Points(const TrilinearField& field) : field_(field) {}
 
-    // Returns false where there is such a point already.
+    // Adds a point. Returns false if it is there already.
     bool add(const glm::dvec3& point) {
         if (!places_.insert(place_of(point)).second) return false;
         points_.push_back(point);
@@ -148,7 +148,7 @@ double volume_of(const std::array<glm::dvec3, 4>& p) {
     return glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) / 6;
 }
 
-// Returns whether `point` lies in the sphere through the corners of a positively oriented tet. It
+// Tells whether `point` lies in the sphere through the corners of a positively oriented tet. It
 // need not be exact, because it only guides a choice.
 bool in_sphere(const std::array<glm::dvec3, 4>& p, const glm::dvec3& point) {
     const glm::dvec3 a = p[0] - point, b = p[1] - point, c = p[2] - point, d = p[3] - point;
@@ -165,8 +165,8 @@ void Refinement::begin() {
     }
 }
 
-// Another program makes the tets, so they are checked: all points are used, all tets are positive,
-// and the box is filled.
+// Makes the tets and checks them, because they come from another program: all points are used, all
+// tets are positive, and the box is filled.
 DelaunayTets Refinement::tetrahedralize() const {
     DelaunayTets mesh = delaunay_(points_.points());
     std::vector<bool> used(points_.size(), false);
@@ -190,7 +190,7 @@ DelaunayTets Refinement::tetrahedralize() const {
     return mesh;
 }
 
-// Measures the tets that the round before did not have.
+// Takes over a mesh and measures the tets that the round before did not have.
 void Refinement::accept(DelaunayTets mesh) {
     Round next{std::move(mesh), {}, {}};
     next.names = by_name(next.mesh.tets);
@@ -286,8 +286,8 @@ void Refinement::destroy_cavity(std::int32_t tet, const glm::dvec3& point) {
     }
 }
 
-// No two points of a round lie in one cavity, so that each goes where the field is known to need
-// it.
+// Adds points so that no two of a round lie in one cavity: each goes where the field is known to
+// need it.
 void Refinement::add_points(const std::vector<std::int32_t>& violators, std::size_t most) {
     destroyed_.assign(round_.mesh.tets.size(), false);
     const std::size_t before = points_.size();
@@ -297,7 +297,7 @@ void Refinement::add_points(const std::vector<std::int32_t>& violators, std::siz
     }
 }
 
-// Does one round. Returns false where nothing is left to do, or there is no room to do it.
+// Does one round. Returns false if nothing is left to do, or if there is no room to do it.
 bool Refinement::refine(MeshReport& report) {
     const std::vector<std::int32_t> worst = violators();
     report.within_tolerance = worst.empty();
@@ -322,7 +322,7 @@ bool Refinement::refine(MeshReport& report) {
     return false;
 }
 
-// Of tets over the tolerance decide() says only that they are.
+// Measures the errors of tets over the tolerance: of these, decide() says only that they are.
 double Refinement::final_error() {
     const std::vector<std::int32_t> open = violators();
     parallel_for(static_cast<std::int64_t>(open.size()), 32, [&](std::int64_t i) {

@@ -9,10 +9,11 @@
 
 namespace lamina {
 
-// Makes a Delaunay mesh of the field's box with points where they are needed. It starts from the
-// box's corners. Each round adds a point where a tet is farthest from the field, as Garland and
-// Heckbert do for terrains (Fast polygonal approximation of terrains and height fields, 1995). It
-// ends when all tets are within the tolerance, or when another round would exceed max_tets.
+// Makes a Delaunay mesh of the field's box with points where the field needs them. It starts from
+// the box's corners. Each round adds points at the places where tets are farthest from the field,
+// as Garland and Heckbert do for terrains (Fast polygonal approximation of terrains and height
+// fields, 1995). It ends when all tets are within the tolerance, or when another round would exceed
+// max_tets.
 //
 // The mesh is Delaunay in index space. There the box is exactly a box for any spacing and rotation
 // of the grid, and the distance between samples, which is the scale of the field's details, is the

@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "meshing/cell_pieces.h"
+#include "meshing/trilinear_field.h"
 
 namespace lamina {
 namespace {
@@ -19,16 +19,16 @@ using Cell = TrilinearField::Cell;
 using Box = std::array<glm::dvec3, 2>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Bounds are not brought nearer than this to the largest difference found. Where that equals the
+// Bounds are brought no nearer than this to the largest difference found. If that equals the
 // tolerance, as it can with integer samples, refinement would never end.
 constexpr double nearness = 0.98;
 constexpr double nearness_to_insert = 0.8;  // for the place of a violation
 constexpr int deepest = 60;                 // halvings of a piece: far below rounding
-// The most pieces that are examined in one cell. Further pieces count with their bounds.
+// Pieces that are examined in one cell at most. Further pieces count with their bounds.
 constexpr int most_pieces = 20000;
 
-// Where a tet's longest edge is more than this times its smallest height, the linear function,
-// continued to the cell's corners, is too large to bound anything, and its rounding errors matter.
+// Ratio of a tet's longest edge and smallest height above which the linear function, continued to
+// the cell's corners, is too large to bound anything, and its rounding errors matter.
 constexpr double flattest = 1e4;
 
 glm::dvec3 corner_of(const Box& box, std::size_t corner) {
@@ -150,8 +150,8 @@ class Measurement {
     }
 
   private:
-    // Differences up to this need not be known better: they are no violation, or not much larger
-    // than the one found.
+    // Returns the difference that need not be known better: up to this, there is no violation, or
+    // one not much larger than was found.
     double enough() const {
         const bool place_only = goal_ == ErrorGoal::decide && violated();
         return std::max(tolerance_, error_.found / (place_only ? nearness_to_insert : nearness));
@@ -165,8 +165,8 @@ class Measurement {
     bool invisible(double lo, double hi) const {
         return transfer_function_ && transfer_function_->transparent(lo, hi);
     }
-    // Places whose values are nearly visible count, too. Otherwise bounds would have to follow the
-    // surface where visibility begins.
+    // Takes a difference into account, also at places whose values are only nearly visible.
+    // Otherwise bounds would have to follow the surface at which visibility begins.
     void found(double trilinear, double linear, const glm::dvec3& place) {
         const double difference = std::abs(trilinear - linear);
         if (difference <= error_.found) return;
@@ -209,7 +209,7 @@ class Measurement {
     TetError error_;
 };
 
-// Descends to the cells that the ranges of blocks do not decide.
+// Descends to the cells that ranges of blocks do not decide.
 void Measurement::look_into_blocks(WorkingSpace& space) {
     space.cells.clear();
     space.blocks.clear();

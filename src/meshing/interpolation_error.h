@@ -8,7 +8,6 @@
 
 #include "lamina/tet.h"
 #include "lamina/transfer_function.h"
-#include "meshing/cell_ranges.h"
 #include "meshing/trilinear_field.h"
 
 namespace lamina {
@@ -22,19 +21,21 @@ struct TetError {
 
 // The question that measure() answers.
 enum class ErrorGoal {
-    // Whether the tolerance holds. Either bound <= tolerance, or bound is infinite and `found` is
+    // The tolerance is kept or not: either bound <= tolerance, or bound is infinite and `found` is
     // at least 0.98 of the tolerance; then it is a large error but not always the largest.
     decide,
     bound,  // the error itself: bound <= tolerance, or 0.98 bound <= found
 };
 
-// Measures |trilinear - linear| on tets by branch and bound. So the bound is a certificate and not
-// a sample (in double precision, to some 1e-12 of the range). Blocks of cells whose range decides
-// the question are not subdivided. In a cell the difference is trilinear, so its extremes over a
-// box are at the box's corners. Where a tet cuts the cell and this does not decide, the
-// intersection of tet and cell is cut out. There the difference is a cubic and is bounded by its
-// Bernstein coefficients. With a transfer function, places do not count where it shows nothing for
-// all values between the two functions. Thread-safe.
+// Measures
+// trilinear - linear
+// on tets by branch and bound, so that the bound is a certificate and not a sample (in double
+// precision, to some 1e-12 of the range). Blocks of cells whose range decides the question are not
+// subdivided. In a cell the difference is trilinear, so its extremes over a box are at the box's
+// corners. If a tet cuts the cell and this does not decide, the intersection of tet and cell is cut
+// out; there the difference is a cubic and is bounded by its Bernstein coefficients. With a
+// transfer function, places do not count if it shows nothing for all values between the two
+// functions. Thread-safe.
 class InterpolationError {
   public:
     // All arguments must outlive this object. `transfer_function` may be null.
@@ -47,7 +48,8 @@ class InterpolationError {
     TetError measure(const std::array<glm::dvec3, 4>& corners, const std::array<double, 4>& values,
                      double tolerance, ErrorGoal goal) const;
 
-    // The largest bound over a whole mesh with points in index space. Parallel, with progress.
+    // Returns the largest bound over a whole mesh with points in index space. Parallel, with
+    // progress.
     double largest(std::span<const glm::dvec3> points, std::span<const double> values,
                    std::span<const Tet> tets, double tolerance) const;
 

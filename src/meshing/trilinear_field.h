@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
 
@@ -34,8 +33,8 @@ class TrilinearField {
     glm::dvec3 max() const { return {planes_[0].back(), planes_[1].back(), planes_[2].back()}; }
     const ValueRange& range() const { return range_; }
 
-    // The cell that contains `index`; for a point outside the box, the nearest cell. On a plane
-    // between two cells it is the one with the higher index.
+    // Returns the cell that contains `index`; for a point outside the box, the nearest cell. On a
+    // plane between two cells it is the one with the higher index.
     Cell cell_of(const glm::dvec3& index) const;
     Corners corners(const Cell& cell) const;
     double at_plane(const Cell& plane) const;  // the value where three planes meet
@@ -47,6 +46,76 @@ class TrilinearField {
     std::array<std::int64_t, 3> size_{1, 1, 1};
     std::vector<float> samples_;
     ValueRange range_;
+};
+
+// The range of a field over blocks of 2^level cells along each axis, from level 1 up to the level
+// with one block.
+class CellRanges {
+  public:
+    explicit CellRanges(const TrilinearField& field);  // parallel; a quarter of the field's memory
+
+    int levels() const { return static_cast<int>(levels_.size()); }
+    ValueRange of_block(int level, const TrilinearField::Cell& block) const {
+        const Level& blocks = levels_[static_cast<std::size_t>(level - 1)];
+        const auto [lo, hi] = blocks.ranges[blocks.offset(block)];
+        return {lo, hi};
+    }
+
+  private:
+    struct Range {
+        float lo, hi;
+    };
+    struct Level {
+        std::array<std::int64_t, 3> count{1, 1, 1};
+        std::vector<Range> ranges;  // x fastest
+        std::size_t offset(const TrilinearField::Cell& block) const {
+            return static_cast<std::size_t>((block[2] * count[1] + block[1]) * count[0] + block[0]);
+        }
+    };
+
+    template <typename RangeOf>
+    void add_level(std::array<std::int64_t, 3> count, const RangeOf& range_of);
+    std::vector<Level> levels_;
+};
+
+// A tetrahedron inside one cell, in the cell's coordinates (0..1 along each axis), with the values
+// of a linear function at its corners.
+struct CellPiece {
+    std::array<glm::dvec3, 4> corners;
+    std::array<double, 4> values;
+};
+
+// Clips pieces to the cell: each piece is replaced by tetrahedra that fill the region of it inside
+// the cell. `spare` is working memory.
+void clip_to_cell(std::vector<CellPiece>& pieces, std::vector<CellPiece>& spare);
+
+// A trilinear function on a cell as a polynomial. The coefficient of x^i y^j z^k is at i + 2j + 4k.
+struct TrilinearPolynomial {
+    std::array<double, 8> c;
+
+    explicit TrilinearPolynomial(const std::array<double, 8>& corner_values);
+    double at(const glm::dvec3& p) const;
+    glm::dvec3 gradient(const glm::dvec3& p) const;
+    // Returns u^T H v; H is the matrix of second derivatives at p.
+    double second_derivative(const glm::dvec3& p, const glm::dvec3& u, const glm::dvec3& v) const;
+};
+
+// A cubic in Bernstein form on a piece. Its values lie between the least and the largest
+// coefficient (convex hull property). The coefficients of corners are values.
+struct BernsteinCubic {
+    // Coefficients 0 to 3 belong to the corners. On edge i, 4 + 2i is nearer to its first corner
+    // and 5 + 2i to its second. 16 + i lies in the face opposite corner i.
+    static constexpr std::array<std::array<std::size_t, 2>, 6> edges{
+        {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+    std::array<double, 20> trilinear;   // coefficients of the trilinear function
+    std::array<double, 20> difference;  // coefficients of trilinear - linear
+
+    BernsteinCubic(const TrilinearPolynomial& polynomial, const CellPiece& piece);
+    double largest() const;  // upper bound of |difference|
+    // Returns the edge at which the piece should be cut so that bound and values, or the ranges of
+    // the two functions, come nearer to each other.
+    std::size_t edge_to_halve(const CellPiece& piece) const;
 };
 
 }  // namespace lamina

@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/colormap.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
-#include "base/shortened.h"
+#include "base/text.h"
 #include "lamina/color.h"
-#include "optics/color_space.h"
+#include "optics/colors.h"
 
 namespace lamina {
 
 namespace {
 
-constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255
+constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255, in linear light
 constexpr int most_halvings = 7;
 
 nlohmann::json load(const std::filesystem::path& file) {
@@ -59,8 +61,8 @@ ColorSpace color_space(const nlohmann::json& preset, const std::string& name) {
          shown(*found));
 }
 
-// Reads rows of four numbers. The first of each is the scalar; scalars ascend, and at most two rows
-// have the same one.
+// Reads rows of four numbers. The first of each is its scalar; scalars ascend, and at most two rows
+// share one.
 std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const char* key,
                                              const std::string& name) {
     const nlohmann::json& flat = preset.at(key);
@@ -95,8 +97,8 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     return rows;
 }
 
-// Samples the colour space between two points, halving intervals until straight lines in the
-// wanted numbers are close enough.
+// Samples the colour space between two points: halves an interval until straight lines in the
+// wanted space are close enough to the colours between its ends.
 class SegmentSampler {
   public:
     SegmentSampler(ColorSpace space, ImageColorSpace wanted, const std::array<double, 4>& a,
@@ -116,7 +118,7 @@ class SegmentSampler {
   private:
     glm::dvec3 color(double share) const {
         const glm::dvec3 from(a_[1], a_[2], a_[3]), to(b_[1], b_[2], b_[3]);
-        // The ends are taken as they are, free of round trips through other spaces.
+        // The ends are returned unchanged, without a round trip through other colour spaces.
         if (share == 1) return color_of_display(to, wanted_);
         if (share == 0) return color_of_display(from, wanted_);
         return color_of_display(interpolate_srgb(space_, from, to, share), wanted_);
@@ -272,6 +274,48 @@ std::vector<GivenPoint> given_points(const Colormap& colormap) {
     for (const OpacityPoint& point : colormap.opacities)
         given.push_back({point.value, {}, GivenPoint::Density::opacity, point.opacity});
     return given;
+}
+
+namespace {
+
+constexpr std::string_view suffix = ".json";
+
+const EmbeddedFile* find(const std::string& name) {
+    const auto files = embedded_colormaps();
+    const auto found = std::ranges::find_if(
+        files, [&](const EmbeddedFile& file) { return file.name == name + std::string(suffix); });
+    return found == files.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::vector<std::string> colormap_names() {
+    std::vector<std::string> names;
+    for (const EmbeddedFile& file : embedded_colormaps())
+        names.emplace_back(file.name.substr(0, file.name.size() - suffix.size()));
+    return names;
+}
+
+bool is_colormap_name(const std::string& name) {
+    return find(name) != nullptr;
+}
+
+Colormap load_colormap(const std::string& name_or_path, ImageColorSpace space) {
+    if (const EmbeddedFile* const file = find(name_or_path)) {
+        const nlohmann::json preset = parse_json(std::string(file->text));
+        Colormap colormap = colormap_of(preset, name_or_path, space);
+        colormap.own_range = preset.contains("Units");
+        return colormap;
+    }
+    expect_allowed(name_or_path);
+    std::error_code unknown;
+    if (!std::filesystem::exists(name_or_path, unknown)) {
+        const auto names = colormap_names();
+        const std::string word = std::filesystem::path(name_or_path).filename().string();
+        fail("{}: no such file, and no colour map has that name{}", shortened(name_or_path),
+             suggestion({names.begin(), names.end()}, word));
+    }
+    return read_paraview_colormap(name_or_path, space);
 }
 
 }  // namespace lamina

@@ -14,7 +14,7 @@ double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-// Sums of two unit vectors shorter than this are rounding: the vectors are opposite.
+// Length below which the sum of two unit vectors is rounding error: the vectors are opposite.
 constexpr double opposite = 1e-12;
 
 }  // namespace
@@ -63,7 +63,7 @@ RayLights::Effect RayLights::effect(const glm::dvec3& gradient) const {
     return effect;
 }
 
-// As a quotient that overflows to neither 0 / 0 nor inf / inf.
+// The quotient of the lengths, unlike that of their squares, becomes neither 0 / 0 nor inf / inf.
 double RayLights::weight(double steepness) const {
     const double ratio = smallest_gradient_ / steepness;
     return 1 / (1 + ratio * ratio);

@@ -10,47 +10,47 @@
 
 namespace lamina {
 
-// The direction of a vector, which is not 0, however long it is.
+// Returns the direction of a vector of any length but 0.
 glm::dvec3 unit_vector(const glm::dvec3& v);
 
-// A lighting as one viewing ray sees it (docs/numerics.md, section 10), in double precision.
+// Lighting along one viewing ray (docs/numerics.md, section 10), in double precision.
 class RayLights {
   public:
-    // `lighting` is free of mistakes (scene/lighting_check.h) and has its smallest gradient.
-    // `to_eye`: from places on the ray towards the eye, in world space, not 0.
+    // `lighting` passed scene/lighting_check.h and has its smallest gradient. `to_eye`: direction
+    // from places on the ray towards the eye, in world space, not 0.
     RayLights(const Lighting& lighting, const glm::dvec3& to_eye);
 
-    // What light does to a colour c: the lit colour is c + weight * (c * change + highlight),
+    // The effect of light on a colour c: the lit colour is c + weight * (c * change + highlight),
     // component by component.
     struct Effect {
-        double weight = 0;        // 0 where the gradient is 0, 1 where it is steep
+        double weight = 0;        // 0 if the gradient is 0, close to 1 if it is steep
         glm::dvec3 change{0};     // >= -1
         glm::dvec3 highlight{0};  // >= 0
         glm::dvec3 on(const glm::dvec3& c) const { return weight * (c * change + highlight); }
     };
-    // The gradient in scalar units per world unit.
+    // `gradient`: in scalar units per world unit.
     Effect effect(const glm::dvec3& gradient) const;
 
-    // The largest component of what light adds to, or takes from, colours with components up to
-    // `brightest`, divided by the weight.
+    // Returns the largest component that light adds to, or takes from, colours with components up
+    // to `brightest`, divided by the weight.
     double largest_effect(double brightest) const;
-    // Between the least and the largest component of what light adds to colours with components up
-    // to 1.
+    // Returns the difference of the largest and the least component that light adds to colours with
+    // components up to 1.
     double effect_span() const;
-    // What light multiplies colours by, at most: at least 1.
+    // Returns the largest factor by which light multiplies colours; it is at least 1.
     double largest_factor() const;
-    // The largest component of lit colours with components up to `brightest`.
+    // Returns the largest component of lit colours whose own components are up to `brightest`.
     double brightest_lit(double brightest) const;
 
     double smallest_gradient() const { return smallest_gradient_; }
-    // The weight of a gradient of this length.
+    // Returns the weight of a gradient of this length.
     double weight(double steepness) const;
     bool has_highlights() const { return specular_ > 0; }
     double power() const { return power_; }
 
     struct Direction {
         glm::dvec3 light{0};    // unit vector to the light
-        glm::dvec3 halfway{0};  // between light and eye; 0 where they are opposite
+        glm::dvec3 halfway{0};  // between light and eye; 0 if they are opposite
         glm::dvec3 color{0};
     };
     std::span<const Direction> directions() const { return directions_; }

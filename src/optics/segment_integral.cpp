@@ -2,27 +2,25 @@
 #include "optics/segment_integral.h"
 
 #include <cerf.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
-#include "optics/gauss_rules.h"
-#include "optics/linear_pieces.h"
 #include "optics/opacity.h"
+#include "optics/pieces.h"
 
 namespace lamina {
 
 namespace {
 
-// Optical depths of a piece are limited to this, so that sums of them stay finite.
+// Limit of a piece's optical depth, so that sums of depths stay finite.
 constexpr double largest_depth = 1e300;
 
 // docs/numerics.md, section 5, with u(x) = px + kx^2, the depth from the front to x: front = 1 - G
 // = int 1 - exp(-u) and back = G - exp(-D) = int exp(-u) (1 - exp(-(D - u))). u and D - u are
-// written without a subtraction that could cancel, so every term of both sums is >= 0 and accurate,
-// however small p and q are.
+// written without subtractions that could cancel, so every term of both sums is >= 0 and accurate
+// for every p and q, however small.
 PieceWeights quadrature_weights(const GaussRule& rule, double p, double q) {
     PieceWeights weights;
     for (std::size_t i = 0; i < rule.points; ++i) {
@@ -36,7 +34,8 @@ PieceWeights quadrature_weights(const GaussRule& rule, double p, double q) {
     return weights;
 }
 
-// G of docs/numerics.md, section 5, for D >= 4, where neither 1 - G nor G - exp(-D) cancels.
+// Returns G of docs/numerics.md, section 5, for D >= 4. Neither 1 - G nor G - exp(-D) cancels
+// there.
 double mean_transmittance(double p, double q) {
     const double depth = p / 2 + q / 2;
     const double k = (q - p) / 2;
@@ -53,14 +52,14 @@ double mean_transmittance(double p, double q) {
     return (dawson(front) - transmittance * dawson(back)) / root;
 }
 
-// Where the optical depth in front is `wanted` < D; at most 1.
+// Returns the place, at most 1, up to which the optical depth is `wanted` < D.
 double place_of_depth(double wanted, double p, double q) {
     const double root = std::sqrt(std::max(p * p + 2 * (q - p) * wanted, 0.0));
     return std::min(2 * wanted / (p + root), 1.0);
 }
 
-// A sum that carries its rounding error along, so that exp(-depth) is as accurate behind many
-// pieces as behind one.
+// Adds optical depths with their rounding errors (compensated summation), so that exp(-depth) stays
+// accurate behind many pieces.
 class DepthSum {
   public:
     void add(double depth) {
@@ -86,8 +85,8 @@ PieceWeights piece_weights(double p, double q) {
     return {1 - g, g - std::exp(-depth)};
 }
 
-// By parts: the integral of 2 (1 - x) (1 - exp(-u)). Beyond a depth of 20, exp(-u) is below 2e-9;
-// up to there 16 points are off by less than that.
+// Integration by parts gives the integral of 2 (1 - x) (1 - exp(-u)). Beyond a depth of 20, exp(-u)
+// is below 2e-9; up to there the error of 16 points is less than that.
 double front_moment(double p, double q) {
     constexpr double deep = 20;
     const double depth = p / 2 + q / 2;
@@ -105,7 +104,7 @@ double front_moment(double p, double q) {
 namespace {
 
 glm::dvec3 piece_color(const LinearPiece& piece, double p, double q) {
-    // Most pieces of palettes have one colour, whose weight is the opacity.
+    // Most pieces of palettes have one colour; its weight is the opacity.
     if (piece.at_from.color == piece.at_to.color) {
         return opacity_from_depth(p / 2 + q / 2) * piece.at_from.color;
     }
@@ -121,7 +120,7 @@ SegmentIntegral integrate_segment(const TransferFunction& transfer_function, dou
     if (!(length > 0)) return result;
     DepthSum depth;
     for_each_linear_piece(transfer_function.knots(), front, back, [&](const LinearPiece& piece) {
-        // Both differences are of the given doubles, so the share is accurate however close front
+        // Both differences are of the numbers given, so the share is accurate however close front
         // and back are.
         const double share = front == back ? 1 : (piece.to - piece.from) / (back - front);
         const double part = length * share;
@@ -135,6 +134,110 @@ SegmentIntegral integrate_segment(const TransferFunction& transfer_function, dou
     result.optical_depth = depth.value();
     result.alpha = opacity_from_depth(result.optical_depth);
     return result;
+}
+
+namespace {}  // namespace
+
+// On the piece the factor is to_left + width * (1 - x), with x from 0 to 1.
+FrontParts front_parts_of(const SegmentStretch& piece) {
+    const double p = std::min(piece.length * piece.front.extinction, largest_depth);
+    const double q = std::min(piece.length * piece.back.extinction, largest_depth);
+    if (p == 0 && q == 0) return {};
+    const double to_left = 1 - piece.to, width = piece.to - piece.from;
+    const PieceWeights once = piece_weights(p, q);
+    const double twice = front_moment(p, q);
+    const double of_front = to_left * once.front + width * twice;
+    const double of_back = to_left * once.back + width * std::max(once.front - twice, 0.0);
+    return {of_front + of_back, of_front * piece.front.color + of_back * piece.back.color};
+}
+
+LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, double front,
+                                  double back, double length) {
+    LitIntegral result;
+    result.whole = integrate_segment(transfer_function, front, back, length);
+    if (!(length > 0)) return result;
+    double depth = 0;
+    for_each_linear_piece(transfer_function.knots(), front, back, [&](const LinearPiece& piece) {
+        SegmentStretch lit{piece.at_from, piece.at_to, length, 0, 1};
+        if (front != back) {
+            lit.from = (piece.from - front) / (back - front);
+            lit.to = (piece.to - front) / (back - front);
+            lit.length = length * ((piece.to - piece.from) / (back - front));
+        }
+        const FrontParts parts = front_parts_of(lit);
+        const double transmittance = std::exp(-depth);
+        result.front.alpha += transmittance * parts.alpha;
+        result.front.color += transmittance * parts.color;
+        depth += lit.length * (piece.at_from.extinction / 2 + piece.at_to.extinction / 2);
+    });
+    return result;
+}
+
+namespace {
+
+constexpr double opaque = 1e30;  // stands for the infinite optical depth of the last node.
+
+std::size_t texel_index(int column, int row) {
+    return static_cast<std::size_t>(row) * FrontWeightTable::nodes +
+           static_cast<std::size_t>(column);
+}
+
+}  // namespace
+
+// Minimax polynomial of degree 3 over the triangle p, q >= 0, p + q <= 2 faint_depth, found by
+// iterated least squares.
+double faint_front_weight(double p, double q) {
+    const double pq = -0.07483143 + 0.01593537 * p + 0.01098378 * q;
+    const double of_p = 0.33332185 + p * (-0.06649057 + p * 0.00875053) + q * pq;
+    const double of_q = 0.166663 + q * (-0.02493882 + q * 0.00273092);
+    return std::min(p * of_p + q * of_q, opacity_from_depth(p / 2 + q / 2));
+}
+
+// The minimax polynomial of degree 4 over the triangle p, q >= 0, p + q <= 2 thin_depth, found by
+// iterated least squares.
+double thin_front_weight(double p, double q) {
+    const double c0 = q * (0.166777794 + q * (-0.025093103 + q * (0.002890381 - q * 0.000196459)));
+    const double c1 = 0.333037217 + q * (-0.074477034 + q * (0.011162302 - q * 0.000919007));
+    const double c2 = -0.065656503 + q * (0.015676728 - q * 0.001696676);
+    const double c3 = 0.008428908 - q * 0.001502640;
+    const double c4 = -0.000561545;
+    const double weight = c0 + p * (c1 + p * (c2 + p * (c3 + p * c4)));
+    return std::min(weight, opacity_from_depth(p / 2 + q / 2));
+}
+
+const FrontWeightTable& FrontWeightTable::get() {
+    static const FrontWeightTable table;
+    return table;
+}
+
+FrontWeightTable::FrontWeightTable() : texels_(std::size_t{nodes} * nodes) {
+    for (int row = 0; row < nodes; ++row) {
+        const double y = static_cast<double>(row) / (nodes - 1);
+        const double q = std::min(1 / ((1 - y) * (1 - y)) - 1, opaque);
+        for (int column = 0; column < nodes; ++column) {
+            const double x = static_cast<double>(column) / (nodes - 1);
+            const double p = std::min(x / (1 - x), opaque);
+            texels_[texel_index(column, row)] = static_cast<float>(piece_weights(p, q).front);
+        }
+    }
+}
+
+double FrontWeightTable::lookup(double p, double q) const {
+    p = std::min(p, opaque);
+    q = std::min(q, opaque);
+    // This form has no difference, so that faint segments keep their digits.
+    const double root = std::sqrt(1 + q);
+    const double x = (nodes - 1) * (p / (1 + p));
+    const double y = (nodes - 1) * (q / root / (1 + root));
+    const int column = std::min(static_cast<int>(x), nodes - 2);
+    const int row = std::min(static_cast<int>(y), nodes - 2);
+    const double right = x - column, down = y - row;
+    const auto texel = [&](int i, int j) {
+        return static_cast<double>(texels_[texel_index(column + i, row + j)]);
+    };
+    const double weight = (1 - down) * ((1 - right) * texel(0, 0) + right * texel(1, 0)) +
+                          down * ((1 - right) * texel(0, 1) + right * texel(1, 1));
+    return std::min(weight, opacity_from_depth(p / 2 + q / 2));
 }
 
 }  // namespace lamina

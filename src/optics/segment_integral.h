@@ -1,24 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emission and absorption along a segment on which the scalar is linear (docs/numerics.md,
-// section 5).
 #pragma once
 
+#include <cstddef>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "lamina/transfer_function.h"
 
 namespace lamina {
 
+// A Gauss-Legendre rule on [0, 1], computed with 40 digits.
+struct GaussRule {
+    std::size_t points;
+    const double* x;
+    const double* weight;
+};
+
+inline constexpr double gauss4_x[] = {0.06943184420297371239, 0.3300094782075718676,
+                                      0.6699905217924281324, 0.9305681557970262876};
+inline constexpr double gauss4_weight[] = {0.1739274225687269287, 0.3260725774312730713,
+                                           0.3260725774312730713, 0.1739274225687269287};
+inline constexpr GaussRule gauss4{4, gauss4_x, gauss4_weight};
+
+inline constexpr double gauss5_x[] = {0.046910077030668003601, 0.23076534494715845448, 0.5,
+                                      0.76923465505284154552, 0.9530899229693319964};
+inline constexpr double gauss5_weight[] = {0.11846344252809454376, 0.23931433524968323402,
+                                           0.28444444444444444444, 0.23931433524968323402,
+                                           0.11846344252809454376};
+inline constexpr GaussRule gauss5{5, gauss5_x, gauss5_weight};
+
+inline constexpr double gauss6_x[] = {0.033765242898423986094, 0.16939530676686774317,
+                                      0.38069040695840154568,  0.61930959304159845432,
+                                      0.83060469323313225683,  0.96623475710157601391};
+inline constexpr double gauss6_weight[] = {0.08566224618958517252, 0.18038078652406930378,
+                                           0.23395696728634552369, 0.23395696728634552369,
+                                           0.18038078652406930378, 0.08566224618958517252};
+inline constexpr GaussRule gauss6{6, gauss6_x, gauss6_weight};
+
+inline constexpr double gauss8_x[] = {
+    0.01985507175123188416, 0.1016667612931866302, 0.2372337950418355071, 0.4082826787521750975,
+    0.5917173212478249025,  0.7627662049581644929, 0.8983332387068133698, 0.9801449282487681158};
+inline constexpr double gauss8_weight[] = {
+    0.05061426814518812958, 0.1111905172266872353, 0.1568533229389436437, 0.1813418916891809915,
+    0.1813418916891809915,  0.1568533229389436437, 0.1111905172266872353, 0.05061426814518812958};
+inline constexpr GaussRule gauss8{8, gauss8_x, gauss8_weight};
+
+inline constexpr double gauss16_x[] = {
+    0.005299532504175033702, 0.02771248846338371196, 0.06718439880608412806, 0.1222977958224984831,
+    0.1910618777986781258,   0.2709916111713863068,  0.3591982246103705434,  0.4524937450811812799,
+    0.5475062549188187201,   0.6408017753896294566,  0.7290083888286136932,  0.8089381222013218742,
+    0.8777022041775015169,   0.9328156011939158719,  0.972287511536616288,   0.9947004674958249663};
+inline constexpr double gauss16_weight[] = {
+    0.01357622970587704743, 0.03112676196932394643, 0.0475792558412463924,  0.06231448562776693603,
+    0.07479799440828836604, 0.08457825969750126909, 0.09130170752246179443, 0.09472530522753424814,
+    0.09472530522753424814, 0.09130170752246179443, 0.08457825969750126909, 0.07479799440828836604,
+    0.06231448562776693603, 0.0475792558412463924,  0.03112676196932394643, 0.01357622970587704743};
+inline constexpr GaussRule gauss16{16, gauss16_x, gauss16_weight};
+
+// Optical depth above which a piece has a closed form that loses no digits.
+inline constexpr double largest_gauss_depth = 4;
+
+// Returns the rule for the weights of a piece of optical depth D (optics/segment_integral.h). The
+// error of n points is about (n!)^3 / ((2n+1) (2n)!^2) |k|^n (from the k^n x^2n term) with
+// |k| <= D. At each of the limits below it is less than 1e-15 of D.
+inline const GaussRule& gauss_rule(double depth) {
+    if (depth < 0.016) return depth < 1e-3 ? gauss4 : gauss5;
+    if (depth < 0.5) return depth < 0.09 ? gauss6 : gauss8;
+    return gauss16;
+}
+
+// Emission and absorption along a segment on which the scalar is linear (docs/numerics.md,
+// section 5).
+
 struct SegmentIntegral {
     double optical_depth = 0;
     double alpha = 0;  // 1 - exp(-optical_depth)
-    // Associated colour as seen from the front, attenuated by the segment itself.
+    // associated colour as seen from the front, attenuated by the segment itself
     glm::dvec3 color{0};
 };
 
-// The weights of the colours at both ends of one linear piece with extinction * length = p at its
-// front and q at its back (>= 0, finite). The associated colour is front * c_front + back * c_back.
-// Both weights are >= 0, and front + back = 1 - exp(-(p + q) / 2).
+// Weights of the colours at both ends of one linear piece with extinction * length = p at its front
+// and q at its back (>= 0, finite). The associated colour is front * c_front + back * c_back. Both
+// weights are >= 0, and front + back = 1 - exp(-(p + q) / 2).
 struct PieceWeights {
     double front = 0;
     double back = 0;
@@ -31,8 +94,72 @@ PieceWeights piece_weights(double p, double q);
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length);
 
-// Of such a piece the integral of (1 - x)^2 over what is seen of it, x from 0 at its front to 1 at
-// its back: to 1e-8.
+// Returns the integral of (1 - x)^2, weighted by visible opacity, over a piece as in PieceWeights,
+// with x from 0 at its front to 1 at its back; error 1e-8.
 double front_moment(double p, double q);
+
+// Segments under light that changes linearly along them (docs/numerics.md, section 10; Lum, Wilson,
+// Ma 2004).
+
+// A segment's opacity and associated colour, and the share of both that remains if each of its
+// points is multiplied by a factor that falls linearly from 1 at the front to 0 at the back.
+struct FrontParts {
+    double alpha = 0;
+    glm::dvec3 color{0};
+};
+
+struct LitIntegral {
+    SegmentIntegral whole;
+    FrontParts front;
+};
+
+// Integrates a segment on which the scalar is linear, as integrate_segment() does. The front parts
+// are accurate to about 1e-8 of the whole.
+LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, double front,
+                                  double back, double length);
+
+// A part of a segment on which colour and extinction are linear. `from` and `to` are shares of the
+// segment's length.
+struct SegmentStretch {
+    OpticalProperties front, back;
+    double length = 0, from = 0, to = 1;
+};
+// Returns what the part contributes, seen from its own front.
+FrontParts front_parts_of(const SegmentStretch& piece);
+
+// Fast approximations of piece_weights(p, q).front (optics/segment_integral.h), from which the
+// colour of one linear piece follows for every transfer function. They have twins in
+// shaders/optics/linear_segment.glsl. The colour of a ray is off by at most the error given below
+// times the sum of the ray's changes of colour.
+
+// A polynomial for p, q >= 0 and an optical depth (p + q) / 2 up to thin_depth. Its error is at
+// most 3e-5 there, and its value is at most the piece's opacity.
+inline constexpr double thin_depth = 1.5;
+double thin_front_weight(double p, double q);
+
+// A shorter polynomial for optical depths up to faint_depth. Its error is at most 3e-7 there.
+inline constexpr double faint_depth = 0.2;
+double faint_front_weight(double p, double q);
+
+// A table for all depths, interpolated bilinearly. Nodes are equally spaced in p / (1 + p) and 1 -
+// 1 / sqrt(1 + q). The weight is smooth in both, linear at 0, and approaches 1 as 1 / p and as 1 /
+// sqrt(q). The error is at most 2e-5 if p and q are below 20, and 5e-4 anywhere; for pieces of
+// small optical depth it is at most 2.2e-3 of their opacity.
+class FrontWeightTable {
+  public:
+    static constexpr int nodes = 256;
+
+    static const FrontWeightTable& get();  // built at the first call
+
+    // nodes * nodes values, index row * nodes + column: columns by p, rows by q.
+    const std::vector<float>& texels() const { return texels_; }
+    // p, q >= 0. The result is at most the piece's opacity.
+    double lookup(double p, double q) const;
+
+  private:
+    FrontWeightTable();
+
+    std::vector<float> texels_;
+};
 
 }  // namespace lamina

@@ -11,13 +11,13 @@
 #include <type_traits>
 
 #include "base/error.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 
 namespace lamina {
 
 namespace {
 
-// Differences of scalars below this stay finite.
+// Limit of scalars, so that their differences stay finite.
 constexpr double largest_value = 1e300;
 
 void check_optics(const OpticalProperties& optics, std::size_t index) {
@@ -82,8 +82,7 @@ void for_each_part(std::span<const TransferKnot> knots, double lo, double hi, co
     if (hi > knots.back().value) visit(knots.back().optics, knots.back().optics);
 }
 
-// Returns whether key(part) is the same for all parts that meet [lo, hi] and for which `counts`
-// holds.
+// Returns whether key(part) is the same for all parts that meet [lo, hi] and pass `counts`.
 template <typename Key, typename Counts>
 bool same_everywhere(std::span<const TransferKnot> knots, double lo, double hi, const Key& key,
                      const Counts& counts) {
@@ -125,7 +124,7 @@ TransferFunction TransferFunction::nearest(const std::vector<TransferKnot>& poin
     for (std::size_t i = 1; i < points.size(); ++i) {
         const double step = std::midpoint(points[i - 1].value, points[i].value);
         const bool at_step_before = knots.size() > 1 && knots.back().value == step;
-        // Two points may be so close that two midpoints round to one number. The plateau between
+        // Two points may be so close that their midpoints round to one number. The plateau between
         // them then has no width.
         if (at_step_before)
             knots.pop_back();
@@ -157,7 +156,7 @@ TransferFunction TransferFunction::attenuated(double factor) const {
 
 double TransferFunction::max_extinction(double lo, double hi) const {
     double largest = std::max(at(lo).extinction, at(hi).extinction);
-    // This is asked for every brick of a volume, so it does not visit all knots.
+    // Every brick of a volume asks this, so the search does not visit all knots.
     for (auto knot = std::ranges::lower_bound(knots_, lo, {}, &TransferKnot::value);
          knot != knots_.end() && knot->value <= hi; ++knot) {
         largest = std::max(largest, knot->optics.extinction);

@@ -13,7 +13,7 @@
 #include "base/progress.h"
 #include "scene/camera.h"
 #include "scene/half_space.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 namespace {
@@ -26,15 +26,15 @@ struct Cubic {
     T c[4];
     T at(double t) const { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
     Cubic slope() const { return {c[1], 2. * c[2], 3. * c[3], T(0)}; }
-    // Gives at(from + step t) as a cubic of t, by Taylor's series.
+    // Returns at(from + step t) as a cubic of t, by Taylor's series.
     Cubic part(double from, double step) const {
         return {at(from), step * slope().at(from), step * step / 2 * slope().slope().at(from),
                 step * step * step * c[3]};
     }
 };
 
-// Appends the places between 0 and 1 where p crosses 0. It is monotone between those where its
-// slope does, so that it crosses 0 there at most once, and bisection finds the place.
+// Appends the places between 0 and 1 at which p crosses 0. It is monotone between the zeros of its
+// slope, so that it crosses 0 there at most once, and bisection finds the place.
 void append_crossings(const Cubic<double>& p, std::vector<double>& places) {
     std::vector<double> ends;
     if (p.c[1] != 0 || p.c[2] != 0 || p.c[3] != 0) append_crossings(p.slope(), ends);
@@ -51,7 +51,7 @@ void append_crossings(const Cubic<double>& p, std::vector<double>& places) {
     }
 }
 
-// Gives how far a place is inside, times the length of the normal.
+// Returns the distance of a place inside, times the length of the normal.
 double depth_in(const HalfSpace& half, const glm::dvec3& place) {
     return glm::dot(half.normal, place - half.point);
 }
@@ -61,7 +61,7 @@ struct Span {
     double from, to;
 };
 
-// Cuts away what lies outside a half space. `keeps_plane`: a ray in its plane is inside.
+// Cuts away everything outside a half space. `keeps_plane`: a ray in its plane is inside.
 void cut(Span& span, const HalfSpace& half, bool keeps_plane, const View::Ray& ray) {
     const double start = depth_in(half, ray.origin), slope = glm::dot(half.normal, ray.direction);
     if (slope > 0) span.from = std::max(span.from, -start / slope);
@@ -73,8 +73,8 @@ using Field = glm::dvec4;  // the gradient in world space (x, y, z) and the scal
 
 // A part of a ray in one cell or tet, and the field from t = 0 at its front to t = 1 at its back.
 struct Segment {
-    double entry;   // z at which the ray enters the cell or tet, be it seen or not
-    double length;  // world units that are seen of it
+    double entry;   // z at which the ray enters the cell or tet, visible or not
+    double length;  // world units of its visible part
     Cubic<Field> field;
 };
 
@@ -85,8 +85,8 @@ double scalar_at(const Volume& volume, const glm::dvec3& index) {
     return visit_samples(volume, [&](const auto& all) { return static_cast<double>(all[n]); });
 }
 
-// Gives the field at a sample; outside the samples the border's repeats. Gradients are differences
-// of neighbours that exist and are numbers (docs/numerics.md, section 10).
+// Returns the field at a sample; outside the samples the border's repeats. Gradients are
+// differences of neighbours that exist and are finite (docs/numerics.md, section 10).
 Field field_at(const Volume& volume, const glm::dvec3& place) {
     const glm::dvec3 last = glm::floor(volume.grid().index_max());
     const glm::dvec3 index = glm::clamp(place, glm::dvec3(0), last);
@@ -103,7 +103,7 @@ Field field_at(const Volume& volume, const glm::dvec3& place) {
     return found;
 }
 
-// Gives a + x (b - a) for x that runs from x0 to x1: of one degree more than a and b.
+// Returns a + x (b - a) for x that runs from x0 to x1: its degree is one more than that of a and b.
 Cubic<Field> mixed(Cubic<Field> a, const Cubic<Field>& b, double x0, double x1) {
     for (int i = 3; i > 0; --i)
         a.c[i] += x0 * (b.c[i] - a.c[i]) + (x1 - x0) * (b.c[i - 1] - a.c[i - 1]);
@@ -112,7 +112,7 @@ Cubic<Field> mixed(Cubic<Field> a, const Cubic<Field>& b, double x0, double x1) 
 }
 
 // Cuts a ray at all planes of samples. The field of a cell is trilinear (docs/numerics.md, section
-// 9): it is mixed along one axis after the other, and no number if a corner is none.
+// 9): it is mixed along one axis after the other, and NaN if a corner is NaN.
 std::vector<Segment> meet(const Volume& volume, const View::Ray& world, Span seen) {
     const Grid& grid = volume.grid();
     const View::Ray ray{grid.to_index(world.origin), grid.direction_to_index(world.direction)};
@@ -151,9 +151,9 @@ std::vector<Segment> meet(const Volume& volume, const View::Ray& world, Span see
 struct PlainMesh {
     std::span<const glm::dvec3> points;
     std::vector<Field> fields;  // one a point
-    std::vector<Tet> tets;      // those that show something
-    // Gives the half space behind the face opposite a corner, which the tet is in. Both tets of a
-    // face begin with its least point, so that their planes are the same to the last bit.
+    std::vector<Tet> tets;      // the visible ones
+    // Returns the half space behind the face opposite a corner, which the tet is in. Both tets of a
+    // face begin with its least point, so that their planes are equal to the last bit.
     HalfSpace behind(const Tet& tet, int opposite) const {
         auto face = corners_of_face(tet, opposite);
         std::ranges::rotate(face, std::ranges::min_element(face));
@@ -172,8 +172,8 @@ struct PlainMesh {
     }
 };
 
-// Keeps tets with volume and numbers. The gradient at a point is the mean of those of the tets
-// around it, weighted by volume (docs/numerics.md, section 10).
+// Keeps tets with volume and finite values. The gradient at a point is the mean of those of the
+// tets around it, weighted by volume (docs/numerics.md, section 10).
 PlainMesh plain_mesh(const SceneMesh& data) {
     PlainMesh mesh{data.mesh.points(), {}, {}};
     for (const double scalar : data.scalar.values) mesh.fields.emplace_back(0, 0, 0, scalar);
@@ -197,8 +197,8 @@ PlainMesh plain_mesh(const SceneMesh& data) {
     return mesh;
 }
 
-// Holds a ray against all tets. A ray in a face counts as moved along x by infinitely little, along
-// y by far less, and along z by far less again (docs/numerics.md, section 7).
+// Intersects a ray with all tets. A ray in a face counts as moved along x by infinitely little,
+// along y by far less, and along z by far less again (docs/numerics.md, section 7).
 std::vector<Segment> meet(const PlainMesh& mesh, const View::Ray& ray, const Span& seen) {
     std::vector<Segment> found;
     for (const Tet& tet : mesh.tets) {
@@ -219,7 +219,7 @@ std::vector<Segment> meet(const PlainMesh& mesh, const View::Ray& ray, const Spa
     return found;
 }
 
-// Sums up what a ray sees, front to back (docs/numerics.md, sections 1 and 10).
+// Adds up the light of a ray, front to back (docs/numerics.md, sections 1 and 10).
 class PlainRay {
   public:
     glm::dvec3 color{0};
@@ -248,8 +248,8 @@ class PlainRay {
         brightest_ *= 1 + lighting.ambient + lighting.diffuse * largest(sum);
         brightest_ += lighting.specular * largest(sum);
     }
-    // Gives where to cut a segment, and its ends: where the scalar turns or meets a knot, and where
-    // light has a kink, for the gradient is perpendicular to it or to the halfway vector.
+    // Returns a segment's ends and the places between: the scalar turns or meets a knot, or light
+    // has a kink, because the gradient is perpendicular to it or to the halfway vector.
     std::vector<double> cuts(const Cubic<Field>& field) const {
         const auto along = [&c = field.c](const Field& v, double less) {
             return Cubic<double>{dot(c[0], v) - less, dot(c[1], v), dot(c[2], v), dot(c[3], v)};
@@ -266,17 +266,17 @@ class PlainRay {
         std::sort(found.begin(), found.end());
         return found;
     }
-    // Gives colour and extinction, per unit of t.
+    // Returns colour and extinction, per unit of t.
     glm::dvec4 optics(const Segment& segment, double t) const {
         const OpticalProperties found = scene_.transfer_function->at(segment.field.at(t).w);
         return {found.color, std::min(found.extinction, 1e200) * segment.length};
     }
-    // Gives the optical depth, by Gauss' rule with two points, which is exact for cubics.
+    // Returns the optical depth, by Gauss' rule with two points, which is exact for cubics.
     double thickness(const Segment& segment, double from, double to) const {
         const double half = 0.5 * (to - from), first = half * (1 - 1 / std::sqrt(3.));
         return half * (optics(segment, from + first).w + optics(segment, to - first).w);
     }
-    // Gives the colour of a place, as it is lit.
+    // Returns the lit colour of a place.
     glm::dvec3 shade(const Segment& segment, double t) const {
         const glm::dvec3 c(optics(segment, t)), gradient(segment.field.at(t));
         const double steepness = glm::length(gradient);
@@ -292,7 +292,7 @@ class PlainRay {
         }
         return glm::mix(c, lit, w);
     }
-    // Integrates the colour that is seen, by Gauss' rule with six points.
+    // Integrates the visible colour, by Gauss' rule with six points.
     glm::dvec3 gauss(const Segment& segment, double from, double to, double in_front) const {
         constexpr double nodes[] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
         constexpr double weights[] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
@@ -307,7 +307,7 @@ class PlainRay {
     }
     // Adds a part of a segment, or its halves until Gauss' rule on it and on its halves agree. A
     // part that is deep, or whose gradient turns (by Taylor's series), is halved first: a peak may
-    // lie between the points. If halving ends, the error is all that the part could show.
+    // lie between the points. If halving ends, the error is the whole colour of the part.
     void add(const Segment& segment, double from, double to, int halvings) {
         constexpr double tolerance = 1e-7, rounding = 1e-14;  // shares of opacity, of full scale
         const double middle = 0.5 * (from + to), here = thickness(segment, from, to);

@@ -15,8 +15,8 @@ namespace lamina {
 struct TextureBrick {
     std::array<std::int64_t, 3> first{0, 0, 0};
     std::array<std::int64_t, 3> size{1, 1, 1};
-    // At the volume's border the texture holds one more layer, which repeats the border sample, so
-    // that its samples reach as far as the volume's box.
+    // True: at the volume's border the texture holds one more layer, which repeats the border
+    // sample, so that its samples reach as far as the volume's box.
     bool bordered = false;
 
     friend bool operator==(const TextureBrick&, const TextureBrick&) = default;

@@ -6,30 +6,31 @@
 
 namespace lamina {
 
-// Abilities and limits of the context: an OpenGL context (gl::Context fills this in) or the native
-// engine (tile_capabilities()).
+// Abilities and limits of the context: an OpenGL context (gl::Context fills this in) or the engine
+// `cpu` (tile_capabilities()).
 struct Capabilities {
     std::string renderer;  // GL_RENDERER, with how the context was made: "OSMesa: llvmpipe (...)"
-    int threads = 0;       // of the native engine; they do not change the picture
+    int threads = 0;       // of the engine `cpu`; they do not change the picture
     bool software = true;  // no GPU behind it
-    bool tiles = false;    // the native engine: no OpenGL
+    bool tiles = false;    // the engine `cpu`
     int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
     int max_3d_texture_size = 0;     // GL_MAX_3D_TEXTURE_SIZE
     int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS
     int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
     bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch
-    // The largest texture. The limits that OpenGL reports are not reliable (docs/numerics.md,
-    // section 2).
+    // Size of the largest texture. The limits that OpenGL reports are not reliable
+    // (docs/numerics.md, section 2).
     std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;
     bool exact_float_filter =
-        // Measured: linear filtering of R32F has errors below 1e-6 (so on llvmpipe, not on GPUs).
+        // As measured: linear filtering of R32F has errors below 1e-6 (true on llvmpipe, not on
+        // GPUs).
         false;
-    // Matters if exact_float_filter is false: whether the filters of R8, R16 and R32F were measured
-    // to be as good as weights rounded to 8 bits. Trials of filters assume such weights.
+    // As measured: the filters of R8, R16 and R32F are as good as weights rounded to 8 bits. Trials
+    // of filters assume such weights. It matters only if exact_float_filter is false.
     bool eight_bit_filter = false;
 };
 
-// The renderer, and its number of threads if that is known: for reports of times.
+// Returns the renderer, and its number of threads if that is known, for reports of times.
 inline std::string renderer_and_threads(const Capabilities& capabilities) {
     if (capabilities.threads == 0) return capabilities.renderer;
     return capabilities.renderer + ", " + std::to_string(capabilities.threads) +

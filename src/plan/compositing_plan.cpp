@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/unreachable.h"
 
 namespace lamina {
 

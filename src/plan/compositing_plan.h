@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "lamina/emulation.h"
 #include "lamina/order.h"
 #include "lamina/scene.h"
@@ -20,14 +20,14 @@ enum class Blending {
     fetch,    // the fragment program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
     barrier,  // the fragment program, which reads the target as a texture, with a barrier between
               // layers
-    tiles,    // the native engine, which holds the pixel
+    tiles,    // the engine `cpu`, which holds the pixel
 };
 
-// The way that a context composites what its blending unit cannot.
+// Returns the way in which a context does the compositing that its blending unit cannot do.
 Blending programmable_blending(const Capabilities& capabilities);
 const char* name_of(Blending blending);
 
-// The dithering of so many slabs, with its period chosen if that is automatic.
+// Returns the dithering of so many slabs, with its period chosen if that is automatic.
 Dither dither_of(const DitherSettings& settings, int slabs);
 
 // How fragments are composited.

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 
 namespace lamina {
 

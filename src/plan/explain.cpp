@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "base/printable.h"
-#include "base/unreachable.h"
+#include "base/enum_words.h"
+#include "base/text.h"
 #include "compositing/tree_shape.h"
 #include "plan/plan.h"
 
@@ -97,7 +97,7 @@ void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& 
     if (slice.tree) {
         const TreePlan& tree = *slice.tree;
         const TreeShape shape(tree.factors, slice.slabs);
-        std::vector<int> factors;  // with the level that takes the rest
+        std::vector<int> factors;  // including the level that takes the rest
         for (int level = 0; level < shape.levels(); ++level) factors.push_back(shape.factor(level));
         std::string text = fmt::format("{}, nodes {}", to_text(factors), name_of(tree.nodes));
         if (tree.nodes == NodeArithmetic::shader) {
@@ -128,7 +128,7 @@ std::string text_of_table(const ProjectPlan& project) {
                        name_of(table.store), name_of(table.format));
 }
 
-// With what one colour alone would leave out.
+// Includes a sentence on what a picture of one colour would leave out.
 std::string text_of_light(const ProjectPlan& project, const MeshFacts& facts) {
     std::string text = fmt::format("{} lights, gradients at the points; off by up to {:.2g} / 255",
                                    project.lighting->lights.size(), project.light_error);

@@ -12,8 +12,8 @@
 
 namespace lamina {
 
-// Draws frames of one scene as its plan says: by slicing or projection, with OpenGL or with the
-// native engine. Its constructor prepares the data and tables that all frames share.
+// Draws frames of one scene as its plan says: by slicing or projection, with OpenGL or on the CPU.
+// Its constructor prepares the data and tables that all frames share.
 class FrameRenderer {
   public:
     virtual ~FrameRenderer() = default;
@@ -25,8 +25,8 @@ class FrameRenderer {
     // by step_count() in all.
     virtual void draw(const View& view, Progress* progress = nullptr) = 0;
     virtual int step_count() const = 0;
-    // The last frame: associated, linear, before the background. The one that is given `image`
-    // takes no memory if that has the frame's size.
+    // Returns the last frame: associated, linear, before the background. The one with `image` takes
+    // no memory if that has the frame's size.
     virtual void read(Image& image) const = 0;
     Image read() const {
         Image image;
@@ -34,11 +34,13 @@ class FrameRenderer {
         return image;
     }
 
-    // Durations of preparing and of the last frame, by the names that statistics print.
+    // Returns the durations of preparing and of the last frame, under the names that statistics
+    // print.
     virtual std::map<std::string, double> stages_ms() const = 0;
-    // Fragments of the last frame; 0 with OpenGL, where queries count them.
+    // Returns the number of fragments of the last frame; 0 with OpenGL, where queries count them.
     virtual std::int64_t fragments() const { return 0; }
-    // Host memory that the renderer takes beside the data; 0 with OpenGL, which has its own memory.
+    // Returns the host memory that the renderer takes beside the data; 0 with OpenGL, which has its
+    // own memory.
     virtual std::int64_t byte_count() const { return 0; }
 };
 

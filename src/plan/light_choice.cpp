@@ -10,8 +10,8 @@
 namespace lamina {
 namespace {
 
-// Shares of max_error: what kinks and bends may cost, and what light may cost in all, with the
-// pieces that are too faint to be looked at.
+// Shares of max_error: for kinks and bends, and for light as a whole, including pieces that are too
+// faint to be examined.
 constexpr double bend_share = 0.5, light_share = 0.75;
 // Share of a bend that the rule of three nodes misses of a kink between them (docs/numerics.md,
 // section 10.4).

@@ -8,12 +8,12 @@
 
 namespace lamina {
 
-// How a lit scene is drawn.
+// Lighting of a scene as it is drawn.
 struct LightPlan {
     std::optional<Lighting> lighting;  // with the smallest gradient that is lit
-    // Parts of rays along which light bends by more are cut (slicing/cpu_light-inl.h).
+    // Bend of light above which pieces of rays are cut (slicing/cpu_light-inl.h).
     double most_bend = 0;
-    double light_error = 0;  // that this leaves, in 1/255
+    double light_error = 0;  // error that this leaves, in 1/255
 
     friend bool operator==(const LightPlan&, const LightPlan&) = default;
 };
@@ -22,11 +22,11 @@ struct LightPlan {
 // whether rays are cut at bends of light.
 LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays);
 
-// The most rounds of loops that a fragment of OpenGL takes, beyond those of unlit scenes, to cut
-// its ray where light bends.
+// Returns the largest number of loop rounds that an OpenGL fragment takes, beyond those of unlit
+// scenes, to cut its ray at bends of light.
 double light_rounds(const Scene& scene, double max_color);
 
-// The largest component that the scene may draw.
+// Returns the largest colour component that the scene may draw.
 double largest_drawn_color(const Scene& scene, double max_color);
 
 // Throw Error for a lit scene that the method cannot draw lit; nothing is drawn unlit instead.

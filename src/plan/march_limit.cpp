@@ -15,10 +15,10 @@ namespace lamina {
 namespace {
 
 constexpr int most_rounds = 65535;
-constexpr int spare_rounds = 64;    // for what else a fragment does
+constexpr int spare_rounds = 64;    // rounds for everything else that a fragment does
 constexpr int search_cells = 1024;  // parts of the range at which searches for an interval start
-// Rays end at an optical depth of 20.7. Cells deeper than .75 are parted: a part at least as deep
-// as half of that takes up to 20 rounds to find and up to 20 more parts before it, where extinction
+// Rays end at an optical depth of 20.7. Cells deeper than .75 are cut: a piece at least as deep as
+// half of that takes up to 20 rounds to find and up to 20 more pieces before it, if extinction
 // rises from 0 (shaders/slicing/cut_cell.glsl).
 constexpr int deep_part_rounds = 8192;
 
@@ -26,7 +26,7 @@ bool is_unlimited(const Capabilities& capabilities) {
     return !capabilities.software || capabilities.tiles;
 }
 
-// Rounds of one search: knots in the fullest cell, and one to see that it is done.
+// Returns the rounds of one search: knots in the fullest cell, and one to see that it is done.
 int search_rounds(const Scene& scene, const Facts& facts) {
     const ValueRange range = drawn_range(*scene.transfer_function, facts.range);
     assert(range.hi > range.lo);
@@ -39,8 +39,8 @@ int search_rounds(const Scene& scene, const Facts& facts) {
     return 1 + *std::ranges::max_element(knots);
 }
 
-// The slab, a leap, light in the middle or at up to two ends, and for tables four searches and up
-// to three runs (shaders/slicing/slab_march.glsl, slab_light.glsl,
+// Counts the slab, a leap, light in the middle or at up to two ends, and for tables four searches
+// and up to three pieces (shaders/slicing/slab_march.glsl, slab_light.glsl,
 // shaders/preintegration/knot_table.glsl).
 int rounds_of_slab(const Scene& scene, const Facts& facts) {
     const int search = search_rounds(scene, facts);
@@ -49,17 +49,17 @@ int rounds_of_slab(const Scene& scene, const Facts& facts) {
     return 2 + light + (table ? 4 * search + 4 : search);
 }
 
-// The cell, a leap, its light, two searches, and if knots are crossed one for the cell and up to
-// three crossings of each (a cubic has three monotone parts).
+// Counts the cell, a leap, its light, two searches, and if knots are crossed one for the cell and
+// up to three crossings of each (a cubic has three monotone pieces).
 double rounds_of_cell(const Scene& scene, const Facts& facts) {
     const auto pieces = 3 * (static_cast<double>(facts.knots) + 1);
     const int light = scene.lighting ? 1 : 0;
     return 2 + light + 2 * search_rounds(scene, facts) + (facts.knots > 0 ? 1 + pieces : 0);
 }
 
-// The most cells that a ray crosses between two planes that are `depth` apart: one for each plane
-// of the grid, and the first. A direction's sum over axes is at most its length by
-// Cauchy and Schwarz.
+// Returns the largest number of cells that a ray crosses between two planes that are `depth` apart:
+// one for each plane of the grid, and the first. A direction's sum over axes is at most its length
+// by Cauchy and Schwarz.
 double most_cells(const Facts& facts, double depth) {
     const glm::dvec3 box = facts.occupied.max - facts.occupied.min;
     glm::dvec3 cells_per_unit;
@@ -69,7 +69,7 @@ double most_cells(const Facts& facts, double depth) {
     return std::min(box.x + box.y + box.z, along) + 4;
 }
 
-// Those that do not depend on how long the segment is.
+// Returns the rounds that do not depend on the segment's length.
 double rounds_at_any_length(const Scene& scene, const Facts& facts) {
     const bool parts_deep_cells = !facts.single_color || scene.lighting;
     return spare_rounds + (parts_deep_cells ? deep_part_rounds : 0) +

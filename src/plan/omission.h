@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// The work of a frame, as a plan predicts it.
+// The predicted work of a frame.
 struct Work {
     double segments = 0;  // segments of rays in slabs that are evaluated
     double fetches = 0;   // fetches of the volume's texels by OpenGL's fragments
@@ -17,13 +17,13 @@ struct Work {
     double passes = 0;    // layers that are composited onto images one by one
     double bytes = 0;     // size of the volume, tables and images that are read and written
 
-    // The amounts that are not 0, with their names.
+    // Returns the amounts that are not 0, with their names.
     std::vector<std::pair<const char*, double>> amounts() const;
 };
 
 Work operator-(const Work& a, const Work& b);
 
-// For example "12.3 M segments, 4.1 kB": the amounts above 0.
+// Returns, for example, "12.3 M segments, 4.1 kB": the amounts above 0.
 std::string to_text(const Work& work);
 
 // Work that is left out because this scene does not need it.
@@ -33,7 +33,7 @@ struct Omission {
     Work saves{};        // predicted work that it saves in a frame
 };
 
-// Which omissions the user has switched off.
+// The omissions that the user has switched off.
 struct OmissionSwitch {
     bool none = false;           // --no-omit: leave out nothing
     std::set<std::string> kept;  // --no-omit=NAME
@@ -41,13 +41,13 @@ struct OmissionSwitch {
 };
 std::vector<std::string> omission_names();
 
-// Collects what a planner leaves out, in the order of its choices.
+// Collects the omissions of a planner, in the order of its choices.
 struct Omissions {
     const OmissionSwitch& allowed;
     std::vector<Omission> list = {};
 
-    // Returns true, and takes it down, if the scene does not need `name` and the user has not
-    // switched that off.
+    // Returns true, and records the omission, if the scene does not need `name` and the user has
+    // not switched that off.
     bool leave_out(bool unneeded, const std::string& name, const std::string& reason) {
         if (!unneeded || !allowed.allows(name)) return false;
         list.push_back({name, reason});

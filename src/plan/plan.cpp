@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "plan/classification_choice.h"
 #include "plan/planned_work.h"
 #include "plan/planners.h"
@@ -20,7 +20,7 @@ ErrorFigure SlicePlan::error() const {
     const bool bounded = nothing_visible || integrates_cells();
     if ((!bounded && !slab_trial) || !rounding_bound) return {};
     const double value = found_error() + *rounding_bound;
-    // A figure of full scale says nothing.
+    // An error of full scale says nothing.
     if (value >= 255) return {};
     if (bounded) return {ErrorKind::derived, value, 0};
     return {ErrorKind::trials, value, slab_trial->rays};
@@ -39,7 +39,7 @@ ErrorFigure Plan::error() const {
 }
 
 PlannedPicture of_all_views(PlannedPicture picture) {
-    // A table of one layer knows no lengths.
+    // A table of one layer does not depend on length.
     TableRequest& table = picture.table.request;
     if (!picture.uses_table() || table.length_layers == 1) table.max_length = 0;
     picture.table.error = 0;

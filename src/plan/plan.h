@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "compositing/dither.h"
-#include "facts/facts.h"
+#include "compositing/codes.h"
 #include "facts/mesh_facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/error_figure.h"
 #include "lamina/scene.h"
 #include "plan/brick_cuts.h"
@@ -27,7 +27,7 @@
 
 namespace lamina {
 
-// How the slicing renderer's fragments read the scalar.
+// Ways in which the slicing renderer's fragments read the scalar.
 enum class VolumeSampling {
     none,      // the transfer function is constant over the volume: no scalar is needed
     fetch,     // eight texel fetches and float arithmetic
@@ -36,7 +36,7 @@ enum class VolumeSampling {
                // hardware
 };
 
-// The picture that slicing draws, whatever the view. Renderers prepare for it once.
+// The picture that slicing draws, independent of the view. Renderers prepare for it once.
 struct PlannedPicture : CompositingPlan, LightPlan {
     int slabs = 1;
     std::optional<Dither> dither;
@@ -44,12 +44,12 @@ struct PlannedPicture : CompositingPlan, LightPlan {
     Classification classification = Classification::post;
     VolumeSampling sampling = VolumeSampling::fetch;
     bool float_texture = false;  // samples normalised to their range and stored as R32F
-    // Tables are read through the texture unit's filter, not by single fetches.
+    // tables are read through the texture unit's filter, not by single fetches
     bool table_filtered = false;
     bool single_color = false;     // the colour is a constant of the program
     bool precise_rays = true;      // rays and chords in double precision
     bool nan_transparent = false;  // samples may be NaN
-    int batches = 1;  // a frame is drawn in so many draws, each waited for, for progress and Ctrl-C
+    int batches = 1;  // number of draws of a frame, each waited for, for progress and Ctrl-C
     // Segments are integrated in closed form, because colour and extinction are linear in the
     // scalar.
     bool linear = false;
@@ -58,12 +58,12 @@ struct PlannedPicture : CompositingPlan, LightPlan {
     std::vector<IndexPlane> clip;
     bool constant_regions = false;  // marched rays cross constant regions in one step
     std::vector<TextureBrick> bricks;
-    // The part of the volume that this renderer draws of a picture that several draw together
-    // (volume_shares.h), in the volume's index space; none: all of it. Exact segments end at its
-    // faces. Slabs are drawn whole by the renderer in whose share the middle of the segment lies.
+    // The box of the volume, in its index space, that this renderer draws of a picture that several
+    // draw together (volume_shares.h); none: all of it. Exact segments end at its faces. A slab's
+    // segment is drawn whole by the renderer whose box has its middle.
     std::optional<IndexBox> share;
-    // Exact segments follow curves where points of the transfer function are smooth, if > 0; it is
-    // what that may cost, in 1/255.
+    // Error, in 1/255, of exact segments that follow curves between smooth points of the transfer
+    // function; 0: they follow straight pieces.
     double curve_error = 0;
 
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
@@ -81,16 +81,16 @@ struct PlannedPicture : CompositingPlan, LightPlan {
     friend bool operator==(const PlannedPicture&, const PlannedPicture&) = default;
 };
 
-// The part that follows from the view, and is planned again with each camera.
+// The part of a plan that depends on the view, and is planned again with each camera.
 struct ViewPart {
-    // Rays are parallel; all have one direction and one length per depth.
+    // rays are parallel: all have one direction and one length per depth
     bool orthographic = false;
     bool nothing_visible = false;  // no slab is drawn
     // Polygons cover only this box inside the volume's box. Segments are clipped to the volume's
     // box.
     IndexBox drawn;
     bool occupied_only = false;  // segments that come near no occupied brick are not evaluated
-    // Marched rays end at this optical depth, because what lies behind it cannot be seen.
+    // Optical depth at which marched rays end, because nothing behind it is visible.
     double opaque_depth = std::numeric_limits<double>::infinity();
 
     bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }
@@ -98,43 +98,43 @@ struct ViewPart {
     friend bool operator==(const ViewPart&, const ViewPart&) = default;
 };
 
-// Remarks say why slices are drawn so, and which errors were found, in 1/255. They change no
-// picture.
+// Remarks say why slices are drawn in this way, and which errors were found, in 1/255. They change
+// no picture.
 struct Remarks {
     std::optional<SlabTrial> slab_trial;  // the trial that was chosen, for "samples": "auto"
     std::string filter_reason;  // for "filter": "auto", if the hardware's filter is chosen
-    // The error that the hardware's filter was found to add: for "filter": "auto" with a given
-    // number of slabs.
+    // Error that the hardware's filter was found to add: for "filter": "auto" with a given number
+    // of slabs.
     double filter_error = 0;
     std::string classification_reason;  // for "classification": "auto"
     std::string target_reason;          // for "target": "auto"
     std::optional<double> error_bound;  // for "tree": "auto"; tree_reason explains it
     std::string tree_reason;
-    // Bound on what compositing adds to the error of the slabs, whoever chose it; none: nothing is
-    // known that is worth saying.
+    // Bound on the error that compositing adds to that of the slabs, chosen or given; none if
+    // nothing is known.
     std::optional<double> rounding_bound;
-    // The largest error of exact segments. A picture is linear in its colours, and so is the error
-    // of a crossing of the transfer function: it grows with the brightest one above 1.
+    // Largest error of exact segments. A picture is linear in its colours, and so is the error at a
+    // crossing of the transfer function: it grows with the brightest colour above 1.
     double segment_error = exact_segment_error;
 
     friend bool operator==(const Remarks&, const Remarks&) = default;
 };
 
 struct SlicePlan : PlannedPicture, ViewPart, Remarks {
-    // The error that slabs, filter and table were found to make, in 1/255, as far as it was
-    // measured; that of exact segments.
+    // Returns the measured error of slabs, filter and table, in 1/255; or that of exact segments.
     double found_error() const {
         if (integrates_cells()) return segment_error + light_error + curve_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
-    // With the bound on roundings. Nothing was measured of slabs that the scene states.
+    // Returns the error including the bound on roundings; unknown for slabs that the scene states,
+    // because nothing was measured.
     ErrorFigure error() const;
 
     friend bool operator==(const SlicePlan&, const SlicePlan&) = default;
 };
 
-// Returns what renderers of a plan prepare for: another plan with as much draws only another view.
-// Tables without what a view changes, and without their errors, are left.
+// Returns the part of a plan that renderers prepare for: another plan with an equal part draws only
+// another view. Tables stay without what a view changes, and without their errors.
 PlannedPicture of_all_views(PlannedPicture picture);
 
 // Says what will run, and has the pre-integration tables that renderers look up. It is a pure
@@ -146,7 +146,7 @@ struct Plan {
     Work work;            // predicted work of a frame
     std::vector<Omission> omitted;
 
-    // The picture's error; unknown of Method::trace, which estimates its own.
+    // Returns the picture's error; unknown for Method::trace, which estimates its own.
     ErrorFigure error() const;
 };
 
@@ -161,12 +161,12 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials,
                 const std::shared_ptr<TableCache>& tables);
-// The plan of a method that draws a mesh (Scene::draws_mesh).
+// Makes the plan of a method that draws a mesh (Scene::draws_mesh).
 Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions,
                const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
 
-// A table for people: what runs, then what is left out and why (--explain).
+// Returns a table for people: what runs, then what is left out and why (--explain).
 std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities);
 std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities& capabilities);
 

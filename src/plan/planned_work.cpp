@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/unreachable.h"
 #include "compositing/tree_shape.h"
 #include "plan/planners.h"
 
@@ -29,7 +29,7 @@ double bytes_per_pixel(Target target) {
     unreachable_enum();
 }
 
-// The native engine keeps bytes as words of four neighbours.
+// The engine `cpu` keeps bytes as words of four neighbours.
 double volume_bytes(const SlicePlan& plan, const Facts& facts, bool tiles) {
     if (plan.sampling == VolumeSampling::none || plan.nothing_visible) return 0;
     const auto sample = static_cast<double>(plan.float_texture ? 4 : bytes_of(facts.type));
@@ -55,7 +55,7 @@ double passes_of(const SlicePlan& plan) {
     return plan.tree->nodes == NodeArithmetic::fixed ? all + plan.slabs : all;
 }
 
-// Cells that a ray crosses on the way of one voxel's edge: 1 along an axis, 1.7 along a diagonal.
+// Cells that a ray crosses per voxel edge of its length: 1 along an axis, 1.7 along a diagonal.
 constexpr double cells_per_voxel = 1.5;
 
 double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
@@ -68,7 +68,7 @@ double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
     return (early ? shares.box_before_opaque : shares.box) - in_one_step;
 }
 
-// Counts a scalar once if one program marches many slabs: a scalar between two of them is that of
+// A program that marches many slabs fetches each scalar once: a scalar between two slabs serves
 // both.
 double fetches_per_segment(const SlicePlan& plan) {
     if (plan.sampling == VolumeSampling::none) return 0;
@@ -78,7 +78,7 @@ double fetches_per_segment(const SlicePlan& plan) {
     return plan.sampling == VolumeSampling::fetch ? 8 * scalars : scalars;
 }
 
-// The plan as it would be without one of its omissions.
+// Returns the plan as it would be without one of its omissions.
 ProjectPlan without(ProjectPlan plan, const std::string& name) {
     if (name == "transparent_tets") plan.draw_transparent = plan.tree.empty();
     if (name == "drawing") plan.nothing_visible = false;
@@ -136,7 +136,8 @@ void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
             omission.saves =
                 planned_work(other.slice, facts, scene, capabilities.tiles) - plan.work;
         } catch (const Error&) {
-            // Without it the context could not draw the scene at all: there is no work to compare.
+            // Without this omission the context could not draw the scene at all: there is no work
+            // to compare.
         }
     }
 }

@@ -17,13 +17,13 @@
 
 namespace lamina {
 
-// How the fragments of a tet are integrated between its front and its back.
+// Ways to integrate the fragments of a tet between its front and its back.
 enum class SegmentSource {
-    constant,  // the transfer function is constant over the mesh: no scalar is needed
-    table,     // one look-up in a table with equally spaced scalars
-    parts,     // tets are cut where the scalar passes the transfer function's points. Opacity has a
-               // closed form; colour is one look-up in a table that does not depend on the transfer
-               // function (optics/front_weights.h)
+    constant,   // the transfer function is constant over the mesh: no scalar is needed
+    table,      // one look-up in a table with equally spaced scalars
+    parts,      // tets are cut at the transfer function's points. Opacity has a closed form; colour
+                // is one look-up in a table that does not depend on the transfer function
+                // (optics/segment_integral.h)
     cut_table,  // up to three look-ups in a table whose scalar nodes lie on the transfer function's
                 // points
     analytic,   // the linear pieces between those points, each in closed form
@@ -46,7 +46,7 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
     bool scattered = false;     // the tets of a tree's leaf come from all over the mesh
     bool orthographic = false;  // rays are parallel; fragments need no division
     bool single_color = false;  // the colour is a constant of the program
-    // The setup in float32 draws a tet if float32 can find its faces.
+    // the setup in float32 draws a tet if float32 can find its faces
     bool plain = true;
     bool draw_transparent = false;  // transparent tets are drawn, too
     bool nothing_visible = false;   // no tet is drawn
@@ -54,7 +54,7 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
     // Eye-space depth of the near plane, in the plan's units, as are lengths in tables.
     double near_depth = 0;
     ValueRange range;  // scalars, [0, 1] in shaders; lo < hi
-    // The range is the window of what shows. Scalars may lie outside it, and there the transfer
+    // The range is the window of visible scalars. Scalars may lie outside it; there the transfer
     // function is constant.
     bool windowed = false;
     TablePlan table;  // for SegmentSource::table (uniform) and ::cut_table (knots)
@@ -69,7 +69,7 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
 struct ProjectRemarks {
     std::string target_reason;  // for "target": "auto"
     MeshFacts::TrialError trial_error;
-    ErrorFigure error;  // the picture's
+    ErrorFigure error;  // of the picture
 };
 
 struct ProjectPlan : ProjectedPicture, ProjectRemarks {

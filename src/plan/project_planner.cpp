@@ -15,12 +15,11 @@
 #include "base/enum_words.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/unreachable.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
-#include "optics/front_weights.h"
-#include "optics/linear_pieces.h"
 #include "optics/opacity.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
 #include "plan/light_choice.h"
 #include "plan/tree_choice.h"
 #include "scene/coloring.h"
@@ -28,56 +27,58 @@
 namespace lamina {
 namespace {
 
-// Scene files have no near plane: it is the eye's plane, moved by so much of the mesh's diagonal
-// (docs/numerics.md, section 7).
+// Distance of the near plane from the eye's, as a share of the mesh's diagonal (docs/numerics.md,
+// section 7). Scene files have no near plane.
 constexpr double near_share = 1e-6;
 
-// Error that float32 arithmetic adds to a picture, in 1/255: the same as for exact segments
-// of volumes (plan/classification_choice.h).
+// Error that float32 arithmetic adds to a picture, in 1/255: as much as for exact segments of
+// volumes (plan/classification_choice.h).
 constexpr double float_error = 0.05;
 
-// Share of a tet's longest edge by which faces are taken to be out of their places, at both ends of
-// a run. The bound is 9e-6 (docs/stability.md); planes of doubles relative to a near pixel keep
-// most faces far below it.
+// Share of a tet's longest edge by which faces are assumed to be out of their places, at both ends
+// of a segment. The bound is 9e-6 (docs/stability.md); planes of doubles relative to a near pixel
+// keep most faces far below it.
 constexpr double placing_share = 1e-6;
 
-// Scalars and the transfer function's points are float32 numbers of this window, rounded some times
-// by at most half of 2^-23 of it. Parts of tets have windows of their own.
+// Rounding of scalars, as a share of the window: scalars and the transfer function's points are
+// float32 numbers of the window, rounded some times by at most half of 2^-23 of it. Pieces of tets
+// have windows of their own.
 constexpr double scalar_rounding = 0x1p-22;
 
-// A figure of more, in 1/255, is no figure: few rays tell little of pictures that are so far off.
+// Error, in 1/255, above which none is stated: few rays tell little of pictures that are so far
+// off.
 constexpr double most_figure = 8;
 
 // Error that a table may add to the picture's, in 1/255.
 constexpr double most_segment_error = 0.5;
 
-// Factor by which the rest of the picture may be worse than the sample that a table is tried on.
+// Factor by which the rest of the picture may be worse than the sample on which a table is tried.
 constexpr double sampling_margin = 1.25;
 
-// Parts of a tet that shows something, on the average: if the transfer function's points cut tets
+// Largest average number of pieces of a visible tet: if the transfer function's points cut tets
 // into more, a table that knows the transfer function is faster.
 constexpr std::int64_t most_parts = 8;
 
-// Points of a transfer function: with more, a table takes longer to build than it saves.
+// Number of points of a transfer function above which a table takes longer to build than it saves.
 constexpr std::size_t most_table_points = 200;
 
-// Meshes of fewer tets may have one that fills the picture, with a face that many rays meet at a
-// grazing angle: their faces are always found in double, which takes some third longer.
+// Number of tets below which faces are always found in double, which takes about a third longer:
+// one tet may fill the picture, with a face that many rays meet at a grazing angle.
 constexpr std::int64_t fewest_plain_tets = 10000;
 
-// Scalars are normalised to the window of what shows if the whole range is so many times as wide:
-// below, no more than 3 of float32's 24 bits are at stake.
+// Ratio of the whole range to the window of visible scalars from which on scalars are normalised to
+// the window: below it no more than 3 of float32's 24 bits are lost.
 constexpr double least_narrowing = 8;
 
 bool is_far_narrower(const ValueRange& window, const ValueRange& range) {
     return (range.hi - range.lo) / least_narrowing > window.hi - window.lo;
 }
 
-// Tets are cut into parts, however many, if the whole range is so many times as wide as most pieces
-// of the transfer function and no window holds these: float32 would have 1e-3 of a piece.
+// Ratio of the whole range to most pieces of the transfer function from which on tets are cut, into
+// however many pieces, if no window holds these: float32 would have 1e-3 of a piece.
 constexpr double narrow_pieces = 0x1p12;
 
-// Tells whether most pieces that show something are so narrow beside the range.
+// Tells whether most visible pieces are that narrow compared with the range.
 bool has_narrow_pieces(const TransferFunction& transfer_function, const ValueRange& range) {
     std::vector<double> widths;
     for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
@@ -91,8 +92,8 @@ bool has_narrow_pieces(const TransferFunction& transfer_function, const ValueRan
     return *middle * narrow_pieces < range.hi - range.lo;
 }
 
-// Calls visit() with the parts of a run before the window, within it and behind it, as they are
-// drawn; their scalars lie in the window. A run within it is its only part.
+// Calls visit() with the pieces of a segment before the window, within it and behind it, as they
+// are drawn; their scalars lie in the window. A segment within the window is a single piece.
 template <typename Visit>
 void for_each_run_of_window(const MeshFacts::Run& run, const ValueRange& window,
                             const Visit& visit) {
@@ -122,15 +123,15 @@ OrderMethod method_of(ProjectOrder order) {
     unreachable_enum();
 }
 
-// Decides how a mesh is projected. make() has the order of its choices, each of which takes what it
-// needs of those before:
+// Decides how a mesh is projected. make() has the order of its choices, each of which depends on
+// those before:
 //
 //   geometry       silhouettes or fans of triangles; what is drawn at all
 //   precision      faces of tets in float or in double
 //   visibility     the order of tets
 //   compositing    what rounds to codes, and dithering; a tree
-//   source         how a tet's part of a ray is integrated, whether one colour or many, and, from
-//                  trial rays, the error
+//   source         how a tet's segment of a ray is integrated, whether one colour or many, and,
+//                  from trial rays, the error
 class ProjectPlanner {
   public:
     ProjectPlanner(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
@@ -161,7 +162,7 @@ class ProjectPlanner {
         plan_.plain = choose_precision(plan_.geometry == ProjectGeometry::triangles);
         plan_.solve_rings =
             is_right_order(settings_.order) ||
-            // `auto` takes `mpvo` for a convex mesh, where it is right.
+            // `auto` takes `mpvo` for a convex mesh, for which it is right.
             (settings_.order == ProjectOrder::mpvo && facts_.convexity != Convexity::none);
         plan_.visibility = choose_visibility();
         plan_.dither = choose_dither();
@@ -170,7 +171,8 @@ class ProjectPlanner {
             plan_.blending = programmable_blending(capabilities_);
         if (settings_.tree) choose_tree();
         choose_source();
-        // Leaves take so many parts each: there, more parts would be another picture.
+        // A tree's leaves take a fixed number of tets each, so leaving out transparent tets would
+        // be another picture.
         if (plan_.source == SegmentSource::parts && settings_.tree) plan_.draw_transparent = false;
         plan_.error = picture_error();
         Plan plan;
@@ -189,14 +191,14 @@ class ProjectPlanner {
              name_of_mesh(scene_), facts_.diagonal, least, most);
     }
 
-    // Returns `linear` for Shirley's and Tuchman's triangles: colour and opacity themselves are
-    // interpolated, which belong to no depth.
+    // Returns `linear` for Shirley's and Tuchman's triangles: these interpolate colour and opacity
+    // themselves, which belong to no depth.
     Interpolation interpolation() const {
         return settings_.coloring == Coloring::vertex ? Interpolation::linear
                                                       : settings_.interpolation;
     }
 
-    // A silhouette cannot carry what is interpolated between the vertices of a fan.
+    // A silhouette cannot carry values that are interpolated between the vertices of a fan.
     ProjectGeometry geometry() const {
         const bool fan =
             settings_.interpolation == Interpolation::linear || mixes_colors(settings_.coloring);
@@ -205,7 +207,7 @@ class ProjectPlanner {
     }
 
     void choose_what_is_drawn() {
-        plan_.orthographic = facts_.orthographic;  // the other way is for no such view
+        plan_.orthographic = facts_.orthographic;  // the other geometry cannot draw such views
         if (plan_.orthographic) {
             omissions_.list.push_back(
                 {"perspective",
@@ -225,7 +227,7 @@ class ProjectPlanner {
             omissions_.leave_out(facts_.transparent_tets > 0, "transparent_tets",
                                  fmt::format("{} of {} tets show nothing: they are not projected",
                                              facts_.transparent_tets, facts_.tets));
-        // If a value is no finite number, there is nothing that could be drawn.
+        // If a value is not finite, nothing can be drawn.
         plan_.draw_transparent = !left_out && facts_.non_finite == 0;
     }
 
@@ -286,8 +288,8 @@ class ProjectPlanner {
         }
     }
 
-    // Nothing was measured of what is drawn wrong on purpose, to be studied, and of triangles,
-    // whose corners lie on a rasteriser's grid; nor is there a right picture of tets that overlap.
+    // No error is measured of pictures that are wrong on purpose, to be studied, nor of triangles,
+    // whose corners lie on a rasteriser's grid; and overlapping tets have no right picture.
     ErrorFigure picture_error() const {
         if (plan_.nothing_visible) return {ErrorKind::derived, 0, 0};
         const bool integrated =
@@ -344,14 +346,14 @@ class ProjectPlanner {
                 .construction = settings.construction};
     }
 
-    // Normalises scalars to the window of what shows, if that is far narrower than the range of the
-    // data (docs/precision.md, "Exact segments").
+    // Normalises scalars to the window of visible ones if that is far narrower than the range of
+    // the data (docs/precision.md, "Exact segments").
     void take_window() {
         plan_.windowed = is_far_narrower(facts_.window, drawn_);
         if (plan_.windowed) plan_.range = facts_.window;
     }
 
-    // The exact integral of a run whose length is in the plan's units.
+    // Returns the exact integral of a segment whose length is in the plan's units.
     using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
 
     Lookup exact_integral() const {
@@ -360,9 +362,9 @@ class ProjectPlanner {
         };
     }
 
-    // In 1/255, on the trial rays: the largest difference in colour or opacity that a way of
-    // integrating tets makes, with its scalars rounded, and how much more it is if faces are not
-    // quite in their places. Without rays it is what was found last.
+    // Returns errors on the trial rays, in 1/255: the largest difference in colour or opacity that
+    // a way of integrating tets makes, with its scalars rounded, and the additional difference if
+    // faces are not quite in their places. Without rays these are the errors found last.
     MeshFacts::TrialError error_of(const Lookup& lookup) const {
         if (facts_.trial_rays.empty()) return facts_.last_error;
         std::vector<RayError> errors(facts_.trial_rays.size());
@@ -399,8 +401,8 @@ class ProjectPlanner {
                     rounded(run, way == 0 ? -rounding : rounding), plan_.range,
                     [&](const MeshFacts::Run& part) { append(found[way], lookup(part)); });
             }
-            // A face within the mesh takes length from one run and gives it to the next. The first
-            // and the last face of a ray move outwards.
+            // A face within the mesh takes length from one segment and gives it to the next. The
+            // first and the last face of a ray move outwards.
             if (i + 1 == runs.size()) sign = 1;
             const double change = sign * 2 * placing_share * run.edge * plan_.unit;
             append(moved, integrate_segment(*transfer_function_, run.front, run.back,
@@ -412,7 +414,7 @@ class ProjectPlanner {
         return {segments, segments + largest_of(exact - moved)};
     }
 
-    // A tet of one value stays on its side of a step: that value is rounded as the step is.
+    // A tet of one value stays on its side of a step: its value is rounded as the step is.
     static MeshFacts::Run rounded(MeshFacts::Run run, double rounding) {
         if (run.front == run.back) return run;
         run.front += rounding;
@@ -424,7 +426,7 @@ class ProjectPlanner {
         return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z), std::abs(v.w)});
     }
 
-    // Puts a segment behind what a ray has met.
+    // Adds a segment behind those that a ray has met.
     static void append(glm::dvec4& sum, const SegmentIntegral& segment) {
         sum += (1 - sum.a) * glm::dvec4(segment.color, segment.alpha);
     }
@@ -453,7 +455,7 @@ class ProjectPlanner {
         } else if (plan_.plain && !scene_.lighting && try_cut_table()) {
             plan_.source = SegmentSource::cut_table;
         } else {
-            plan_.source = SegmentSource::analytic;  // slower, and right whatever the scene
+            plan_.source = SegmentSource::analytic;  // slower, and right for every scene
             plan_.trial_error = error_of(exact_integral());
         }
     }
@@ -476,7 +478,7 @@ class ProjectPlanner {
         return false;
     }
 
-    // As parts of tets are drawn (projection/tet_color-inl.h).
+    // Integrates pieces of tets as they are drawn (projection/tet_color-inl.h).
     Lookup integral_of_parts() const {
         return [this, &weights = FrontWeightTable::get()](const MeshFacts::Run& run) {
             SegmentIntegral segment;

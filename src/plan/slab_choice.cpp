@@ -12,17 +12,17 @@ namespace lamina {
 namespace {
 
 // Share of the goal that is used: the pictures and rays that trials are compared with have errors,
-// too, and the context that draws the picture rounds otherwise than the trials'.
+// too, and the context that draws the picture rounds differently.
 constexpr double used_share = 0.96;
 
-// The largest error on a quarter of a picture's rays was up to 1.37 times below that on all
-// (docs/precision.md): a maximum that grows with a power of the number of rays.
+// Exponent of the growth of the largest error with the number of rays: on a quarter of a picture's
+// rays it was up to 1.37 times below that on all (docs/precision.md).
 constexpr double rays_power = 0.25;
 
 // Factor on the error that more slabs must gain to be worth their time.
 constexpr double near_least = 1.2;
 
-// Errors of second order fall by such a power of the number of slabs.
+// Powers of the number of slabs with which errors of second order fall.
 constexpr double least_order = 1.5, most_order = 3;
 
 }  // namespace

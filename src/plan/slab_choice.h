@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/scene.h"
 
 namespace lamina {
@@ -17,30 +17,30 @@ struct SlabTrial {
     std::int64_t rays = 0;    // number of rays that were tried
     double goal = 0;          // largest error that is allowed: slab_error_goal(), in 1/255
     std::int64_t traced = 0;  // number of these rays that were compared with the reference tracer
-    // The picture's error may be larger. The rays are those of a smaller picture, or not all of
-    // them were traced and the tracer found a larger error than the comparison with other numbers
-    // of slabs.
+    // True: the picture's error may be larger, because the rays are those of a smaller picture, or
+    // because not all of them were traced and the tracer found a larger error than the comparison
+    // with other numbers of slabs.
     bool doubtful = false;
     bool keeps_goal() const { return error <= goal; }
 
     friend bool operator==(const SlabTrial&, const SlabTrial&) = default;
 };
 
-// Numbers of slabs that were tried, if the scene has "auto" (slicing/slab_trials.h tries them).
+// Numbers of slabs that were tried if the scene has "auto" (slicing/slab_trials.h tries them).
 struct SampleTrials {
     // For "samples": "auto"; otherwise empty.
     std::vector<SlabTrial> exact;
-    // For "filter": "auto", with filter weights rounded to 8 bits as in texture units. Where the
-    // number of slabs was given, the error is that of the weights alone.
+    // For "filter": "auto", with filter weights rounded to 8 bits as in texture units. If the
+    // number of slabs is given, the error is that of the weights alone.
     std::vector<SlabTrial> hardware;
 };
 
-// The number of slabs, 1 .. max_slabs, that makes `slabs` slabs per voxel along the view.
+// Returns the number of slabs, 1 .. max_slabs, that makes `slabs` slabs per voxel along the view.
 int slabs_per_voxel(const Facts& facts, double slabs);
 
-// The largest error, in 1/255, that a trial of an automatic number of slabs may find. Automatic
-// compositing takes its share of max_error first. The goal is stricter if only `rays` of the
-// picture's rays were tried, because the largest error of all rays is then larger than the one
+// Returns the largest error, in 1/255, that a trial of an automatic number of slabs may find.
+// Automatic compositing takes its share of max_error first. The goal is stricter if only `rays` of
+// the picture's rays were tried, because the largest error of all rays is then larger than the one
 // found. `max_color` and `slabs` matter if the target is automatic, too.
 double slab_error_goal(const Scene& scene, double max_color, int slabs, double rays);
 
@@ -48,13 +48,13 @@ double slab_error_goal(const Scene& scene, double max_color, int slabs, double r
 // pictures. Otherwise fewer slabs may by chance have a smaller error than more.
 bool are_of_second_order(std::vector<SlabTrial> trials);
 
-// The choice of "samples": "auto". It is the fewest slabs whose trial keeps its goal. If none
-// does, it is the fewest slabs, of two a voxel or more, whose error is near the least. If
-// nothing was tried, it is two slabs a voxel, with an unknown error (NaN).
+// Makes the choice of "samples": "auto". It is the fewest slabs whose trial keeps its goal. If none
+// does, it is the fewest slabs, of two a voxel or more, whose error is near the least. If nothing
+// was tried, it is two slabs a voxel, with an unknown error (NaN).
 SlabTrial chosen_slabs(const Facts& facts, const SampleTrials& trials);
 
-// The choice of "filter": "auto": the fewest slabs whose trial with the weights of texture units
-// keeps its goal, if any does.
+// Makes the choice of "filter": "auto": the fewest slabs whose trial with the weights of texture
+// units keeps its goal, if any does.
 std::optional<SlabTrial> slabs_of_hardware_filter(const SampleTrials& trials);
 
 }  // namespace lamina

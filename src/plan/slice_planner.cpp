@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/number_text.h"
+#include "base/text.h"
 #include "compositing/tree_shape.h"
 #include "facts/drawn_range.h"
-#include "facts/ray_shares.h"
+#include "facts/rays.h"
 #include "facts/world_unit.h"
-#include "optics/curved_pieces.h"
-#include "optics/front_weights.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
 #include "plan/light_choice.h"
 #include "plan/march_limit.h"
 #include "plan/slab_choice.h"
@@ -24,30 +24,30 @@
 namespace lamina {
 namespace {
 
-// A software frame may take a minute: it is drawn in so many parts, at no cost that could be
-// measured.
+// Number of draws of a software frame, which may take a minute, so that it can show progress and be
+// stopped. It costs no time that could be measured.
 constexpr int software_batches = 64;
 
-// Rays in float32 lose the digits of this ratio of a box's sides. In software, doubles cost some 12
-// % of a frame.
+// Ratio of a box's sides whose digits rays lose in float32; from it on they are computed in double.
+// In software, doubles cost some 12 % of a frame.
 constexpr double thin_box_ratio = 20;
 
 // Shares of a ray that must be empty for leaps over empty bricks to pay. In OpenGL (llvmpipe,
-// post-classified) hydrogen, of which .6 % are empty, took 1.2 times as long with it, and neghip,
+// post-classified) hydrogen, .6 % of which is empty, took 1.2 times as long with them, and neghip,
 // 30 %, .9 times.
 constexpr double least_empty_in_tiles = 0.01, least_empty_in_shaders = 0.2;
 
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
 
-constexpr double curve_share = 0.25;  // curves may cost this share of max_error
+constexpr double curve_share = 0.25;  // share of max_error that curves may cost
 
-constexpr std::uint64_t gradient_bytes = 8;  // a sample's, in OpenGL (slicing/gradient_map.h)
+constexpr std::uint64_t gradient_bytes = 8;  // of a sample (slicing/gradient_map.h)
 
-// Decides how a scene is sliced. make() has the order of its choices, each of which takes what it
-// needs of those before:
+// Decides how a scene is sliced. make() has the order of its choices, each of which depends on
+// those before:
 //
 //   clip, light    the planes that cut; how far rays may bend in light before they are cut
-//   slabs          how many, and whether the texture unit's filter serves (measured by trials)
+//   slabs          how many, and whether the texture unit's filter is good enough (by trials)
 //   precision      rays in float or in double
 //   scalars        how they are fetched; curves in place of the transfer function's pieces
 //   integral       of segments: in closed form, or which table
@@ -153,8 +153,8 @@ class SlicePlanner {
         double filter_error = 0;
     };
 
-    // The texture unit's filter is taken if it was measured to be no worse than what was tried. (Of
-    // tables nothing was tried: they keep their fetches.)
+    // The texture unit's filter is taken if it was measured to be no worse than the one that was
+    // tried. (Nothing was tried with tables: they keep their fetches.)
     SlabChoice choose_slabs() const {
         SlabChoice choice;
         const bool given = scene_.slice.samples.is_given();
@@ -203,7 +203,7 @@ class SlicePlanner {
         return filtered ? VolumeSampling::filtered : VolumeSampling::fetch;
     }
 
-    // Returns what curves in place of straight pieces (optics/curved_pieces.h) may cost, in 1/255.
+    // Returns the error, in 1/255, of curves in place of straight pieces (optics/pieces.h).
     // It is 0, and there are none, if no point of the transfer function is smooth or max_error is
     // too small.
     double choose_curves() {
@@ -268,7 +268,8 @@ class SlicePlanner {
         return choice;
     }
 
-    // OpenGL has lit volumes' gradients in textures, too: then they are its largest texels.
+    // OpenGL keeps the gradients of lit volumes in textures, too; these then have the largest
+    // texels.
     std::vector<TextureBrick> choose_bricks(VolumeSampling sampling, bool float_texture) const {
         if (sampling == VolumeSampling::none) return {TextureBrick{{0, 0, 0}, facts_.grid.size}};
         const std::uint64_t sample_bytes = float_texture ? 4 : bytes_of(facts_.type);
@@ -286,7 +287,7 @@ class SlicePlanner {
         const DepthRange& seen = facts_.occupied_depth;
         const double visible =
             thickness > 0 ? std::ceil((seen.far - seen.near) / thickness) + 1 : 0.0;
-        // A slab that lies in several bricks is composited in parts.
+        // A slab that lies in several bricks is composited in several draws.
         question.visible_slabs =
             static_cast<int>(std::clamp(visible, 0.0, static_cast<double>(slabs))) +
             static_cast<int>(bricks) - 1;
@@ -378,8 +379,9 @@ class SlicePlanner {
         return view;
     }
 
-    // Skips empty bricks if enough is empty. Between two bricks that show nothing scalars may jump
-    // over what can be seen if NaN parts them: a segment from one into the other would show it.
+    // Skips empty bricks if a large enough share is empty. Two empty bricks with NaN between them
+    // count as visible: the scalar may jump across a visible value there, and a segment from one
+    // into the other would show it.
     bool skips_bricks(bool marched) const {
         const bool jumps =
             facts_.non_finite > 0 && classification_ == Classification::preintegrated;
@@ -394,8 +396,8 @@ class SlicePlanner {
         return leaps && pays && facts_.occupied_share < 1 && !jumps;
     }
 
-    // Codes are those of slabs one by one. In OpenGL, measured in software, asking where the
-    // regions are takes longer than they do.
+    // Codes are those of single slabs. In OpenGL, measured in software, finding the constant
+    // regions takes longer than they save.
     bool choose_constant_regions(bool one_program) {
         const ConstantBricks& constant = facts_.constant_bricks;
         return omissions_.leave_out(
@@ -406,9 +408,9 @@ class SlicePlanner {
                         percent_text(constant.share), 2 * constant.kind.size()));
     }
 
-    // Returns the optical depth at which rays end that one program marches whole: in a tree, what
-    // is behind one leaf's part of a ray is another leaf's; on GL, of several bricks, another
-    // program's.
+    // Returns the optical depth at which rays end that one program marches whole. In a tree, the
+    // part of a ray behind a leaf belongs to another leaf; on OpenGL with several bricks, to
+    // another program.
     double choose_end_of_rays(std::size_t bricks, const std::optional<double>& error_bound) {
         constexpr double never = std::numeric_limits<double>::infinity();
         if (!capabilities_.tiles && bricks > 1) return never;
@@ -427,7 +429,7 @@ class SlicePlanner {
         return ends ? depth : never;
     }
 
-    // Error of rays that end at opaque_depth(), in 1/255.
+    // Returns the error of rays that end at opaque_depth(), in 1/255.
     double hidden_error() const { return hidden_share * scene_.max_error; }
 
     const Scene& scene_;
@@ -437,7 +439,7 @@ class SlicePlanner {
     const Capabilities& capabilities_;
     Omissions omissions_;
     Classification classification_;
-    double max_color_;  // the largest component that may be drawn
+    double max_color_;  // largest component that may be drawn
 };
 
 }  // namespace

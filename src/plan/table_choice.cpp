@@ -6,39 +6,39 @@
 
 #include "base/parallel.h"
 #include "facts/world_unit.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 #include "optics/ray_lights.h"
 #include "optics/segment_integral.h"
 
 namespace lamina {
 namespace {
 
-// Segments of a ray are tried one by one up to so many; of more, some that stand for the others.
-// If rays have fewer segments, more rays are tried.
+// Largest number of segments of a ray that are tried one by one; of more segments, some stand for
+// all. If rays have fewer segments, more rays are tried.
 constexpr int most_tried = 64, most_tried_of_all_rays = 1 << 14;
 
-// So many of the linear pieces are tried one by one, from all over the range.
+// Number of linear pieces that are tried one by one, from all over the range.
 constexpr std::size_t most_pieces_tried = 64;
 
-// A table's colours cost this many pieces of segment integrals at most, some .2 s on two cores, and
-// these bytes: choosing the number of slabs takes several tables.
+// Limits of a table's colours, in pieces of segment integrals (some .2 s on two cores) and in
+// bytes: choosing the number of slabs takes several tables.
 constexpr double most_table_work = 4e6, most_table_bytes = 128 << 20;
-constexpr double most_nodes = 2048;  // of a texture
+constexpr double most_nodes = 2048;  // limit of a texture
 
-// Layers so close that linear interpolation between them is good to .0025 (steps of depth 1 or
-// less), as far as that is affordable; deeper segments are nearly opaque and change little with
-// length.
+// Numbers of layers. Linear interpolation between layers is good to .0025 if they are a depth of 1
+// or less apart, as far as that is affordable; deeper segments are nearly opaque and change little
+// with length.
 constexpr double usual_length_layers = 9, most_length_layers = 33;
 
-// Another table is tried with so many times the nodes.
+// Factor on the number of nodes for the next table that is tried.
 constexpr int finer_nodes = 4;
 
 struct Segment {
     double front = 0, back = 0, length = 0;
-    double transmittance = 1;  // of what the volume has in front
+    double transmittance = 1;  // of everything in front of the segment
 };
 
-// Cuts a ray at the boundaries of slabs, and where it enters and leaves the box.
+// Cuts a ray at the boundaries of slabs, and at the box.
 class RayCutter {
   public:
     RayCutter(const ScalarRays::Ray& ray, const Facts& facts, int slabs)
@@ -47,8 +47,9 @@ class RayCutter {
           thickness_((facts.far_depth - facts.near_depth) / slabs),
           range_(facts.range) {}
 
-    // In slab i; of length <= 0 outside of the box. Its ends are moved as renderers move them: to
-    // the mean of the parabola through both and the middle (docs/precision.md).
+    // Returns the segment in slab i; its length is <= 0 outside of the box. Its ends are moved as
+    // renderers move them: to the mean of the parabola through both ends and the middle
+    // (docs/precision.md).
     Segment segment(int i) const {
         const double from = std::max(near_ + i * thickness_, ray_.near);
         const double to = std::min(near_ + (i + 1) * thickness_, ray_.far);
@@ -93,8 +94,8 @@ MostLight most_light(const Scene& scene) {
     return {lights.largest_effect(1) - highlight, highlight};
 }
 
-// Errors of segments that are seen one behind the other: of the unlit colour, and of what light
-// adds that is all at the fronts of segments.
+// Adds the errors of segments one behind the other: of the unlit colour, and of light that is all
+// at the fronts of segments.
 class ErrorSum {
   public:
     explicit ErrorSum(const MostLight& light) : light_(light) {}
@@ -104,8 +105,8 @@ class ErrorSum {
         front_ += weight * (light_.change * (found.front.color - right.front.color) +
                             light_.highlight * (found.front.alpha - right.front.alpha));
     }
-    // The largest one without light, with light at all fronts, at all backs, and everywhere.
-    // Opacity is exact.
+    // Returns the largest error of four cases: without light, with light at all fronts, at all
+    // backs, and everywhere. Opacity is exact.
     double largest_error() const {
         const glm::dvec3 lit = light_.change * unlit_;
         return std::max({largest(unlit_), largest(unlit_ + front_), largest(unlit_ + lit - front_),
@@ -117,8 +118,8 @@ class ErrorSum {
     glm::dvec3 unlit_{0}, front_{0};
 };
 
-// Segments around places of every linear piece, of three widths up to `widest`: few rays meet what
-// is narrow.
+// Returns segments around places in every linear piece, of three widths up to `widest`, because few
+// rays meet narrow pieces.
 std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_function,
                                         const ValueRange& range, double widest) {
     std::vector<LinearPiece> pieces;
@@ -142,7 +143,7 @@ std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_functio
     return segments;
 }
 
-// Numbers of an entry and a length.
+// Returns the count of numbers for an entry and a length.
 double numbers_of(const TableRequest& table) {
     return table.lit ? 7 : 3;
 }
@@ -151,7 +152,7 @@ double most_nodes_of(const TableRequest& table, double knots) {
     return 1.5 * table.scalar_nodes + 3 * (knots + 1);  // preintegration/preintegration_table.h
 }
 
-// Fewer layers if more would take too long or too much memory.
+// Returns fewer layers if those wanted would take too long or too much memory.
 int affordable_layers(const TableRequest& table, double knots, double wanted) {
     const double nodes = most_nodes_of(table, knots);
     // Pairs within each of the pieces, and from point to point through all pieces between.
@@ -186,7 +187,7 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
         static_cast<std::size_t>(most_tried_of_all_rays / std::min(slabs, most_tried));
     const std::size_t ray_stride = (rays.size() + tried_rays - 1) / tried_rays;
     struct Found {
-        double error = 0, widest = 0;  // of its segments, in scalars
+        double error = 0, widest = 0;  // of the segments, in scalars
     };
     std::vector<Found> found(rays.empty() ? 0 : (rays.size() - 1) / ray_stride + 1);
     parallel_for(static_cast<std::int64_t>(found.size()), 8, [&](std::int64_t number) {
@@ -227,7 +228,7 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
 void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth, TablePlan& table,
                   TableCache& tables) {
     const auto knots = static_cast<double>(facts.knots);
-    const double steps = std::ceil(depth);  // of depth 1 or less
+    const double steps = std::ceil(depth);  // each of depth 1 or less
     TablePlan tried = table;
     double wanted = std::min(steps + 1, usual_length_layers);
     const auto try_it = [&] {

@@ -13,7 +13,7 @@
 namespace lamina {
 namespace {
 
-// From the fewest bytes; of the two with as many, the one with the smaller steps first.
+// Ascending bytes; of the two with equal bytes, the one with the smaller steps first.
 constexpr std::array smaller_targets{Target::fixed8, Target::fixed16, Target::float16};
 
 template <typename Bound>

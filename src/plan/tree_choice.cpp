@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/unreachable.h"
 #include "compositing/tree_shape.h"
 #include "plan/target_choice.h"
 #include "scene/coloring.h"
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double full_scale = 255;
 
-// The largest error of storing one value in [0, 1]. Halves: llvmpipe truncates them, by up to one
+// Returns the largest error of storing one value in [0, 1]. llvmpipe truncates halves, by up to one
 // unit in the last place just below 1.
 double storage_error(const TreeQuestion& question) {
     switch (question.target) {
@@ -39,8 +39,8 @@ double storage_error(const TreeQuestion& question) {
     unreachable_enum();
 }
 
-// How far a slab's opacity may be from its value, in storage errors: half a code if it is
-// rounded to nearest, else up to a code.
+// Returns the largest error of a slab's opacity, in storage errors: half a code if it is rounded to
+// nearest, else up to a code.
 double opacity_roundings(const TreeQuestion& question) {
     if (question.dither) return 2.0 * question.dither->increment;
     const bool whole_code =
@@ -48,19 +48,22 @@ double opacity_roundings(const TreeQuestion& question) {
     return whole_code ? 2 : 1;
 }
 
-// Storage errors per slab: of its opacity, its colour and what it leaves of the rest. Front to
-// back, the opacity that is there is rounded, too, and hides what comes behind.
+// Returns the storage errors per slab: of its opacity, its colour and the share of the rest that
+// stays visible. Front to back, the opacity that is there is rounded, too, and hides what comes
+// behind.
 double roundings_per_slab(const TreeQuestion& question) {
     return 2 + opacity_roundings(question) + (question.order == Order::front_to_back ? 1 : 0);
 }
 
-// Storage errors of colours before they are weighted by opacity: these weights' sum is at most 1.
+// Returns the storage errors of colours before they are weighted by opacity: the sum of these
+// weights is at most 1.
 double color_roundings(const TreeQuestion& question) {
     if (question.dither && question.dither->color) return 2.0 * question.dither->increment;
     return question.target == Target::emulated ? 1 : 0;
 }
 
-// Registers of a leaf: transmittance, colour and optical depth are rounded once a slab each.
+// Roundings of a leaf's registers: transmittance, colour and optical depth are rounded once a slab
+// each.
 constexpr double leaf_roundings = 3 * 0x1p-24;
 
 // Fixed-point targets hold colours up to 1; the others round in proportion to what they hold.
@@ -70,9 +73,9 @@ double scaled_for_color(const TreeQuestion& question, double bound) {
     return full_scale * std::min(scaled, largest);
 }
 
-// Error that one level of inner nodes may add to colours up to 1 (docs/numerics.md, section 4): the
-// bound on a channel that follows from a code h off in each node of this share of the ray, and the
-// rounding of the nodes' colours.
+// Returns the error that one level of inner nodes may add to colours up to 1 (docs/numerics.md,
+// section 4): the bound on a channel if each node of this share of the ray is off by a code h, and
+// the rounding of the nodes' colours.
 double level_rounding(const TreeQuestion& question, const TreePlan& tree, double share) {
     const double storage = storage_error(question);
     const bool wide = question.target == Target::fixed8 && tree.alpha_bits == 16;
@@ -82,7 +85,7 @@ double level_rounding(const TreeQuestion& question, const TreePlan& tree, double
     return storage + (lost < 1 ? std::min(-std::log1p(-lost), 1.0) : 1.0);
 }
 
-// Bound of a node, which emulated buffers do not have, or of blending.
+// Returns the bound of a node, which emulated buffers do not have, or of blending.
 double best_error_bound(const TreeQuestion& question) {
     const double straight = straight_error_bound(question);
     if (question.target == Target::emulated) return straight;
@@ -134,7 +137,7 @@ bool more_bits_keep(TreeQuestion question) {
         best_error_bound(question), clamping, fmt::join(remedies, ", or "));
 }
 
-// `otherwise`: what the scene may ask for instead of one colour.
+// `otherwise`: alternatives to one colour that the scene may ask for.
 void check_fixed_nodes(const Scene& scene, bool single_color, const char* tree,
                        const char* otherwise) {
     if (!is_fixed_point(*scene.target)) {
@@ -191,7 +194,8 @@ std::optional<double> rounding_bound(const TreeQuestion& question,
 TreeChoice choose_tree(const TreeQuestion& question) {
     const double straight = straight_error_bound(question);
     const double best = best_error_bound(question);
-    // Nothing has more bits than float32: it is taken even so, as it is without a tree.
+    // No target has more bits than float32: it is taken even if it exceeds max_error, as it is
+    // without a tree.
     if (best > question.max_error && question.target != Target::float32) fail_for(question);
     if (question.target == Target::emulated)
         return {{}, straight, "an emulated buffer has no nodes computed in a shader"};

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "facts/ray_shares.h"
+#include "facts/rays.h"
 #include "scene/camera.h"
 #include "volume/brick_cache.h"
 
@@ -23,12 +23,12 @@ namespace {
 
 constexpr int rays_along_side = 48, most_steps = 192;
 
-// Cost of a ray in each part that shows something on it, in cells: it is set up there, and its
-// pixel is composited once more.
+// Cost, in cells, of a ray in each part in which something is visible on it: it is set up there,
+// and its pixel is composited once more.
 constexpr double cells_of_ray = 8;
 
-// Cost of reading a brick of the cache: measured 130 us from a file that the system has in
-// its memory, beside 68 ns for a cell.
+// Cost, in cells, of reading a brick of the cache: measured 130 us from a file that the system has
+// in its memory, against 68 ns for a cell.
 constexpr double cells_of_page = 1900;
 
 int columns_of(const View& view) {
@@ -46,7 +46,7 @@ bool in_picture(const View& view, const glm::dvec3& point) {
            std::abs(glm::dot(way, view.up)) < half * view.height;
 }
 
-// The mean over a brick's range of values: how they are distributed is not known.
+// Returns the mean over a brick's range of values, because their distribution is not known.
 double mean_extinction(const TransferFunction& transfer_function, const ValueRange& range) {
     constexpr int places = 4;
     double sum = 0;
@@ -63,43 +63,44 @@ bool cut_away(const Facts& facts, const glm::dvec3& at) {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-// Boxes of this many cells or more are cut between bricks: their ranges say no more.
+// Number of cells from which on boxes are cut between bricks: the ranges of bricks tell nothing
+// about smaller pieces.
 constexpr double cells_to_cut_finely = 16 * MinMaxBricks::edge;
 
-// Cost of a box that shows nothing: then halves of it are equal parts.
+// Cost of a box that shows nothing, so that its halves are equal parts.
 constexpr double cost_of_emptiness = 1e-6;
 
-// The number of boxes with smaller coordinates than the cut that divides `count` boxes.
+// Returns the number of boxes on the lower side of the cut that divides `count` boxes.
 int below_of(int count) {
     return count / 2;
 }
 
 }  // namespace
 
-// Costs of drawing parts of a volume, estimated on rays all over the view from the ranges of
-// bricks alone, in cells that rays walk through. In each part rays end once the part by itself is
+// Costs of drawing parts of a volume, in cells that rays walk through, estimated on rays all over
+// the view from the ranges of bricks alone. In each part rays end once the part by itself is
 // opaque.
 class ShareCosts {
   public:
-    // `in_files`: what the view shows is also read from files.
+    // `in_files`: the visible samples are also read from files.
     ShareCosts(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks, bool in_files);
 
-    // The costs of the parts below and above a plane across an axis.
+    // Costs of the parts below and above a plane across an axis.
     struct Pair {
         double below = 0, above = 0;
     };
     Pair of_parts(int axis, double place) const;
 
-    // The costs inside one of these parts.
+    // Returns the costs inside one of these parts.
     ShareCosts part(int axis, double place, bool above) const;
 
   private:
     ShareCosts() = default;
 
-    // A stretch of a ray in bricks that show something.
+    // A part of a ray in visible bricks.
     struct Stretch {
         glm::vec3 middle;     // in index space
-        float cells;          // that it walks through
+        float cells;          // that the ray walks through in it
         float optical_depth;  // estimated
         std::int32_t ray;
     };
@@ -222,8 +223,8 @@ void VolumeShares::divide(const ShareCosts& costs, const IndexBox& box, const In
     divide(costs.part(cut.axis, cut.place, true), above, between_above, count - below_of(count));
 }
 
-// On each axis the plane is found that divides the cost as the boxes are divided. Of these three
-// the one is taken with the least cost for a renderer: a part behind another one draws much that
+// On each axis the plane is found that divides the cost in the ratio of the boxes. Of these three
+// the one with the least cost for a renderer is taken: a part behind another one draws much that
 // the other hides.
 VolumeShares::Cut VolumeShares::best_cut(const ShareCosts& costs, const IndexBox& between,
                                          int count) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/scene.h"
 #include "scene/camera.h"
 #include "volume/min_max_bricks.h"
@@ -17,15 +17,16 @@ class ShareCosts;
 class VolumeShares {
   public:
     // Cuts the volume so that each of `count` renderers takes about as long as the others for the
-    // scene's view, as far as the ranges of bricks tell. `in_files`: with reading it.
+    // scene's view, as far as the ranges of bricks tell. `in_files`: reading counts, too.
     VolumeShares(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks, bool in_files,
                  int count);
 
-    // In the volume's index space, endless where they reach the volume's border. Boxes are empty
-    // if there were too few samples to cut between.
+    // Returns the boxes in the volume's index space, endless if they reach the volume's border.
+    // Boxes are empty if there were too few samples to cut between.
     const std::vector<IndexBox>& boxes() const { return boxes_; }
 
-    // The numbers of the boxes, sorted so that along every ray of a view nearer ones come first.
+    // Returns the numbers of the boxes, sorted so that along every ray of a view nearer ones come
+    // first.
     std::vector<int> front_to_back(const Grid& grid, const View& view) const;
 
   private:
@@ -38,7 +39,7 @@ class VolumeShares {
     void divide(const ShareCosts& costs, const IndexBox& box, const IndexBox& between, int count);
     static Cut best_cut(const ShareCosts& costs, const IndexBox& between, int count);
 
-    // In this order: a cut, those below it, those above it. Boxes come in the same order.
+    // Order: a cut, those below it, those above it. Boxes come in this order, too.
     std::vector<Cut> cuts_;
     std::vector<IndexBox> boxes_;
 };

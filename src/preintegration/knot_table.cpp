@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "optics/linear_pieces.h"
 #include "optics/opacity.h"
+#include "optics/pieces.h"
 #include "preintegration/preintegration_table.h"
 
 namespace lamina {
@@ -21,8 +21,7 @@ namespace {
 
 constexpr std::size_t most_knots = 1022;  // two nodes an interval: textures of 2048 hold them
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
-// The rest of a segment that is seen through less than this is left out: it is far below a float's
-// precision.
+// Transmittance below which the rest of a segment is left out: it is far below a float's precision.
 constexpr double least_transmittance = 1e-12;
 
 float as_float(double x) {
@@ -386,7 +385,7 @@ double coordinate_between(const KnotTable::Anchor& a, const KnotTable::Anchor& b
     return a.node + (value - a.value) / (b.value - a.value) * (b.node - a.node);
 }
 
-// As coordinate(), but returns the left node at a step.
+// Returns coordinate(), but the left node at a step.
 double left_coordinate(const KnotTable& table, double value) {
     const auto& anchors = table.anchors;
     const auto at = std::ranges::lower_bound(anchors, value, {}, &KnotTable::Anchor::value);
@@ -435,7 +434,7 @@ LitIntegral KnotTable::lookup_lit(double front, double back, double length) cons
     if (front == back) return sample(*this, parts[0].from, parts[0].to, length);
     LitIntegral result;
     SegmentIntegral& whole = result.whole;
-    double left = 1;  // behind the part, as a share of the segment
+    double left = 1;  // length behind the part, as a share of the segment
     for (const Part& part : parts) {
         if (part.width == 0) continue;
         const double share = part.width / std::abs(back - front);

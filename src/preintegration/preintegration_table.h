@@ -12,7 +12,6 @@
 
 #include "lamina/table_settings.h"
 #include "lamina/transfer_function.h"
-#include "optics/front_parts.h"
 #include "optics/segment_integral.h"
 
 namespace lamina {
@@ -29,7 +28,7 @@ struct TableRequest {
     int scalar_nodes = 256;  // >= 2; of a KnotTable approximate, of a UniformTable at most 4096
     int length_layers = 1;   // >= 1, of a UniformTable at most 64
     bool colored = true;     // may be false if transfer_function.single_color(lo, hi)
-    bool lit = false;        // with front parts (optics/front_parts.h): KnotTable, if `colored`
+    bool lit = false;  // with front parts (optics/segment_integral.h): KnotTable, if `colored`
     TableKind kind = TableKind::knots;
     // UniformTable alone: the variants of Kraus, Qiao, Ebert 2004, section 3.
     LengthMapping mapping = LengthMapping::octave;
@@ -45,7 +44,7 @@ struct PreintegrationTable {
     glm::dvec3 single_color{0};  // the colour if the request is not coloured
 
     virtual ~PreintegrationTable() = default;
-    // Computes in double precision what shaders do in float.
+    // Computes in double precision what shaders compute in float.
     virtual SegmentIntegral lookup(double front, double back, double length) const = 0;
     virtual std::int64_t byte_count() const = 0;  // memory
 

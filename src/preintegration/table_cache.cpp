@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/stage.h"
-#include "base/unreachable.h"
+#include "base/enum_words.h"
+#include "base/profile.h"
 
 namespace lamina {
 namespace {
@@ -20,7 +20,7 @@ std::vector<double> numbers_of(const TransferFunction& transfer_function) {
     return numbers;
 }
 
-// The request with 0 for a length that its table does not depend on.
+// Returns the request with 0 for a length that its table does not depend on.
 TableRequest without_idle_length(TableRequest request) {
     if (request.kind == TableKind::knots && request.length_layers == 1) request.max_length = 0;
     return request;

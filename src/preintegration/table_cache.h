@@ -45,9 +45,9 @@ class TableCache {
     TableCache(const TableCache&) = delete;
     TableCache& operator=(const TableCache&) = delete;
 
-    // Throws what build_table() throws. Requests that differ only in what their table does not
-    // depend on get one table: views that differ in the longest segment share a KnotTable of one
-    // layer.
+    // Throws what build_table() throws. Requests that differ only in values on which their table
+    // does not depend get one table: views that differ in the longest segment share a KnotTable of
+    // one layer.
     std::shared_ptr<const PreintegrationTable> get(const TransferFunction& transfer_function,
                                                    const TableRequest& request);
 

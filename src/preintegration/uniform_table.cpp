@@ -13,8 +13,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "optics/linear_pieces.h"
 #include "optics/opacity.h"
+#include "optics/pieces.h"
 #include "preintegration/preintegration_table.h"
 
 namespace lamina {
@@ -74,8 +74,7 @@ std::vector<double> nodes_of(const TableRequest& request) {
     return nodes;
 }
 
-// The rest of a segment that is seen through less than this is left out: it is far below a float's
-// precision.
+// Transmittance below which the rest of a segment is left out: it is far below a float's precision.
 constexpr double least_transmittance = 1e-12;
 
 // Integrals over the scalars.

@@ -19,15 +19,16 @@ struct AnalyticSum {
     Float depth;
 };
 
-// The part of a segment in one interval of the transfer function.
+// The piece of a segment in one interval of the transfer function.
 struct AnalyticPiece {
     const TileTransfer& transfer;
-    FloatMask counted;  // lanes that have such a part; the depth of others is 0
-    FloatMask last;     // it ends where the segment does
+    FloatMask counted;  // lanes that have such a piece; the depth of others is 0
+    FloatMask last;     // it ends at the end of the segment
     Int interval;
     Float share, next_share;    // of the interval, at the front and at the back
-    Float scalar, next_scalar;  // there
-    Float p, q, depth;          // extinction there times the part's length; optical depth
+    Float scalar, next_scalar;  // at the front and at the back
+    Float p, q, depth;          // extinction at the front and at the back times the piece's length;
+                                // optical depth
 
     LAMINA_INLINE Float near(std::size_t channel) const {
         return optics_at<Lookup::gather>(transfer, channel, interval, share);
@@ -42,8 +43,8 @@ struct EndWeights {
     Float near, far;
 };
 
-// Calls visit(AnalyticPiece) for the parts of segments, front to back. Scalars may lie outside
-// [0, 1], where the first and the last interval go on.
+// Calls visit(AnalyticPiece) for the pieces of segments, front to back. Scalars may lie outside [0,
+// 1], beyond which the first and the last interval go on.
 template <class Visit>
 LAMINA_INLINE void for_each_analytic_piece(const TileTransfer& transfer, Float front, Float back,
                                            Float world_length, const Visit& visit) {

@@ -8,19 +8,19 @@
 namespace lamina {
 namespace {
 
-// Polygons reach this far beyond the picture, because rounded corners there must not uncover a
-// pixel's centre.
+// Distance by which polygons reach beyond the picture, because rounded corners there must not
+// uncover a pixel's centre.
 constexpr double guard = 2;  // pixels
 
-// Corners nearer to each other than this count as one.
+// Distance below which two corners count as one.
 constexpr double same = 1e-9;  // pixels
 
-// The shares of the corners of a face that is seen edge-on.
+// Shares of the corners of a face that is seen edge-on.
 constexpr glm::dvec3 nowhere(0, 0, -1);
 
 }  // namespace
 
-// The ray z (x, y, 1) of a place meets the face a, b, c where it is a positive combination of the
+// The ray z (x, y, 1) of a place meets the face a, b, c if it is a positive combination of the
 // three. The share of a is det(ray, b, c) / det(a, b, c), over z (Olano and Greer 1997, section 3;
 // this holds with corners behind the eye, too). For parallel rays areas take the place of volumes.
 // right, up, forward are left-handed, so the divisor is positive for fronts.
@@ -59,7 +59,7 @@ glm::dvec3 FacePairs::ray_at(const glm::dvec2& place) const {
     return {(place - window_.middle()) * window_.view().pixel, 1};
 }
 
-// Returns the part where the function is not negative (Sutherland and Hodgman 1974).
+// Returns the part on which the function is not negative (Sutherland and Hodgman 1974).
 FacePairs::Polygon FacePairs::cut(const Polygon& polygon, const Linear& function) const {
     Polygon part;
     const auto add = [&](const glm::dvec2& corner) {
@@ -89,7 +89,7 @@ FacePairs::Polygon FacePairs::part_of(std::size_t face, const Polygon& polygon) 
     return part;
 }
 
-// 1/z, or z of parallel rays: less than nothing is farther.
+// 1/z, or z of parallel rays: values below 0 are farther.
 FacePairs::Linear FacePairs::depth_of(std::size_t face) const {
     Linear depth(0);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -99,7 +99,7 @@ FacePairs::Linear FacePairs::depth_of(std::size_t face) const {
     return depth;
 }
 
-// Returns the part where the face is met behind the near plane, or in front of it.
+// Returns the part in which rays meet the face behind the near plane, or in front of it.
 FacePairs::Polygon FacePairs::limited(const Polygon& polygon, std::size_t face,
                                       bool behind_near) const {
     if (!cut_ || polygon.count == 0) return polygon;

@@ -8,17 +8,17 @@
 #include <cstddef>
 
 #include "lamina/tet.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 
 // A tet in one view, cut into convex polygons of the picture. On each polygon the rays enter the
 // tet by one face or at the near plane, and leave it by one other face. Unlike the fans of Kraus
-// 2004, these polygons are right where a corner lies behind the eye. None of them reaches far
-// beyond the picture, where float32 resolves window coordinates only to whole pixels.
+// 2004, these polygons are right if a corner lies behind the eye. None of them reaches far beyond
+// the picture, where float32 resolves window coordinates only to whole pixels.
 class FacePairs {
   public:
-    using Fronts = std::array<bool, 4>;  // whether the face opposite each corner is a front face
+    using Fronts = std::array<bool, 4>;  // for each corner: the face opposite is a front face
 
     // `seen`: the corners relative to the eye, along right, up and forward.
     FacePairs(const WindowView& window, double near_depth, const Tet& tet,
@@ -64,16 +64,16 @@ class FacePairs {
         }
     }
 
-    // The most triangles of the polygons of one tet. The polygons do not overlap, and their union
-    // is convex. Triangulated, they have at most two triangles for each corner inside the union,
-    // and one for each corner on its border except two. At most 4 corners lie inside: a corner of
-    // the tet or the crossing of two edges, and points where edges meet the near plane. On the
-    // border lie at most 4 corners of the picture, 6 of the section with the near plane, and 12
-    // ends of at most 6 lines that cross the union. There are at most 6 polygons.
+    // Largest number of triangles of the polygons of one tet. The polygons do not overlap, and
+    // their union is convex. Triangulated, they have at most two triangles for each corner inside
+    // the union, and one for each corner on its border except two. At most 4 corners lie inside: a
+    // corner of the tet or the crossing of two edges, and points where edges meet the near plane.
+    // On the border lie at most 4 corners of the picture, 6 of the section with the near plane, and
+    // 12 ends of at most 6 lines that cross the union. There are at most 6 polygons.
     static constexpr std::size_t most_triangles = 28;
 
   private:
-    // A linear function a.x + b.y + c of a ray's position at depth 1, or of its position where rays
+    // A linear function a.x + b.y + c of a ray's position at depth 1, or of its position if rays
     // are parallel.
     using Linear = glm::dvec3;
 

@@ -7,13 +7,13 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
-#include "facts/far_scalars.h"
+#include "facts/drawn_range.h"
 #include "optics/opacity.h"
 
 namespace lamina {
 namespace {
 
-// Up to this distance from the picture, in pixels, corners of fans keep the sub-pixel digits of
+// Distance from the picture, in pixels, up to which corners of fans keep the sub-pixel digits of
 // float32 and of rasterisers.
 constexpr double farthest_beyond = 1024;
 
@@ -48,7 +48,7 @@ FanGeometry::Corner FanGeometry::corner_of(std::int32_t point) const {
     return corner;
 }
 
-// Scales normalised scalars so that float32 can compute with them (facts/far_scalars.h).
+// Scales normalised scalars so that float32 can compute with them (facts/drawn_range.h).
 void FanGeometry::bring_near(Corners& corners) {
     const auto [least, largest] =
         std::ranges::minmax(corners, {}, [](const Corner& corner) { return corner.values.x; });
@@ -152,8 +152,8 @@ bool FanGeometry::make_around_corner(const Corners& corners, std::size_t lone_fa
         area += weights[i];
     }
     if (area == 0 || !std::isfinite(area)) return false;
-    // How much deeper (perspective: less in 1/z) the apex is than the face. Differences of 1/z come
-    // from differences of z (docs/numerics.md, section 6).
+    // Difference of depth between the apex and the face (perspective: in 1/z). Differences of 1/z
+    // come from differences of z (docs/numerics.md, section 6).
     double deeper = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         weights[i] = std::clamp(weights[i] / area, 0.0, 1.0);

@@ -11,9 +11,9 @@
 #include "plan/project_plan.h"
 #include "projection/face_pairs.h"
 #include "projection/tet_geometry.h"
+#include "scene/camera.h"
 #include "scene/scene_mesh.h"
-#include "scene/window_view.h"
-#include "visibility/face_signs.h"
+#include "visibility/order_graph.h"
 
 namespace lamina {
 
@@ -36,7 +36,7 @@ struct FanVertex {
 
 // Projects each tet as three or four triangles around a thick vertex, the projections of the
 // smaller tets of Kraus 2004, Figure 3. Tets that cross the near plane are projected as the
-// polygons of FacePairs; so are, where pictures are exact, tets that reach far beyond the picture.
+// polygons of FacePairs; so are, if pictures are exact, tets that reach far beyond the picture.
 class FanGeometry : public TetGeometry {
   public:
     // A polygon has two more vertices than triangles, and there are at most six polygons.
@@ -57,7 +57,7 @@ class FanGeometry : public TetGeometry {
         glm::dvec4 values;  // as in FanVertex, not divided
     };
     using Corners = std::array<Corner, 4>;
-    // What all vertices of a tet have in common.
+    // Values that all vertices of a tet share.
     struct Owner {
         std::int32_t tet;
         glm::vec2 scalars;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fragments are written to their pixels: vector form of shaders/projection/output.glsl.
-// Fragments with neither opacity nor colour leave their pixels unchanged in all targets.
+// The output of fragments to their pixels: vector form of shaders/projection/output.glsl. Fragments
+// with neither opacity nor colour leave their pixels unchanged in all targets.
 #if defined(LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_
 #undef LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_
@@ -8,7 +8,7 @@
 #define LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_
 #endif
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "projection/tile_fragments.h"
 #include "tiles/lane_pixels-inl.h"
 #include "tiles/target_pixels-inl.h"
@@ -21,7 +21,8 @@ inline bool is_random(FragmentOutput output, const TargetBlend& target) {
             target.alpha_rounding == AlphaRounding::stochastic);
 }
 
-// For the pixels of a tile from `place` on, and the cell fragment that is drawn.
+// Returns random bits for the pixels of a tile from `place` on, and the cell fragment that is
+// drawn.
 LAMINA_INLINE Word random_of_fragments(const TetFragments& fragments, const TileGrid::Tile& area,
                                        std::size_t place, std::uint32_t number) {
     const TileGrid::Place first = TileGrid::pixel_at(static_cast<int>(place));
@@ -38,7 +39,7 @@ LAMINA_INLINE Float dithered(float largest, Float value, Float random) {
     return (whole + zero_unless(up, Float(1))) / largest;
 }
 
-// 24 of the random bits as a number in [0, 1).
+// Returns 24 of the random bits as a number in [0, 1).
 LAMINA_INLINE Float as_share(Word random) {
     return to_float(bits_as<Int>(shift_right<8>(random))) * 0x1p-24f;
 }

@@ -48,7 +48,7 @@ class FragmentQueue {
         LAMINA_INLINE void add(std::size_t place, const PlacedRay& found, FloatMask inside) {
             add(place, found.span, found.column, found.row, inside);
         }
-        // Returns the number of fragments.
+        // Ends the vectors, and returns the number of fragments.
         LAMINA_INLINE std::size_t finish() {
             if constexpr (packs) {
                 for (std::size_t i = 0; i < values; ++i) put(i, 0);
@@ -56,7 +56,8 @@ class FragmentQueue {
             const auto written = static_cast<std::size_t>(to_ - queue_.values_);
             const std::size_t end =
                 packs ? (written + lanes - 1) / lanes * lanes : written / values;
-            // A single store is mostly enough. The number that is needed could not be predicted.
+            // A single store is mostly enough. A branch on the number that is needed could not be
+            // predicted.
             std::uint16_t* const parts = queue_.parts_ + queue_.end_ / lanes;
             const std::size_t vectors = (end - queue_.end_) / lanes;
             std::fill_n(parts, some_parts, part_);
@@ -69,7 +70,7 @@ class FragmentQueue {
       private:
         // Keeps the vector if one of its pixels is `inside`. It does so without a branch, which
         // could not be predicted. The span of pixels that are not inside becomes 0, so that the
-        // other two numbers, which stay as they are, make no difference there.
+        // other two numbers, which keep their values, make no difference there.
         LAMINA_INLINE void add(std::size_t place, const InsideSpan<Float>& span, Float third,
                                Float fourth, FloatMask inside) {
             const std::size_t count = count_of(inside), some = count > 0 ? 1 : 0;
@@ -109,8 +110,8 @@ class FragmentQueue {
     LAMINA_INLINE void for_each_vector(const Visit& visit) const {
         for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{parts_[i / lanes]}, i);
     }
-    // Calls visit(Place, color) for each vector of pixels. The colour is 0 where a pixel is not
-    // covered.
+    // Calls visit(Place, color) for each vector of pixels. The colour of a pixel that is not
+    // covered is 0.
     template <class Visit>
     LAMINA_INLINE void for_each_place(const Visit& visit) const {
         for (std::size_t i = 0; i < place_count_; ++i) {
@@ -119,8 +120,8 @@ class FragmentQueue {
         }
     }
 
-    // A fragment has four numbers at a time: those of the first step, then those of a run unless it
-    // is lit, then those of a colour.
+    // A fragment has four numbers at a time: those of the first step, then those of a segment
+    // unless it is lit, then those of a colour.
     LAMINA_INLINE SlantedRay slanted(std::size_t i) const {
         return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
     }
@@ -151,7 +152,7 @@ class FragmentQueue {
     // The position of a place's fragments in a queue that packs them.
     struct Packed {
         std::uint16_t first;
-        std::uint16_t inside;  // a bit each
+        std::uint16_t inside;  // one bit a pixel
     };
 
     // Packed fragments begin anywhere, so each value has an array of its own. Else the values of a

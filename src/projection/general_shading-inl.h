@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shades fragments with everything that a plan may ask for. The plan is looked at for each vector
-// of pixels.
+// Shades fragments with everything that a plan may ask for. The plan is read for each vector of
+// pixels.
 #if defined(LAMINA_PROJECTION_GENERAL_SHADING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
 #undef LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
@@ -8,7 +8,7 @@
 #define LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
 #endif
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "executors/tile_knot_table-inl.h"
 #include "projection/analytic_segment-inl.h"
 #include "projection/fragment_output-inl.h"
@@ -54,8 +54,9 @@ LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments, const TetR
     return {sum.color[0] * opacity, sum.color[1] * opacity, sum.color[2] * opacity, opacity};
 }
 
-// The colour of segments that may leave the window: before it, within it and behind it, where the
-// transfer function is constant, one behind the other. `color`: that of segments within [0, 1].
+// Returns the colour of segments that may leave the window: of the pieces before it, within it and
+// behind it, one behind the other; the transfer function is constant outside. `color`: that of
+// segments within [0, 1].
 template <class Color>
 LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const TetRun& run,
                                       const Color& color) {
@@ -68,7 +69,7 @@ LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const TetRu
     const auto length = [&](Float from, Float to) LAMINA_LAMBDA {
         return zero_unless(changes, per_scalar * abs(to - from));
     };
-    // Segments that stay within the window keep their lengths, whatever their neighbours do.
+    // Segments that stay within the window keep their lengths, independent of their neighbours.
     const Float within = select(leaves, length(in, out), run.world_length);
     Fragment sum = color(fragments, {in, in, length(run.front, in)});
     const auto put_behind = [&](const Fragment& next) LAMINA_LAMBDA {
@@ -81,7 +82,7 @@ LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const TetRu
     return sum;
 }
 
-// The colour of segments whose ends are given by their scalars.
+// Returns the colour of segments whose ends are given by their scalars.
 LAMINA_NOINLINE inline Fragment segment_color(const TetFragments& fragments, const TetRun& run) {
     switch (fragments.source) {
         case SegmentSource::constant:
@@ -127,7 +128,7 @@ struct GeneralShader {
           opacity_only(fragments.opacity_only) {}
 
     // Codes must equal those of OpenGL's programs. These have no special case for optical depths
-    // below faint_depth, and none for depth where depths are found in double precision.
+    // below faint_depth, and none at all if depths are found in double precision.
     static PartDepth depth_of(const TetFragments& fragments, const PartArea& area) {
         if (!is_fixed_point(fragments.blend.target)) return area.depth;
         if (area.careful) return PartDepth::any;

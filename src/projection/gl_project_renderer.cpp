@@ -9,22 +9,22 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "base/enum_words.h"
 #include "base/parallel.h"
-#include "base/stage.h"
-#include "base/unreachable.h"
+#include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "executors/gl_lights.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
-#include "gl/check.h"
 #include "projection/fan_geometry.h"
 #include "projection/tet_geometry.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {
 
-// Corners of silhouettes lie this many steps of the rasteriser's grid outside (screen_polygon.h).
+// Distance, in steps of the rasteriser's grid, by which corners of silhouettes lie outside
+// (screen_polygon.h).
 constexpr double margin_steps = 2;
 
 constexpr std::array silhouette_attributes{
@@ -127,7 +127,7 @@ void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
     stream_->set_barriers(plan_.blending == Blending::barrier);
 }
 
-// The samples of a ray are the parts, as many in every view.
+// The samples of a ray are the cell fragments, as many in every view.
 void GlProjectRenderer::make_tree() {
     CompositingPlan nodes = plan_;
     if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered

@@ -25,16 +25,17 @@
 
 namespace lamina {
 
-// Whether the plan needs a program of that kind beside those of later kinds.
+// Tells whether the plan needs a program of that kind beside those of later kinds.
 bool has_program(const ProjectPlan& plan, FragmentKind kind);
-// The definitions that specialise projection/tet.frag and its vertex shader, except for the tables.
+// Returns the definitions that specialise projection/tet.frag and its vertex shader, except for the
+// tables.
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
 
 // Draws a mesh as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlProjectRenderer : public ProjectRenderer {
   public:
-    // Builds tables and programs, and order and stream where those of another renderer do not
-    // serve; errors of OpenGL are Errors. The mesh must outlive it.
+    // Builds tables and programs, and order and stream if those of another renderer cannot be used;
+    // errors of OpenGL are Errors. The mesh must outlive it.
     GlProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                       const ProjectPlan& plan, const Capabilities& capabilities, int width,
                       int height, std::shared_ptr<VisibilityOrder> order = nullptr,
@@ -76,13 +77,13 @@ class GlProjectRenderer : public ProjectRenderer {
     gl::Framebuffer target_;
     TetPieces pieces_;
     std::shared_ptr<VisibilityOrder> order_;
-    // None where nothing is visible.
+    // None if nothing is visible.
     std::optional<GlProjectTables> tables_;
-    StoredGradients gradients_;                                        // empty where nothing is lit
+    StoredGradients gradients_;                                        // empty if nothing is lit
     std::array<std::optional<gl::Program>, fragment_kinds> programs_;  // by FragmentKind
     std::shared_ptr<GlTetStream> stream_;
     std::optional<VisibleParts> parts_;
-    std::optional<GlFixedTree> tree_;  // where the plan has one
+    std::optional<GlFixedTree> tree_;  // if the plan has one
     std::int64_t tets_drawn_ = 0;
     double order_ms_ = 0, draw_ms_ = 0;
 };

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/stage.h"
-#include "base/unreachable.h"
+#include "base/enum_words.h"
+#include "base/profile.h"
 #include "executors/shader_intervals.h"
-#include "optics/front_weights.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
 
 namespace lamina {
 namespace {

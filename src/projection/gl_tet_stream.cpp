@@ -5,12 +5,11 @@
 
 #include <algorithm>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "gl/api.h"
-#include "gl/check.h"
 #include "projection/visible_parts.h"
 
 namespace lamina {
@@ -113,7 +112,7 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, const DrawOrder<TetP
         for (std::size_t i = 0; i < chunks_of(batch_parts.size()); ++i) {
             const Chunk& chunk = chunks_[i];
             if (chunk.tets == 0) continue;
-            drawn += chunk.tets - (chunk.first_tet == last_tet);  // parts on both sides are one tet
+            drawn += chunk.tets - (chunk.first_tet == last_tet);  // one tet on both sides
             last_tet = chunk.last_tet;
         }
         const Stage submitting("submit");

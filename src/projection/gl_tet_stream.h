@@ -9,13 +9,11 @@
 
 #include "executors/tree_leaves.h"
 #include "gl/buffer.h"
-#include "gl/fence.h"
 #include "gl/program.h"
 #include "gl/timeline.h"
-#include "gl/vertex_array.h"
 #include "plan/compositing_plan.h"
 #include "projection/tet_geometry.h"
-#include "visibility/draw_order.h"
+#include "visibility/ring_order.h"
 
 namespace lamina {
 
@@ -29,21 +27,23 @@ class GlTetStream {
         std::size_t byte_offset;
         bool integer;
     };
-    // `parts`: the most that one call of draw() gets.
+    // `parts`: the largest number that one call of draw() gets.
     GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
                 std::size_t parts);
 
-    // Whether it is what the constructor would make, for geometry of one kind.
+    // Tells whether it equals what the constructor would make, for geometry of one kind.
     bool serves(const TetGeometry::Size& size, std::size_t parts) const;
 
-    // Waits between parts, for programs that read the target as a texture.
+    // Sets whether draw() waits between cell fragments, for programs that read the target as a
+    // texture.
     void set_barriers(bool barriers);
 
     using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; several may be
                                                                 // the same program
     // Draws cell fragments in their order with the state that is bound; the viewport is the
     // picture. Ctrl-C ends it between batches, and `batch_done` is called after each batch. Returns
-    // how many tets were drawn, that is, cover the centre of a pixel. `rows`: of the picture.
+    // the number of tets that were drawn, that is, cover the centre of a pixel. `rows`: of the
+    // picture.
     std::int64_t draw(const TetGeometry& geometry, const DrawOrder<TetPart>& parts, int rows,
                       const Programs& programs, const std::function<void()>& batch_done);
 

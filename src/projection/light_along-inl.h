@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light adds to runs through tets (docs/numerics.md, section 10): extinction and gradient are
-// linear along them.
+// Light on segments through tets (docs/numerics.md, section 10): extinction and gradient are linear
+// along them.
 #if defined(LAMINA_PROJECTION_LIGHT_ALONG_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_LIGHT_ALONG_INL_H_
 #undef LAMINA_PROJECTION_LIGHT_ALONG_INL_H_
@@ -13,15 +13,15 @@
 
 LAMINA_SIMD_BEGIN
 
-// A run, or the piece of one on which the transfer function is linear.
+// A segment, or the piece of one on which the transfer function is linear.
 struct LitRun {
     Float front_depth, back_depth;  // extinction at both ends, times the length
     Float gradient[3], turn[3];     // at the front, and from there to the back
     Float to_eye[3];
 };
 
-// Where the colour at the front of a run is f and that at its back b, light adds
-// f * change + (b - f) * farther + highlight. Of one channel where light is grey.
+// The contribution of light: with the colour f at the front of a segment and b at its back, light
+// adds f * change + (b - f) * farther + highlight. One channel is enough if light is grey.
 template <std::size_t channels>
 struct LightSums {
     Float change[channels], farther[channels], highlight[channels];
@@ -32,22 +32,22 @@ struct LightSums {
     }
 };
 
-// Sums up what light adds to runs, piece by piece from the front, by Gauss' rule with three nodes,
-// whose weights add up to the piece's opacity. Pieces end at kinks, and are as long as depth and
-// light allow in each lane: of light that bends the rule misses less than .045 of how much it does
-// so from node to node to node.
+// Adds up the contribution of light to segments, piece by piece from the front, by Gauss' rule with
+// three nodes, whose weights add up to the piece's opacity. Pieces end at kinks, and are as long as
+// depth and light allow in each lane: the rule misses less than .045 of the bend of light from node
+// to node to node.
 template <std::size_t channels>
 class LightAlong {
   public:
     LightAlong(const TileLight& light, float smallest_square, const LitRun& run)
         : light_(light), smallest_square_(smallest_square), run_(run) {
-        // Products of depths are numbers.
+        // Limited depths have finite products.
         run_.front_depth = min(run.front_depth, deepest);
         change_ = min(run.back_depth, deepest) - run_.front_depth;
         find_kinks();
     }
 
-    // `in_front`: transmittance in front of the runs. Lanes outside `wanted` get 0.
+    // `in_front`: transmittance in front of the segments. Lanes outside `wanted` get 0.
     LAMINA_INLINE LightSums<channels> sum(Float in_front, FloatMask wanted) {
         for (std::size_t c = 0; c < channels; ++c)
             sums_.change[c] = sums_.farther[c] = sums_.highlight[c] = Float(0);
@@ -65,12 +65,13 @@ class LightAlong {
 
   private:
     static constexpr float deepest = 1e12f;
-    // Nothing behind this transmittance can be seen.
+    // Transmittance behind which nothing is visible.
     static constexpr float least_transmittance = 1e-5f;
-    // A piece this short has one colour, whatever its depth.
+    // Extent below which a piece has one colour, whatever its depth.
     static constexpr float shortest = 1e-6f;
 
-    // Where the gradient is perpendicular to a light; beyond the run where it is nowhere.
+    // Finds the places at which the gradient is perpendicular to a light; beyond the segment if
+    // there is none.
     LAMINA_INLINE void find_kinks() {
         for (std::size_t i = 0; i < light_.directions.size(); ++i) {
             const TileLight::Direction& direction = light_.directions[i];
@@ -89,7 +90,7 @@ class LightAlong {
     struct Piece {
         Float extent;
         FloatMask last;
-        Float front, depth, opacity;  // front: extinction there times the run's length
+        Float front, depth, opacity;  // front: extinction there times the segment's length
     };
 
     LAMINA_INLINE Piece next_piece() const {
@@ -105,7 +106,8 @@ class LightAlong {
         const auto depth_to = [&](Float extent) LAMINA_LAMBDA {
             return max(extent * (piece.front + 0.5f * change_ * extent), 0);
         };
-        // To the depth of a shallow piece: a quadratic equation, in the form without cancellation.
+        // Cuts deep pieces to the depth of a shallow one: a quadratic equation, in the form without
+        // cancellation.
         const FloatMask deep = depth_to(piece.extent) > largest_piece_depth;
         const Float goal(0.7f), square = piece.front * piece.front + 2 * goal * change_;
         const Float root = sqrt(max(square, 0));
@@ -117,7 +119,7 @@ class LightAlong {
         return piece;
     }
 
-    // Adds the next piece of each run, or shortens it where its light bends too much for one rule.
+    // Adds the next piece of each segment, or shortens it if its light bends too much for one rule.
     LAMINA_INLINE void add_piece(FloatMask left) {
         const Piece piece = next_piece();
         const FloatMask deep = piece.depth > largest_piece_depth;
@@ -156,7 +158,7 @@ class LightAlong {
         return effect_of<channels>(light_, there, smallest_square_, run_.to_eye);
     }
 
-    // Returns what the nodes of the next piece may not see.
+    // Returns the bend that the nodes of the next piece may miss.
     LAMINA_INLINE Float hidden_bend(Float extent) const {
         const Float half = 0.5f * extent, middle = at_ + half;
         Float square(0), reach(0);
@@ -172,7 +174,7 @@ class LightAlong {
     const TileLight& light_;
     Float smallest_square_;
     LitRun run_;
-    Float change_;  // of extinction from front to back, times the length
+    Float change_;  // change of extinction from front to back, times the length
     LightSums<channels> sums_;
     Float at_, longest_, in_front_;
     Float kinks_[Lighting::most_lights];

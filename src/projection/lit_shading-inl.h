@@ -12,11 +12,11 @@
 
 LAMINA_SIMD_BEGIN
 
-// Gradients, and the direction to the eye, along a run from front to back.
+// Gradients, and the direction to the eye, along a segment from front to back.
 struct GradientRun {
     Float front[3], back[3], to_eye[3];
 
-    // Between two places of the run, 0 to 1.
+    // Returns the segment between two of its places, 0 to 1.
     LAMINA_INLINE LitRun between(Float from, Float to, Float front_depth, Float back_depth) const {
         LitRun run;
         run.front_depth = front_depth;
@@ -31,8 +31,8 @@ struct GradientRun {
     }
 };
 
-// Colour and opacity of a piece of a run on which both are linear from `near` to `far`, with light:
-// what of it reaches the front of the run.
+// Colour and opacity of a piece of a segment on which both are linear from `near` to `far`, with
+// light, as they reach the front of the segment.
 struct LitEnds {
     Float near[3], far[3];
     Float unlit[3];
@@ -46,7 +46,7 @@ LAMINA_INLINE void add_channels(const TetFragments& fragments, const LitRun& run
             .sum(in_front, wanted);
     for (std::size_t c = 0; c < 3; ++c) {
         const Float sum = piece.unlit[c] + sums.added(c, piece.near[c], piece.far[c]);
-        // Light only multiplies what is there: rounding may leave less than nothing.
+        // Light only multiplies existing colour: rounding may leave less than 0.
         color[c] += max(sum, 0);
     }
 }
@@ -117,7 +117,7 @@ struct LitShader {
             const Float aside = column * of.per_column + row * of.per_row;
             const auto at = [&](const TetSpanEnd& end) LAMINA_LAMBDA {
                 const Float sum = of.at_center + end.from_center * of.per_z + end.z * aside;
-                // Nowhere longer than at the points, but for rounding in slivers.
+                // It is nowhere longer than at the points, except for rounding in slivers.
                 return clamp(sum, -1, 1);
             };
             gradient.front[axis] = at(ends.front);

@@ -15,8 +15,8 @@ alignas(16) constexpr std::int32_t front_of[4][4] = {
 alignas(16) constexpr std::int32_t back_of[4][4] = {
     {0, 0, 0, 0}, {1, 2, 3, 3}, {2, 2, 3, 3}, {3, 3, 3, 3}};
 
-// These are more than all rounding errors of depths and of the bounds, in depth and per pixel from
-// the center, because what the outline leaves out must not be seen.
+// These exceed all rounding errors of depths and of the bounds, in depth and per pixel from the
+// center, because parts that the outline leaves out must not be visible.
 constexpr float rounding = 1e-6f, least_slack = 1e-3f;
 
 // Lines along rows are made a little oblique, so that they bound columns, too.

@@ -25,7 +25,7 @@ PartField::PartField(const Corners& corners, const Values& values, const LinearP
     gradient_ =
         slopes.numerator(values[1] - values[0], values[2] - values[0], values[3] - values[0]) /
         slopes.determinant;
-    // A tet without volume is not seen, whatever its scalar.
+    // A tet without volume is invisible, whatever its scalar.
     const auto largest_of = [](const glm::dvec3& v) {
         return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     };

@@ -7,12 +7,12 @@
 #include <array>
 #include <cstddef>
 
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 
 namespace lamina {
 
 // The scalar in a tet, linear between its corners, and the region of the tet that is drawn: all of
-// it, or the cell fragment where the scalar lies in one piece of the transfer function.
+// it, or the cell fragment whose scalars lie in one piece of the transfer function.
 class PartField {
   public:
     using Corners = std::array<glm::dvec3, 4>;

@@ -14,7 +14,7 @@ namespace lamina {
 
 class GlTetStream;
 
-// The next renderer of the same mesh takes these over if they serve.
+// Parts that the next renderer of the mesh can take over.
 struct ProjectParts {
     std::shared_ptr<VisibilityOrder> order;
     std::shared_ptr<GlTetStream> stream;  // buffers of OpenGL
@@ -24,7 +24,7 @@ struct ProjectParts {
 class ProjectRenderer : public FrameRenderer {
   public:
     virtual const OrderReport& order_report() const = 0;
-    virtual std::int64_t tets_drawn() const = 0;  // that cover the centre of a pixel
+    virtual std::int64_t tets_drawn() const = 0;  // tets that cover the centre of a pixel
 
     virtual ProjectParts parts() const = 0;
 
@@ -36,13 +36,14 @@ class ProjectRenderer : public FrameRenderer {
     std::shared_ptr<const SceneMesh> mesh_;
 };
 
-// What sorts the mesh's tets as the plan says: `ready`, of the same mesh or null, where it does.
+// Returns an order that sorts the mesh's tets as the plan says: `ready`, of the same mesh or null,
+// if it does.
 std::shared_ptr<VisibilityOrder> order_for(const SceneMesh& mesh, const ProjectPlan& plan,
                                            std::shared_ptr<VisibilityOrder> ready);
 
-// Draws a mesh as the plan says with what the capabilities are of: the native engine, or the
-// current OpenGL context, which must outlive it, as must the mesh.
-// `ready`: parts of a renderer of the same mesh and capabilities, which draws no more, or none.
+// Makes a renderer that draws a mesh as the plan says, on the context of the capabilities: the
+// engine `cpu`, or the current OpenGL context, which must outlive it, as must the mesh. `ready`:
+// parts of a renderer of the same mesh and capabilities, which draws no more, or none.
 std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const TransferFunction& transfer_function,
                                                        const ProjectPlan& plan,

@@ -7,21 +7,21 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {
 
 constexpr std::size_t most_points = 8;
 
-// Corners farther out than this are cut off, so that rasterisers keep their sub-pixel digits.
+// Distance beyond which corners are cut off, so that rasterisers keep their sub-pixel digits.
 constexpr double guard = 2;  // pixels
 
-// Corners nearer to each other than this count as one.
+// Distance below which two corners count as one.
 constexpr double same = 1e-9;  // pixels
 
-// Corners of the enlarged polygon stick out by at most 1 / sqrt((1 + this) / 2) margins. Sharper
-// ones are cut off square.
+// Cosine of the sharpest corner. Corners of the enlarged polygon stick out by at most 1 / sqrt((1 +
+// this) / 2) margins. Sharper ones are cut off square.
 constexpr double sharpest = -0.96;
 
 bool are_same(const glm::dvec2& a, const glm::dvec2& b) {
@@ -37,7 +37,7 @@ struct Hull {
 Hull convex_hull(std::span<const glm::dvec2> points) {
     std::array<glm::dvec2, most_points> sorted;
     const std::size_t count = points.size();
-    for (std::size_t i = 0; i < count; ++i) {  // by insertion
+    for (std::size_t i = 0; i < count; ++i) {  // insertion sort
         std::size_t place = i;
         const auto before = [&](const glm::dvec2& other) {
             return points[i].x != other.x ? points[i].x < other.x : points[i].y < other.y;
@@ -66,7 +66,7 @@ Hull convex_hull(std::span<const glm::dvec2> points) {
     return hull;
 }
 
-// Returns the part where the coordinate `axis` is at most `limit` or, where `sign` is -1, at least
+// Returns the part with a coordinate `axis` of at most `limit` or, if `sign` is -1, at least
 // `limit` (Sutherland and Hodgman 1974).
 Hull cut(const Hull& hull, int axis, double limit, double sign) {
     Hull part;

@@ -13,12 +13,12 @@ double largest_component(const glm::dvec3& g) {
     return std::max({std::abs(g.x), std::abs(g.y), std::abs(g.z)});
 }
 
-// The smallest gradient in the unit is 2^-40 or up to twice that. Light depends on how long
-// gradients are beside it, and its square, 2^-80, leaves room for those that are 2^20 times as
-// short.
+// Exponent of the smallest gradient in the unit, which is 2^-40 or up to twice that. Light depends
+// on the lengths of gradients relative to it, and its square, 2^-80, leaves room for those that are
+// 2^20 times as short.
 constexpr int smallest_exponent = -40;
 
-// Longer ones, in the unit, are shortened: float32 has no larger numbers.
+// Length, in the unit, to which longer gradients are shortened: float32 has no larger numbers.
 constexpr double longest = 0x1p120;
 
 }  // namespace

@@ -19,24 +19,24 @@ struct StoredGradients {
     // `gradients`: in scalar units per world unit. `smallest`: the light's smallest gradient.
     StoredGradients(std::span<const glm::dvec3> gradients, double smallest);
 
-    // Times `scale`, which depends on the smallest gradient alone: usual ones are then far below 1.
-    // Those around a value that marks missing data may be longer: tets bring them down
+    // Gradients times `scale`, which depends on the smallest gradient alone: usual ones are then
+    // far below 1. Those around a value that marks missing data may be longer: tets shorten them
     // (scale_of_tet()).
     std::vector<glm::vec3> at_points;
     double scale = 1;  // a power of two
 
-    // The largest component of a tet's gradients after it was scaled: lengths are then below 1.
+    // Largest component of a tet's gradients after scaling: lengths are then below 1.
     static constexpr double most_of_tet = 0.5;
-    // The factor for all gradients of a tet, of which `largest` is the largest component. Light
-    // depends on directions, which stay. Lengths count where they are near the smallest gradient:
-    // in a tet that is scaled, with gradients of 2^38 of it and more, that is less than 1e-11 of
-    // the tet.
+    // Returns the factor for all gradients of a tet, of which `largest` is the largest component.
+    // Light depends on directions, which stay. Lengths matter only near the smallest gradient: in a
+    // tet that is scaled, with gradients of 2^38 of it and more, that is less than 1e-11 of the
+    // tet.
     static double scale_of_tet(double largest) {
         return largest > most_of_tet ? most_of_tet / largest : 1;
     }
 
-    // The square of a smallest gradient in this unit. It is kept to what float32 can square:
-    // outside, all or nothing is lit.
+    // Returns the square of a smallest gradient in this unit. It is limited to the numbers that
+    // float32 can square: outside, all or nothing is lit.
     float smallest_square(const Lighting& lighting) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Associated colour and opacity of a run through a tet: the vector form of
+// Associated colour and opacity of a segment through a tet: the vector form of
 // shaders/projection/tet_color.glsl.
 #if defined(LAMINA_PROJECTION_TET_COLOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_COLOR_INL_H_
@@ -8,7 +8,7 @@
 #define LAMINA_PROJECTION_TET_COLOR_INL_H_
 #endif
 
-#include "optics/front_weights.h"
+#include "optics/segment_integral.h"
 #include "projection/tet_run-inl.h"
 #include "tiles/linear_segment-inl.h"
 #include "tiles/target_pixels-inl.h"

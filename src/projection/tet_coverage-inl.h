@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels of a tile have rays that meet a cell fragment, and where the rays meet it.
+// The pixels of a tile whose rays meet a cell fragment, and the depths at which the rays meet it.
 #if defined(LAMINA_PROJECTION_TET_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_COVERAGE_INL_H_
 #undef LAMINA_PROJECTION_TET_COVERAGE_INL_H_
@@ -16,7 +16,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// The blocks of a tile that an area of the picture touches: one bit a block, row by row.
+// Returns the blocks of a tile that an area of the picture touches: one bit a block, row by row.
 inline std::uint64_t blocks_of(const PartArea& area, const TileGrid::Tile& tile) {
     constexpr int a_row = TileGrid::edge / TileGrid::block;
     const auto in_tile = [](int pixel, int first) {
@@ -48,12 +48,13 @@ class TetCoverage {
     TetCoverage(const TetFragments& fragments, const TetTile& tile)
         : fragments_(fragments), tile_(tile), area_(tile.area) {}
 
-    // The blocks of the tile that a cell fragment may cover: one bit a block, row by row.
+    // Returns the blocks of the tile that a cell fragment may cover: one bit a block, row by row.
     LAMINA_INLINE std::uint64_t blocks(const PartArea& area) const {
         return blocks_of(area, area_) & blocks_within(area);
     }
 
-    // `cut`: the cell fragment ends at planes of constant scalar. `lit`: what is found is.
+    // `cut`: the cell fragment ends at planes of constant scalar. `lit`: the fragments found are
+    // lit.
     template <bool lit>
     LAMINA_INLINE void find(bool cut, const SilhouetteRecord& record, const PartArea& area,
                             std::uint64_t blocks, std::size_t part, FragmentQueue& found) {
@@ -83,7 +84,7 @@ class TetCoverage {
         return static_cast<float>(fragments_.image_rows - area_.row) - 0.5f - record.center[1];
     }
 
-    // The tile's blocks within the outline of a cell fragment, one bit a block.
+    // Returns the tile's blocks within the outline of a cell fragment, one bit a block.
     LAMINA_INLINE std::uint64_t blocks_within(const PartArea& area) const {
         constexpr float a_block = 1.0f / block;
         const auto pixels = [](std::int32_t from, std::int32_t to) {
@@ -151,8 +152,8 @@ class TetCoverage {
         };
         const float first_in = column_of(area.first_column), last_in = column_of(area.last_column);
         const float highest = row_of(area.first_row), lowest = row_of(area.last_row);
-        // Read before the loop, because what the loop writes could overwrite the record for all
-        // that the compiler knows.
+        // These are read before the loop, because for all that the compiler knows the loop's writes
+        // could overwrite the record.
         const Float scalar_per_column(record.seen().scalar_per_column),
             scalar_per_row(record.seen().scalar_per_row);
         const float* const slants = tile_.slants;

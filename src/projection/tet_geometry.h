@@ -15,7 +15,7 @@ class TetGeometry {
   public:
     virtual ~TetGeometry() = default;
 
-    // The most memory that one cell fragment needs.
+    // Largest memory that one cell fragment needs.
     struct Size {
         std::size_t vertex_bytes;  // of one vertex
         std::size_t vertices, indices;
@@ -25,16 +25,16 @@ class TetGeometry {
         friend bool operator==(const Size&, const Size&) = default;
     };
 
-    // Where a cell fragment is written.
+    // The place at which a cell fragment is written.
     struct Place {
         std::byte* vertices;
         std::uint32_t first_vertex;  // number of the vertex at `vertices`, for the indices
         std::uint32_t* indices;      // of triangles
         SilhouetteRecord* record;    // null without records
-        GradientRecord* gradient;    // null where nothing is lit
+        GradientRecord* gradient;    // null if nothing is lit
         std::uint32_t record_number;
     };
-    // The numbers of vertices and indices that were written; 0 where no pixel centre is covered.
+    // The numbers of vertices and indices that were written; 0 if no pixel centre is covered.
     // Triangles of one cell fragment do not overlap.
     struct Written {
         std::size_t vertices = 0, indices = 0;

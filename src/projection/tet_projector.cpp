@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "facts/far_scalars.h"
-#include "optics/front_weights.h"
+#include "facts/drawn_range.h"
+#include "optics/segment_integral.h"
 #include "projection/stored_gradients.h"
 #include "projection/tet_view-inl.h"
 
@@ -17,17 +17,17 @@ namespace {
 using LAMINA_LEAST(finite);
 using OneTet = LAMINA_LEAST(TetView)<double>;
 
-// A face seen edge-on is taken as inclined by this angle, so that its depth per pixel is a number.
-// The angle is far below the perturbation of rays that run along faces (GlProjectRenderer).
+// Angle by which a face seen edge-on is taken as inclined, so that its depth per pixel is a number.
+// It is far below the perturbation of rays that run along faces (GlProjectRenderer).
 constexpr double least_inclination = 1e-16;
 
 double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// A tet thinner than this share of its distance is a needle. Seen from the eye, its corners are
-// rounded by some 1000th of its width, and planes through them may lie anywhere along it. A ray
-// meets it only by a chance of about this share.
+// Width, as a share of its distance, below which a tet is a needle. Seen from the eye, its corners
+// are rounded by about a 1000th of its width, and planes through them may lie anywhere along it. A
+// ray meets it only by a chance of about this share.
 constexpr double least_width = 0x1p-42;
 
 bool is_too_thin(const std::array<glm::dvec3, 4>& corners) {
@@ -93,7 +93,7 @@ OpticalProperties optics_at(const LinearPiece& piece, double scalar) {
 
 // Only the face's own corners are used, in the order of their numbers, so that the two tets of a
 // face compute the same numbers, and no ray leaves one before or after it enters the other. `front`
-// is the exact sign of a face that is not edge-on, and the same for both tets of one that is.
+// is the exact sign of a face that is not edge-on, and equal for both tets of one that is.
 OneTet::DepthPlane depth_plane(const OneTet& view, const Tet& tet, std::size_t face, bool front,
                                const std::array<glm::dvec3, 4>& corners) {
     const auto sorted = sorted_face(tet, face);
@@ -150,7 +150,8 @@ bool set_whole(const OneTet& view, const PartField& field, const ValueRange& ran
     return !runs_beyond({field.least(), field.largest()}, range, far_for_floats);
 }
 
-// A cut of a fragment, or a plane in front of everything if the tet has no scalars beyond `level`.
+// Returns a cut of a fragment, or a plane in front of everything if the tet has no scalars beyond
+// `level`.
 OneTet::Level cut_at(const OneTet& view, const PartField& field, double level, bool is_cut) {
     if (!is_cut) return {{-beyond_all, 0, 0}, true};
     return view.level(field.gradient(), level - field.at(glm::dvec3(0)));
@@ -179,7 +180,7 @@ void set_part(const OneTet& view, const PartField& field, const LinearPiece& pie
     record.high = optics(field.largest());
 }
 
-// Returns whether no run through the fragment is deeper than thin_depth.
+// Returns whether no segment through the fragment is deeper than thin_depth.
 bool is_thin(const std::array<glm::dvec3, 4>& corners, const FragmentRecord& record) {
     const double most = std::max(record.low[3], record.high[3]);
     return LAMINA_LEAST(longest_edge)<double>(corners) * most <= thin_depth;

@@ -9,14 +9,13 @@
 #include <optional>
 #include <span>
 
-#include "facts/tet_pieces.h"
+#include "facts/drawn_range.h"
 #include "mesh/tet_mesh.h"
 #include "projection/part_field.h"
 #include "projection/screen_polygon.h"
 #include "projection/tet_record.h"
 #include "scene/camera.h"
-#include "scene/window_view.h"
-#include "visibility/face_signs.h"
+#include "visibility/order_graph.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -33,7 +32,7 @@ class TetProjector {
 
     // Fills the record and the outline, and returns the kind of its fragments. The outline covers
     // the cell fragment and may cover more of its tet. Returns nothing, and leaves the outputs
-    // undefined, where the centre of no pixel is covered. `lit`: null where nothing is lit.
+    // undefined, if the centre of no pixel is covered. `lit`: null if nothing is lit.
     std::optional<FragmentKind> project(const TetPart& part, SilhouetteRecord& record,
                                         ScreenOutline& outline,
                                         GradientRecord* lit = nullptr) const;
@@ -44,8 +43,8 @@ class TetProjector {
     // A point relative to the eye, along right, up and forward.
     using Seen = glm::dvec3;
 
-    // The corners of the region of a tet beyond the near plane (z >= near_depth), which is what can
-    // be seen of it; at most 6.
+    // The corners of the region of a tet beyond the near plane (z >= near_depth), which is the
+    // visible one; at most 6.
     struct VisibleCorners {
         std::size_t count = 0;
         std::array<Seen, 6> seen;

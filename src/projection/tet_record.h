@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is computed once for each whole tet, or each cell fragment, of one view.
+// Records that are computed once for each whole tet, or each cell fragment, of one view.
 //
 // `Depth` is z in orthographic views and -1/z in perspective ones. It grows with eye-space depth z
 // and is linear in window coordinates on every plane (Kraus 2004, section 2.1). A ray is inside the
@@ -22,25 +22,26 @@ struct TetPart {
     std::int32_t piece = whole;  // index into TetPieces::pieces()
 };
 
-// A number of its own for each cell fragment of a mesh of `tets` tets, for dithering.
+// Returns a number of its own for each cell fragment of a mesh of `tets` tets, for dithering.
 inline std::uint32_t part_number(const TetPart& part, std::size_t tets) {
     return static_cast<std::uint32_t>(part.tet) +
            static_cast<std::uint32_t>(part.piece + 1) * static_cast<std::uint32_t>(tets);
 }
 
-// How the fragments of a cell fragment (TetPart) are computed. A later kind is also right for what
-// an earlier one serves, but slower.
+// Ways in which the fragments of a cell fragment (TetPart) are computed. A later kind is also right
+// for the fragments of an earlier one, but slower.
 enum class FragmentKind {
-    thin,   // optical depth at most thin_depth (optics/front_weights.h); depths on faces in float32
-    plain,  // depths on faces in float32
+    thin,    // optical depth at most thin_depth (optics/segment_integral.h); depths on faces in
+             // float32
+    plain,   // depths on faces in float32
     careful  // depths on faces in double precision: for faces that are seen nearly edge-on, for
-             // cell fragments that the near plane cuts, and where the eye is inside
+             // cell fragments that the near plane cuts, and if the eye is inside
 };
 inline constexpr std::size_t fragment_kinds = 3;
 
-// The faces and the scalar of a tet: what both records begin with.
+// The faces and the scalar of a tet, with which both records begin.
 struct alignas(16) SeenTet {
-    // For each of the four faces a double as the sum of two floats.
+    // A double as the sum of two floats for each of the four faces.
     struct Pairs {
         std::array<float, 4> high, low;
     };
@@ -63,20 +64,20 @@ struct TetRecord {
     std::uint32_t fronts;  // the number of front faces, 0 (the eye is inside) to 3
     std::uint32_t number;  // for dithering
     std::array<float, 4> unused;
-    // What `scalar` and the three numbers behind it lack of double precision. TetProjector sets it
-    // alone.
+    // The remainders of `scalar` and the three numbers behind it that float does not hold. Only
+    // TetProjector sets them.
     std::array<float, 4> scalar_rest;
     std::array<float, 4> also_unused;
 };
 
-// A cell fragment: the part of a tet in one interval of the transfer function. It ends at two
+// A cell fragment: the region of a tet in one interval of the transfer function. It ends at two
 // planes on which the scalar is its least and its largest, in the form that SeenTet::depth has for
 // faces. If the tet itself has no smaller (larger) scalars, the plane is a front in front of
 // everything.
 struct FragmentRecord {
     SeenTet seen;
     float upper_cut_per_column, upper_cut_per_row;
-    std::uint32_t fronts;            // as TetRecord has it, and bits for cuts that are fronts
+    std::uint32_t fronts;            // as in TetRecord, and bits for cuts that are fronts
     std::uint32_t number;            // for dithering
     std::array<float, 3> lower_cut;  // depth, per column, per row
     float upper_cut;                 // depth
@@ -112,10 +113,9 @@ union SilhouetteRecord {
 static_assert(sizeof(TetRecord) == 192 && sizeof(FragmentRecord) == 192);
 static_assert(sizeof(SilhouetteRecord) == 192);
 
-// The gradient in a tet of one view, linear in space, for a lit cell fragment: beside its
-// record, as shaders/projection/silhouette.vert reads it: 3 uvec4. Gradients are in the axes of
-// the world and in units in which the longest at a point of the mesh is 1
-// (projection/stored_gradients.h).
+// The gradient in a tet of one view, linear in space, for a lit cell fragment: beside its record,
+// as shaders/projection/silhouette.vert reads it: 3 uvec4. Gradients are in the axes of the world
+// and in units in which the longest at a point of the mesh is 1 (projection/stored_gradients.h).
 struct alignas(16) GradientRecord {
     // One component: at the point of SeenTet::center, its change along the ray per unit of z, and
     // its change per pixel to the right and upwards (in perspective views, per pixel at z = 1).
@@ -126,12 +126,12 @@ struct alignas(16) GradientRecord {
 };
 static_assert(sizeof(GradientRecord) == 48);
 
-// Depths on faces in float32 are good enough where their rounding error is at most this share of
-// the tet's thickness in depth. A face exceeds this where it is seen nearly edge-on. Few pixels
-// have rays that meet such a face, unless a mesh has whole walls of them.
+// Largest rounding error, as a share of the tet's thickness in depth, with which depths on faces in
+// float32 are good enough. A face exceeds this if it is seen nearly edge-on. Few pixels have rays
+// that meet such a face, unless a mesh has whole walls of them.
 inline constexpr double float_tolerance = 2e-3;
 
-// Deeper than everything. The product with any window coordinate is still finite.
+// A depth beyond everything. Its product with any window coordinate is still finite.
 inline constexpr double beyond_all = -double{FragmentRecord::in_front_of_all};
 
 }  // namespace lamina

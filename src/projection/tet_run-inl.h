@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the rays of some pixels are inside a cell fragment. This is the vector form of
+// The segments of the rays of some pixels inside a cell fragment. This is the vector form of
 // shaders/projection/silhouette.glsl, which gives the reasons.
 #if defined(LAMINA_PROJECTION_TET_RUN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_RUN_INL_H_
@@ -18,26 +18,26 @@ struct InsideSpan {
     V enter, leave;
 };
 
-// A ray inside a cell fragment, with what a run in float32 takes: the scalar's change from the
-// record's center at z = 1, and the world length per unit of z.
+// A ray inside a cell fragment, with the values that a segment in float32 needs: the scalar's
+// change from the record's center at z = 1, and the world length per unit of z.
 struct SlantedRay {
     InsideSpan<Float> span;
     Float aside, slant;
 };
-// Such a ray with its pixel, from the record's center: lit fragments and exact runs take it.
+// Such a ray with its pixel, from the record's center: lit fragments and exact segments need it.
 struct PlacedRay {
     InsideSpan<Float> span;
     Float column, row;
 };
 
-// The run of a ray through a cell fragment. Scalars are normalised as the record says. A ray that
-// misses the cell fragment has equal scalars and length 0.
+// The segment of a ray through a cell fragment. Scalars are normalised as the record says. A ray
+// that misses the cell fragment has equal scalars and length 0.
 struct TetRun {
     Float front, back, world_length;
 };
 
-// A linear function of the pixel: its value at a column, counted from the record's center, and its
-// change from row to row. It is rounded as in the shader.
+// Computes a linear function of the pixel: its value at a column, counted from the record's center,
+// and its change from row to row. It is rounded as in the shader.
 LAMINA_INLINE Float at_column(float at_center, float per_column, Float column) {
     return at_center + per_column * column;
 }
@@ -94,8 +94,8 @@ class PlainDepths {
     std::uint32_t fronts_;
 };
 
-// The same in double precision, for faces that are seen nearly edge-on, for the near plane, and
-// where the eye is inside.
+// Depths on faces in double precision, for faces that are seen nearly edge-on, for the near plane,
+// and if the eye is inside.
 class CarefulDepths {
   public:
     LAMINA_INLINE CarefulDepths(const TetFragments& fragments, const SilhouetteRecord& record)
@@ -112,7 +112,7 @@ class CarefulDepths {
                                  depth(3));
     }
 
-    // Where rays are inside, and the scalar's ends there, not clamped.
+    // The span of rays inside, and the scalar's ends there, not clamped.
     struct ExactSpan {
         Float64 length;  // along z
         Float64 front, back;
@@ -143,7 +143,7 @@ class CarefulDepths {
     }
 
   private:
-    // The depth of a face, from the record's center.
+    // Returns the depth of a face, from the record's center.
     LAMINA_INLINE Float64 plane(std::size_t face, Float64 x, Float64 y) const {
         const auto sum = [&](const SeenTet::Pairs& pairs) {
             return double{pairs.high[face]} + double{pairs.low[face]};
@@ -171,18 +171,18 @@ class CarefulDepths {
     const SeenTet& seen_;
 };
 
-// Which of the two planes of a cell fragment, on which the scalar is its least or its largest, rays
-// may meet within the tet.
+// Those of the two planes of a cell fragment, on which the scalar is its least or its largest, that
+// rays may meet within the tet.
 class PartCuts {
   public:
-    // Neither where `cut` is false.
+    // Neither plane if `cut` is false.
     PartCuts(bool cut, const FragmentRecord& record)
         : lower_(cut && record.has_lower_cut()),
           upper_(cut && record.has_upper_cut()),
           lower_is_front_((record.fronts & FragmentRecord::lower_cut_is_front) != 0),
           upper_is_front_((record.fronts & FragmentRecord::upper_cut_is_front) != 0) {}
 
-    // Shortens a ray's run to the stretch between the two planes.
+    // Shortens a ray's segment to the piece between the two planes.
     LAMINA_INLINE void shorten(const FragmentRecord& record, Float column, Float row,
                                InsideSpan<Float>& span) const {
         const auto cut = [&](bool front, float at_center, float per_column,
@@ -205,8 +205,8 @@ class PartCuts {
     bool lower_, upper_, lower_is_front_, upper_is_front_;
 };
 
-// Where a ray enters or leaves: its z (1 in orthographic views), and how far along z that is behind
-// the record's center.
+// A point at which a ray enters or leaves: its z (1 in orthographic views), and its distance along
+// z behind the record's center.
 struct TetSpanEnd {
     Float z, from_center;
 };
@@ -272,16 +272,16 @@ LAMINA_INLINE TetRun find_run(const Shader& shader, const TetFragments& fragment
     return run_between(shader, record, ends, ray.aside);
 }
 
-// Tells whether lengths and scalars of the tet's runs are computed in double precision: of careful
-// tets that are not cut into parts.
+// Tells whether lengths and scalars of the tet's segments are computed in double precision: of
+// careful tets that are not cut.
 LAMINA_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea& area) {
     return area.careful && fragments.source != SegmentSource::parts;
 }
 
-// The run of a ray through a careful tet. In float32 a short run through a long tet would be a
-// small difference of large numbers, and so would be a scalar within the window of a tet that runs
-// far outside it (facts/far_scalars.h). `slanted`: lengths along rays are longer than differences
-// of z.
+// Returns the segment of a ray through a careful tet. In float32 a short segment through a long tet
+// would be a small difference of large numbers, and so would be a scalar within the window of a tet
+// that runs far outside it (facts/drawn_range.h). `slanted`: lengths along rays are longer than
+// differences of z.
 template <class Shader>
 LAMINA_INLINE TetRun find_exact_run(const Shader& shader, const TetFragments& fragments,
                                     const SilhouetteRecord& record, const PlacedRay& ray,

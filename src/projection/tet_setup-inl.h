@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What TetSetup computes on a vector of tets: the view of each (projection/tet_view-inl.h), and
-// whether anything about it is doubtful.
+// The computation of TetSetup on a vector of tets: the view of each (projection/tet_view-inl.h),
+// and whether anything about it is doubtful.
 #if defined(LAMINA_PROJECTION_TET_SETUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_SETUP_INL_H_
 #undef LAMINA_PROJECTION_TET_SETUP_INL_H_
@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "facts/far_scalars.h"
+#include "facts/drawn_range.h"
 #include "projection/stored_gradients.h"
 #include "projection/tet_record.h"
 #include "projection/tet_setup_lanes.h"
@@ -23,7 +23,7 @@ LAMINA_SIMD_BEGIN
 // Puts the planes of front faces first, and those of others from the last place on.
 struct FacePlanes {
     Double depth[4], per_column[4], per_row[4];
-    Double fronts;  // the number of front faces so far
+    Double fronts;  // number of front faces so far
 
     LAMINA_INLINE FacePlanes() : fronts(0), place_of_back_(3) {
         for (std::size_t place = 0; place < 4; ++place)
@@ -124,8 +124,8 @@ class TetVectors {
         }
         const Double least_divisor =
             doubtful_sign * (reach * reach * (tet_.perspective() ? reach : 1));
-        // SeenPoints at distance `reach` are rounded, and so are their edges. The normals of
-        // slivers are small differences of products of edges.
+        // The points are rounded relative to their distance `reach`, and so are their edges. The
+        // normals of slivers are small differences of products of edges.
         const Double least_across = doubtful_sign * (reach * (size * size));
         DoubleMask good = nearest_ > view_.near_depth;
         FacePlanes planes;
@@ -151,8 +151,8 @@ class TetVectors {
                      tolerance = float_tolerance * tet_.depth_range;
         put(lanes_.farthest, tet_.inverted(farthest_) - tet_.center_depth + tolerance);
         good = good & (float_rounding <= tolerance);
-        // Rounding alone may make runs if its error in depth is not small, or if the horizon (depth
-        // 0) is near.
+        // Rounding alone may make segments if its error in depth is not small, or if the horizon
+        // (depth 0) is near.
         DoubleMask bounded = 100 * float_rounding > tolerance;
         if (tet_.perspective()) bounded = bounded | (16 * steepest > abs(tet_.center_depth));
         put(lanes_.bounded, zero_unless(bounded, Double(1)));
@@ -197,7 +197,7 @@ class TetVectors {
         for (const auto& corners : lanes_.gradient) {
             for (const Row& corner : corners) largest = max(largest, abs(get(corner)));
         }
-        // As StoredGradients::scale_of_tet().
+        // as StoredGradients::scale_of_tet() does
         constexpr double most = StoredGradients::most_of_tet;
         const Double scale = select(largest > most, most / largest, 1);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -208,7 +208,7 @@ class TetVectors {
         }
     }
 
-    // Returns true if float32 is good enough for the scalars (facts/far_scalars.h).
+    // Returns true if float32 is good enough for the scalars (facts/drawn_range.h).
     DoubleMask set_whole() {
         const double origin = view_.range.lo, width = view_.range.hi - view_.range.lo;
         set_scalars(origin, width);

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "optics/front_weights.h"
+#include "optics/segment_integral.h"
 #include "projection/tet_setup-inl.h"
 
 LAMINA_SIMD_BEGIN
@@ -39,7 +39,7 @@ LAMINA_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t c
     }
 }
 
-// The groups are what these say of four numbers side by side.
+// The groups have the layout of four numbers side by side in these types.
 static_assert(sizeof(PixelArea) == 16 && std::is_base_of_v<PixelArea, PartArea>);
 static_assert(sizeof(GradientRecord::Component) == 16);
 static_assert(offsetof(SeenTet, center_z) == offsetof(SeenTet, center) + 12);
@@ -73,8 +73,8 @@ LAMINA_INLINE void write_gradients(const TetSetup::Lanes& lanes, std::size_t cou
     write_group<2 * component>(lanes.lit[2], count, lit);
 }
 
-// Sets up one vector after the other, and writes `count` records, their gradients where `lit` is
-// not null, and the pixels of areas.
+// Sets up one vector after the other, and writes `count` records, their gradients if `lit` is not
+// null, and the pixels of areas.
 void set_up_vectors(const SetupView& view, bool parts, TetSetup::Lanes& lanes, std::size_t count,
                     SilhouetteRecord* records, GradientRecord* lit, PartArea* areas) {
     for (std::size_t first = 0; first < TetSetup::most_parts; first += Double::lanes)
@@ -151,7 +151,7 @@ void TetSetup::load_gradients(std::span<const TetPart> parts, Lanes& lanes) cons
     }
 }
 
-// Lanes without a part repeat the last one.
+// Lanes without a cell fragment repeat the last one.
 void TetSetup::load(std::span<const TetPart> parts, Lanes& lanes) const {
     for (std::size_t lane = 0; lane < most_parts; ++lane) {
         const TetPart& part = parts[std::min(lane, parts.size() - 1)];

@@ -6,19 +6,19 @@
 #include <cstdint>
 #include <span>
 
-#include "facts/tet_pieces.h"
+#include "facts/drawn_range.h"
 #include "mesh/tet_mesh.h"
 #include "projection/part_area.h"
 #include "projection/tet_record.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 #include "simd/attributes.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
 
-// Computes what TetProjector computes, on vectors of several cell fragments. It does so only where
-// nothing is doubtful: where the eye is well outside all faces and the tet lies beyond the near
-// plane. All others are left to the projector.
+// Computes the results of TetProjector on vectors of several cell fragments, if nothing is
+// doubtful: the eye is well outside all faces and the tet lies beyond the near plane. All others
+// are left to the projector.
 class TetSetup {
   public:
     static constexpr std::size_t most_parts = 8;  // in one call
@@ -28,7 +28,7 @@ class TetSetup {
         std::array<Outcome, most_parts> outcomes;
     };
 
-    // The arguments of TetProjector's constructor.
+    // Takes the arguments of TetProjector's constructor.
     TetSetup(const TetMesh& mesh, std::span<const double> scalar, const ValueRange& range,
              const TetPieces& pieces, const View& view, double near_depth, double margin,
              std::span<const glm::vec3> gradients = {})
@@ -43,9 +43,9 @@ class TetSetup {
           margin_(margin) {}
 
     // Takes at most `most_parts` cell fragments: either all are whole tets or none is. Records and
-    // areas are defined where the outcome is `done`; the others are overwritten, too. `records`:
-    // one for each cell fragment, and so `lit`, which is null where there are no gradients. `next`:
-    // cell fragments that will follow, which are prefetched.
+    // areas are defined if the outcome is `done`; the others are overwritten, too. `records`: one
+    // for each cell fragment; `lit`, too, or null if there are no gradients. `next`: cell fragments
+    // that will follow, which are prefetched.
     void set_up(std::span<const TetPart> parts, std::span<const TetPart> next,
                 SilhouetteRecord* records, GradientRecord* lit, Parts& result) const;
 

@@ -14,13 +14,13 @@ namespace lamina {
 struct TetSetup::Lanes {
     struct alignas(64) Row : std::array<double, most_parts> {};
     struct alignas(32) FloatRow : std::array<float, most_parts> {};
-    // Holds four numbers that lie side by side in a record.
+    // Four numbers that lie side by side in a record.
     using Group = std::array<FloatRow, 4>;
 
     std::array<Row, 4> x, y, z, value;  // in
     Row piece_from, piece_to;           // scalars at the ends of its piece
-    std::array<Row, 4> at_from, at_to;  // colour and extinction there
-    // At each corner, component by component; of lit ones alone.
+    std::array<Row, 4> at_from, at_to;  // colour and extinction at these
+    // At each corner, component by component; for lit ones alone.
     std::array<std::array<Row, 4>, 3> gradient;
     Row good, visible, bounded;  // out: 1 or 0
     Row farthest;                // PartArea::farthest
@@ -43,8 +43,8 @@ struct SetupView {
     ValueRange range;
 };
 
-// The sign of a determinant is doubtful where its value is at most this share of the product of its
-// vectors' largest components: 450 half ulps, for some 20 roundings.
+// Share of the product of its vectors' largest components below which the sign of a determinant is
+// doubtful: 450 half ulps, for some 20 roundings.
 inline constexpr double doubtful_sign = 1e-13;
 
 inline constexpr double float_epsilon = std::numeric_limits<float>::epsilon();

@@ -3,9 +3,9 @@
 // TetSetup). SeenPoints are relative to the eye, along right, up and forward.
 //
 //   center = the pixel centre in the middle of the corners' bounds, at the mean of their depths
-//   for each face A, B, C: n = (B - A) x (C - A), and the depth on the plane n.P = n.A (6.2) scalar
-//   s with gradient g: its value at the center, per z, per column, per row for a level l of the
-//   scalar: the depth on the plane g.P = l - s(eye)                        (6.2)
+//   for each face A, B, C: n = (B - A) x (C - A), and the depth on the plane n.P = n.A   (6.2)
+//   scalar s with gradient g: its value at the center, per z, per column, per row
+//   for a level l of the scalar: the depth on the plane g.P = l - s(eye)                (6.2)
 //
 // Depths and scalars are linear in window coordinates relative to the center (docs/numerics.md,
 // section 6; Kraus 2004, section 2.1), which keeps their digits in float32.
@@ -66,8 +66,8 @@ LAMINA_INLINE auto largest_of(const Point& a) {
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// Gives the gradients of linear functions in a tet from their values at its corners: a numerator
-// by this determinant, which is six times the tet's volume.
+// Gradients of linear functions in a tet from their values at its corners: a numerator
+// over this determinant, which is six times the tet's volume.
 template <typename Number>
 struct TetSlopes {
     using Point = PointOf<Number>;
@@ -80,7 +80,7 @@ struct TetSlopes {
         n3 = cross(e1, e2);
         determinant = dot(e1, n1);
     }
-    // `v1` to `v3`: the values at the last three corners less that at the first.
+    // `v1` to `v3`: the values at the last three corners minus that at the first.
     LAMINA_INLINE Point numerator(Number v1, Number v2, Number v3) const {
         return {v1 * n1.x + v2 * n2.x + v3 * n3.x, v1 * n1.y + v2 * n2.y + v3 * n3.y,
                 v1 * n1.z + v2 * n2.z + v3 * n3.z};
@@ -100,15 +100,15 @@ class TetView {
         : view_(view), perspective_(view.projection == Projection::perspective) {}
 
     LAMINA_INLINE bool perspective() const { return perspective_; }
-    // The depth of a z, and the z of a depth.
+    // Returns the depth of a z, or the z of a depth.
     LAMINA_INLINE Number inverted(Number value) const { return perspective_ ? -1 / value : value; }
 
     // The corners' bounds in window coordinates and along z.
     struct Bounds {
         Number lo_x, hi_x, lo_y, hi_y, nearest, farthest;
     };
-    // Sets the center: the same for all fragments of a tet, so that they find their common cuts at
-    // the same depth. `corners`: of the tet, or of its region beyond the near plane.
+    // Sets the center, which is equal for all fragments of a tet, so that they find their common
+    // cuts at the same depth. `corners`: of the tet, or of its region beyond the near plane.
     LAMINA_INLINE Bounds place_center(std::span<const Point> corners) {
         const double width = view_.width, height = view_.height,
                      count = static_cast<double>(corners.size());
@@ -141,17 +141,18 @@ class TetView {
         return bounds;
     }
 
-    // A depth as a linear function of window coordinates: at the center, less the center's depth,
+    // A depth as a linear function of window coordinates: at the center, minus the center's depth,
     // and its change per column and per row.
     struct DepthPlane {
         Number depth, per_column, per_row;
     };
-    // The number by which a plane with this normal and offset is divided. It is 0 if the eye is in
-    // the plane (perspective) or the plane is seen edge-on.
+    // Returns the number by which a plane with this normal and offset is divided. It is 0 if the
+    // eye is in the plane (perspective) or the plane is seen edge-on.
     LAMINA_INLINE Number divisor(const Point& normal, Number offset) const {
         return perspective_ ? offset : Number(normal.z);
     }
-    // The plane normal.P = offset. `divisor`: as above, or what replaces a divisor near 0.
+    // Returns the plane normal.P = offset. `divisor`: as above, or a replacement for a divisor near
+    // 0.
     LAMINA_INLINE DepthPlane plane(const Point& normal, Number offset, Number divisor) const {
         const Number per_pixel = -view_.pixel / divisor;
         const Number per_column = normal.x * per_pixel, per_row = normal.y * per_pixel;
@@ -159,12 +160,12 @@ class TetView {
         return {at_middle + column_ * per_column + row_ * per_row - center_depth, per_column,
                 per_row};
     }
-    // A bound on the sizes whose rounding a depth on the plane suffers within the bounds.
+    // Returns a bound on the sizes whose rounding affects a depth on the plane within the bounds.
     LAMINA_INLINE Number size_of(const DepthPlane& plane) const {
         return abs(plane.depth) + columns_ * abs(plane.per_column) + rows_ * abs(plane.per_row);
     }
 
-    // The level of a scalar: gradient.P = above_eye, the level less the scalar at the eye. If the
+    // The level of a scalar: gradient.P = above_eye, the level minus the scalar at the eye. If the
     // level lies above the eye's, it is a front to larger scalars. If it passes through the eye it
     // is seen edge-on: all three numbers are huge, and only the side of the edge on which a pixel
     // lies counts.
@@ -184,8 +185,8 @@ class TetView {
                 positive};
     }
 
-    // Shaders measure depths from this point, whose z is that of the record's center_depth. Its
-    // center_z is rounded, by much of a small tet far away.
+    // Returns the point from which shaders measure depths; its z is that of the record's
+    // center_depth. The record's center_z is rounded, by much of a small tet far away.
     LAMINA_INLINE Point center() const {
         const Number x = column_ * view_.pixel, y = row_ * view_.pixel;
         if (!perspective_) return {x, y, center_z};

@@ -73,7 +73,8 @@ class TileBatch {
             tets_ = 0;
             first_tet_ = last_tet_ = -1;
         }
-        // The record that the next cell fragment is written to. It is kept once add() is called.
+        // Returns the record to which the next cell fragment is written. It is kept once add() is
+        // called.
         SilhouetteRecord& next() { return batch_->records_[end()]; }
         GradientRecord* next_gradient() {
             return batch_->is_lit() ? &batch_->gradients_[end()] : nullptr;
@@ -86,14 +87,14 @@ class TileBatch {
             if (count_ == 1) first_tet_ = tet;
             last_tet_ = tet;
         }
-        // The tile draws the cell fragment that was added last.
+        // Makes the tile draw the cell fragment that was added last.
         void touch(std::size_t tile) {
             tiles_[tile / chunk_parts].add(tile % chunk_parts);
             set_of(tile).add(count_ - 1);
         }
 
         bool empty() const { return count_ == 0; }
-        std::int64_t tets() const { return tets_; }  // number of tets that its parts belong to
+        std::int64_t tets() const { return tets_; }  // tets of its cell fragments
         std::int32_t first_tet() const { return first_tet_; }
         std::int32_t last_tet() const { return last_tet_; }
         bool is_drawn_by(std::size_t tile) const {
@@ -111,7 +112,7 @@ class TileBatch {
         std::size_t number_, count_ = 0;
         std::int64_t tets_ = 0;
         std::int32_t first_tet_ = -1, last_tet_ = -1;
-        std::vector<Set> tiles_;  // that draw some of the chunk, chunk_parts of them in each set
+        std::vector<Set> tiles_;  // tiles that draw the chunk, chunk_parts a set
     };
 
     std::size_t chunk_count() const { return chunks_.size(); }
@@ -152,7 +153,7 @@ class TileBatch {
 
   private:
     std::vector<SilhouetteRecord> records_;
-    std::vector<GradientRecord> gradients_;  // of the records; empty where nothing is lit
+    std::vector<GradientRecord> gradients_;  // of the records; empty if nothing is lit
     std::vector<TriangleRecord> triangles_;
     std::vector<PartArea> areas_;
     std::vector<Set> sets_;  // by tile and chunk, so that those of a tile follow each other

@@ -19,7 +19,7 @@
 
 namespace lamina {
 
-// How a fragment is written to the target (shaders/projection/output.glsl).
+// Ways in which a fragment is written to the target (shaders/projection/output.glsl).
 enum class FragmentOutput {
     native,      // as a blending unit does it
     dithered,    // rounded to codes at random first: ProjectDither::alpha
@@ -27,7 +27,7 @@ enum class FragmentOutput {
     emulated     // as render.emulate says
 };
 
-// What all fragments of a frame read beside their records: the uniforms of
+// Data that all fragments of a frame read beside their records: the uniforms of
 // shaders/projection/*.glsl.
 struct TetFragments {
     SegmentSource source;
@@ -44,17 +44,17 @@ struct TetFragments {
     int image_rows;
     float pixel_size;
     float near_depth;
-    // Whether one division serves both ends of a run. That needs depths whose squares are finite
+    // True: one division serves both ends of a segment. That needs depths whose squares are finite
     // floats. It is not used for codes, because these must equal those of OpenGL's programs.
     bool one_division;
     glm::dvec3 ray_perturbation;
     glm::vec4 constant_optics;               // SegmentSource::constant
-    glm::vec3 single_color;                  // where colored is false
-    const float* front_weights = nullptr;    // SegmentSource::parts, where colored
+    glm::vec3 single_color;                  // if colored is false
+    const float* front_weights = nullptr;    // SegmentSource::parts, if colored
     const UniformTable* table = nullptr;     // SegmentSource::table
     float inverse_first_length = 0;          // of `table`
     const TileTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
-    // The following where something is lit.
+    // The following are set if something is lit.
     const TileLight* light = nullptr;  // in the axes of the world
     float smallest_square = 0;         // of the smallest gradient, in the unit of GradientRecord
     std::array<glm::vec3, 3> axes;     // unit vectors to the right, up and forward
@@ -62,25 +62,25 @@ struct TetFragments {
 };
 
 // One tile of a frame; `number` is that of TileGrid. `slants`: world length per unit of z for each
-// pixel, at TileGrid::place(); null where it is 1 for all.
+// pixel, at TileGrid::place(); null if it is 1 for all.
 struct TetTile {
     std::size_t number;
     TileGrid::Tile area;
     const float* slants;
     TilePixels* pixels;
-    TilePlane* opacity;  // used instead of `pixels` where opacity_only
+    TilePlane* opacity;  // used instead of `pixels` if opacity_only
 };
 
 // Puts those cell fragments of a batch that the tile draws over its pixels. Returns the number of
 // fragments.
 std::int64_t draw_tets(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile);
 
-// The same for batches that are lit.
+// Draws a lit batch.
 std::int64_t draw_lit_tets(const TetFragments& fragments, const TileBatch& batch,
                            const TetTile& tile);
 
-// The same for everything else that a plan may ask for. draw_tets() is specialised for the most
-// frequent plans and calls this for others.
+// Draws everything else that a plan may ask for. draw_tets() is specialised for the most frequent
+// plans and calls this for others.
 std::int64_t draw_general_tets(const TetFragments& fragments, const TileBatch& batch,
                                const TetTile& tile);
 

@@ -9,21 +9,21 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "executors/light_cuts.h"
 #include "facts/world_unit.h"
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {
 
-// Pixels are examined whose centres are this near to the corners' outline. It is more than its
+// Distance from the corners' outline within which pixels are examined. It exceeds the outline's
 // rounding errors.
 constexpr double margin = 1e-3;
 
 // The chunks of a batch are enough for the tiles of all threads to find work, few enough for the
 // caches (2 MB with 800 x 600 pixels), and few enough that two batches take less memory than a
-// fourth of the mesh's parts, beside 64 bytes for each tile and chunk.
+// fourth of the mesh's cell fragments, beside 64 bytes for each tile and chunk.
 std::size_t chunks_of_batch(std::size_t parts, std::size_t parts_a_chunk) {
     return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, TileBatch::most_chunks);
 }
@@ -82,7 +82,7 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
     }
 }
 
-// So many parts fit into a chunk in every view.
+// Returns the number of cell fragments that fit into a chunk in every view.
 std::size_t TileProjectRenderer::parts_a_chunk() const {
     constexpr std::size_t most = TileBatch::chunk_parts;
     return is_fan() ? 3 * most / FanGeometry::most_indices : most;
@@ -164,7 +164,7 @@ void TileProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrd
     }
 }
 
-// The samples of a ray are the parts, the last one the farthest.
+// The samples of a ray are the cell fragments, the last one the farthest.
 void TileProjectRenderer::draw_tree(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                                     Progress* progress) {
     const auto draw_leaf = [&](const SampleSpan& span, double depth_scale,
@@ -251,7 +251,7 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
         const auto group =
             parts.subspan(first, std::min(TetSetup::most_parts, parts.size() - first));
         TetSetup::Parts done;
-        // Records are written in place, and moved where one before them is not drawn.
+        // Records are written in place, and moved if one before them is not drawn.
         SilhouetteRecord* const records = &chunk.next();
         GradientRecord* const lit = chunk.next_gradient();
         projectors.setup.set_up(group, parts.subspan(first + group.size()), records, lit, done);
@@ -277,8 +277,8 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
     const auto kind = projector.project(part, chunk.next(), outline, chunk.next_gradient());
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
-    // Doubtful parts are drawn as careful ones, which is right for every kind. They are few, unless
-    // all parts are drawn so; then the table gives the weights (the plan's weight_error).
+    // Doubtful cell fragments are drawn as careful ones, which is right for every kind. They are
+    // few, unless all are drawn so; then the table gives the weights (the plan's weight_error).
     add({{bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
           grid.height() - 1 - bounds.first_row},
          true,
@@ -332,7 +332,7 @@ void TileProjectRenderer::add(const PartArea& area, std::int32_t tet, const Pixe
     }
 }
 
-// Parts of one tet follow each other, also from chunk to chunk.
+// Cell fragments of one tet follow each other, also from chunk to chunk.
 void TileProjectRenderer::count_tets(const TileBatch& batch) {
     for (std::size_t i = 0; i < batch.chunk_count(); ++i) {
         const TileBatch::Chunk& chunk = batch.chunk(i);

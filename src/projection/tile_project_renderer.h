@@ -27,12 +27,12 @@
 
 namespace lamina {
 
-// Draws a mesh as the plan says with the native engine. Cell fragments are projected in batches, in
-// visibility order, while the tiles of the picture draw the batch before. The picture does not
-// depend on the number of threads.
+// Draws a mesh as the plan says, on the CPU. Cell fragments are projected in batches, in visibility
+// order, while the tiles of the picture draw the batch before. The picture does not depend on the
+// number of threads.
 class TileProjectRenderer : public ProjectRenderer {
   public:
-    // Builds tables, and the order where that of another renderer does not serve. The mesh must
+    // Builds tables, and the order if that of another renderer cannot be used. The mesh must
     // outlive it.
     TileProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                         const ProjectPlan& plan, int width, int height,
@@ -57,11 +57,11 @@ class TileProjectRenderer : public ProjectRenderer {
     double order_ms() const { return order_ms_; }
     double draw_ms() const { return draw_ms_; }
     double table_ms() const { return tables_ ? tables_->build_ms() : 0; }
-    // Host memory that the renderer takes, without order and tables.
+    // Returns the host memory that the renderer takes, without order and tables.
     std::int64_t byte_count() const override;
 
   private:
-    // What projects cell fragments in one view.
+    // The projectors of cell fragments in one view.
     struct Projectors {
         TetSetup setup;
         TetProjector careful;
@@ -83,7 +83,7 @@ class TileProjectRenderer : public ProjectRenderer {
                  TileBatch& batch) const;
     void project_chunk(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                        TileBatch::Chunk& chunk) const;
-    // `limit`: the pixels in which the part is drawn; null for all.
+    // `limit`: the pixels in which the cell fragment is drawn; null for all.
     void project_doubtful(const TetProjector& projector, const TetPart& part,
                           const PixelArea* limit, TileBatch::Chunk& chunk) const;
     void project_fan(const FanGeometry& fans, const TetPart& part, const PixelArea* limit,
@@ -99,14 +99,14 @@ class TileProjectRenderer : public ProjectRenderer {
     ProjectPlan plan_;
     TetPieces pieces_;
     std::shared_ptr<VisibilityOrder> order_;
-    std::optional<TileProjectTables> tables_;  // none where nothing is visible, like these:
+    std::optional<TileProjectTables> tables_;  // none if nothing is visible, like these:
     std::optional<VisibleParts> parts_;
-    std::optional<TileTetTree> tree_;  // where the plan has one
-    StoredGradients gradients_;        // empty where nothing is lit, like this one:
+    std::optional<TileTetTree> tree_;  // if the plan has one
+    StoredGradients gradients_;        // empty if nothing is lit, like this one:
     std::optional<TileLight> light_;
     TetFragments fragments_{};
     TileImage image_;
-    std::vector<TilePixels::Plane> slants_;  // for each tile; empty where all are 1
+    std::vector<TilePixels::Plane> slants_;  // for each tile; empty if all are 1
     double slant_pixel_ = 0;                 // View::pixel that the slants were computed for
     // One is projected while the other is drawn.
     std::array<std::unique_ptr<TileBatch>, 2> batches_;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "base/stage.h"
+#include "base/profile.h"
 #include "executors/shader_intervals.h"
-#include "optics/front_weights.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
 
 namespace lamina {
 

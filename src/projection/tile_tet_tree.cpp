@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "base/parallel.h"
 
 namespace lamina {

@@ -17,7 +17,7 @@ namespace lamina {
 // plane for each tile and level, and takes its memory once.
 class TileTetTree {
   public:
-    // The opacity of one node, and which tiles have opacity above 0.
+    // The opacity of one node, and the tiles with opacity above 0.
     struct Node {
         std::vector<TilePlane> opacity;
         std::vector<std::uint8_t> touched;

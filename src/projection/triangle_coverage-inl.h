@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixel centres a triangle covers, and the interpolated values there, as a rasteriser
+// The pixel centres that a triangle covers, and the interpolated values there, as a rasteriser
 // computes them.
 #if defined(LAMINA_PROJECTION_TRIANGLE_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TRIANGLE_COVERAGE_INL_H_
@@ -13,7 +13,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// The barycentric weight of each corner at some pixels; 0 where they are not covered.
+// The barycentric weight of each corner at some pixels; 0 for pixels that are not covered.
 struct CornerWeights {
     Float corner[3];
     bool any = false;

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {
 
-constexpr double grid_steps = 4096;  // per pixel, sixteen times as many as most rasterisers have
+constexpr double grid_steps = 4096;  // steps a pixel, sixteen times as many as in most rasterisers
 
 // An edge starts at its lesser corner, so that both of its triangles compute the same numbers. The
 // top-left rule of rasterisers whose rows run upwards decides: a point on an edge belongs to the

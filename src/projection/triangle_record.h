@@ -18,7 +18,7 @@ struct TriangleRecord {
     // triangles that share an edge compute the same number with opposite signs.
     struct Edge {
         double column, row;          // a corner of the edge, window coordinates
-        double per_column, per_row;  // change of the area from there
+        double per_column, per_row;  // change of the area from that corner
         bool has_zeros;              // pixel centres on the edge belong to this triangle
     };
     struct Corner {
@@ -29,7 +29,7 @@ struct TriangleRecord {
     // The weight of a corner in the interpolation. It is linear in the pixel between corners that
     // are not rounded, as in rasterisers.
     struct Share {
-        double column, row;  // where it is 0
+        double column, row;  // place at which it is 0
         double per_column, per_row;
     };
     std::array<Share, 3> shares;
@@ -38,10 +38,10 @@ struct TriangleRecord {
     std::uint32_t number;  // number of the tet, for dithering
 };
 
-// Fills the record. Returns false where the triangle covers nothing.
+// Fills the record. Returns false if the triangle covers nothing.
 bool make_triangle(const std::array<const FanVertex*, 3>& vertices, TriangleRecord& record);
 
-// The point of the rasteriser's grid to which a corner is rounded.
+// Returns the point of the rasteriser's grid to which a corner is rounded.
 glm::dvec2 rounded_to_grid(const glm::vec2& window);
 
 }  // namespace lamina

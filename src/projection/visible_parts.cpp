@@ -9,14 +9,14 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/stage.h"
-#include "compositing/random_bits.h"
+#include "base/profile.h"
+#include "compositing/codes.h"
 #include "projection/part_field.h"
 
 namespace lamina {
 namespace {
 
-constexpr std::size_t block = 4096;  // tets whose parts one task lists
+constexpr std::size_t block = 4096;  // number of tets whose cell fragments one task lists
 
 }  // namespace
 
@@ -63,7 +63,8 @@ std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order,
     return list_tets(order);
 }
 
-// The number of parts of a tet does not depend on the eye, so each task knows where its own begin.
+// The number of cell fragments of a tet does not depend on the eye, so each task knows the place of
+// its first one.
 std::span<const TetPart> VisibleParts::list_tets(std::span<const std::int32_t> order) {
     const std::size_t blocks = (order.size() + block - 1) / block;
     const auto tets_of = [&](std::size_t number) {
@@ -107,7 +108,7 @@ DrawOrder<TetPart> VisibleParts::sorted(VisibilityOrder& order, const View& view
 // Translates the runs of tets into runs of their cell fragments.
 void VisibleParts::limit(const DrawOrder<std::int32_t>& order) {
     limited_.clear();
-    std::size_t place = 0, parts = 0;  // so many parts come before that place
+    std::size_t place = 0, parts = 0;  // number of cell fragments before that place
     const auto go_to = [&](std::size_t end) {
         while (place < end) parts += parts_of(order.items[place++]);
         return parts;
@@ -145,8 +146,9 @@ std::size_t VisibleParts::parts_of(std::int32_t tet) const {
 }
 
 // Along every ray through a tet the scalar changes monotonically, away from the value that the
-// tet's linear field has at the eye. So the part nearest to that value hides all others. Parts
-// above it hide those farther above, parts below it those farther below, and no ray meets both.
+// tet's linear field has at the eye. So the cell fragment nearest to that value hides all others.
+// Those above it hide those farther above, those below it those farther below, and no ray meets
+// both.
 std::int32_t VisibleParts::nearest_piece(std::size_t tet, const Eye& eye) const {
     const TetPieces::Span& span = spans_[tet].span;
     const double at_eye = scalar_at_eye(mesh_.tets()[tet], eye);
@@ -172,7 +174,7 @@ TetPart* VisibleParts::list_parts(std::int32_t tet, TetPart* next) const {
     return next;
 }
 
-// For an eye at infinity it is below or above all scalars.
+// For an eye at infinity the scalar is below or above all scalars.
 double VisibleParts::scalar_at_eye(const Tet& tet, const Eye& eye) const {
     PartField::Corners corners;
     PartField::Values values;

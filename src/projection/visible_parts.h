@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "compositing/tree_shape.h"
-#include "facts/tet_pieces.h"
-#include "mesh/eye.h"
+#include "facts/drawn_range.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "projection/tet_record.h"
 #include "scene/camera.h"
-#include "visibility/draw_order.h"
+#include "visibility/ring_order.h"
 #include "visibility/visibility_order.h"
 
 namespace lamina {
@@ -28,15 +28,15 @@ class VisibleParts {
     // Lists the cell fragments of tets that are in visibility order. The list is valid until the
     // next call, which takes no memory. Parallel.
     std::span<const TetPart> list(std::span<const std::int32_t> order, const Eye& eye);
-    // Sorts the tets for this view, then lists their cell fragments. `scattered` (the same in every
-    // call): the list has a random order that is the same for every view, so that cell fragments of
-    // one region come to lie in different leaves of a tree. The list of the first view then stays
+    // Sorts the tets for this view, then lists their cell fragments. `scattered` (equal in every
+    // call): the list has a random order, equal for every view, so that cell fragments of one
+    // region come to lie in different leaves of a tree. The list of the first view then stays
     // valid. `solve_rings`: each pixel has an order of its own if it needs one
     // (VisibilityOrder::sort_pixels).
     DrawOrder<TetPart> sorted(VisibilityOrder& order, const View& view, bool scattered,
                               bool solve_rings);
-    // The number of cell fragments; lists are longer if tets are listed for several parts of the
-    // picture.
+    // Returns the number of cell fragments; lists are longer if tets are listed for several parts
+    // of the picture.
     std::int64_t count() const { return count_; }
 
   private:
@@ -52,7 +52,7 @@ class VisibleParts {
     std::int64_t parts_in(const TetPieces::Span& span) const;
     std::size_t parts_of(std::int32_t tet) const;
     std::int32_t nearest_piece(std::size_t tet, const Eye& eye) const;
-    // Writes from `next` on; returns where the next tet's cell fragments go.
+    // Writes from `next` on; returns the place for the next tet's cell fragments.
     TetPart* list_parts(std::int32_t tet, TetPart* next) const;
     double scalar_at_eye(const Tet& tet, const Eye& eye) const;
 
@@ -60,7 +60,7 @@ class VisibleParts {
     std::span<const double> scalar_;
     const TetPieces& pieces_;
     bool cut_, draw_transparent_;
-    std::vector<TetSpan> spans_;  // for each tet; empty where all are drawn whole
+    std::vector<TetSpan> spans_;  // for each tet; empty if all are drawn whole
     std::int64_t count_ = 0;
     std::vector<TetPart> parts_;
     // Number of the first cell fragment of each block of tets, and the end.
@@ -69,8 +69,8 @@ class VisibleParts {
     bool is_scattered_ = false;
 };
 
-// The cell fragments of a tree's leaf. The tree's samples, of which the first is the nearest, are
-// VisibleParts::count(); a longer list is shared out in proportion.
+// Returns the cell fragments of a tree's leaf. The tree's samples, of which the first is the
+// nearest, are VisibleParts::count(); a longer list is shared out in proportion.
 DrawOrder<TetPart> parts_of_leaf(const DrawOrder<TetPart>& parts, const SampleSpan& leaf,
                                  std::int64_t samples);
 

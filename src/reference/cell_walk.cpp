@@ -64,7 +64,7 @@ class AxisLanes {
         return lanes & (cell_ == next_block_cell_);
     }
 
-    // Lanes that have left their block begin with the one of their cell.
+    // Lanes that have left their block enter that of their cell.
     LAMINA_INLINE void begin_blocks() {
         block_ = block_of(cell_);
         leaving_ = next_leaving();
@@ -74,8 +74,7 @@ class AxisLanes {
         leaving_ = select(lanes, next_leaving(), leaving_);
     }
 
-    // Some lanes go on from the cell that they had to the one that the chord has at `from`, in
-    // their block.
+    // Moves some lanes from their cell to the one of the chord at `from`, in their block.
     LAMINA_INLINE void find_cell(DoubleMask lanes, Double from) {
         const Double first = first_cell(), last = first + (block_edge - 1);
         const Double lo = max(first, select(falls_, last_cell_, cell_));
@@ -123,7 +122,7 @@ class AxisLanes {
     Double leaving_ = 0;  // parameter at which the chord leaves the block along this axis
 };
 
-// The lanes that go on along x, y and z: those whose crossings there are the least of the three.
+// The lanes that go on along x, y and z: those whose crossing there is the least of the three.
 struct AxisMasks {
     DoubleMask x, y, z;
 
@@ -176,12 +175,12 @@ class ChordWalk {
     }
 
   private:
-    // It is quicker to look for blocks of the others if fewer are in blocks.
+    // If fewer are in blocks, it is quicker to find blocks for the others first.
     LAMINA_INLINE bool most_are_in_blocks() const {
         return 4 * count_of(in_block_) > count_of(walking_);
     }
 
-    // Lanes that are in no block go over hidden ones to the next.
+    // Moves lanes that are in no block over hidden blocks to the next.
     LAMINA_INLINE void find_blocks() {
         DoubleMask outside = without(walking_, in_block_);
         if (none_of(outside)) return;
@@ -249,11 +248,11 @@ class ChordWalk {
         return complete;
     }
 
-    // The block's place in VisibleCells::blocks().
+    // Returns the block's place in VisibleCells::blocks().
     LAMINA_INLINE Long block_bit() const {
         return to_long(fma(line_of_block(), static_cast<double>(visible_.line_bits()), x_.block()));
     }
-    // The cell's place in VisibleCells::cells().
+    // Returns the cell's place in VisibleCells::cells().
     LAMINA_INLINE Long place_of_cell() const {
         const Double block =
             fma(line_of_block(), static_cast<double>(visible_.count()[0]), x_.block());

@@ -9,9 +9,9 @@
 //       end if to is the chord's length
 //       from = to; step to the next cell along the axis of the least crossing
 //
-// Every crossing is computed from its own plane, so errors do not accumulate. If it is known which
-// cells show something (VisibleCells), a packet of chords goes side by side and first crosses
-// blocks of cells that show nothing, in the same way.
+// Every crossing is computed from its own plane, so errors do not accumulate. If the visible cells
+// are known (VisibleCells), a packet of chords goes side by side and first crosses blocks of
+// invisible cells, in the same way.
 #pragma once
 
 #include <algorithm>
@@ -109,7 +109,7 @@ class CellWalk {
 };
 
 // Chords of rays on their way through cells, side by side. Each passes the same cells as CellWalk,
-// with the same parameters, but for cells that show nothing.
+// with the same parameters, except for invisible cells.
 struct CellLanes {
     static constexpr std::size_t width = longest_vector;
     // Numbers of cells are whole numbers in doubles, whose products and comparisons are quicker
@@ -125,7 +125,7 @@ struct CellLanes {
     std::array<Axis, 3> axes;
     LaneRow from, length;  // parameters at which the chord enters the cell, and ends
     LaneSet walking = 0;
-    LaneSet in_block = 0;  // those whose cell is in a block that may show something
+    LaneSet in_block = 0;  // those whose cell is in a block that may be visible
 
     void stop(std::size_t lane) { walking &= ~lane_bit(lane); }
 };
@@ -133,8 +133,8 @@ struct CellLanes {
 // Gives a lane the cell in which its chord, of length > 0, begins. The lane walks from then on.
 void enter_cells(CellLanes& lanes, std::size_t lane, const GridAxes& grid, const Chord& chord);
 
-// Appends cells that may show something to the lanes' batches, until a batch is complete or some
-// chords have ended. Returns those lanes; none if none walks. `visible` must not be empty.
+// Appends cells that may be visible to the lanes' batches, until a batch is complete or some chords
+// have ended. Returns those lanes; none if none walks. `visible` must not be empty.
 LaneSet walk_cells(CellLanes& lanes, const VisibleCells& visible,
                    const std::array<CellBatch*, CellLanes::width>& batches);
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells of a volume along a ray, and what the ray sees of the field in them, some cells at a
-// time:
+// The cells of a volume along a ray, and the field in them, some cells at a time:
 //
 //   for each cell that the ray crosses from `from` to `to`:
 //       v = the samples at its eight corners
 //       if one of them is not finite, or no interval of the transfer function that their range
-//           touches has extinction: the cell shows nothing
+//           touches has extinction: the cell is invisible
 //       otherwise it has a segment: the length, the range of v, and the cubic s(t) along it   (9.1)
 //
 // Lit segments have the field's gradient, too, whose components are such cubics (docs/numerics.md,
@@ -26,7 +25,7 @@
 #include "reference/cubic.h"
 #include "reference/cut.h"
 #include "reference/transfer_intervals.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 
@@ -42,7 +41,7 @@ struct CellBatch {
     alignas(64) double from[capacity];  // parameters of the chord
     alignas(64) double to[capacity];
     std::size_t count = 0;
-    std::size_t wanted = capacity;  // the batch is complete with so many cells
+    std::size_t wanted = capacity;  // number of cells with which the batch is complete
 
     // The samples at the corners, at index x + 2y + 4z. CellSamples::fetch() sets them.
     alignas(64) double corners[8][capacity];
@@ -56,9 +55,9 @@ struct CellBatch {
     }
 };
 
-// Sets the segments to the chord's inside those cells that may show something, of the trilinear
-// field. Cells with a NaN or infinite corner are transparent. In vectors: CellCorners::along() does
-// one.
+// Sets the segments to those of the chord, in the trilinear field, inside the cells that may be
+// visible. Cells with a NaN or infinite corner are transparent. It works on vectors;
+// CellCorners::along() computes a single one.
 void make_segments(const CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
                    SegmentBatch& segments);
 
@@ -66,9 +65,9 @@ void make_segments(const CellBatch& cells, const Chord& chord, const IntervalCol
 struct CellCorners {
     std::array<double, 8> v;
 
-    // The trilinear field along from + t * step, 0 <= t <= 1, in coordinates of the cell (0..1). It
-    // is computed from differences of corners, so that a constant cell is exactly constant and a
-    // linear one exactly linear.
+    // Returns the trilinear field along from + t * step, 0 <= t <= 1, in coordinates of the cell
+    // (0..1). It is computed from differences of corners, so that a constant cell is exactly
+    // constant and a linear one exactly linear.
     Cubic along(const glm::dvec3& from, const glm::dvec3& step) const {
         const double x = v[1] - v[0], y = v[2] - v[0], z = v[4] - v[0];
         const double xy = (v[3] - v[2]) - x, xz = (v[5] - v[4]) - x, yz = (v[6] - v[4]) - y;
@@ -136,7 +135,7 @@ class CellSamples {
         for (std::size_t i = 0; i < 8; ++i) found.v[i] = static_cast<double>(samples[i]);
         return found;
     }
-    // Says whether all corners are samples.
+    // Tells whether all corners are samples.
     bool inside(const CellIndex& cell) const {
         const auto number = [](std::int64_t i) { return static_cast<std::uint64_t>(i); };
         return number(cell[0]) < number(last_[0]) && number(cell[1]) < number(last_[1]) &&
@@ -171,8 +170,8 @@ class GradientSamples {
             axes_[axis] = grid.step[axis] / glm::dot(grid.step[axis], grid.step[axis]);
     }
 
-    // The field in a cell along from + t * step, 0 <= t <= 1, in coordinates of the cell (0..1).
-    // Outside the samples the border's gradient repeats.
+    // Returns the field in a cell along from + t * step, 0 <= t <= 1, in coordinates of the cell
+    // (0..1). Outside the samples the border's gradient repeats.
     GradientAlong along(const CellIndex& cell, const glm::dvec3& from,
                         const glm::dvec3& step) const {
         std::array<CellCorners, 3> corners;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chords: what of viewing rays lies in a grid's box, and in the half-spaces of a clip. Places in
+// Chords: the parts of viewing rays in a grid's box, and in the half-spaces of a clip. Places in
 // the box are computed in twice the precision of double, because eyes may be far away.
 //
 //   for each axis of the grid, with position p and slope q of the ray along it, in index space:
@@ -13,14 +13,14 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "base/double_double.h"
+#include "base/arithmetic.h"
 #include "lamina/grid.h"
 #include "scene/camera.h"
 #include "scene/half_space.h"
 
 namespace lamina {
 
-// This holds what clip_to_box() needs of a grid, so that it is computed once for all rays.
+// Values of a grid that clip_to_box() needs, computed once for all rays.
 struct GridAxes {
     // A step of the grid, scaled by a power of two so that its square does not underflow.
     struct Axis {

@@ -10,8 +10,7 @@
 LAMINA_SIMD_BEGIN
 namespace reference {
 
-// Cuts a vector of segments as seen_segment() does. Returns a bit for each lane that shows
-// something.
+// Cuts a vector of segments as seen_segment() does. Returns a bit for each lane that is visible.
 LAMINA_INLINE LaneSet find_seen_from(const WalkLanes& walk, const VisibleRanges& visible,
                                      std::size_t lane, SeenLanes& seen) {
     const auto get = [&](const WalkLanes::Row& row)
@@ -68,7 +67,7 @@ void clip_span(std::span<const HalfSpace> clip, const View::Ray& ray, RaySpan& s
             continue;
         }
         const DoubleDouble at = -distance / slope;
-        if (!at.finite()) {  // the ray goes along the plane, as good as
+        if (!at.finite()) {  // the ray is nearly parallel to the plane
             if (distance < DoubleDouble{}) span.to = span.from;
         } else if (slope.hi > 0) {
             if (span.from < at) span.from = at;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray sees what a clip keeps of it, which is one range, and what of a tet's segment lies there:
+// The visible part of a ray is the one range that a clip keeps; a tet's segment is visible inside
+// it:
 //
 //   from = 0, to = infinity
 //   for each half-space, with the ray's place and direction relative to its plane:
@@ -8,7 +9,7 @@
 //
 //   for each segment (enter, leave) of the ray in a tet, in which the scalar is linear:
 //       cut it to from .. to, and interpolate the scalar at its new ends
-//       it is shown if an interval of the transfer function that its scalars touch has extinction
+//       it is visible if an interval of the transfer function that its scalars touch has extinction
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 #include <limits>
 #include <span>
 
-#include "base/double_double.h"
+#include "base/arithmetic.h"
 #include "mesh/ray_walk.h"
 #include "reference/mesh_walk.h"
 #include "reference/transfer_intervals.h"
@@ -32,7 +33,7 @@ struct RaySpan {
     DoubleDouble from, to;
 };
 
-// Cuts away what lies outside the half-spaces. The numbers of ray and half-spaces are taken as
+// Cuts away everything outside the half-spaces. The numbers of ray and half-spaces are taken as
 // exact. A ray in a plane is kept.
 void clip_span(std::span<const HalfSpace> clip, const View::Ray& ray, RaySpan& span);
 
@@ -42,7 +43,7 @@ struct SeenRange {
 };
 SeenRange seen_range(std::span<const HalfSpace> clip, const View::Ray& ray);
 
-// A tet's segment as far as it is seen: parameters of the ray, and the scalar at both ends, between
+// The visible part of a tet's segment: parameters of the ray, and the scalar at both ends, between
 // which it is linear. It is empty if !(from < to).
 struct SeenSegment {
     double from, to;
@@ -53,7 +54,7 @@ SeenSegment seen_segment(const SeenSegment& whole, const SeenRange& seen);
 SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
                          std::span<const double> scalar);
 
-// The segments of a packet as far as they are seen (SeenSegment), one a lane.
+// The visible parts of a packet's segments (SeenSegment), one a lane.
 struct SeenLanes {
     using Row = LaneRow;
 
@@ -65,11 +66,11 @@ struct SeenLanes {
     Row from, to, front, back;  // SeenSegment
     Row length;                 // in world units
     Row slack;                  // scalar_slack()
-    LaneSet shown = 0;          // those that are not empty and may show something
+    LaneSet shown = 0;          // lanes that are not empty and may be visible
 };
 
-// Returns how far the interpolation of scalars inside a tet may be off, by the range of the scalars
-// at its corners: 64 epsilons of the larger. Constant scalars are exact.
+// Returns the largest error of interpolated scalars inside a tet, from the range of the scalars at
+// its corners: 64 epsilons of the larger. Constant scalars are exact.
 inline constexpr double scalar_epsilons = 64;
 inline double scalar_slack(double least, double most) {
     if (least == most) return 0;
@@ -77,7 +78,7 @@ inline double scalar_slack(double least, double most) {
            std::max(std::abs(least), std::abs(most));
 }
 
-// Sets what `seen` has of the segments of a step.
+// Sets `seen` for the segments of a step.
 void find_seen(const WalkLanes& walk, const IntervalColumns& intervals, SeenLanes& seen);
 
 }  // namespace lamina

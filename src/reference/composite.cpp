@@ -11,14 +11,14 @@
 namespace lamina {
 namespace {
 
-// Early termination may cost this share of the tolerance. The rest of the ray's colour is at most
+// Share of the tolerance that early termination may cost. The rest of the ray's colour is at most
 // its transmittance times the brightest colour.
 constexpr double termination_share = 1e-3;
 
-// Pieces are integrated when there are so many, so that vectors are full.
+// Number of pieces that are integrated together, so that vectors are full.
 constexpr std::size_t pieces_together = 32;
 
-// Hidden pieces get this optical depth in front of them: exp(-x) of it is 0, so they add nothing.
+// Optical depth in front of hidden pieces: exp(-x) of it is 0, so they add nothing.
 constexpr double hidden_depth = 1e4;
 
 GradientAlong restricted(const GradientAlong& gradient, double from, double to) {
@@ -28,11 +28,11 @@ GradientAlong restricted(const GradientAlong& gradient, double from, double to) 
     return inside;
 }
 
-// Light from behind this transmittance, times the brightest colour, is lost in rounding.
+// Transmittance below which light, times the brightest colour, is lost in rounding.
 constexpr double rounded_transmittance = 1e-17;
 // The relative error of a piece's colour and opacity (weigh_pieces()), and of its interpolations.
 constexpr double piece_error = 1e-13;
-// So many segments are summed first: they may hide the others.
+// Number of segments that are summed first: they may hide the others.
 constexpr std::size_t first_together = 8;
 
 }  // namespace
@@ -151,8 +151,8 @@ void SegmentSum::begin(const RayLights* lights) {
     segments_ = 0;
 }
 
-// Notes what the result would change by if the scalar of a segment that is all but constant were
-// elsewhere in [lo, hi]: its rounding may choose the side of a step of the transfer function.
+// Records the change of the result if the scalar of a nearly constant segment were elsewhere in
+// [lo, hi]: its rounding may choose the side of a step of the transfer function.
 void SegmentSum::note_side_error(double lo, double hi, double length) {
     side_errors_[waiting_.count] = side_error(lo, hi, length);
     has_side_errors_ = true;
@@ -176,7 +176,7 @@ void SegmentSum::forget_waiting() {
 // Sums are kept in local variables: members would be written to memory with every piece.
 void SegmentSum::sum_depths() {
     CompensatedSum depth = depth_;
-    std::size_t segment = 0;  // the first whose side error is not added
+    std::size_t segment = 0;  // the first segment whose side error is not added
     for (std::size_t i = 0; i < pieces_.count; ++i) {
         const auto end = static_cast<std::size_t>(pieces_.segment[i]) + 1;
         if (has_side_errors_) add_side_errors(depth.value(), segment, end);
@@ -213,7 +213,7 @@ void SegmentSum::add_colors() {
     error_ += brightest_ * error;
 }
 
-// The unlit segment stays what it is, in closed form: light is added to it.
+// The unlit segment stays in closed form: light is added to it.
 void SegmentSum::add_lit(double front, double back, const GradientAlong& gradient, double length,
                          double slack) {
     const auto [lo, hi] = std::minmax(front, back);
@@ -247,7 +247,7 @@ double SegmentSum::side_error(double lo, double hi, double length) const {
 }
 
 double SegmentSum::error_estimate() const {
-    return std::min(brightest_, error_ + hidden());  // no channel can be farther off
+    return std::min(brightest_, error_ + hidden());  // no channel can be off by more
 }
 
 }  // namespace lamina

@@ -4,13 +4,13 @@
 //   depth = 0; color = 0
 //   for each piece of the segments (cut.h), while exp(-depth) is not lost:
 //       color += exp(-depth) * (opacity * colour at x = 0 + integral * change of the colour) (9.3)
-//       if it is lit: light += exp(-depth) * what light adds to it (light.h)
+//       if it is lit: light += exp(-depth) * the light on it (light.h)
 //       depth += the piece's optical depth
 //   alpha = 1 - exp(-depth)
 //
-// The errors of the integrals, of the places of ends, and of what is left out, are summed up beside
-// the colours. RayIntegrator does this for the cells of a volume, whose scalars are cubics, and
-// SegmentSum for tets, whose scalars are linear.
+// The errors of the integrals, of the places of ends, and of everything left out, are summed up
+// beside the colours. RayIntegrator does this for the cells of a volume, whose scalars are cubics,
+// and SegmentSum for tets, whose scalars are linear.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 
-#include "base/compensated_sum.h"
+#include "base/arithmetic.h"
 #include "lamina/transfer_function.h"
 #include "optics/ray_lights.h"
 #include "reference/cut.h"
@@ -28,10 +28,10 @@
 
 namespace lamina {
 
-// A ray as far as it is composited.
+// The composite of a ray up to a depth.
 class CompositedRay {
   public:
-    // Says whether all that follows is hidden, as far as is known, so that it need not be added.
+    // Tells whether everything that follows is known to be hidden, so that it need not be added.
     bool opaque() const { return depth_.value() >= depth_limit_; }
     double alpha() const;
 
@@ -40,7 +40,7 @@ class CompositedRay {
     // lost.
     void begin(const TransferIntervals& transfer, const RayLights* lights,
                double least_transmittance);
-    // Returns the error of leaving out what is hidden.
+    // Returns the error of leaving out hidden segments.
     double hidden() const { return opaque() ? brightest_ * std::exp(-depth_.value()) : 0; }
 
     const RayLights* lights_ = nullptr;
@@ -48,7 +48,7 @@ class CompositedRay {
     CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits
     glm::dvec3 color_{0};
     double error_ = 0;
-    double depth_limit_ = 0;  // what lies deeper is hidden
+    double depth_limit_ = 0;  // depth behind which everything is hidden
 };
 
 // Composites cubic segments. Optical depth is exact up to rounding. Colour is integrated to a
@@ -65,9 +65,9 @@ class RayIntegrator : public CompositedRay {
     // known. `lights`: for segments that are lit, must outlive the ray.
     void begin(double ray_length, const RayLights* lights = nullptr);
 
-    // Adds the next segments; those that are hidden may be among them.
+    // Adds the next segments; hidden ones may be among them.
     void add(const SegmentBatch& segments) { add(segments, nullptr); }
-    // Adds segments that are lit. `gradient_of` is called for those that are seen.
+    // Adds segments that are lit. `gradient_of` is called for the visible ones.
     void add_lit(const SegmentBatch& segments, const GradientOf& gradient_of) {
         add(segments, &gradient_of);
     }
@@ -123,7 +123,7 @@ class SegmentSum : public CompositedRay {
     // Adds a segment that is lit, with its gradient from front to back in world space.
     void add_lit(double front, double back, const GradientAlong& gradient, double length,
                  double slack);
-    // Is to be called before color(), alpha() and error_estimate(): until then these lack the last
+    // Must be called before color(), alpha() and error_estimate(): until then these lack the last
     // segments.
     void finish();
 
@@ -143,10 +143,10 @@ class SegmentSum : public CompositedRay {
     const TransferFunction& transfer_function_;
     const TransferIntervals& intervals_;
     double place_error_;
-    RayIntegrator light_;                             // that of one segment at a time
+    RayIntegrator light_;                             // integrates one segment at a time
     LinearSegments waiting_;                          // segments that are not in the results
-    double side_errors_[LinearSegments::capacity]{};  // theirs, if nothing lay in front of them
-    bool has_side_errors_ = false;                    // whether one of them is not 0
+    double side_errors_[LinearSegments::capacity]{};  // theirs, if nothing is in front
+    bool has_side_errors_ = false;                    // one of them is not 0
     std::size_t together_ = 0;
     LinearPieces pieces_;
     std::int64_t segments_ = 0;

@@ -90,7 +90,7 @@ LAMINA_INLINE Double solve_monotone(const Cubics& cubics, Double value, Double f
     return t;
 }
 
-// Does what the scalar restricted() does.
+// Restricts as the scalar restricted() does.
 LAMINA_INLINE Cubics restricted(const Cubics& cubics, Double from, Double to, Double start,
                                 Double end) {
     const Double h = to - from, h2 = h * h;

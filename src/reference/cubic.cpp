@@ -28,7 +28,7 @@ CubicTurns turns_of(const Cubic& cubic) {
 }
 
 // Uses Newton's method inside a bracket. The bracket is bisected if Newton's step would leave it or
-// shrinks it too slowly. A step is the last one if what it leaves, which is at most its square
+// shrinks it too slowly. A step is the last one if the error that it leaves, at most its square
 // times half of the second derivative by the slope, is less than a rounding of t.
 double solve_monotone(const Cubic& cubic, double value, double from, double to) {
     Cubic shifted = cubic;

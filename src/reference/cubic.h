@@ -8,9 +8,9 @@
 //       t = the place in from .. to as if the cubic were straight
 //       loop: keep the bracket's end whose sign is that of f = cubic(t) - value at t
 //           next = t - f / slope, by Newton; the bracket's middle if that is outside or too slow
-//           end if what the step leaves, bend / slope * step^2 / 2, is below a rounding of t
+//           end if the error of the step, bend / slope * step^2 / 2, is below a rounding of t
 //
-// reference/cubic-inl.h has the same for vectors.
+// reference/cubic-inl.h has the vector form.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct CubicTurns {
 };
 CubicTurns turns_of(const Cubic& cubic);
 
-// Newton's method takes so many steps at most, and finds t to this share of it.
+// Largest number of steps of Newton's method, and the share of t to which it finds t.
 inline constexpr int most_newton_steps = 200;
 inline constexpr double root_precision = 0.5 * std::numeric_limits<double>::epsilon();
 

@@ -25,8 +25,8 @@ LAMINA_INLINE std::size_t take_steps(Segments& segments, Steps& steps) {
     return count;
 }
 
-// Appends the pieces of some steps, one segment after the other. store(i, step, lane) stores what
-// a piece has beside the common columns at place i.
+// Appends the pieces of some steps, one segment after the other. store(i, step, lane) stores the
+// values of a piece beside the common columns at place i.
 template <typename Pieces, typename Store>
 LAMINA_INLINE void append_steps(std::size_t count, std::size_t first_segment, Pieces& pieces,
                                 const Store& store) {
@@ -132,7 +132,7 @@ class SegmentLanes {
     DoubleMask active_;
     Double lo_, hi_;
     Cubics scalar_;
-    Double at_, value_;                     // how far they are, and the scalar there
+    Double at_, value_;                     // present place, and the scalar there
     Double turn_, next_turn_, turn_value_;  // the next two turns, or 1, and the scalar at the first
     DoubleMask rises_;                      // on the way to the turn
     Long lowest_, interval_;                // those of lo_, and of the piece that is next
@@ -179,9 +179,9 @@ LAMINA_INLINE void set_optics(const SegmentBatch& segments, const IntervalColumn
     store_unaligned(search.of(columns.color_span, interval), pieces.color_span.data() + i);
 }
 
-// Optical depths of pieces are limited to this, so that sums of them stay finite.
+// Limit of the optical depths of pieces, so that sums of them stay finite.
 constexpr double largest_depth = 1e300;
-// Scalars are limited to this: differences of larger ones might overflow.
+// Limit of scalars: differences of larger ones might overflow.
 constexpr double largest_scalar = std::numeric_limits<double>::max() / 4;
 
 // A vector of linear segments on their way from front to back.
@@ -226,7 +226,7 @@ class LinearLanes {
 
     IntervalSearch search_;
     DoubleMask active_;
-    Double front_, back_, value_;  // scalars at the ends, and where they are
+    Double front_, back_, value_;  // scalars at the ends, and at the present place
     DoubleMask rises_, constant_;
     Long interval_;
 };
@@ -245,7 +245,7 @@ LAMINA_INLINE void append_step(const LinearStep& step, std::size_t first_segment
     pieces.count += kept.count();
 }
 
-// The share of the way from an interval's lower knot to its upper one, and what is left of it.
+// The share of the way from an interval's lower knot to its upper one, and the rest of it.
 struct PlaceLanes {
     Double from_lo, from_hi;
 

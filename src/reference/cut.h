@@ -34,7 +34,7 @@ struct SegmentBatch {
     alignas(64) double lo[capacity];         // the scalar stays inside [lo, hi] up to rounding
     alignas(64) double hi[capacity];
     alignas(64) double length[capacity];  // > 0, in world units
-    // Its number in the CellBatch that make_segments() made it from.
+    // Number of the cell in the CellBatch that make_segments() made it from.
     alignas(64) std::int64_t cell[capacity];
     std::size_t count = 0;
 
@@ -82,14 +82,14 @@ struct PieceColumns {
     std::vector<std::int64_t> segment, interval;  // numbers
     Column start, end;                            // the scalar at the front and at the back
     Column depth;                                 // optical depth of the piece, >= 0
-    Column before;                                // that of what lies in front: set by the caller
+    Column before;                                // depth in front of it, set by the caller
     Column transmittance, opacity;                // results: exp(-before), 1 - exp(-depth)
 
     std::size_t count = 0;
 
   protected:
     // Makes sure that columns have room for so many pieces, and a vector of doubles more: vectors
-    // read and write beyond the last piece, and find numbers there that are valid.
+    // read and write beyond the last piece, and find valid numbers there.
     void make_room(std::size_t pieces, std::initializer_list<Column*> others) {
         if (pieces + longest_vector <= start.size()) return;
         const std::size_t room = std::max(2 * start.size(), pieces + longest_vector);
@@ -106,8 +106,8 @@ struct PieceBatch : PieceColumns {
     Column from, to;                    // parameters of the segment, 0 <= from < to <= 1
     Column position[4], extinction[4];  // EmissionPiece, coefficient by coefficient
     Column color_span;                  // largest change of a colour
-    // The errors that are allowed to a channel of the ray: to each piece by its length, and to all
-    // of them by the opacity that is seen.
+    // Errors that are allowed to a channel of the ray: to each piece by its length, and to all of
+    // them by their visible opacity.
     Column error_of_length;
     double error_of_opacity = 0;
     Column value, error;  // results: EmissionIntegral
@@ -158,8 +158,8 @@ struct LinearPieces : PieceColumns {
     Column share;                   // of the segment's length
     Column start_place, end_place;  // in the interval, 0 at its lower knot, 1 at its upper one
     Column p, q;                    // extinction * length there
-    // The result beside `opacity`, which weighs the colour of the interval's lower knot: the weight
-    // of the change from there to the upper one (TransferIntervals::color()).
+    // The result beside `opacity`, which is the weight of the colour of the interval's lower knot:
+    // the weight of the change from there to the upper one (TransferIntervals::color()).
     Column change;
 
     std::vector<LinearStep> steps;  // memory of append_linear_pieces()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/integrate.h"
 
-#include "optics/gauss_rules.h"
 #include "optics/segment_integral.h"
 
 #undef LAMINA_TARGET_FILE
@@ -50,7 +49,7 @@ struct ShortDepth {
     }
 };
 
-// Depths up to this are short.
+// Largest depth that counts as short.
 constexpr std::size_t most_terms = 10;
 constexpr double short_depth = series_limit<most_terms>;
 
@@ -193,7 +192,7 @@ struct WeightLanes {
     Double front, back;
 };
 
-// Vector form of the sums in optics/segment_integral.cpp, which says why they are written so.
+// Vector form of the sums in optics/segment_integral.cpp, which gives the reasons for their form.
 template <typename Depth>
 LAMINA_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Double p, Double q,
                                           const Depth& kind) {

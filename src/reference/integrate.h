@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour that a ray sees of its pieces. On a piece of a cubic segment the position x(t) in the
+// The visible colour of a ray's pieces. On a piece of a cubic segment the position x(t) in the
 // interval and the extinction e(t) are cubics, and D(t), the integral of e, is the optical depth
-// (docs/numerics.md, section 9.2). The change of the colour shows by the integral of x e exp(-D):
+// (docs/numerics.md, section 9.2). The change of the colour is weighted by the integral of x e
+// exp(-D):
 //
 //   integral(from, to):
 //       opacity = exp(-D(from)) - exp(-D(to)), which is the integral of e exp(-D)
 //       if the opacity is negligible beside the error that is allowed: x(middle) opacity
-//       Patterson's rules of 3, 7 and 15 nodes of x e exp(-D), and of e exp(-D) to see what they
-//           miss
+//       Patterson's rules of 3, 7 and 15 nodes of x e exp(-D), and of e exp(-D) to see their error
 //       if two that follow each other differ by no more than is allowed: the finer one
 //       otherwise integral(from, middle) + integral(middle, to)
 //
@@ -43,14 +43,15 @@ inline constexpr double weight15[8] = {
 
 }  // namespace patterson
 
-// A piece whose opacity is this share of the error allowed to it gets any of its colours.
+// Share of its allowed error below which a piece's opacity is so small that any of its colours will
+// do.
 inline constexpr double negligible_opacity = 1.0 / 1024;
 // Depth that 15 nodes resolve. Deeper pieces are bisected, which is cheaper.
 inline constexpr double resolvable_depth = 8;
 // Rounding of a rule's sums, relative to the optical depth.
 inline constexpr double emission_rounding = 1e-15;
 
-// The integral of a quantity f(t), seen by the weight w = extinction exp(-depth), over [0, 1].
+// The integral of a quantity f(t), weighted by w = extinction exp(-depth), over [0, 1].
 template <typename Value>
 struct Integral {
     Value value{0};
@@ -61,7 +62,7 @@ using EmissionIntegral = Integral<double>;
 // Returns the integral of x(t) extinction(t) exp(-depth(t)) over [0, 1], which lies between 0 and 1
 // - exp(-depth(1)). Each interval may contribute an error of `error_per_t` times its length plus
 // `error_per_opacity` times its share of 1 - exp(-depth(1)). depth(1) may have any value: a
-// boundary layer is found by bisection, and what it hides is not refined.
+// boundary layer is found by bisection, and everything that it hides is not refined.
 EmissionIntegral integrate_emission(const EmissionPiece& piece, double error_per_t,
                                     double error_per_opacity);
 
@@ -90,8 +91,8 @@ struct QuantityRange {
 //
 //   Value at(t)                                  f
 //   QuantityRange over(from, to)
-//   bool is_faint(opacity, allowed, bound)       any value that f has will do for the interval's
-//   double spread(opacity, bound)                by so much it may be off then
+//   bool is_faint(opacity, allowed, bound)       any value of f will do for the interval's
+//   double spread(opacity, bound)                largest error in that case
 //   double rounding(in_front, depth_to, bound)   of a rule's sums; in_front: transmittance
 //   double largest(Value)                        absolute value, of the largest component
 template <class Quantity>
@@ -99,7 +100,7 @@ class NestedIntegral {
   public:
     using Value = typename Quantity::Value;
 
-    // `most_intervals`: all that are left then get any value.
+    // `most_intervals`: all intervals beyond these get any value.
     NestedIntegral(const EmissionPiece& piece, const Quantity& quantity, double error_per_t,
                    double error_per_opacity, int most_intervals)
         : piece_(piece),

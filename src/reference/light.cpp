@@ -27,7 +27,7 @@ Cubic dot(const GradientAlong& gradient, const glm::dvec3& direction) {
     return sum;
 }
 
-// A ball that the gradient stays in between two places.
+// A ball in which the gradient stays between two places.
 struct GradientBall {
     glm::dvec3 center;
     double radius;
@@ -49,12 +49,12 @@ GradientBall ball_of(const GradientAlong& gradient, double from, double to) {
                               glm::distance(third, center), glm::distance(end, center)})};
 }
 
-// Gradients stay so near to that in the middle of an interval, as a share of their least length
-// there: the light's effect has its singularities at lengths 0 and i times the smallest
+// Largest distance of gradients from that in the middle of an interval, as a share of their least
+// length there: the light's effect has its singularities at lengths 0 and i times the smallest
 // gradient, at complex places as far from the interval as half of it is long, or farther.
 constexpr double most_growth = 0.5;
-// A highlight falls to exp(-1/2) at an angle of 1 / sqrt(power). An interval of six times that has
-// a node of three within 1.2 times that of any peak.
+// Width of a highlight's peak, in units of 1 / sqrt(power), the angle at which it falls to
+// exp(-1/2). Three nodes on six of these units have one within 1.2 units of any peak.
 constexpr double peak_widths = 3;
 
 // The effect of light on the colour of a piece.

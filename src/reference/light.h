@@ -4,7 +4,7 @@
 //   kinks = the roots of g.l and g.h, for the gradient g and each light's l and h
 //   for each interval of the piece between two kinks:
 //       ball = one that g stays in, around its value in the middle
-//       if the most that light can do in the ball (10.2) is below what is allowed:
+//       if the largest effect of light in the ball (10.2) is below the allowed error:
 //           its value in the middle
 //       else if g grows and turns by little in the ball:
 //           Patterson's rules (integrate.h), as soon as two that follow each other agree

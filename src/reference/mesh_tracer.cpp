@@ -3,10 +3,10 @@
 //
 //   for each ray of a tile, a packet of them side by side:
 //       entries = the open faces by which the ray enters the mesh, front to back (tiles.h)
-//       for each entry, while what follows can be seen:
+//       for each entry, while anything behind can be visible:
 //           for each tet from there on (mesh_walk.h):
-//               cut its segment to what is seen (clip.h)
-//               composite it, if it may show something (composite.h)
+//               cut its segment to the visible part (clip.h)
+//               composite it, if it may be visible (composite.h)
 //
 // A ray on which the mesh overlaps itself is not walked: its tets are listed, by the places at
 // which it enters them. A lane whose ray ends takes the tile's next ray.
@@ -23,8 +23,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesh/point_gradients.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "optics/ray_lights.h"
 #include "reference/clip.h"
 #include "reference/composite.h"
@@ -37,7 +36,7 @@ namespace {
 // Traces one tile of a mesh's picture.
 class MeshTile {
   public:
-    // All tiles of a picture share this.
+    // Data that all tiles of a picture share.
     struct Picture {
         const TetMesh& mesh;
         const FaceTree& open_faces;
@@ -81,7 +80,7 @@ class MeshTile {
     const Picture& picture_;
     PreciseImage& image_;
     TileFaces faces_;
-    bool listed_ = false;  // whether faces_ has the tile's faces
+    bool listed_ = false;  // faces_ has the tile's faces
     PixelsInTurn pixels_;
     PacketWalk walk_;
     SeenLanes seen_{};
@@ -158,7 +157,7 @@ void MeshTile::go_on(std::size_t lane) {
     if (!line.overlapping() && !ray.sum.opaque() && ray.entered < line.entries().size())
         return walk_.enter(lane, line.entries()[ray.entered++]);
     ray.sum.finish();
-    // Light is added to what is there: rounding may leave -1e-17 of a colour that it takes away.
+    // Light is added to the unlit colour: rounding may leave -1e-17 of a colour that it takes away.
     const glm::dvec3 color =
         ray.lights ? glm::max(ray.sum.color(), glm::dvec3(0)) : ray.sum.color();
     double* const pixel = image_.pixel(ray.pixel.x, ray.pixel.y);
@@ -190,7 +189,7 @@ void MeshTile::add_shown(std::size_t lane) {
         [&] { return walk_.segment(lane); });
 }
 
-// Adds what is seen of segment(), which is in that tet.
+// Adds the visible part of segment(), which is in that tet.
 template <typename Segment>
 void MeshTile::add(std::size_t lane, std::int32_t tet, const SeenSegment& seen, double length,
                    double slack, const Segment& segment) {

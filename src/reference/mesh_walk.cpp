@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 
 #undef LAMINA_TARGET_FILE
 #define LAMINA_TARGET_FILE "reference/mesh_walk.cpp"
@@ -131,15 +131,15 @@ class WalkStep {
 
     WalkLanes& lanes_;
     std::size_t first_;
-    // Says that the step is done. No lane is settled without fused multiplication and addition:
-    // areas are not as accurate then as RayWalk has them.
+    // The lanes that are done. No lane is settled without fused multiplication and addition: areas
+    // are then less accurate than those of RayWalk.
     DoubleMask settled_ = DoubleMask(fuses);
 };
 
 }  // namespace reference
 
 // Takes every line through its tet: from `front`, `top` and in() to out(), and to `front` behind.
-// They stay as they are in lanes in which floats do not decide the face.
+// Lanes in which floats do not decide the face keep their values.
 inline void step_lanes_of(WalkLanes& lanes) {
     using namespace reference;
     for (std::size_t first = 0; first < WalkLanes::width; first += Double::lanes)

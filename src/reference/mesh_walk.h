@@ -52,7 +52,7 @@ struct WalkLanes {
     std::array<Corner, 3> front;
     std::array<Row, 3> areas;
     std::array<Crossing, 2> crossings;  // of the tet that is passed: in() and out()
-    std::size_t entry = 0;              // the number of in(): what was out() becomes in()
+    std::size_t entry = 0;              // number of in(): out() becomes in()
     Crossing& in() { return crossings[entry]; }
     Crossing& out() { return crossings[1 - entry]; }
     const Crossing& in() const { return crossings[entry]; }
@@ -63,9 +63,9 @@ struct WalkLanes {
     Numbers settled;      // not 0: the step is done; 0: floats do not decide it
 };
 
-// Walks some lines through a mesh side by side, so that one is read for from memory while others
-// are computed. Each passes the same tets as RayWalk::follow() takes it through, with the same
-// crossings. Each thread needs its own object.
+// Walks some lines through a mesh side by side, so that one waits for memory while others are
+// computed. Each passes the tets that RayWalk::follow() takes it through, with the same crossings.
+// Each thread needs its own object.
 class PacketWalk {
   public:
     static constexpr std::size_t width = WalkLanes::width;
@@ -83,8 +83,8 @@ class PacketWalk {
     // Takes every line that walks through one more tet.
     void step();
 
-    // These describe the last step: which tets the lines passed, and where they entered and left
-    // them.
+    // Results of the last step: the tets that the lines passed, and the places at which they
+    // entered and left them.
     std::int32_t tet(std::size_t lane) const { return passed_[lane]; }
     const WalkLanes& lanes() const { return lanes_; }
     TetSegment segment(std::size_t lane) const;

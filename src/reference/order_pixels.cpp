@@ -59,7 +59,7 @@ class PixelJudge {
         return !segments_.empty();
     }
 
-    // Returns whether a tet is drawn before one that lies wholly behind it. One pass suffices: of
+    // Returns whether a tet is drawn before one that lies wholly behind it. One pass is enough: of
     // all tets that the ray has left so far, it keeps the one that is drawn first.
     bool wrong(const Judged& judged) const {
         std::int32_t first_drawn = std::numeric_limits<std::int32_t>::max();

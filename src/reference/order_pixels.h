@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "mesh/eye.h"
 #include "mesh/face_tree.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "scene/camera.h"
 #include "visibility/visibility_order.h"
@@ -15,7 +15,7 @@
 namespace lamina {
 
 // Counts the pixels that an order gets wrong: the viewing ray through the pixel's centre meets two
-// tets one after the other, and the order has them the other way round.
+// tets one after the other, and the order has them in reverse.
 struct OrderPixels {
     std::int64_t covered = 0;  // pixels whose ray meets a tet
     std::int64_t wrong = 0;    // covered pixels that are wrong
@@ -26,9 +26,9 @@ struct OrderPixels {
 };
 
 // Checks the last result of each order, which must have been sorted for eye_of(view), against the
-// exact list of the tets on each ray. A segment of a ray counts if it is longer than 1e-12 of
-// the distance from the eye to the end of the mesh. Positions on a ray have errors of some 1e-15 of
-// that distance, and shorter segments cannot be seen. `open_faces`: tree of the mesh's open faces.
+// exact list of the tets on each ray. A segment of a ray counts if it is longer than 1e-12 of the
+// distance from the eye to the end of the mesh. Positions on a ray have errors of some 1e-15 of
+// that distance, and shorter segments are invisible. `open_faces`: tree of the mesh's open faces.
 // Calls `row_done` after each row, from any thread. Parallel; the result does not depend on the
 // number of threads.
 std::vector<OrderPixels> judge_pixels(const TetMesh& mesh, const FaceTree& open_faces,

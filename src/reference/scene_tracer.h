@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference for the picture that a scene shows of its data. The scene's method is not looked
-// at: these trace what any method draws.
+// The reference for the picture that a scene shows of its data. The scene's method does not matter:
+// these trace what any method draws.
 #pragma once
 
 #include "lamina/scene.h"
@@ -10,11 +10,11 @@
 
 namespace lamina {
 
-// Traces to the scene's trace_tolerance; as trace_volume() otherwise.
+// Traces to the scene's trace_tolerance; otherwise as trace_volume().
 TraceResult trace(const Scene& scene, const Volume& volume, const TileDone& tile_done = {});
 
-// Does as trace_mesh(). `open_faces`: the tree of the mesh's open faces, for callers who trace
-// several pictures; it is built if it is not given.
+// Traces as trace_mesh() does. `open_faces`: the tree of the mesh's open faces, for callers who
+// trace several pictures; it is built if it is not given.
 MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const TileDone& tile_done = {});
 MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces,
                       const TileDone& tile_done = {});

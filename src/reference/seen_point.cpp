@@ -42,12 +42,12 @@ double place_of_depth(const RayStep<Segment>& step, double depth, const DepthOf&
     return after;
 }
 
-// The optical depth at which half of the opacity of `whole` is reached.
+// Returns the optical depth at which half of the opacity of `whole` is reached.
 double depth_of_half(double whole) {
     return -std::log1p(-opacity_from_depth(whole) / 2);
 }
 
-// Finds the point in the steps of a ray. value_of(segment, place) is of the data.
+// Finds the point in the steps of a ray. value_of(segment, place) is the value of the data there.
 template <typename Segment, typename DepthOf, typename ValueOf>
 std::optional<SeenPoint> point_in(const std::vector<RayStep<Segment>>& steps, const View::Ray& ray,
                                   double first_z, const DepthOf& depth_of,

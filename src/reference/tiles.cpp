@@ -12,19 +12,18 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "mesh/box_corners.h"
 #include "mesh/face_tree.h"
-#include "mesh/norm1.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina {
 namespace {
 
-// Points whose tangent from the middle of the view is larger than this may be anywhere.
+// Tangent from the middle of the view beyond which a point may be anywhere.
 constexpr double widest = 1e3;
 
 // A coordinate of a point, or of a line's place and direction, is off by at most some 8 epsilon of
-// the distances (1-norm) between point, eye and origin. The rest is to spare.
+// the distances (1-norm) between point, eye and origin. The rest is a reserve.
 constexpr double place_error = 64 * std::numeric_limits<double>::epsilon(), spare_pixels = 1e-6;
 constexpr double least_error = 64 * std::numeric_limits<double>::denorm_min();
 
@@ -39,7 +38,7 @@ double skew_of(const View& view) {
                      off(view.up, view.up, 1), off(view.forward, view.forward, 1)});
 }
 
-// More are not listed: searching the tree is then better.
+// Number of faces above which none are listed: searching the tree is then better.
 constexpr std::size_t most_listed = 1 << 16;
 
 }  // namespace
@@ -84,7 +83,7 @@ void trace_tiles(const std::vector<PictureTile>& tiles,
     parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t) {
         const std::size_t number = next++;
         // Rows are counted, because a tile of thousands of lit segments a ray takes minutes. Those
-        // that show nothing are left out.
+        // without anything visible are left out.
         std::int64_t left = tiles[number].height;
         trace(tiles[number], number, [&] {
             if (left == 0) return;
@@ -106,7 +105,7 @@ TileSight::TileSight(const View& view, const PictureTile& tile)
       error_(place_error + 8 * skew_of(view)),
       eye_norm_(norm1(view.eye)) {}
 
-// Points behind the eye are seen mirrored, so what lies on both sides of it may be anywhere.
+// Points behind the eye are seen mirrored, so anything on both sides of it may be anywhere.
 SeenPixels TileSight::around(std::span<const glm::dvec3> points) const {
     const SeenPixels all{{0, 0}, size_ - 1};
     const bool perspective = view_.projection == Projection::perspective;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture is traced in tiles, each by one thread, which leaves out what sees nothing:
+// A picture is traced in tiles, each by one thread, which leaves out pixels that see nothing:
 //
 //   for each tile of the picture, from its middle to its edges, on all cores:
 //       find the pixels whose lines may meet the volume's box, or for each pixel the open faces of
@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "lamina/image.h"
 #include "lamina/lighting.h"
 #include "lamina/picture_tile.h"
@@ -32,12 +32,12 @@ class FaceTree;
 class TetMesh;
 
 struct TraceOptions {
-    // Largest error of every channel, as a share of full scale (1.0); 1e-12 .. 1. Of meshes it
-    // bounds the error of light: all else is in closed form.
+    // Largest error of every channel, as a share of full scale (1.0); 1e-12 .. 1. For meshes it
+    // bounds the error of light: everything else is in closed form.
     double tolerance = 1e-5;
-    // Free of mistakes (scene/lighting_check.h). Throws Error without its smallest gradient.
+    // Must pass scene/lighting_check.h. Throws Error without its smallest gradient.
     std::optional<Lighting> lighting = {};
-    std::vector<HalfSpace> clip = {};  // what is drawn lies in all of them
+    std::vector<HalfSpace> clip = {};  // the half-spaces in all of which drawn points lie
 
     static constexpr double smallest_tolerance = 1e-12;  // below it rounding dominates
 };
@@ -45,11 +45,11 @@ struct TraceOptions {
 // Throws Error for options out of range.
 void check(const TraceOptions& options);
 
-// Called as a row of pixels is done.
+// Called when a row of pixels is done.
 using RowDone = std::function<void()>;
 
-// Hears which tile of the picture is complete. It is called by one thread at a time; the other
-// pixels of the picture have no meaning yet, or are being written.
+// Called when a tile of the picture is complete, by one thread at a time; the other pixels of the
+// picture have no meaning yet, or are being written.
 using TileDone = std::function<void(const PictureTile&, const PreciseImage&)>;
 
 // Returns tiles of 32 x 32 pixels, and smaller ones at the edges, those nearest the middle first.
@@ -61,7 +61,7 @@ void trace_tiles(const std::vector<PictureTile>& tiles,
                  const std::function<void(const PictureTile&, std::size_t, const RowDone&)>& trace,
                  const PreciseImage& picture, const TileDone& done);
 
-// Gives the pixels of a rectangle, row by row. It throws when the user interrupts.
+// Returns the pixels of a rectangle, row by row. It throws when the user interrupts.
 class PixelsInTurn {
   public:
     // `first` and `last` are the rectangle's corners.
@@ -116,7 +116,8 @@ class TileFaces {
     // Lists the faces of a tile. Returns false if there are too many to be listed.
     bool list(const PictureTile& tile);
 
-    // Indices into the mesh's open faces, of a pixel of the picture in the tile that was listed.
+    // Returns indices into the mesh's open faces, for a pixel of the picture in the tile that was
+    // listed.
     std::span<const std::int32_t> of(const glm::ivec2& pixel) const;
 
   private:

@@ -21,7 +21,8 @@ namespace reference {
 // them lies padding, at least up to a power of two.
 template <typename Passed>
 LAMINA_INLINE Long count_first(const double* values, std::size_t count, const Passed& is_passed) {
-    // Up to this count a look at each value is quicker than the gathers of a binary search.
+    // Largest count up to which comparing each value is quicker than the gathers of a binary
+    // search.
     constexpr std::size_t most_compared = 24;
     Long passed(0);
     if (count <= most_compared) {
@@ -38,7 +39,7 @@ LAMINA_INLINE Long count_first(const double* values, std::size_t count, const Pa
     return min(passed, static_cast<std::int64_t>(count));  // an infinite value passes padding, too
 }
 
-// Finds the intervals of values, and what columns have of intervals.
+// Finds the intervals of values, and the values of columns for intervals.
 class IntervalSearch {
   public:
     LAMINA_INLINE explicit IntervalSearch(const IntervalColumns& columns)
@@ -103,7 +104,7 @@ class IntervalSearch {
     bool in_a_vector_;
 };
 
-// Finds ranges of values that may show something: TransferIntervals::visible() of vectors.
+// Finds ranges of values that may be visible: TransferIntervals::visible() of vectors.
 class VisibleRanges {
   public:
     LAMINA_INLINE explicit VisibleRanges(const IntervalColumns& columns)
@@ -112,7 +113,7 @@ class VisibleRanges {
           count_(columns.visible_count) {}
 
     LAMINA_INLINE DoubleMask meet(Double lo, Double hi) const {
-        // Most functions have one.
+        // Most functions have a single range.
         if (count_ <= 1) return (lo_[0] <= hi) & (lo <= hi_[0]);
         const Long below =
             count_first(hi_, count_, [&](Double end) LAMINA_LAMBDA { return end < lo; });

@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-// This extinction is opaque over any length, and its products with lengths stay finite.
+// Extinction that is opaque over any length, and whose products with lengths stay finite.
 constexpr double largest_extinction = 1e200;
 
 double largest(const glm::dvec3& v) {

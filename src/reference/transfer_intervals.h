@@ -46,10 +46,10 @@ class TransferIntervals {
     const IntervalColor& color(std::size_t interval) const { return colors_[interval]; }
     const IntervalColumns& columns() const { return columns_; }
 
-    // Says whether any interval that touches [lo, hi] has extinction.
+    // Tells whether any interval that touches [lo, hi] has extinction.
     bool visible(double lo, double hi) const {
         const std::vector<double>&lows = columns_.visible_lo, &highs = columns_.visible_hi;
-        // Most functions have one, and this is asked for every segment of a mesh.
+        // Most functions have a single range, and every segment of a mesh asks for this.
         if (columns_.visible_count == 1) return lows[0] <= hi && lo <= highs[0];
         const auto end = highs.begin() + static_cast<std::ptrdiff_t>(columns_.visible_count);
         const auto range = std::lower_bound(highs.begin(), end, lo);

@@ -13,7 +13,7 @@
 namespace lamina {
 namespace {
 
-// More ranges of visible values than this are taken as one from the first to the last.
+// Number of ranges of visible values above which they are taken as one from the first to the last.
 constexpr std::size_t most_ranges = 8;
 
 // A range of values in the type of the samples, no smaller than the one it is made of.
@@ -36,8 +36,8 @@ class SampleRange {
         }
     }
 
-    // Says whether all samples are on one side of it. Otherwise a cell may meet it without a sample
-    // inside, so integral ranges may end before they begin.
+    // Tells whether all samples are on one side of it. Otherwise a cell may meet it without a
+    // sample inside, so integral ranges may end before they begin.
     bool out_of_reach() const { return out_of_reach_; }
     // Bit 0: not below the range, bit 1: not above it.
     std::uint8_t sides(Sample value) const {
@@ -63,7 +63,7 @@ class SampleRows {
     }
 
     // Sets the bits of the rows of cells, block by block: 1 if a cell may have a value of the
-    // range. A sample that is no number sets none: its cells are transparent.
+    // range. A sample that is NaN sets none: its cells are transparent.
     void mark(const SampleRange<Sample>& range, std::uint8_t* rows) {
         for (std::int64_t z = 0; z <= edge; ++z) {
             for (std::int64_t y = 0; y <= edge; ++y) find_sides(range, y, z);

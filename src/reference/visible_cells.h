@@ -11,15 +11,15 @@
 
 namespace lamina {
 
-// Which cells of a volume in memory may show something, and which blocks of edge^3 cells have one
-// that may. Block n of an axis holds the cells from n * edge - 1 on, so that the half voxels
-// outside the samples are in the first block and the last. The tracer judges pictures that are
-// drawn by MinMaxBricks, and so does not use these itself.
+// The cells of a volume in memory that may be visible, and the blocks of edge^3 cells that have
+// one. Block n of an axis holds the cells from n * edge - 1 on, so that the half voxels outside the
+// samples are in the first block and the last. The tracer judges pictures that are drawn by
+// MinMaxBricks, and so does not use these itself.
 class VisibleCells {
   public:
     static constexpr std::int64_t edge = 8;
 
-    // Without a volume it knows of no cell.
+    // Without a volume it knows no cells.
     VisibleCells() = default;
     VisibleCells(const Volume& volume, const TransferIntervals& transfer);  // parallel
     static std::uint64_t bytes_for(const Grid& grid);

@@ -2,13 +2,13 @@
 // The rays of a volume's picture:
 //
 //   for each ray of a tile:
-//       chord = what of the ray lies in the box and in the clip (chord.h)
+//       chord = the part of the ray in the box and in the clip (chord.h)
 //       for each cell along the chord (cell_walk.h), a batch of cells at a time:
-//           fetch the samples, and make segments of the cells that show something (cells.h)
-//           composite the segments (composite.h); end if what follows is hidden
+//           fetch the samples, and make segments of the visible cells (cells.h)
+//           composite the segments (composite.h); end if everything behind is hidden
 //
-// If it is known which cells show something, a packet of rays walks side by side. A lane whose ray
-// ends takes the tile's next ray.
+// If the visible cells are known, a packet of rays walks side by side. A lane whose ray ends takes
+// the tile's next ray.
 #include "reference/volume_tracer.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "mesh/box_corners.h"
+#include "mesh/predicates.h"
 #include "optics/ray_lights.h"
 #include "reference/cell_walk.h"
 #include "reference/cells.h"
@@ -41,13 +41,13 @@ struct TracedRay {
     std::int64_t segments = 0;
 };
 
-// These are totals over the rays of a volume's picture.
+// Totals over the rays of a volume's picture.
 struct VolumeTotals {
     double error_estimate = 0;  // the largest
     std::int64_t segments = 0;
 };
 
-// This holds what all rays of a picture share. `Samples` are as in CellSamples.
+// Data that all rays of a picture share. `Samples` are as in CellSamples.
 template <typename Samples>
 struct TracedVolume {
     TracedVolume(const Volume& volume, const Samples& first_sample,
@@ -60,7 +60,7 @@ struct TracedVolume {
           transfer(intervals),
           visible(visible_cells),
           options(how) {
-        // A share of the diagonal to spare, for axes that are not quite orthogonal (by 1e-5 at
+        // Margin, as a share of the diagonal, for axes that are not quite orthogonal (by 1e-5 at
         // most, volume_files/grid_check.cpp), and for rounding.
         const double spare =
             1e-4 * glm::distance(grid.to_world(axes.lowest), grid.to_world(axes.highest));
@@ -77,12 +77,12 @@ struct TracedVolume {
     CellSamples<Samples> samples;
     GradientSamples<Samples> gradients;
     const TransferIntervals& transfer;
-    const VisibleCells& visible;  // empty if it is not known
+    const VisibleCells& visible;  // empty if they are not known
     const TraceOptions& options;
 };
 
-// One ray through a volume, whose cells are integrated some at a time: the first are few, in case
-// that they hide the others. It serves for one ray after the other.
+// One ray through a volume, whose cells are integrated some at a time: the first are few, because
+// they may hide the others. It is used for one ray after the other.
 template <typename Samples>
 class VolumeRay {
   public:
@@ -98,11 +98,11 @@ class VolumeRay {
         cells_.wanted = first_together;
     }
 
-    // The cells along the chord are to be added here, front to back. As soon as they are
-    // complete(), integrate() is to be called.
+    // The caller adds the cells along the chord here, front to back, and calls integrate() as soon
+    // as they are complete().
     CellBatch& cells() { return cells_; }
 
-    // Returns whether what follows is seen, as far as is known.
+    // Returns whether anything behind may be visible.
     bool integrate() {
         traced_.samples.fetch(cells_);
         make_segments(cells_, chord_, traced_.transfer.columns(), segments_);
@@ -256,7 +256,7 @@ class VolumeTile {
     std::array<CellBatch*, width> batches_{};
     std::vector<VolumeRay<Samples>> rays_;  // one a lane
     std::array<glm::ivec2, width> pixel_of_{};
-    // The next rays, of which some have begun.
+    // The next rays, some of which have begun.
     std::array<glm::ivec2, width> clipped_pixels_{};
     std::array<View::Ray, width> clipped_{};
     std::array<Chord, width> chords_;
@@ -264,9 +264,9 @@ class VolumeTile {
     VolumeTotals totals_;
 };
 
-// Says whether it pays to find them, which takes a look at every sample. It does if rays meet as
-// many cells: one through a cube meets about as many as an edge of it has, and rays through thin
-// volumes fewer.
+// Tells whether finding visible cells, which reads every sample, is worth the time. It is if rays
+// meet as many cells: one through a cube meets about as many as an edge of it has, and rays through
+// thin volumes fewer.
 bool worth_visible_cells(const Volume& volume, const View& view) {
     const std::int64_t pixels = std::int64_t{view.width} * view.height;
     const std::int64_t cells_a_ray = std::ranges::min(volume.grid().size);

@@ -33,7 +33,7 @@ TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_
                          const View& view, const TraceOptions& options,
                          const TileDone& tile_done = {});
 
-// Some pixels of the view, given as (column, row), traced as a whole picture is.
+// Some pixels of the view, given as (column, row), traced as in a whole picture.
 struct TracedPixels {
     std::vector<glm::dvec4> rgba;  // as in TraceResult::image, in the order of the pixels
     double error_estimate = 0;     // as in TraceResult

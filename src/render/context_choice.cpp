@@ -7,8 +7,7 @@
 
 #include "base/enum_words.h"
 #include "base/error.h"
-#include "base/memory_limit.h"
-#include "base/unreachable.h"
+#include "base/memory.h"
 #include "simd/instruction_set.h"
 
 namespace lamina {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/draw_context.h"
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/unreachable.h"
 #include "tiles/tile_capabilities.h"
 
 namespace lamina {
 namespace {
 
-// Returns null where there is no GPU with OpenGL 4.5.
+// Returns null if there is no GPU with OpenGL 4.5.
 std::unique_ptr<gl::Context> find_gpu() {
     try {
         return gl::Context::create(gl::ContextKind::gpu);

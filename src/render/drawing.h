@@ -12,8 +12,8 @@
 
 namespace lamina {
 
-// How a SceneRenderer measures, plans and makes renderers: slicing and projection implement this,
-// each in its own way, and keeps the renderer that it made last. Between calls the scene changes
+// Measures, plans and makes renderers for a SceneRenderer. Slicing and projection implement it,
+// each in its own way, and keep the renderer that they made last. Between calls the scene changes
 // only in what the renderer was told to change.
 class Drawing {
   public:
@@ -25,32 +25,33 @@ class Drawing {
     // follow.
     virtual void measure_data(const Scene& scene) = 0;
     // Measures the facts that depend on the view. `planned`: the plan of an earlier view, or null
-    // for the first view. What that plan has settled for all views is not measured again.
+    // for the first view. Facts that this plan has settled for all views are not measured again.
     virtual void measure_view(const Scene& scene, const Plan* planned) = 0;
 
-    // Draws trial pictures where an automatic choice needs them. `many_frames`: also where they
-    // may make later frames quicker.
+    // Draws trial pictures if an automatic choice needs them. `many_frames`: also if they may make
+    // later frames quicker.
     virtual void make_trials(const Scene& /*scene*/, const Capabilities& /*capabilities*/,
                              bool /*many_frames*/) {}
     // `for_people`: the plan also says how much work each omission saves.
     virtual Plan plan(const Scene& scene, const Capabilities& capabilities,
                       const OmissionSwitch& omissions, bool for_people) const = 0;
-    // Puts what the plan has chosen in place of every "auto".
+    // Replaces every "auto" by the choice of the plan.
     virtual Resolved resolve(Scene scene, const Plan& plan) const = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
 
-    // Sentences for people about the data, the plan and, once a frame is drawn, about it.
+    // Returns sentences for people about the data, the plan and, once a frame is drawn, about the
+    // frame.
     virtual Warnings warnings(const Resolved& resolved, const Plan& plan) = 0;
 
-    // Adds what the renderer, which is there, found in its last frame.
+    // Adds the results of the last frame; the renderer must exist.
     virtual void add_to(FrameStatistics& /*statistics*/) const {}
 
-    // Of renderers that draw one picture together, once a view is measured: the parts of the volume
-    // that they draw; and their numbers, nearer ones first.
+    // For renderers that draw one picture together, once a view is measured: the parts of the
+    // volume that they draw; and their numbers, nearer ones first.
     virtual std::vector<IndexBox> shares() const { return {}; }
     virtual std::vector<int> front_to_back(const Scene& /*scene*/) const { return {0}; }
 
-    // The new renderer replaces the one before, from which it takes over the data that both need.
+    // Replaces the renderer; the new one takes over the data that both need.
     virtual void make_renderer(const Resolved& resolved, const Plan& plan,
                                const Capabilities& capabilities) = 0;
     virtual FrameRenderer* renderer() const = 0;  // null before there is one

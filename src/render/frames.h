@@ -19,19 +19,20 @@ class Frames {
   public:
     virtual ~Frames() = default;
 
-    virtual const Scene& scene() const = 0;  // as it was asked for, with "auto"
+    virtual const Scene& scene() const = 0;  // as asked for, with "auto"
     // Replaces the scene by another one with the same data and method.
     virtual void set_scene(Scene scene) = 0;
     virtual void set_camera(const Camera& camera) = 0;
-    // A change may leave more as it is than another scene does.
+    // These may keep more than set_scene() does.
     virtual void set_size(int width, int height);
     virtual void set_transfer_function(const TransferFunction& transfer_function);
     virtual void set_clip(const Clip& clip);
 
-    virtual const Resolved& resolved() = 0;  // with what was chosen in place of "auto"
+    virtual const Resolved& resolved() = 0;  // with the choices in place of "auto"
     virtual const Plan& plan() = 0;
     virtual std::string explanation() = 0;
-    // Sentences for people about the data, the plan and, once a frame was drawn, about it.
+    // Returns sentences for people about the data, the plan and, once a frame was drawn, about the
+    // frame.
     virtual Warnings warnings() = 0;
 
     // Makes what a frame needs. draw() calls it if necessary.
@@ -39,10 +40,10 @@ class Frames {
     // Draws a frame, which is complete on return. Throws Interrupted once a stop is requested; the
     // next frame is then drawn from the start.
     virtual void draw(std::stop_token stop = {}) = 0;
-    // The last frame: associated, linear, before the background. It takes no memory if `picture`
-    // has the frame's size.
+    // Returns the last frame: associated, linear, before the background. It takes no memory if
+    // `picture` has the frame's size.
     virtual void read(Image& picture) const = 0;
-    // Adds what plan, set-up and last frame took and found.
+    // Adds times and counts of plan, set-up and last frame.
     virtual void add_to(FrameStatistics& statistics) = 0;
 };
 

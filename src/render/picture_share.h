@@ -3,7 +3,7 @@
 
 namespace lamina {
 
-// Which part of a volume one of several renderers draws, which draw one picture together.
+// The part of a volume that one of several renderers draws, which draw one picture together.
 struct PictureShare {
     int number = 0;  // 0 .. count - 1
     int count = 1;

@@ -4,14 +4,14 @@
 #include <cassert>
 #include <utility>
 
-#include "base/stage.h"
-#include "base/warning.h"
-#include "choice/mesh_field.h"
-#include "choice/volume_field.h"
-#include "facts/finite_check.h"
-#include "gl/memory.h"
-#include "gl/query.h"
-#include "mesh/scalar_range.h"
+#include "base/client.h"
+#include "base/profile.h"
+#include "choice/field.h"
+#include "facts/mesh_facts.h"
+#include "facts/volume_facts.h"
+#include "gl/api.h"
+#include "gl/timeline.h"
+#include "mesh/tet_mesh.h"
 #include "render/context_choice.h"
 #include "render/warnings.h"
 #include "scene/given_transfer.h"
@@ -112,7 +112,7 @@ void Pipeline::take(Choices next) {
 
 void Pipeline::set_scene(Scene scene) {
     asked_ = std::move(scene);
-    // The mesh may be one that an earlier scene made from the volume: choices need that of a file.
+    // The mesh may be one that an earlier scene made from the volume; choices need that of a file.
     const bool reads_mesh = data_.makes_mesh(scene_) && !data_.makes_mesh(asked_);
     if (reads_mesh) {
         if (scene_.method == Method::project) drop_frames();
@@ -170,7 +170,7 @@ void Pipeline::set_clip(const Clip& clip) {
 
 // --- frames
 
-// The data decide if they do not fit the memory.
+// The engine depends on the data if these do not fit the memory.
 const Capabilities& Pipeline::capabilities() {
     assert(!options_.make_frames);
     if (options_.capabilities) return *options_.capabilities;
@@ -321,7 +321,7 @@ const Pipeline::TracePlan& Pipeline::plan_of_trace() {
     return trace_plan_.emplace(std::move(made));
 }
 
-// Repeats what was said when it was chosen and read: it belongs to every picture.
+// Repeats the warnings of choosing and reading: they belong to every picture.
 void Pipeline::warn_of_scene() {
     warn_of_all(choice_warnings_);
     warn_of_all(data_.warnings(scene_));
@@ -352,7 +352,7 @@ const TracedPicture& Pipeline::trace(const TileDone& tile_done) {
     load();
     check_data();
     if (scene_.draws_mesh() && !options_.trace_plainly)
-        data_.open_faces(scene_);  // once, in no frame's time
+        data_.open_faces(scene_);  // built once, in no frame's time
     Stage frame("frame");
     frame.count("frame", frames_drawn_++);
     TracedPicture made = traced_now(tile_done);

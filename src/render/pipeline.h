@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way from a scene to its picture: data, choices, plan, renderer or tracer, statistics and
-// warnings. All who draw are clients of it.
+// warnings. Everything that draws is a client of it.
 #pragma once
 
 #include <cstdint>
@@ -42,19 +42,19 @@ struct PipelineOptions {
     // picture counts.
     bool many_frames = false;
     bool count_fragments = false;  // with OpenGL, which takes a query
-    // Traces with the plain twin of the reference tracer, which tells nothing of its tiles.
+    // Traces with the plain twin of the reference tracer, which does not report its tiles.
     bool trace_plainly = false;
-    // Says which part of a picture this pipeline draws, if several draw it together with the native
-    // engine.
+    // The part of a picture that this pipeline draws, if several draw it together with the engine
+    // `cpu`.
     PictureShare share = {};
     FramesMaker make_frames = {};  // replaces this process's own renderers
-    // Has the pre-integration tables of the plans. Pipelines that share it build a table once.
+    // Cache of the plans' pre-integration tables. Pipelines that share it build a table once.
     std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
 };
 
 // Draws a scene from its first picture to its last. Each step is done when it is first needed, and
 // again when a change makes it necessary (render/scene_renderer.h). Warnings go to the client that
-// the thread works for (base/warning.h). Calls may throw Error.
+// the thread works for (base/client.h). Calls may throw Error.
 class Pipeline {
   public:
     explicit Pipeline(Scene scene, SceneData data = {}, PipelineOptions options = {});
@@ -62,19 +62,19 @@ class Pipeline {
     Pipeline(const Pipeline&) = delete;
     Pipeline& operator=(const Pipeline&) = delete;
 
-    // Loads the data that the scene draws. Others call it if necessary.
+    // Loads the data that the scene draws. Other members call it if necessary.
     void load();
 
     const Scene& asked() const { return asked_; }
-    // Gives the scene with transfer function and camera chosen, and changed as wished.
+    // Returns the scene with transfer function and camera chosen, and changed as wished.
     const Scene& scene();
-    // Sentences that say what was chosen; none if nothing was automatic.
+    // Returns sentences that say what was chosen; none if nothing was automatic.
     const std::vector<std::string>& reasons();
-    const Scene& resolved_scene();  // with nothing open that its method draws by
+    const Scene& resolved_scene();  // with nothing open that the method needs
     SceneData& data() { return data_; }
     std::unique_ptr<Field> field() { return data_.field(scene()); }
 
-    // Takes another scene of the same data: files that it names are not read, but for a mesh in
+    // Takes another scene of the same data: files that it names are not read, except for a mesh in
     // place of one that was made from the volume.
     void set_scene(Scene scene);
     void set_camera(const Camera& camera);
@@ -87,14 +87,14 @@ class Pipeline {
 
     const Plan& plan();
     std::string explanation();  // the plan for people, below what was chosen
-    void warn_of_plan();        // says what is noteworthy about it and the data
+    void warn_of_plan();        // warns about the plan and the data
 
     void set_up();
     // Draws a frame with the scene's method, to be timed.
     void draw_frame();
-    // Draws a picture, and says what is noteworthy about data, plan and picture.
+    // Draws a picture, and warns about data, plan and picture.
     void draw(Image& picture);
-    // Does the same, but says nothing about the picture.
+    // Draws a picture without warnings about it.
     void draw_quietly(Image& picture);
     void read(Image& picture);  // the last frame or traced picture
     void warn_of(const Image& picture);
@@ -102,7 +102,7 @@ class Pipeline {
     const TracedPicture& trace(const TileDone& tile_done = {});
     const std::optional<TracedPicture>& traced() const { return traced_; }  // the last one
 
-    // Tells what the last picture took; its draw_ms is that of the frame alone.
+    // Returns times and counts of the last picture; its draw_ms is that of the frame alone.
     FrameStatistics statistics();
     FrameStatistics trace_statistics();  // of the last traced picture
 
@@ -132,7 +132,7 @@ class Pipeline {
 
     Scene asked_, scene_;
     std::vector<std::string> reasons_;  // of scene_
-    Warnings choice_warnings_;          // said while it was chosen
+    Warnings choice_warnings_;          // said while the scene was chosen
     bool chosen_ = false;               // scene_ is the choice for asked_
     SceneData data_;
     PipelineOptions options_;
@@ -147,12 +147,12 @@ class Pipeline {
     double frame_ms_ = 0, trace_ms_ = 0;
 };
 
-// Draws one picture of a scene of method slice or project, without a word about it.
-// `capabilities` and `tables`: as in PipelineOptions.
+// Draws one picture of a scene of method slice or project, without warnings. `capabilities` and
+// `tables`: as in PipelineOptions.
 Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities,
                     std::shared_ptr<TableCache> tables);
 
-// The scene with transfer function and camera chosen from its volume, whatever it draws.
+// Returns the scene with transfer function and camera chosen from its volume, whatever it draws.
 Choices chosen_by_volume(const Scene& scene);
 
 }  // namespace lamina

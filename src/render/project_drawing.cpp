@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "base/unreachable.h"
-#include "base/warning.h"
+#include "base/client.h"
+#include "base/enum_words.h"
 #include "scene/clipped_mesh.h"
 
 namespace lamina {
@@ -53,8 +53,8 @@ void ProjectDrawing::measure_overlap(const Scene& scene) {
 }
 
 // Trial rays choose between a table whose nodes lie on the transfer function's points and
-// integration that is right everywhere. Where the plan has another source, later views have nothing
-// to choose.
+// integration that is right everywhere. If the plan has another source, later views have nothing to
+// choose.
 void ProjectDrawing::measure_view(const Scene& scene, const Plan* planned) {
     lamina::measure_view(scene, *mesh_, facts_);
     const bool settled = planned != nullptr && !planned->project.nothing_visible &&
@@ -72,7 +72,7 @@ Plan ProjectDrawing::plan(const Scene& scene, const Capabilities& capabilities,
     return make_plan(scene, facts_, capabilities, omissions, tables_);
 }
 
-// Where the order is automatic and there is a tree, the order stays automatic, because leaves of a
+// If the order is automatic and there is a tree, the order stays automatic, because leaves of a
 // tree come from all over the mesh.
 Resolved ProjectDrawing::resolve(Scene scene, const Plan& plan) const {
     const ProjectPlan& project = plan.project;

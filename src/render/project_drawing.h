@@ -36,7 +36,7 @@ class ProjectDrawing : public Drawing {
     void measure_overlap(const Scene& scene);
 
     std::shared_ptr<const SceneMesh> whole_;
-    std::shared_ptr<const SceneMesh> mesh_;  // what the clip leaves; where that is nothing, whole_
+    std::shared_ptr<const SceneMesh> mesh_;  // mesh that the clip leaves; whole_ if that is nothing
     std::shared_ptr<TableCache> tables_;
     Clip clip_;
     bool lit_ = false;

@@ -9,13 +9,13 @@
 
 namespace lamina {
 
-// Names the keys that the scene's method draws by and that are automatic. Tables are left out:
-// they are chosen with each view. So is the order of tets below a tree: its leaves take tets from
-// all over the mesh, which no word for an order says.
+// Names the automatic keys that the scene's method needs. Tables are left out: they are chosen with
+// each view. So is the order of tets below a tree: its leaves take tets from all over the mesh,
+// which no word for an order says.
 std::vector<std::string> open_keys(const Scene& scene);
 
-// A scene in which all that its method draws by was chosen: it has no open_keys(). Only a Drawing
-// makes one from a plan. Later views are planned, and pictures drawn, from it.
+// A scene in which everything that its method needs was chosen: it has no open_keys(). Only a
+// Drawing makes one from a plan. Later views are planned, and pictures drawn, from it.
 class Resolved {
   public:
     explicit Resolved(Scene scene);

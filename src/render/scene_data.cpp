@@ -3,10 +3,9 @@
 
 #include <utility>
 
-#include "base/stage.h"
-#include "choice/mesh_field.h"
-#include "choice/volume_field.h"
-#include "mesh/scalar_range.h"
+#include "base/profile.h"
+#include "choice/field.h"
+#include "mesh/tet_mesh.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina {

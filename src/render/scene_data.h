@@ -20,32 +20,32 @@
 namespace lamina {
 
 // The volume and the mesh that a scene draws. Each is read, generated or made from the volume when
-// it is first asked for, and kept for all scenes after that, whatever they say of files. Copies
-// share what is there. Throws Error if data cannot be had.
+// it is first asked for, and then kept for all scenes, whatever files they name. Copies share what
+// is there. Throws Error if data cannot be had.
 class SceneData {
   public:
     SceneData() = default;
-    // Data that are given are drawn in place of what scenes name.
+    // Given data are drawn in place of those that scenes name.
     explicit SceneData(Volume volume);
     explicit SceneData(std::shared_ptr<const VolumeData> volume)
         : volume_(std::move(volume)), volume_given_(true) {}
     explicit SceneData(std::shared_ptr<const SceneMesh> mesh)
         : mesh_(std::move(mesh)), mesh_given_(true) {}
-    // `report`: of a mesh that was made from a volume before.
+    // `report`: that of a mesh that was made from a volume before.
     SceneData(const Scene& scene, MeshData mesh, const std::optional<MeshReport>& report = {});
-    // A mesh that was made from the volume as the scene says; the volume may be null.
+    // Takes a mesh that was made from the volume as the scene says; the volume may be null.
     SceneData(std::shared_ptr<const VolumeData> volume, std::shared_ptr<const SceneMesh> made)
         : volume_(std::move(volume)), mesh_(std::move(made)), volume_given_(volume_ != nullptr) {}
 
     const std::shared_ptr<const VolumeData>& volume(const Scene& scene);
     const std::shared_ptr<const SceneMesh>& mesh(const Scene& scene);
-    // The tree of the mesh's open faces, for the reference tracer.
+    // Returns the tree of the mesh's open faces, for the reference tracer.
     const FaceTree& open_faces(const Scene& scene);
-    // Gives the scene's data as choices and warnings see them; they must outlive the field.
+    // Returns the scene's data as choices and warnings see them; they must outlive the field.
     std::unique_ptr<Field> field(const Scene& scene);
 
-    // The range of the finite values that a colour map is stretched over: those of the volume if
-    // there is one, so that the pictures of volume and mesh have the same colours.
+    // Returns the range of the finite values that a colour map is stretched over: those of the
+    // volume if there is one, so that the pictures of volume and mesh have the same colours.
     const ValueRange& range(const Scene& scene);
 
     // Keeps a volume that a mesh is made from, for further meshes. Otherwise it is read into memory
@@ -59,10 +59,10 @@ class SceneData {
     }
     void forget_mesh();
 
-    // Returns what was said while the data that the scene draws were read, measured or made.
+    // Returns the warnings of reading, measuring or making the data that the scene draws.
     Warnings warnings(const Scene& scene) const;
 
-    // Adds what loading took and what was found in the data that the scene draws.
+    // Adds the times of loading and the counts of the data that the scene draws.
     void add_to(const Scene& scene, FrameStatistics& statistics);
 
   private:

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/client.h"
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/stage.h"
 #include "render/project_drawing.h"
 #include "render/slice_drawing.h"
 

@@ -22,29 +22,29 @@
 namespace lamina {
 
 // Draws a scene of method slice or project again and again while the scene changes. When a picture
-// or a plan is next asked for, it does again only what the changes make necessary:
+// or a plan is next asked for, it repeats only the steps that the changes make necessary:
 //
 //   camera              the facts of the view and the plan; the renderer stays as long as the plan
 //                       needs no other: no bricks, tables, uploads or programs
-//   size                the same, and a renderer of that size, which takes over what does not
-//                       change with it: the volume's copy or textures, programs, a mesh's order
-//   transfer function   the facts of the data, too, and a renderer with its tables, which takes
-//                       over the same; OpenGL compiles where the transfer function has another
-//                       number of points or its tables have other sizes
-//   clip                the facts of the data, too, and a renderer, which takes over the same; a
+//   size                as camera, and a renderer of that size, which takes over everything that
+//                       the size leaves: the volume's copy or textures, programs, a mesh's order
+//   transfer function   also the facts of the data, and a renderer with its tables, which takes
+//                       over as much; OpenGL compiles if the transfer function has another number
+//                       of points or its tables have other sizes
+//   clip                also the facts of the data, and a renderer, which takes over as much; a
 //                       mesh is cut again
-//   settings, choose_again()   the same, and what is automatic is tried and chosen again
+//   settings, choose_again()   as clip, and everything automatic is tried and chosen again
 //
-// Automatic values are chosen for the first picture and kept: resolved() has them written out.
-// (A table grows where a view has longer segments than it knows.) A picture is, bit for bit on the
-// native engine, that of a new renderer with that scene.
+// Automatic values are chosen for the first picture and kept: resolved() has them written out. (A
+// table grows if a view has longer segments than it knows.) A picture is, bit for bit on the engine
+// `cpu`, that of a new renderer with that scene.
 class SceneRenderer : public Frames {
   public:
-    // `capabilities`: of the native engine, or of an OpenGL context that is current whenever the
+    // `capabilities`: of the engine `cpu`, or of an OpenGL context that is current whenever the
     // renderer is called and when it ends (DrawContext::make_current()), and outlives it. Renderers
-    // of several contexts may draw at the same time, each in a thread of its own.
-    // `share`: of several renderers of one picture, of the native engine; all must be told of the
-    // same changes. `tables`: several renderers may share them.
+    // of several contexts may draw at the same time, each in a thread of its own. `share`: for
+    // several renderers of one picture, on the engine `cpu`; all must be told of the same changes.
+    // `tables`: several renderers may share them.
     SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volume,
                   const Capabilities& capabilities, OmissionSwitch omissions = {},
                   const PictureShare& share = {},
@@ -61,18 +61,18 @@ class SceneRenderer : public Frames {
     void set_clip(const Clip& clip) override;
     void set_scene(Scene scene) override;
     void choose_again();
-    // Choices take longer from now on where they make every frame quicker. Without, the time to the
-    // first picture counts.
+    // Lets choices take longer from now on if they make every frame quicker. Otherwise the time to
+    // the first picture counts.
     void expect_many_frames();
 
-    // The scene as it was asked for, with "auto"; and with what was chosen instead.
+    // Return the scene as asked for, with "auto"; and with the choices in its place.
     const Scene& scene() const override { return asked_; }
     const Resolved& resolved() override;
     // Throws Error if the data cannot be drawn as the scene asks, or the context cannot do it.
     const Plan& plan() override;
     std::string explanation() override;
     Warnings warnings() override;
-    // Of renderers that share a picture: the parts of the volume that they draw, in its index
+    // For renderers that share a picture: the parts of the volume that they draw, in its index
     // space; and their numbers, nearer ones first.
     std::vector<IndexBox> shares();
     std::vector<int> front_to_back();
@@ -88,7 +88,7 @@ class SceneRenderer : public Frames {
         return picture();
     }
 
-    // The renderer, with the statistics of the last frame. It is set up if necessary.
+    // Returns the renderer, with the statistics of the last frame. It is set up if necessary.
     const FrameRenderer& renderer();
     // The last duration of each stage in milliseconds: "facts", "trials", "plan", "set_up".
     const std::map<std::string, double>& stages_ms() const { return stages_ms_; }
@@ -113,7 +113,7 @@ class SceneRenderer : public Frames {
     bool data_measured_ = false, view_measured_ = false, planned_ = false;
     bool many_frames_ = false;
     std::optional<Plan> plan_;
-    bool renderer_fits_ = false;  // it has the scene's transfer function and size
+    bool renderer_fits_ = false;  // renderer_ has the scene's transfer function and size
     std::map<std::string, double> stages_ms_;
     Counts counts_;
 };

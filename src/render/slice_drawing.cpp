@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/slice_drawing.h"
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "slicing/slab_trials.h"
 
 namespace lamina {
@@ -28,7 +28,7 @@ void SliceDrawing::measure_view(const Scene& scene, const Plan* planned) {
     } else {
         measure_rays(scene, data_->volume, facts_);
     }
-    // Shares stay when the view changes, so that the data do.
+    // Shares stay when the view changes, so that their data stay, too.
     if (share_.count > 1 && !shares_)
         shares_.emplace(scene, facts_, data_->bricks, !data_->volume.in_memory(), share_.count);
 }
@@ -50,7 +50,7 @@ Plan SliceDrawing::plan(const Scene& scene, const Capabilities& capabilities,
     Plan plan = plan_with(omissions);
     if (!shares_) return plan;
     // Slabs are tested for being constant several at a time, from the first one that a renderer
-    // draws on. Which of them are would depend on the share, and so would be who draws them.
+    // draws on. So the result would depend on the share, and on who draws a slab.
     if (plan.slice.constant_regions && !plan.slice.integrates_cells()) {
         OmissionSwitch fewer = omissions;
         fewer.kept.insert("constant_regions");

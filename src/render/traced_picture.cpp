@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "base/stage.h"
+#include "base/profile.h"
 #include "plain/plain_tracer.h"
 #include "reference/scene_tracer.h"
 

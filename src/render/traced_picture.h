@@ -20,15 +20,15 @@ struct TracedPicture {
     std::int64_t overlapping_rays = 0;  // that meet tets of a mesh that overlap
 };
 
-// The scene, to be traced: its volume or its mesh.
+// Returns the scene as one to be traced: its volume or its mesh.
 Scene as_trace(Scene scene, TraceOf of);
 
-// Traces the data that the scene draws, whatever its method, to its trace_tolerance. The scene has
-// nothing automatic in transfer function and camera.
+// Traces the data that the scene draws, whatever its method, to its trace_tolerance. Nothing in the
+// scene's transfer function and camera may be automatic.
 TracedPicture trace_picture(const Scene& scene, SceneData& data, const TileDone& tile_done = {});
 
-// Does the same with the tracer's plain twin (plain/plain_tracer.h), which counts no overlapping
-// rays and takes no tolerance.
+// Traces with the plain twin of the tracer (plain/plain_tracer.h), which counts no overlapping rays
+// and takes no tolerance.
 TracedPicture plainly_traced_picture(const Scene& scene, SceneData& data);
 
 }  // namespace lamina

@@ -11,9 +11,9 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
-#include "base/number_text.h"
-#include "base/warning.h"
-#include "mesh/scalar_range.h"
+#include "base/client.h"
+#include "base/text.h"
+#include "mesh/tet_mesh.h"
 #include "scene/camera.h"
 #include "scene/half_space.h"
 
@@ -74,7 +74,7 @@ std::string why_not_kept(const SlicePlan& plan, double wanted, double error) {
                        name_of(plan.target), error);
 }
 
-// Half a code of 8 bits: no opacity below it shows.
+// Half a code of 8 bits: lower opacities are invisible.
 constexpr float least_opacity = .5F / 255;
 // Pixels at least this bright are stored as the last of the 256 codes of a PNG: 254.5 / 255 as a
 // display value, and the light that sRGB encodes by it.
@@ -89,8 +89,8 @@ std::string range_text(const ValueRange& range) {
     return number_text(range.lo, fineness, 6) + " to " + number_text(range.hi, fineness, 6);
 }
 
-// The values that the transfer function shows, from the first to the last, constant beyond its
-// points.
+// Returns the values that the transfer function shows, from the first to the last, constant beyond
+// its points.
 std::string shown_values(const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();
     std::size_t first = 0, last = knots.size();
@@ -106,7 +106,7 @@ std::string shown_values(const TransferFunction& transfer_function) {
     return last == knots.size() ? "values above " + from : "values from " + from + " to " + to;
 }
 
-// On which side of the picture all corners lie, or null.
+// Returns the side of the picture beyond which all corners lie, or null.
 const char* side_beside(const View& view, const std::array<glm::dvec3, 8>& corners) {
     const double half_width = .5 * view.width * view.pixel;
     const double half_height = .5 * view.height * view.pixel;

@@ -3,19 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 
+#include <glm/geometric.hpp>
 #include "base/enum_words.h"
 #include "base/error.h"
 
 namespace lamina {
+
 namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
-// Unit vector of v, scaled first so that tiny and huge cameras neither underflow nor overflow; zero
-// for zero.
+// Returns the unit vector of v, or zero for zero. v is scaled first, so that tiny and huge cameras
+// neither underflow nor overflow.
 glm::dvec3 direction_of(const glm::dvec3& v) {
     const double scale = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return scale > 0 ? glm::normalize(v / scale) : glm::dvec3(0);
@@ -28,7 +29,7 @@ View::View(const Camera& camera, int width_pixels, int height_pixels)
     forward = direction_of(camera.center - camera.eye);
     if (forward == glm::dvec3(0)) fail("camera: eye and center are the same point");
     const glm::dvec3 side = glm::cross(forward, direction_of(camera.up));
-    // Below 1e-9 the rounding of eye, center and up would decide which way is up.
+    // Below 1e-9 the direction of up would come from the rounding of eye, center and up.
     if (glm::length(side) < 1e-9) fail("camera.up: is zero or parallel to the view direction");
     right = glm::normalize(side);
     up = glm::cross(right, forward);
@@ -57,7 +58,8 @@ Camera turned(const Camera& camera, double degrees) {
     return result;
 }
 
-// The sphere around the box just fits between the upper and the lower edge of the picture.
+// Places the camera so that the sphere around the box just fits between the upper and the lower
+// edge of the picture.
 Camera orbit(const Grid::Bounds& box, double azimuth, double elevation, double fov_y) {
     const double a = azimuth * radians_per_degree, e = elevation * radians_per_degree;
     const glm::dvec3 toward(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
+#include <algorithm>
+#include <cstdint>
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include "lamina/camera.h"
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 
@@ -30,13 +34,100 @@ struct View {
     glm::dvec3 eye, right, up, forward;  // orthonormal
 };
 
-// The eye of a view, for visibility orders.
+// Returns the eye of a view, for visibility orders.
 inline Eye eye_of(const View& view) {
     if (view.projection == Projection::orthographic) return {view.forward, true};
     return {view.eye, false};
 }
 
-// The turn of the camera between timed frames (--frames; studies: docs/study.md).
+// Degrees by which the camera turns between timed frames (--frames; studies: docs/study.md).
 inline constexpr double degrees_per_frame = 0.1;
+
+// Returns the view with axes of length `unit`: it takes points of the world and gives eye-space
+// coordinates in the renderer's units (facts/world_unit.h).
+inline View seeing_in_units(View view, double unit) {
+    for (glm::dvec3* const axis : {&view.right, &view.up, &view.forward}) *axis *= unit;
+    if (view.projection == Projection::orthographic) view.pixel *= unit;
+    return view;
+}
+
+// Converts points to eye space and to window coordinates: pixels to the right and upwards from the
+// picture's lower left corner.
+class WindowView {
+  public:
+    explicit WindowView(const View& view)
+        : view_(view),
+          middle_(0.5 * view.width, 0.5 * view.height),
+          perspective_(view.projection == Projection::perspective) {}
+
+    const View& view() const { return view_; }
+    const glm::dvec2& middle() const { return middle_; }
+    bool perspective() const { return perspective_; }
+
+    // Returns a point's eye-space coordinates: along right, up and forward from the eye.
+    glm::dvec3 see(const glm::dvec3& point) const {
+        const glm::dvec3 p = point - view_.eye;
+        return {glm::dot(p, view_.right), glm::dot(p, view_.up), glm::dot(p, view_.forward)};
+    }
+    glm::dvec2 to_window(const glm::dvec3& seen) const {
+        const double scale = perspective_ ? view_.pixel * seen.z : view_.pixel;
+        return middle_ + glm::dvec2(seen.x / scale, seen.y / scale);
+    }
+
+  private:
+    View view_;
+    glm::dvec2 middle_;
+    bool perspective_;
+};
+
+inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+// Pixels by which the ray perturbation moves rays that run along faces. A larger number changes
+// pictures of thin opaque tets: the optical depth 1e4 of a needle by .03 / 255. A smaller one is
+// lost along z: there it is 3e-12 pixels, and two floats side by side hold 3.5e-15 of a pixel's
+// number.
+inline constexpr double tie_pixels = 3e-8;
+
+// Returns the perturbation along right, up and forward. It goes in the direction in which the
+// tracer moves rays that meet edges and corners (mesh/ray_walk.cpp): along the world's x, y and z,
+// each far less than the one before.
+inline glm::dvec3 ray_perturbation(const View& view) {
+    const glm::dvec3 direction(1, 1e-2, 1e-4);
+    const bool perspective = view.projection == Projection::perspective;
+    return tie_pixels * glm::dvec3(glm::dot(view.right, direction), glm::dot(view.up, direction),
+                                   perspective ? glm::dot(view.forward, direction) : 0);
+}
+
+// A rectangle of pixels: columns from the left, rows from the top of the picture. It is empty if a
+// last number is below its first.
+struct PixelArea {
+    std::int32_t first_column, last_column, first_row, last_row;
+
+    bool empty() const { return last_column < first_column || last_row < first_row; }
+    std::int64_t count() const {
+        if (empty()) return 0;
+        return std::int64_t{last_column - first_column + 1} * (last_row - first_row + 1);
+    }
+    // Becomes the smallest rectangle around itself and another one; empty ones do not count.
+    void add(const PixelArea& other) {
+        if (other.empty()) return;
+        if (empty()) {
+            *this = other;
+            return;
+        }
+        first_column = std::min(first_column, other.first_column);
+        last_column = std::max(last_column, other.last_column);
+        first_row = std::min(first_row, other.first_row);
+        last_row = std::max(last_row, other.last_row);
+    }
+};
+
+// Returns the pixels that two areas have in common.
+inline PixelArea common_pixels(const PixelArea& a, const PixelArea& b) {
+    return {std::max(a.first_column, b.first_column), std::min(a.last_column, b.last_column),
+            std::max(a.first_row, b.first_row), std::min(a.last_row, b.last_row)};
+}
 
 }  // namespace lamina

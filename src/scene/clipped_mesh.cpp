@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/stage.h"
-#include "mesh/norm1.h"
+#include "base/profile.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 namespace {
 
-// A corner this near to a plane lies on it: of the mesh's diagonal, and in roundings of
-// coordinates. Renderers place faces to 9e-6 of an edge (docs/numerics.md, section 6).
+// Distances up to which a corner lies on a plane, as a share of the mesh's diagonal and in
+// roundings of coordinates. Renderers place faces to 9e-6 of an edge (docs/numerics.md, section 6).
 constexpr double near_of_diagonal = 1e-10, near_of_coordinates = 0x1p-46;
 
 // Corners 0, 1, 2 and 3, 4, 5 are triangles with the edges 0-3, 1-4, 2-5 between them; corner 3
@@ -85,7 +85,7 @@ class MeshCutter {
         }
     }
 
-    // An even permutation of the corners.
+    // Returns an even permutation of the corners with those inside first.
     Tet inside_first(Tet tet) const {
         const auto outside = [&](std::int32_t corner) { return !(distance(corner) > 0); };
         bool odd = false;
@@ -104,8 +104,8 @@ class MeshCutter {
         return tet;
     }
 
-    // The point where an edge leaves the half-space, with its scalars, the same for all tets at
-    // the edge.
+    // Returns the point at which an edge leaves the half-space, with its scalars: one point for all
+    // tets at the edge.
     std::int32_t cut_point(std::int32_t inside, std::int32_t outside) {
         if (distance(outside) == 0) return outside;
         const auto [a, b] = std::minmax(inside, outside);
@@ -119,7 +119,7 @@ class MeshCutter {
         return found->second;
     }
 
-    // Values that are equal stay exactly so.
+    // Interpolates linearly; two equal values give exactly the same value.
     template <typename Value>
     static void append_between(std::vector<Value>& values, std::int32_t a, std::int32_t b,
                                double share) {
@@ -127,9 +127,9 @@ class MeshCutter {
         values.push_back(first + share * (values[static_cast<std::size_t>(b)] - first));
     }
 
-    // Each side with four corners is cut from its corner of the least number, so that neighbours
-    // agree (Dompierre et al. 1999). Where a corner of the tet lies on the plane, corners coincide,
-    // and tets that have it twice are left out.
+    // Adds a prism as tets. Each side with four corners is cut from its corner of the least number,
+    // so that neighbours agree (Dompierre et al. 1999). If a corner of the tet lies on the plane,
+    // corners coincide, and tets that have a corner twice are left out.
     void add_prism(const Prism& prism) {
         const auto least =
             static_cast<std::size_t>(std::ranges::min_element(prism) - prism.begin());
@@ -158,7 +158,7 @@ class MeshCutter {
 
     MeshData& mesh_;
     double diagonal_;
-    std::vector<double> distances_;  // of the points, from the plane; 0: on it
+    std::vector<double> distances_;  // distance of each point from the plane; 0: on it
     std::unordered_map<std::uint64_t, std::int32_t> cut_points_;  // by the numbers of both ends
 };
 
@@ -174,7 +174,7 @@ double diagonal_of(const MeshData& mesh) {
     return mesh.tets.empty() ? 0 : glm::length(max - min);
 }
 
-// The order of the others stays.
+// Drops points that no tet uses; the others stay in their order.
 void drop_unused_points(MeshData& mesh) {
     std::vector<std::int32_t> number(mesh.points.size(), -1);
     for (const Tet& tet : mesh.tets) {
@@ -203,7 +203,7 @@ bool keeps_all(std::span<const HalfSpace> clip, const TetMesh::Bounds& box) {
     });
 }
 
-// Three scalars behind the scene's.
+// Adds the gradients as three scalars behind the scene's.
 void add_gradients(const std::vector<glm::dvec3>& gradients, MeshData& mesh) {
     for (int axis = 0; axis < 3; ++axis) {
         MeshScalar& component = mesh.point_scalars.emplace_back();

@@ -9,13 +9,11 @@
 #include "base/enum_words.h"
 #include "optics/colormap.h"
 #include "optics/opacity.h"
-#include "optics/opacity_slope.h"
-#include "optics/shipped_colormaps.h"
 
 namespace lamina {
 namespace {
 
-// Data of one value have it in the middle of the map.
+// Widens the range of data of one value, so that the value lies in the middle of the map.
 ValueRange widened(const ValueRange& range) {
     if (range.empty()) return {0, 1};
     if (range.lo < range.hi) return range;
@@ -107,7 +105,7 @@ std::filesystem::path colormap_file_of(const Scene& scene) {
     return scene.given_transfer ? scene.given_transfer->colormap_file() : std::filesystem::path();
 }
 
-// Nothing is said of a function that was put in place of the given one.
+// A function that was put in place of the given one has nothing to report.
 std::optional<std::string> opaque_ramp(const Scene& scene) {
     if (!scene.given_transfer || scene.given_transfer->map) return std::nullopt;
     std::optional<std::string> found = opaque_ramp(*scene.given_transfer);

@@ -11,7 +11,7 @@
 #include "lamina/colormap.h"
 #include "lamina/scene.h"
 #include "lamina/transfer_function.h"
-#include "optics/given_points.h"
+#include "optics/opacity.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

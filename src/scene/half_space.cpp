@@ -13,7 +13,7 @@ bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Scenes from files were checked when they were read.
+// Checks clips that programs make: those of scene files were checked when they were read.
 void check(const Clip& clip) {
     for (const ClipPlane& plane : clip.planes) {
         const glm::dvec3& n = plane.normal;

@@ -9,13 +9,13 @@
 
 namespace lamina {
 
-// Holds the points p of the world with dot(normal, p - point) >= 0. The normal's largest component
-// lies between 1 and 2, for no scene makes its products overflow.
+// The points p of the world with dot(normal, p - point) >= 0. The normal's largest component lies
+// between 1 and 2, so that its products do not overflow in any scene.
 struct HalfSpace {
     glm::dvec3 point, normal;
 };
 
-// Gives the half-spaces that hold all that a clip keeps: one for each plane, then six for the box.
+// Returns the half-spaces whose common part a clip keeps: one for each plane, then six for the box.
 // Normals are the clip's own times powers of two, so nothing is rounded. Throws Error if a normal
 // is zero or a number is none.
 std::vector<HalfSpace> half_spaces(const Clip& clip);

@@ -11,7 +11,7 @@ namespace lamina {
 
 struct Scene;
 
-// Squares of distances far beyond this, in world units, would overflow.
+// Largest coordinate of lights, in world units: squares of distances far beyond it would overflow.
 inline constexpr double largest_scene_coordinate = 1e100;
 
 // A part of a lighting that cannot be drawn.

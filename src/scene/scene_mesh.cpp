@@ -4,9 +4,8 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/stage.h"
-#include "mesh/cell_average.h"
-#include "mesh/point_gradients.h"
+#include "base/profile.h"
+#include "mesh/tet_mesh.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
 
@@ -22,7 +21,8 @@ std::string list_names(const MeshData& data) {
     return names.empty() ? "none" : names;
 }
 
-// NAME.magnitude is another word for a vector's NAME, which stands for its length.
+// Tells whether a scalar has this name. NAME.magnitude is another word for a vector's NAME, which
+// stands for its length.
 bool is_called(const MeshScalar& scalar, const std::vector<MeshScalar>& all,
                const std::string& name) {
     if (scalar.name == name) return true;

@@ -27,20 +27,20 @@ struct SceneMesh {
     std::vector<glm::dvec3> gradients_before_clip = {};
 };
 
-// The gradients at the points by which the mesh is lit (docs/numerics.md, section 10).
+// Returns the gradients at the points by which the mesh is lit (docs/numerics.md, section 10).
 std::vector<glm::dvec3> gradients_of(const SceneMesh& mesh);
 
 // Returns how a mesh is made from the scene's volume: as the scene says, or by default.
 MeshSettings mesh_settings(const Scene& scene);
 
-// The mesh's name for messages: its file, or the key of the scene that says how to make it.
+// Returns the mesh's name for messages: its file, or the key of the scene that says how to make it.
 std::string name_of_mesh(const Scene& scene);
 
-// Reads the mesh that the scene names, or makes it from its volume. Throws Error, also when the
-// file has no such scalar.
+// Reads the mesh that the scene names, or makes it from its volume. Throws Error, also if the file
+// has no such scalar.
 SceneMesh load_mesh(const Scene& scene);
 
-// Take data that are in memory already: a mesh, or a volume from which one is made.
+// Make the scene's mesh from data in memory: a mesh, or a volume from which one is made.
 SceneMesh scene_mesh(const Scene& scene, MeshData data);
 SceneMesh scene_mesh(const Scene& scene, const Volume& volume);
 

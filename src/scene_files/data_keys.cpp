@@ -2,7 +2,7 @@
 #include "scene_files/data_keys.h"
 
 #include "base/value_type.h"
-#include "scene_files/forms.h"
+#include "scene_files/keys.h"
 #include "volume/generate.h"
 
 namespace lamina {

@@ -4,16 +4,18 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/shortened.h"
-#include "base/suggestion.h"
+#include <glm/vector_relational.hpp>
+#include "base/text.h"
+#include "lamina/color.h"
 
 namespace lamina {
+
 namespace {
 
-constexpr std::size_t most_of_path = 100;  // that a message shows
+constexpr std::size_t most_of_path = 100;  // bytes of a path that a message shows
 const nlohmann::json empty_object = nlohmann::json::object();
 
-// Returns the value as it stands in the file, shortened where it is long.
+// Returns the value as it stands in the file, shortened if it is long.
 std::string shown(const nlohmann::json& value) {
     return shortened(json_text(value));
 }
@@ -142,6 +144,29 @@ void JsonReader::close() const {
                                                         shortened(path_to(key), most_of_path),
                                                         suggestion(asked_, key)));
     }
+}
+
+glm::dvec3 read_color(JsonReader& reader, const std::string& key) {
+    const ImageColorSpace space = reader.context.color_space;
+    const nlohmann::json& given = reader.value(key);
+    if (given.is_array()) return reader.vector(key);
+    if (given.is_string()) {
+        try {
+            return color_of(given.get<std::string>(), space);
+        } catch (const Error& error) {
+            reader.fail_at(key, error.what());
+        }
+    }
+    if (!given.is_object())
+        reader.reject(key,
+                      R"([r, g, b], "#rrggbb", the name of a CSS colour or {"srgb": [r, g, b]})");
+    JsonReader object = reader.object(key);
+    const glm::dvec3 display = object.vector("srgb");
+    if (glm::any(glm::lessThan(display, glm::dvec3(0))) ||
+        glm::any(glm::greaterThan(display, glm::dvec3(1))))
+        object.reject("srgb", "three numbers from 0 to 1");
+    object.close();
+    return color_of_display(display, space);
 }
 
 }  // namespace lamina

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <filesystem>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
 #include "base/error.h"
 #include "base/json_text.h"
 #include "lamina/image_color_space.h"
@@ -25,15 +24,15 @@ class KeyError : public Error {
     std::string key;
 };
 
-// A key that no reader asked for.
+// A key for which no reader asked.
 class UnknownKeyError : public KeyError {
   public:
     using KeyError::KeyError;
 };
 
-// Has what the meaning of values depends on beside their own text.
+// Settings that the meaning of values depends on, beside their own text.
 struct JsonContext {
-    ImageColorSpace color_space = ImageColorSpace::linear;  // of colours
+    ImageColorSpace color_space = ImageColorSpace::linear;  // the space of colours
     bool volume_given = false, mesh_given = false;  // data in memory, which no key needs to name
 };
 
@@ -51,7 +50,7 @@ class JsonReader {
     bool has(const std::string& key);
     JsonReader object(const std::string& key);  // an empty object when absent
     std::vector<JsonReader> objects(const std::string& key);
-    // Throws KeyError where the key is missing.
+    // Throws KeyError if the key is missing.
     const nlohmann::json& value(const std::string& key);
 
     double number(const std::string& key);
@@ -59,11 +58,11 @@ class JsonReader {
     bool flag_or(const std::string& key, bool otherwise);
     std::string text(const std::string& key);
     glm::dvec3 vector(const std::string& key);
-    // A path of the file system. ${LAMINA_DATA} is expanded, and relative paths start at the file's
-    // folder.
+    // Returns a path of the file system. ${LAMINA_DATA} is expanded, and relative paths start at
+    // the file's folder.
     std::filesystem::path path_of(const std::string& key);
 
-    // The value of one of the listed words, or of the first word where the key is absent.
+    // Returns the value of one of the listed words, or of the first word if the key is absent.
     template <typename Choice>
     Choice choice(const std::string& key,
                   const std::vector<std::pair<const char*, Choice>>& choices) {
@@ -81,7 +80,7 @@ class JsonReader {
     [[noreturn]] void fail_at(const std::string& key, const std::string& message) const;
 
     const std::filesystem::path& file() const { return file_; }
-    // File and path of the object, as messages begin: "scene.json: render.slice".
+    // Returns file and path of the object, as messages begin: "scene.json: render.slice".
     std::string place() const;
 
   private:
@@ -92,5 +91,9 @@ class JsonReader {
     std::string path_;
     std::set<std::string> asked_;
 };
+
+// Reads a colour (docs/scene.md): three numbers of the reader's colour space, or display values,
+// which are converted to it: "#rrggbb", a CSS name, or {"srgb": [r, g, b]}. Throws KeyError.
+glm::dvec3 read_color(JsonReader& reader, const std::string& key);
 
 }  // namespace lamina

@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of JSON objects, from one table a struct (docs/architecture.md, "Keys"): the reader, the
-// writer and the schema come from it.
 #pragma once
 
+// Keys of JSON objects, from one table a struct (docs/architecture.md, "Keys"), and the forms of
+// their values: the reader, the writer and the schema come from them.
+#include <array>
 #include <cassert>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+#include "base/enum_words.h"
+#include "lamina/auto.h"
 #include "scene_files/json_reader.h"
 
 namespace lamina {
 
 using KeyJson = nlohmann::ordered_json;
 
-// How a value of type T stands under a key.
+// The form of a value of type T under a key.
 template <typename T>
 struct Form {
-    // The key is there, or must be: throws KeyError otherwise.
+    // Reads a key that is there, or must be: throws KeyError otherwise.
     std::function<T(JsonReader& reader, const std::string& key)> read;
     std::function<KeyJson(const T& value)> write;  // null: the key is left out
     KeyJson schema;
@@ -52,7 +60,7 @@ struct Alternative {
 template <typename Struct>
 class KeyTable {
   public:
-    // `access`: a pointer to a member, or what returns a reference to one.
+    // Adds a key. `access`: a pointer to a member, or a function that returns a reference to one.
     template <typename Access, typename T>
     KeyTable& key(const std::string& name, const Access& access, const Form<T>& form,
                   const std::string& description = "") {
@@ -96,8 +104,8 @@ class KeyTable {
         return add(std::move(added));
     }
 
-    // Adds an object with the keys of a table. It may be left out: then its rules are checked all
-    // the same. It is always written.
+    // Adds an object with the keys of a table. It may be left out; its rules are checked
+    // nevertheless. It is always written.
     template <typename Access, typename Part>
     KeyTable& object(const std::string& name, const Access& access,
                      const KeyTable<Part>& (*table)(), const std::string& description = "") {
@@ -124,7 +132,7 @@ class KeyTable {
 
     Key<Struct>& last() { return keys_.back(); }
 
-    // The following are about the key that was added last.
+    // Demands the key that was added last. (The next two functions change its default.)
     KeyTable& required() {
         Key<Struct>& last = keys_.back();
         last.required = true;
@@ -203,7 +211,8 @@ class KeyTable {
         all.update(schema);
         return all;
     }
-    // An object or a list has the defaults of its own keys.
+    // Tells whether a default stands for the whole value: an object or a list has the defaults of
+    // its own keys.
     static bool is_default(const KeyJson& value) {
         return !value.is_null() && !value.is_object() && !(value.is_array() && value.empty());
     }
@@ -212,8 +221,7 @@ class KeyTable {
     std::vector<std::pair<std::string, KeyJson>> more_;
 };
 
-// Form of a struct: an object with the keys of a table. `table` makes it, for the first one who
-// asks.
+// The form of a struct: an object with the keys of a table. `table` makes it at the first use.
 template <typename Struct>
 Form<Struct> object_form(const KeyTable<Struct>& (*table)()) {
     return {[table](JsonReader& reader, const std::string& key) {
@@ -223,6 +231,155 @@ Form<Struct> object_form(const KeyTable<Struct>& (*table)()) {
                 return object;
             },
             [table](const Struct& object) { return table().json(object); }, table().schema()};
+}
+
+Form<bool> flag_form();
+Form<std::string> text_form();            // empty: left out
+Form<std::filesystem::path> path_form();  // relative to the file; empty: left out
+Form<glm::dvec3> vector_form();           // three finite numbers
+Form<glm::dvec3> color_form();            // in the reader's colour space
+Form<std::array<std::int64_t, 3>> sizes_form(std::int64_t most, const std::string& expected);
+
+// The parts of the schema that several keys share ("$defs").
+KeyJson vector_schema();
+KeyJson color_schema();
+KeyJson reference_to(const std::string& definition);
+
+// A form whose values must pass `is_good`, or messages say what is expected.
+template <typename T, typename Check>
+Form<T> checked(Form<T> form, const Check& is_good, const std::string& expected) {
+    form.read = [read = form.read, is_good, expected](JsonReader& reader, const std::string& key) {
+        T value = read(reader, key);
+        if (!is_good(value)) reader.reject(key, expected);
+        return value;
+    };
+    return form;
+}
+
+// Limits of a number, named as in the schema.
+struct Limits {
+    std::optional<double> from = {}, above = {}, up_to = {}, below = {};
+
+    bool contain(double number) const {
+        return !(from && !(number >= *from)) && !(above && !(number > *above)) &&
+               !(up_to && !(number <= *up_to)) && !(below && !(number < *below));
+    }
+};
+// A number within limits, with what messages expect; without that text a rule of the table checks
+// it.
+Form<double> number_form(const Limits& limits = {}, const std::string& expected = "");
+
+template <typename Whole>
+Form<Whole> whole_form(std::int64_t least, std::int64_t most) {
+    return {[least, most](JsonReader& reader, const std::string& key) {
+                return static_cast<Whole>(reader.whole(key, least, most));
+            },
+            [](const Whole& value) { return KeyJson(value); },
+            {{"type", "integer"}, {"minimum", least}, {"maximum", most}}};
+}
+Form<std::uint32_t> seed_form();
+
+// One of these words. The first one must be the default.
+template <typename Value>
+Form<Value> words_form(const std::vector<std::pair<const char*, Value>>& words) {
+    KeyJson listed = KeyJson::array();
+    for (const auto& [word, value] : words) listed.push_back(word);
+    return {[words](JsonReader& reader, const std::string& key) {
+                return reader.choice<Value>(key, words);
+            },
+            [words](const Value& wanted) {
+                for (const auto& [word, value] : words)
+                    if (value == wanted) return KeyJson(word);
+                return KeyJson();
+            },
+            {{"enum", std::move(listed)}}};
+}
+template <typename Enum>
+Form<Enum> words_form() {
+    return words_form<Enum>(enum_words<Enum>());
+}
+
+// A value that may be left out.
+template <typename T>
+Form<std::optional<T>> optional_form(const Form<T>& form) {
+    return {[read = form.read](JsonReader& reader, const std::string& key) {
+                return std::optional<T>(read(reader, key));
+            },
+            [write = form.write](const std::optional<T>& value) {
+                return value ? write(*value) : KeyJson();
+            },
+            form.schema};
+}
+
+// A value of JSON's type `type`, or a word in its place. `expected`: for values of neither kind.
+template <typename T>
+Form<std::optional<T>> word_or_form(const std::string& word, const Form<T>& form,
+                                    bool (nlohmann::json::*is_type)() const noexcept,
+                                    const std::string& expected) {
+    return {[=, read = form.read](JsonReader& reader, const std::string& key) -> std::optional<T> {
+                const nlohmann::json& value = reader.value(key);
+                if (value == word) return std::nullopt;
+                if (!(value.*is_type)()) reader.reject(key, expected);
+                return read(reader, key);
+            },
+            [word, write = form.write](const std::optional<T>& value) {
+                return value ? write(*value) : KeyJson(word);
+            },
+            {{"oneOf", KeyJson::array({{{"const", word}}, form.schema})}}};
+}
+
+// A form in which "auto" stands for no value.
+template <typename T>
+Form<Auto<T>> automatic_if_none(const Form<std::optional<T>>& form) {
+    return {[read = form.read](JsonReader& reader, const std::string& key) {
+                const std::optional<T> value = read(reader, key);
+                return value ? Auto<T>(*value) : Auto<T>(automatic);
+            },
+            [write = form.write](const Auto<T>& value) {
+                return write(value.is_given() ? std::optional<T>(*value) : std::nullopt);
+            },
+            form.schema};
+}
+// "auto", or a value of JSON's type `type`.
+template <typename T>
+Form<Auto<T>> automatic_form(const Form<T>& form, bool (nlohmann::json::*is_type)() const noexcept,
+                             const std::string& expected) {
+    return automatic_if_none(word_or_form("auto", form, is_type, expected));
+}
+// "auto", or one of an enum's words. `initial`: the key's default.
+template <typename Enum>
+Form<Auto<Enum>> automatic_words_form(const Auto<Enum>& initial) {
+    std::vector<std::pair<const char*, std::optional<Enum>>> words;
+    for (const auto& [word, value] : enum_words<Enum>()) words.emplace_back(word, value);
+    words.insert(initial.is_automatic() ? words.begin() : words.end(), {"auto", std::nullopt});
+    return automatic_if_none(words_form<std::optional<Enum>>(words));
+}
+
+// A list of objects with the keys of a table. `what`: plural, for messages about more than `most`;
+// without it a rule of the table checks the count. `extra`: of the schema.
+template <typename Struct>
+Form<std::vector<Struct>> list_form(const KeyTable<Struct>& (*table)(), std::size_t most,
+                                    const std::string& what, const KeyJson& extra) {
+    KeyJson schema{{"type", "array"}};
+    schema.update(extra);
+    schema["items"] = table().schema();
+    return {[=](JsonReader& reader, const std::string& key) {
+                std::vector<JsonReader> elements = reader.objects(key);
+                if (!what.empty() && elements.size() > most) {
+                    reader.fail_at(key, fmt::format("found {} {}, expected at most {}",
+                                                    elements.size(), what, most));
+                }
+                std::vector<Struct> list(elements.size());
+                for (std::size_t i = 0; i < list.size(); ++i) table().read(elements[i], list[i]);
+                return list;
+            },
+            [table](const std::vector<Struct>& list) {
+                if (list.empty()) return KeyJson();
+                KeyJson json = KeyJson::array();
+                for (const Struct& element : list) json.push_back(table().json(element));
+                return json;
+            },
+            std::move(schema)};
 }
 
 }  // namespace lamina

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "compositing/tree_shape.h"
 #include "scene/coloring.h"
 #include "scene_files/data_keys.h"
-#include "scene_files/forms.h"
+#include "scene_files/keys.h"
 #include "scene_files/scene_keys.h"
 
 namespace lamina {
@@ -111,7 +111,7 @@ const KeyTable<SliceTableSettings>& slice_table_keys() {
     return table;
 }
 
-// A table that the plan chooses is not written.
+// Leaves out a table that the plan chooses.
 template <typename Table>
 Form<Auto<Table>> table_form(const KeyTable<Table>& (*table)()) {
     auto form = automatic_form(object_form(table), &nlohmann::json::is_object,
@@ -171,7 +171,7 @@ const KeyTable<TableSettings>& project_table_keys() {
     return table;
 }
 
-// Values interpolated between the vertices of a fan cannot be drawn with one polygon around a tet.
+// Rejects colourings that interpolate between the vertices of a fan with one polygon around a tet.
 void check_geometry(JsonReader& reader, const ProjectSettings& project) {
     if (project.geometry != ProjectGeometry::silhouette) return;
     if (project.interpolation == Interpolation::linear)

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "scene_files/data_keys.h"
-#include "scene_files/forms.h"
+#include "scene_files/keys.h"
 #include "scene_files/transfer_keys.h"
 
 namespace lamina {
 namespace {
 
-constexpr std::size_t columns = 160;  // of the schema's text
+constexpr std::size_t columns = 160;  // width of the schema's text
 
 Key<Scene> version_key() {
     return {"version",
@@ -52,7 +52,7 @@ std::string flat_json(const KeyJson& json) {
     return json.is_object() ? fmt::format("{{{}}}", text) : fmt::format("[{}]", text);
 }
 
-// Writes what fits a line into one line.
+// Writes values that fit a line into one line.
 void write_folded(const KeyJson& json, std::size_t depth, std::size_t used, std::string& text) {
     const std::string flat = flat_json(json);
     if (!json.is_structured() || json.empty() || depth * 2 + used + flat.size() <= columns) {

@@ -19,8 +19,8 @@ std::string scene_schema_text();
 void add_view_keys(KeyTable<Scene>& scene);
 const KeyTable<Camera>& camera_keys();
 
-// The keys of "render": how the picture is made (render_keys.cpp). Reading them needs the data's
-// keys before.
+// The keys of "render": how the picture is made (render_keys.cpp). The data's keys must be read
+// before.
 const KeyTable<Scene>& render_keys();
 // The form of a compositing tree ("$defs/tree"), and of one of its factors.
 KeyJson tree_schema();

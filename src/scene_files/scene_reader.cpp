@@ -2,15 +2,73 @@
 #include "scene_files/scene_reader.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <string>
 
+#include <nlohmann/json.hpp>
+#include "base/client.h"
+#include "base/error.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
-#include "base/shortened.h"
+#include "base/output_file.h"
+#include "base/text.h"
+#include "lamina/scene.h"
+#include "mesh_files/mesh_file.h"
 #include "scene/camera.h"
+#include "scene_files/data_keys.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/scene_keys.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
+
+FileKind kind_of_file(const std::filesystem::path& file, const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
+    if (is_volume_file(file)) return FileKind::volume;
+    if (is_mesh_file(file)) return FileKind::mesh;
+    const std::string beginning = file_beginning(file, 64);
+    const std::size_t first = beginning.find_first_not_of(" \t\r\n");
+    // Files that cannot be read count as scenes: the scene's reader names what is wrong with them.
+    const bool scene = file.extension() == ".json" || beginning.empty() ||
+                       (first != std::string::npos && beginning[first] == '{');
+    if (scene) return FileKind::scene;
+    fail(
+        "{}: unknown kind of file: expected a scene (JSON), a volume ({}) or a mesh (.vtu, .pvtu, "
+        ".pvd, .vtk, .node, .ele)",
+        file.string(), volume_format_names());
+}
+
+nlohmann::json scene_document(const std::filesystem::path& file, const VolumeRequest& request) {
+    const FileKind kind = request.raw ? FileKind::volume : kind_of_file(file);
+    if (kind == FileKind::scene) return load_json(file);
+    const std::string path = std::filesystem::absolute(file).string();
+    nlohmann::json document{{"version", 1}, {"nan", "transparent"}};
+    if (kind == FileKind::volume)
+        document["volume"] = volume_selection_json(path, request);
+    else
+        document["mesh"] = path;
+    return document;
+}
+
+nlohmann::ordered_json transfer_function_json(const TransferFunction& transfer_function) {
+    nlohmann::ordered_json points = nlohmann::ordered_json::array();
+    for (const TransferKnot& knot : transfer_function.knots()) {
+        const glm::dvec3& color = knot.optics.color;
+        points.push_back({{"value", knot.value},
+                          {"color", {color.r, color.g, color.b}},
+                          {"extinction", knot.optics.extinction}});
+        if (knot.smooth) points.back()["smooth"] = true;
+    }
+    return {{"points", points}};
+}
+
+nlohmann::ordered_json camera_json(const Camera& camera) {
+    return camera_keys().json(camera);
+}
+
+nlohmann::ordered_json scene_json(const Scene& scene) {
+    return scene_keys().json(scene);
+}
+
 namespace {
 
 std::vector<std::string> parts_of(const std::string& key) {
@@ -34,7 +92,7 @@ std::vector<std::string> parts_of(const std::string& key) {
     }
 }
 
-// Returns `text` parsed as JSON, or the text itself where it is none.
+// Returns `text` parsed as JSON, or the text itself if it is none.
 nlohmann::json value_of(const std::string& key, const std::string& text) {
     try {
         return parse_json(text);
@@ -99,6 +157,17 @@ void remove_key(nlohmann::json& document, const std::string& key) {
         parent.erase(std::stoul(place.back()));
     else
         parent.erase(place.back());
+}
+
+Scene load_scene(const std::filesystem::path& file, const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
+    return read_scene(scene_document(file), file);
+}
+
+void save_scene(const Scene& scene, const std::filesystem::path& file) {
+    AtomicFile output(file);
+    output.write(json_text(scene_json(scene), 1) + "\n");
+    output.commit();
 }
 
 }  // namespace lamina

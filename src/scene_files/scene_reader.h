@@ -2,12 +2,27 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+#include "lamina/data_files.h"
 #include "lamina/scene.h"
 
 namespace lamina {
+
+// Returns the JSON of a scene file; for a data file, a scene that draws it: all else is automatic,
+// and cells with NaN are transparent. `request`: the part of a volume's file that is wanted.
+nlohmann::json scene_document(const std::filesystem::path& file, const VolumeRequest& request = {});
+
+// Returns a scene file (docs/scene.md) with every key written out, from which read_scene() makes an
+// equal scene: paths are absolute, numbers have all their digits, and the transfer function is its
+// points, whatever they were made from, except for a colour map that is to be stretched over the
+// data. save_scene() writes it.
+nlohmann::ordered_json scene_json(const Scene& scene);
+
+// Return the values of the keys "transfer_function" and "camera".
+nlohmann::ordered_json transfer_function_json(const TransferFunction& transfer_function);
+nlohmann::ordered_json camera_json(const Camera& camera);
 
 // Data in memory, which a scene draws instead of what it names.
 enum class GivenData { none, volume, mesh };
@@ -17,13 +32,13 @@ enum class GivenData { none, volume, mesh };
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
                  GivenData given = GivenData::none);
 
-// Sets `key` ("render.slice.samples", list elements by number) to `value`, which is JSON where it
-// parses as JSON and a string otherwise; null removes the key. Throws UsageError where the path
-// leads through a value that is neither an object nor a list.
+// Sets `key` ("render.slice.samples", list elements by number) to `value`, which is JSON if it
+// parses as JSON, else a string; null removes the key. Throws UsageError if the path leads through
+// a value that is neither an object nor a list.
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value);
 
 // Removes `key` from the object that contains it. A document without the key stays as it is. Throws
-// UsageError where the key has an empty component.
+// UsageError if the key has an empty component.
 void remove_key(nlohmann::json& document, const std::string& key);
 
 }  // namespace lamina

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_files/transfer_keys.h"
 
-#include <fmt/ranges.h>
-
-#include <glm/vector_relational.hpp>
+#include <cmath>
 #include <memory>
 
-#include "optics/shipped_colormaps.h"
-#include "scene_files/forms.h"
-#include "scene_files/scene_json.h"
+#include <fmt/ranges.h>
+#include <glm/vector_relational.hpp>
+#include "optics/colormap.h"
+#include "scene_files/keys.h"
+#include "scene_files/scene_reader.h"
 
 namespace lamina {
+
 namespace {
 
 // --- points
@@ -20,7 +21,7 @@ bool is_point_color(const glm::dvec3& color) {
            !glm::any(glm::greaterThan(color, glm::dvec3(1e30)));
 }
 
-// A point is given by its extinction or by its opacity.
+// Adds the keys of a point's density: its extinction or its opacity.
 void add_density(KeyTable<GivenPoint>& keys) {
     const auto by_opacity = [](const GivenPoint& point) {
         return point.given_as == GivenPoint::Density::opacity;
@@ -72,7 +73,7 @@ KeyTable<GivenPoint> made_point_keys(bool colored) {
     return keys;
 }
 
-// Points beside a colour map have no colours.
+// Keys of a point. Points beside a colour map have no colours.
 const KeyTable<GivenPoint>& point_keys(bool colored) {
     static const KeyTable<GivenPoint> with = made_point_keys(true),
                                       without = made_point_keys(false);
@@ -255,6 +256,30 @@ void add_transfer_function(KeyTable<Scene>& scene) {
         .variant("transfer_function", {chosen, given}, "an object {...}, or \"auto\"",
                  "auto: chosen from the data (docs/first-picture.md).")
         .otherwise("auto");
+}
+
+namespace {
+
+double read_scalar(JsonReader& reader, const std::string& key) {
+    const double scalar = reader.number(key);
+    if (!(std::abs(scalar) <= 1e300)) reader.reject(key, "a number between -1e300 and 1e300");
+    return scalar;
+}
+
+}  // namespace
+
+IntegrationCase read_integration_case(JsonReader reader) {
+    ReadTransfer read = read_transfer_function(reader.object("transfer_function"));
+    if (!read.function) {
+        reader.fail_at("transfer_function.colormap_range",
+                       "is missing, expected [lo, hi]: there are no data here");
+    }
+    const double front = read_scalar(reader, "sf");
+    const double back = read_scalar(reader, "sb");
+    const double length = reader.number("length");
+    if (!(length >= 0)) reader.reject("length", "a number >= 0");
+    reader.close();
+    return {std::move(*read.function), std::move(read.given), front, back, length};
 }
 
 }  // namespace lamina

@@ -3,7 +3,7 @@
 
 #include "image/image_limits.h"
 #include "scene/lighting_check.h"
-#include "scene_files/forms.h"
+#include "scene_files/keys.h"
 #include "scene_files/scene_keys.h"
 
 namespace lamina {
@@ -25,7 +25,7 @@ void check_camera(JsonReader& reader, const Camera& camera) {
         reader.reject("height", "at most 1e100 world units");
 }
 
-// A camera that is left out is automatic.
+// Adds the camera, which is automatic if it is left out.
 void add_camera(KeyTable<Scene>& scene) {
     scene.check([](JsonReader&, Scene& read) { read.camera = automatic; });
     scene

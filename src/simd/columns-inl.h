@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows that vectors hold side by side, in memory as columns: what belongs together is loaded and
+// Rows that vectors hold side by side, in memory as columns: values of one row are loaded and
 // packed together.
 #if defined(LAMINA_SIMD_COLUMNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SIMD_COLUMNS_INL_H_

@@ -111,7 +111,7 @@ LAMINA_INLINE Float to_float(const Float64& a) {
     const hn::Half<Float::Tag> half;
     return hn::Combine(Float::Tag(), hn::DemoteTo(half, a.high.v), hn::DemoteTo(half, a.low.v));
 }
-// Whole numbers within the range of int.
+// Converts whole numbers within the range of int.
 LAMINA_INLINE Int to_int(const Float64& whole) {
     const hn::Half<Int::Tag> half;
     return hn::Combine(Int::Tag(), hn::DemoteTo(half, whole.high.v),

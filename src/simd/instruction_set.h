@@ -6,13 +6,13 @@
 
 namespace lamina {
 
-// The vector instructions that the native engine uses: SSE4, AVX2, AVX3 (AVX-512), NEON. Its
+// The vector instructions that the engine `cpu` uses: SSE4, AVX2, AVX3 (AVX-512), NEON. Its
 // pictures do not depend on them: products and sums are rounded one by one (no fused multiply-add),
 // and there are no approximate reciprocals.
 std::string instruction_set();                // in use
 std::vector<std::string> instruction_sets();  // those that this machine has, the best first
 
-// From now on the engine uses at most this instruction set, for checks. Throws UsageError where the
+// Limits the engine to this instruction set from now on, for checks. Throws UsageError if the
 // machine does not have it. No frame may be drawn during the call.
 void restrict_instructions(const std::string& name);
 

@@ -8,10 +8,10 @@
 
 namespace lamina {
 
-// Some lanes of a vector or of a packet of rays: a bit each, the first lane lowest.
+// A set of lanes of a vector or of a packet of rays: a bit each, the first lane lowest.
 using LaneSet = std::uint32_t;
 
-// The most doubles that a vector of any instruction set has: AVX-512. Bits of lanes fill a byte.
+// Largest number of doubles in a vector of any instruction set: AVX-512. Bits of lanes fill a byte.
 inline constexpr std::size_t longest_vector = 8;
 
 constexpr LaneSet lane_bit(std::size_t lane) {

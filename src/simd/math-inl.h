@@ -13,12 +13,13 @@
 
 LAMINA_SIMD_BEGIN
 
-// 2^n for whole n from -126 to 127.
+// Returns 2^n for whole n from -126 to 127.
 LAMINA_INLINE Float power_of_two(Int n) {
     return bits_as<Float>(shift_left<23>(n + 127));
 }
 
-// exp(x) with a relative error of 2e-7 where |x| < 87; 1e-38 below and 2e38 above.
+// Returns exp(x) with a relative error of 2e-7 for |x| < 87; 1e-38 below and 2e38
+// above.
 LAMINA_INLINE Float exp_of(Float x) {
     const Float inside = clamp(x, -87.3f, 88.3f);
     const Int n = nearest_int(inside * 1.44269504f);
@@ -34,8 +35,8 @@ LAMINA_INLINE Float exp_of(Float x) {
     return polynomial(f, series) * power_of_two(half) * power_of_two(n - half);
 }
 
-// log(x) for x >= 1e-37, with a relative error of 2e-7, except near 1, where the absolute error is
-// 6e-8.
+// Returns log(x) for x >= 1e-37, with a relative error of 2e-7, except near 1, where the absolute
+// error is 6e-8.
 LAMINA_INLINE Float log_of(Float x) {
     // x = 2^n m with sqrt(1/2) <= m < sqrt(2); log(m) = 2 artanh((m - 1) / (m + 1)).
     const Int bits = bits_as<Int>(x);
@@ -48,7 +49,7 @@ LAMINA_INLINE Float log_of(Float x) {
     return whole * 0.693359375f + (log_m + whole * -2.12194440e-4f);
 }
 
-// To the last few digits of double precision.
+// Accurate to the last few digits of double precision.
 LAMINA_INLINE Double exp(Double x) {
     return hn::Exp(Double::Tag(), x.v);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Some lanes of vectors stored side by side: lanes that are left when others have ended are packed
-// anew.
+// Lanes of vectors stored side by side: lanes that are left when others have ended are packed anew.
 #if defined(LAMINA_SIMD_MEMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SIMD_MEMBERS_INL_H_
 #undef LAMINA_SIMD_MEMBERS_INL_H_
@@ -26,8 +25,8 @@ LAMINA_INLINE void for_each_lane(LaneSet set, const Body& body) {
     for (; set != 0; set &= set - 1) body(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-// The members of a set in its first lanes. Up to eight lanes this is hn::Compress() with the table
-// of simd/lane_set.h, which gives the reason.
+// Returns the members of a set in its first lanes. Up to eight lanes this is hn::Compress() with
+// the table of simd/lane_set.h, which gives the reason.
 LAMINA_INLINE Float members_first(Float v, FloatMask members) {
     if constexpr (Float::lanes > 8) {
         return hn::Compress(v.v, members.m);
@@ -46,7 +45,8 @@ LAMINA_INLINE void store_members(Int v, FloatMask members, std::int32_t* to) {
     store_unaligned(bits_as<Int>(members_first(bits_as<Float>(v), members)), to);
 }
 
-// A set of lanes, and where its members are stored. Lanes outside the set have any place.
+// A set of lanes, and the places at which its members are stored. Lanes outside the set have any
+// place.
 struct StoredLanes {
     LaneSet set;
     std::uint8_t places[most_lanes];
@@ -63,7 +63,7 @@ LAMINA_INLINE StoredLanes stored_lanes(FloatMask members) {
     return lanes;
 }
 
-// Takes what store_members() stored back to its lanes; the others become 0.
+// Returns to their lanes the members that store_members() stored; the others become 0.
 LAMINA_INLINE Float load_members(const float* from, const StoredLanes& lanes) {
     const Float moved = permute(load_unaligned<Float>(from), load_bytes(lanes.places));
     return zero_unless(mask_of_bits<FloatMask>(lanes.set), moved);

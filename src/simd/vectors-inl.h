@@ -3,7 +3,7 @@
 // numbers. Float, Int and Word have a lane for each pixel of a block, or of a part of it; Double
 // and Long have half as many lanes, of twice the size, and Float64 is two Doubles: as many lanes as
 // Float. A scalar stands for all lanes: `0.5f * a`. Every operation is rounded by itself, so that
-// all instruction sets compute the same numbers; fma() is what its name says.
+// all instruction sets compute the same numbers; fma() alone is fused if the instruction set can.
 #if defined(LAMINA_SIMD_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SIMD_VECTORS_INL_H_
 #undef LAMINA_SIMD_VECTORS_INL_H_
@@ -20,7 +20,7 @@
 LAMINA_SIMD_BEGIN
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The most lanes of a Float. HWY_MAX_BYTES allows no more on any instruction set.
+// Largest number of lanes of a Float. HWY_MAX_BYTES allows no more on any instruction set.
 inline constexpr std::size_t most_lanes = 16;
 
 // True or false in each lane of vectors whose lanes have the size of `Tag`'s.
@@ -37,14 +37,14 @@ struct MaskOf {
     friend LAMINA_INLINE MaskOf operator|(MaskOf a, MaskOf b) { return hn::Or(a.m, b.m); }
     friend LAMINA_INLINE MaskOf operator^(MaskOf a, MaskOf b) { return hn::Xor(a.m, b.m); }
     friend LAMINA_INLINE MaskOf operator!(MaskOf a) { return hn::Not(a.m); }
-    // The lanes of `a` that are not in `b`.
+    // Returns the lanes of `a` that are not in `b`.
     friend LAMINA_INLINE MaskOf without(MaskOf a, MaskOf b) { return hn::AndNot(b.m, a.m); }
 
     friend LAMINA_INLINE bool any_of(MaskOf a) { return !hn::AllFalse(Tag(), a.m); }
     friend LAMINA_INLINE bool all_of(MaskOf a) { return hn::AllTrue(Tag(), a.m); }
     friend LAMINA_INLINE bool none_of(MaskOf a) { return hn::AllFalse(Tag(), a.m); }
     friend LAMINA_INLINE std::size_t count_of(MaskOf a) { return hn::CountTrue(Tag(), a.m); }
-    // A bit for each lane, the first lane lowest.
+    // Returns a bit for each lane, the first lane lowest.
     friend LAMINA_INLINE std::uint32_t bits_of(MaskOf a) {
         std::uint8_t bytes[8] = {};
         hn::StoreMaskBits(Tag(), a.m, bytes);
@@ -66,7 +66,7 @@ LAMINA_INLINE Mask mask_of_bits(std::uint32_t bits) {
     return hn::LoadMaskBits(typename TagOfMask<Mask>::Type(), bytes);
 }
 
-// The first `count` lanes; all where there are fewer.
+// Returns the first `count` lanes; all if there are fewer.
 template <class Mask>
 LAMINA_INLINE Mask first_lanes(std::size_t count) {
     return hn::FirstN(typename TagOfMask<Mask>::Type(), count);
@@ -99,7 +99,7 @@ struct Vector {
     friend LAMINA_INLINE Vector operator&(Vector a, Vector b) { return hn::And(a.v, b.v); }
     friend LAMINA_INLINE Vector operator|(Vector a, Vector b) { return hn::Or(a.v, b.v); }
     friend LAMINA_INLINE Vector operator^(Vector a, Vector b) { return hn::Xor(a.v, b.v); }
-    // The bits of `a` that are not set in `b`.
+    // Returns the bits of `a` that are not set in `b`.
     friend LAMINA_INLINE Vector without(Vector a, Vector b) { return hn::AndNot(b.v, a.v); }
 
     friend LAMINA_INLINE Mask operator<(Vector a, Vector b) { return mask(hn::Lt(a.v, b.v)); }
@@ -119,7 +119,7 @@ struct Vector {
     friend LAMINA_INLINE Vector floor(Vector a) { return hn::Floor(a.v); }
     friend LAMINA_INLINE Vector ceil(Vector a) { return hn::Ceil(a.v); }
     friend LAMINA_INLINE Vector trunc(Vector a) { return hn::Trunc(a.v); }
-    // The nearest whole number, the even one of two.
+    // Returns the nearest whole number, the even one of two.
     friend LAMINA_INLINE Vector round(Vector a) { return hn::Round(a.v); }
     friend LAMINA_INLINE Vector copy_sign(Vector a, Vector sign) {
         return hn::CopySign(a.v, sign.v);
@@ -172,7 +172,7 @@ template <class V>
 LAMINA_INLINE V load_masked(typename V::Mask mask, const typename V::Scalar* from) {
     return hn::MaskedLoad(mask.m, typename V::Tag(), from);
 }
-// Takes numbers that lie side by side, four and four, apart.
+// Loads four vectors whose numbers lie side by side, four and four.
 template <class V>
 LAMINA_INLINE void load_interleaved(const typename V::Scalar* from, V& a, V& b, V& c, V& d) {
     hn::LoadInterleaved4(typename V::Tag(), from, a.v, b.v, c.v, d.v);
@@ -212,7 +212,7 @@ template <int bits, class V>
 LAMINA_INLINE V shift_right(V a) {
     return hn::ShiftRight<bits>(a.v);
 }
-// Shifts each lane by the number in that of `bits`.
+// Shifts each lane by the number in that lane of `bits`.
 template <class V>
 LAMINA_INLINE V shift_right(V a, V bits) {
     return hn::Shr(a.v, bits.v);
@@ -247,7 +247,7 @@ using Int4 = Vector<hn::RebindToSigned<Float4::Tag>>;
 using Float8 = Vector<hn::CappedTag<float, 8>>;
 using Word8 = Vector<hn::RebindToUnsigned<Float8::Tag>>;
 
-// The halves of a Float8 that has eight lanes.
+// Return the halves of a Float8 that has eight lanes.
 template <class V>
 LAMINA_INLINE Float4 lower_half(V a) {
     return hn::LowerHalf(Float4::Tag(), a.v);
@@ -257,14 +257,14 @@ LAMINA_INLINE Float4 upper_half(V a) {
     return hn::UpperHalf(Float4::Tag(), a.v);
 }
 
-// Conversions. To whole numbers they go towards zero.
+// Conversions. Those to whole numbers round towards zero.
 LAMINA_INLINE Float to_float(Int a) {
     return hn::ConvertTo(Float::Tag(), a.v);
 }
 LAMINA_INLINE Int to_int(Float a) {
     return hn::ConvertTo(Int::Tag(), a.v);
 }
-// The nearest whole number, the even one of two.
+// Returns the nearest whole number, the even one of two.
 LAMINA_INLINE Int nearest_int(Float a) {
     return hn::NearestInt(a.v);
 }
@@ -282,7 +282,7 @@ LAMINA_INLINE void store_as_floats(Double a, float* to) {
     const hn::Rebind<float, Double::Tag> floats;
     hn::Store(hn::DemoteTo(floats, a.v), floats, to);
 }
-// Whole numbers as the bits of 32-bit integers.
+// Stores whole numbers as the bits of 32-bit integers.
 LAMINA_INLINE void store_as_int_bits(Double whole, float* to) {
     const hn::Rebind<float, Double::Tag> floats;
     const hn::Rebind<std::int32_t, Double::Tag> ints;
@@ -296,25 +296,25 @@ LAMINA_INLINE Word load_halves(const std::uint16_t* from) {
     return hn::PromoteTo(Word::Tag(), hn::LoadU(hn::Rebind<std::uint16_t, Word::Tag>(), from));
 }
 
-// The lowest byte of each lane.
+// Stores the lowest byte of each lane.
 LAMINA_INLINE void store_low_bytes(Word8 a, std::uint8_t* to) {
     const hn::Rebind<std::uint8_t, Word8::Tag> bytes;
     hn::StoreU(hn::TruncateTo(bytes, a.v), bytes, to);
 }
 
-// The bits of `a` as another kind of number.
+// Returns the bits of `a` as another kind of number.
 template <class To, class D>
 LAMINA_INLINE To bits_as(Vector<D> a) {
     return hn::BitCast(typename To::Tag(), a.v);
 }
 
-// from[place] in each lane.
+// Returns from[place] in each lane.
 template <class T, class D>
 LAMINA_INLINE auto gather(const T* from, Vector<D> place) {
     using Tag = hn::Rebind<T, D>;
     return Vector<Tag>(hn::GatherIndex(Tag(), from, place.v));
 }
-// The word that begins `bytes` behind `from`.
+// Returns the word that begins `bytes` behind `from`.
 LAMINA_INLINE Word gather_at_bytes(const std::uint32_t* from, Int bytes) {
     return hn::GatherOffset(Word::Tag(), from, bytes.v);
 }
@@ -322,12 +322,12 @@ LAMINA_INLINE Int gather_at_bytes(const std::int32_t* from, Int bytes) {
     return hn::GatherOffset(Int::Tag(), from, bytes.v);
 }
 
-// -1 in the lanes of a mask, and 0 in the others.
+// Returns -1 in the lanes of a mask, and 0 in the others.
 LAMINA_INLINE Long minus_one_in(DoubleMask mask) {
     return hn::VecFromMask(Long::Tag(), hn::RebindMask(Long::Tag(), mask.m));
 }
 
-// The lane of `a` that each lane of `place` names.
+// Returns in each lane the lane of `a` that `place` names.
 template <class D, class I>
 LAMINA_INLINE Vector<D> permute(Vector<D> a, Vector<I> place) {
     return hn::TableLookupLanes(a.v, hn::IndicesFromVec(D(), place.v));

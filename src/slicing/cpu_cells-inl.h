@@ -3,7 +3,7 @@
 // (docs/numerics.md, section 9; numbers in brackets are equations there).
 //
 //   repeat until the rays end:
-//       walk some steps: a segment for each cell that shows something       cpu_walk-inl.h
+//       walk some steps: a segment for each visible cell                      cpu_walk-inl.h
 //       fetch the corners of their cells: the scalar as a cubic (9.1)       cpu_fetch-inl.h
 //       for each segment:
 //           if it stays in one interval of the transfer function (9.5) and is shallow:
@@ -13,8 +13,8 @@
 //       composite each ray's segments front to back
 //
 // To draw something else of cells (their largest scalar, say), replace integrate(), which sets what
-// a segment adds; RaySum with put_behind() and add_segments(), which add it to the ray; and what
-// CellMap takes for empty or constant.
+// a segment adds; RaySum with put_behind() and add_segments(), which add it to the ray; and the
+// definition of empty and constant in CellMap.
 #if defined(LAMINA_SLICING_CPU_CELLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_CELLS_INL_H_
 #undef LAMINA_SLICING_CPU_CELLS_INL_H_
@@ -36,7 +36,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// The associated colour, opacity and optical depth of some of each ray.
+// Associated colour, opacity and optical depth of a part of each ray.
 struct RaySum {
     Float color[3];
     Float opacity, depth;
@@ -59,11 +59,11 @@ class CellIntegrator {
   public:
     static constexpr std::size_t most_packets = CellSegments::most_packets;
 
-    // `colored`: colours are wanted, too.
+    // `colored`: colours are needed, too.
     CellIntegrator(const TileSlabs& slabs, bool colored) : slabs_(slabs), colored_(colored) {}
 
-    // Begins at the front of slab `slab`, where the rays are in what is drawn, and ends where they
-    // leave it. `packets`: up to most_packets of them.
+    // Begins at the front of slab `slab`, or where the rays enter the drawn box, and ends where
+    // they leave it. `packets`: up to most_packets of them.
     void begin(const TileBrickView& view, const PacketRays* packets, std::size_t count, int slab) {
         view_ = &view;
         packets_ = count;
@@ -72,7 +72,7 @@ class CellIntegrator {
             walks_[i].begin(*slabs_.cells, view, packets[i], spans_[i], slabs_.light);
         }
     }
-    // Ends at the front of slab `slab`, which lies behind what was integrated.
+    // Ends at the front of slab `slab`, which lies behind everything that was integrated.
     void set_end(int slab) {
         for (std::size_t i = 0; i < packets_; ++i)
             walks_[i].set_end(boundary(slabs_.rays, spans_[i], slab));
@@ -88,7 +88,7 @@ class CellIntegrator {
         return true;
     }
 
-    // The sums over the next few cells of each ray, for each packet.
+    // Returns the sums over the next few cells of each ray, for each packet.
     void next(RaySum* sums) {
         walk();
         count_ += static_cast<std::int64_t>(segments_.count);
@@ -194,7 +194,7 @@ class CellIntegrator {
             store(cubic.c[power], segments_.cubic[power] + i);
     }
 
-    // Takes segments of cells with a NaN at a corner out: their length and scalar become 0.
+    // Removes segments of cells with a NaN at a corner: their length and scalar become 0.
     LAMINA_INLINE void set_transparent(const Corners& corners, CubicLanes& cubic, std::size_t i) {
         Float sum(0);
         for (int corner = 0; corner < 4; ++corner)
@@ -242,8 +242,8 @@ class CellIntegrator {
             cut_.template run<kind, curved>(transfer, slabs_.light, colored_, segments_);
     }
 
-    // Lights the colours of segments that show something, makes those `hard` whose light bends too
-    // much, and sets the gradient and the longest piece for the cut.
+    // Lights the colours of visible segments, makes those `hard` whose light bends too much, and
+    // sets the gradient and the longest piece for the cut.
     template <bool curved>
     LAMINA_INLINE void add_light_to(const IntervalLanes<curved>& interval,
                                     const PieceOptics<curved>& piece, Float depth, std::size_t i,
@@ -322,7 +322,7 @@ class CellIntegrator {
         return cubic;
     }
 
-    // The lanes that hold a segment, of the vector from segment i on.
+    // Returns the lanes that hold a segment, of the vector from segment i on.
     LAMINA_INLINE FloatMask members_from(std::size_t i) const {
         return first_lanes<FloatMask>(segments_.count - i);
     }

@@ -29,7 +29,7 @@ struct CubicLanes {
     }
 };
 
-// The trilinear field of a cell, less `base`, along place + t * change. It is computed from
+// Returns the trilinear field of a cell minus `base`, along place + t * change. It is computed from
 // differences of corners, so that a constant cell is exactly constant.
 LAMINA_INLINE CubicLanes cubic_along(const Corners& corners, Float base, const Float (&place)[3],
                                      const Float (&change)[3]) {
@@ -56,7 +56,7 @@ struct RangeLanes {
     Float lo, hi;
 };
 
-// Bounds on the cubic: its Bernstein coefficients.
+// Returns bounds on the cubic: its Bernstein coefficients.
 LAMINA_INLINE RangeLanes range_of(const CubicLanes& cubic) {
     const Float third = Float(1 / 3.0f);
     const Float one = cubic.c[0] + third * cubic.c[1];
@@ -65,7 +65,7 @@ LAMINA_INLINE RangeLanes range_of(const CubicLanes& cubic) {
     return {min(min(cubic.c[0], one), min(two, end)), max(max(cubic.c[0], one), max(two, end))};
 }
 
-// The places in 0 .. 1, in order, between which the cubic is monotone; 1 where there are fewer.
+// The places in 0 .. 1, in order, between which the cubic is monotone; 1 for missing ones.
 struct Turns {
     Float first, second;
 };
@@ -78,15 +78,15 @@ LAMINA_INLINE Turns turns_of(const CubicLanes& cubic) {
     const Float q = 0 - (b + copy_sign(root, b));
     const auto inside = [&](Float turn) LAMINA_LAMBDA {
         const FloatMask is = (turn > 0) & (turn < 1) & (discriminant > 0);
-        return select(is, turn, 1);  // not a number where a or q is 0
+        return select(is, turn, 1);  // not a number if a or q is 0
     };
     const Float one = inside(q / a), other = inside(c / q);
     return {min(one, other), max(one, other)};
 }
 
-// The place where a cubic, which is monotone between two places, has a value: roots of parabolas
-// that touch the cubic (Euler's method) in a bracket. It converges with the third order, and near
-// places where the cubic turns, too.
+// Finds the place at which a cubic, monotone between two places, has a value: roots of parabolas
+// that touch the cubic (Euler's method) in a bracket. It converges with the third order, also near
+// places where the cubic turns.
 struct RootLanes {
     Float t;
 

@@ -4,13 +4,13 @@
 // point of the transfer function; it ends an interval.
 //
 //   t = 0, in the interval on the side to which the scalar s (9.1) goes
-//   while t < 1 and what is behind can be seen:
+//   while t < 1 and something behind can be visible:
 //       t_end = the next place at which s turns, or 1
 //       knot  = the end of the interval that s reaches on its way to s(t_end)
 //       t_to  = if the knot lies before s(t_end): the t at which s is there (9.6); else t_end
 //       shorten the piece t .. t_to until its depth (9.2) is at most largest_piece_depth, and until
 //           light bends little enough in it (section 10.4)
-//       composite the piece's colour (9.3) and opacity behind what is there
+//       composite the piece's colour (9.3) and opacity behind those before
 //       t = t_to; behind the knot in the next interval
 //
 // Vectors have a segment in each lane. Segments have different numbers of pieces, so each round
@@ -40,7 +40,7 @@ struct CutSegment {
     Int place;  // in CellSegments
 };
 struct LitCutSegment : CutSegment {
-    Float longest;  // extent that a piece may have; a first guess, which composite_lit() corrects
+    Float longest;  // largest extent of a piece; a first guess, which composite_lit() corrects
     GradientLanes gradient;
 };
 
@@ -57,7 +57,7 @@ class CutSegments {
         count_ += count_of(members);
     }
 
-    // Sets colour, opacity and depth of the segments that were added. `light`: of lit ones alone.
+    // Sets colour, opacity and depth of the segments that were added. `light`: for lit ones alone.
     template <Lookup kind, bool curved>
     void run(const TileTransfer& transfer, const TileLight* light, bool colored,
              CellSegments& all) {
@@ -67,14 +67,15 @@ class CutSegments {
     }
 
   private:
-    // Nothing behind this transmittance can be seen.
+    // Transmittance behind which nothing is visible.
     static constexpr float least_transmittance = 1e-9f;
-    // A piece of this extent has one colour, whatever its depth. An extent is a difference of t.
+    // Extent, a difference of t, at which a piece has one colour, whatever its depth.
     static constexpr float shortest = 1e-6f;
-    // Vectors side by side hide the latency of their chains of operations.
+    // Number of vectors that are computed side by side, to hide the latency of their chains of
+    // operations.
     static constexpr std::size_t vectors = 2;
 
-    // How far segments are done, and what is composited of them.
+    // The place that a segment has reached, and the composite of its pieces up to there.
     struct Progress {
         Float turns[2];  // the t at which the scalar turns
         Float t, s;
@@ -86,8 +87,8 @@ class CutSegments {
         Progress done;
     };
 
-    // The way from where a segment is to the next turn of its scalar; if the scalar `crosses` the
-    // knot on this way, the segment leaves the interval there.
+    // The part of a segment up to the next turn of its scalar; if the scalar `crosses` the knot in
+    // this part, the segment leaves the interval there.
     template <bool curved>
     struct Stretch {
         IntervalLanes<curved> interval;
@@ -156,7 +157,7 @@ class CutSegments {
     }
 
     // Packs the `members` for the next round, behind those that were kept before: it overwrites
-    // what has been loaded alone.
+    // only what has been loaded.
     LAMINA_INLINE void keep(const Lanes& lanes, FloatMask members) {
         if (none_of(members)) return;
         progress_.store_members(lanes.done, members, count_);
@@ -218,8 +219,8 @@ class CutSegments {
         return next;
     }
 
-    // Returns the lanes that are done. `extent`: of the piece, whose world length is the segment's
-    // times that.
+    // Returns the lanes that are done. `extent`: that of the piece, whose world length is this
+    // share of the segment's.
     template <bool curved>
     LAMINA_INLINE FloatMask add_piece(bool colored, const Stretch<curved>& stretch,
                                       Lanes& lanes) const {
@@ -242,7 +243,7 @@ class CutSegments {
         } else if constexpr (lit) {
             const FloatMask again = composite_lit(stretch.interval, piece, extent, lanes);
             segment.longest = select(again, 0.5f * extent, max(segment.longest, 2 * extent));
-            // Nothing was added of these: the next round tries shorter pieces.
+            // Nothing was added for these lanes: the next round tries shorter pieces.
             whole = without(whole, again);
             extent = zero_unless(!again, extent);
         }
@@ -256,9 +257,8 @@ class CutSegments {
         return (done.t >= 1) | (done.transmittance < least_transmittance);
     }
 
-    // Returns the place in the interval along the piece of `extent`: the scalar there, a cubic of
-    // 0 .. 1, rescaled. c[1] is what makes it end at `s_to` exactly, so that pieces meet on the
-    // knot.
+    // Returns the place in the interval along the piece of `extent`: the scalar there, a cubic of 0
+    // .. 1, rescaled. c[1] makes it end at `s_to` exactly, so that pieces meet on the knot.
     template <bool curved>
     static LAMINA_INLINE CubicLanes share_of_piece(const IntervalLanes<curved>& interval,
                                                    const Lanes& lanes, Float extent, Float s_to) {
@@ -282,8 +282,8 @@ class CutSegments {
             const FloatMask deep = (depth > largest_piece_depth) & (extent > shortest);
             if (none_of(deep)) return whole;
             whole = without(whole, deep);
-            // If depth grows with the power p = 1 .. 2 of the extent, this factor leaves at least
-            // a depth of .7; it may have to be applied again.
+            // If depth grows with the power p = 1 .. 2 of the extent, this factor leaves at least a
+            // depth of .7; it may have to be applied again.
             const Float least = shortest / max(extent, shortest);
             Float factor = min(sqrt(0.7f / max(depth, 1e-3f)), 0.5f);
             factor = select(deep, max(factor, min(least, 0.5f)), 1);
@@ -297,7 +297,7 @@ class CutSegments {
         }
     }
 
-    // Returns Q of (9.4). A piece of the least extent may be too deep for the rule even so: its
+    // Returns Q of (9.4). A piece of the least extent may still be too deep for the rule, but its
     // colour hardly changes.
     template <bool curved>
     static LAMINA_INLINE Float seen_of(const PieceOptics<curved>& piece, Float depth,
@@ -315,7 +315,7 @@ class CutSegments {
         const Float transmittance = done.transmittance, weight = transmittance * opacity;
         done.depth += depth;
         done.transmittance = transmittance - weight;
-        // Summed up by itself, so that pieces of small opacity keep their digits.
+        // Summed by itself, so that pieces of small opacity keep their digits.
         done.opacity += weight;
         if (!colored) return;
         const Float seen = transmittance * seen_of(piece, depth, opacity);

@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "slicing/cpu_rays-inl.h"
 #include "slicing/tile_volume.h"
 
@@ -35,7 +35,7 @@ LAMINA_INLINE Int page_index(const TilePages& pages, Int x, Int y, Int z) {
     return shift_left<TilePages::page_bits>(page) | place;
 }
 
-// The index by which a cell's samples are fetched; x, y, z: its lowest corner.
+// Returns the index by which a cell's samples are fetched; x, y, z: its lowest corner.
 LAMINA_INLINE Int cell_index(const TileBrick& brick, Int x, Int y, Int z) {
     if (brick.pages != nullptr) [[unlikely]]
         return page_index(*brick.pages, x, y, z);
@@ -56,7 +56,7 @@ LAMINA_INLINE void visit_pages(const TilePages& pages, const std::int32_t* indic
     }
 }
 
-// The four pairs of neighbours along x of each cell, as fetch_pairs() has them.
+// Fetches the four pairs of neighbours along x of each cell from pages, as fetch_pairs() does.
 template <class Pair, std::size_t size>
 inline LAMINA_NOINLINE void fetch_paged_pairs(const TilePages& pages, const std::int32_t* indices,
                                               std::size_t count, Pair (&pairs)[4][size]) {
@@ -91,7 +91,7 @@ LAMINA_INLINE Float to_float(Word v) {
     return to_float(bits_as<Int>(v));
 }
 
-// Fetches the corners by gathers, also where samples have no neighbour along x.
+// Fetches the corners by gathers; it also works if samples have no neighbour along x.
 template <TileLayout layout>
 LAMINA_INLINE Corners fetch_corners(const TileBrick& brick, Int index) {
     Corners corners;
@@ -145,7 +145,7 @@ struct PairOf<TileLayout::words> {
 };
 
 // Fetches the four pairs of each cell, in the order of Corners, one by one: that is faster than
-// gathers of the instruction set. Volumes have a second sample along x.
+// gathers of the instruction set. The volume must have a second sample along x.
 template <class Pair, std::size_t size>
 inline LAMINA_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32_t* indices,
                                         std::size_t count, Pair (&pairs)[4][size]) {
@@ -163,7 +163,7 @@ inline LAMINA_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32
     }
 }
 
-// The corners of a vector of cells from the i-th on.
+// Returns the corners of a vector of cells from the i-th on.
 template <TileLayout layout, class Pair, std::size_t size>
 LAMINA_INLINE Corners unpack_pairs(const TileBrick& brick, const Pair (&pairs)[4][size],
                                    std::size_t i) {
@@ -186,7 +186,7 @@ LAMINA_INLINE Corners unpack_pairs(const TileBrick& brick, const Pair (&pairs)[4
     return corners;
 }
 
-// An interpolation weight rounded to 8 bits, as in texture units (docs/numerics.md, section 2).
+// Rounds an interpolation weight to 8 bits, as texture units do (docs/numerics.md, section 2).
 LAMINA_INLINE Float hardware_weight(Float share) {
     return round(share * 256.0f) * (1.0f / 256);
 }
@@ -197,9 +197,9 @@ LAMINA_INLINE Float interpolate(const Corners& corners, Float x, Float y, Float 
     return mix(mix(along_x[0], along_x[1], y), mix(along_x[2], along_x[3], y), z);
 }
 
-// How a loop treats its points. inside: they are known to lie between the first and the last
-// sample. anywhere: they are clamped. exact: samples become what textures return before they are
-// interpolated, so that the scalars equal those of the shaders bit for bit.
+// Ways in which a loop treats its points. inside: they are known to lie between the first and the
+// last sample. anywhere: they are clamped. exact: samples are converted to the values that textures
+// return before they are interpolated, so that the scalars equal those of the shaders bit for bit.
 enum class PointKind { inside, anywhere, exact };
 
 struct Cell {
@@ -242,8 +242,8 @@ LAMINA_INLINE Float scalar_in(const TileBrick& brick, Corners corners, const Flo
     return raw * scale + brick.offset;
 }
 
-// One pixel in each row and column is fetched ahead; what its neighbours need mostly lies beside
-// it.
+// Only one pixel in each row and column is fetched ahead; the samples of its neighbours mostly lie
+// beside its own.
 template <TileLayout layout>
 LAMINA_INLINE void prefetch_cells(const TileBrick& brick, const std::int32_t* indices) {
     if (brick.pages != nullptr) return;
@@ -261,7 +261,7 @@ LAMINA_INLINE void prefetch_cells(const TileBrick& brick, const std::int32_t* in
 template <TileLayout layout, PointKind kind, class PointAt>
 LAMINA_INLINE void sample_in_stages(const TileBrick& brick, bool hardware, int first, int end,
                                     const PointAt& point_at, float* scalars) {
-    constexpr int stage = tile_block_slabs / 2 + 1;  // edges are one more than slabs
+    constexpr int stage = tile_block_slabs / 2 + 1;  // boundaries are one more than slabs
     constexpr std::size_t lanes = Float::lanes;
     alignas(64) std::int32_t indices[stage * most_lanes];
     alignas(64) float shares[3][stage * most_lanes];
@@ -294,7 +294,7 @@ LAMINA_INLINE void sample_in_stages(const TileBrick& brick, bool hardware, int f
     }
 }
 
-// Where samples have no neighbour along x.
+// Samples a brick whose samples have no neighbour along x.
 template <TileLayout layout, PointKind kind, class PointAt>
 LAMINA_INLINE void sample_by_gathers(const TileBrick& brick, bool hardware, int first, int end,
                                      const PointAt& point_at, float* scalars) {

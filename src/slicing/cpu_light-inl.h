@@ -3,8 +3,8 @@
 //
 //   g(t) = the gradient along the segment, a cubic on each axis, of the corners' gradients (9.1)
 //   at the three nodes of Gauss' rule: the change of colour and the highlight there (10.2)
-//   add both, weighted by the opacity that is seen there, which adds up to the piece's
-//   return the largest bend: what the rule may miss of kinks and of highlights between the nodes
+//   add both, weighted by the visible opacity there; the weights add up to the piece's
+//   return the largest bend: the rule may miss kinks, and highlights between the nodes
 #if defined(LAMINA_SLICING_CPU_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_LIGHT_INL_H_
 #undef LAMINA_SLICING_CPU_LIGHT_INL_H_
@@ -25,7 +25,8 @@ LAMINA_SIMD_BEGIN
 // lower of two neighbours, two of the upper.
 using GradientRows = std::uint32_t[4][4 * most_lanes];
 
-// Does what fetch_gradients() does for cells in pages, whose samples have a neighbour along x.
+// Fetches gradients of cells in pages, whose samples have a neighbour along x, as fetch_gradients()
+// does.
 inline LAMINA_NOINLINE void fetch_paged_gradients(const TilePages& pages, const std::int32_t* index,
                                                   std::uint32_t lanes, GradientRows& rows) {
     constexpr std::size_t steps[4] = {0, BrickCache::row, BrickCache::slice,
@@ -44,8 +45,8 @@ inline LAMINA_NOINLINE void fetch_paged_gradients(const TilePages& pages, const 
     });
 }
 
-// Loads pairs one by one, which is faster than gathers, for a set of lanes; the others keep what
-// they have. Where samples have no neighbour along x, they are their own.
+// Loads pairs one by one, which is faster than gathers, for a set of lanes; the others keep their
+// values. A sample without a neighbour along x is its own neighbour.
 inline LAMINA_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int32_t* index,
                                             std::uint32_t lanes, GradientRows& rows) {
     const std::size_t steps[4] = {0, static_cast<std::size_t>(brick.row),
@@ -74,7 +75,7 @@ struct GradientWords {
     LAMINA_INLINE Int exponent() const { return shift_right<16>(z); }
 };
 
-// 2^16 times a component.
+// Returns 2^16 times a component.
 LAMINA_INLINE Float low_component(Int words) {
     return to_float(shift_left<16>(words));
 }
@@ -82,18 +83,18 @@ LAMINA_INLINE Float high_component(Int words) {
     return to_float(without(words, Int(0xffff)));
 }
 
-// The gradients of a cell's corners, `lower` and `upper` on x, have the unit 2^(largest -
-// unit_octaves) together, where `largest` is their largest exponent. So the largest component is
-// 2^46 up to 2^47, and squares of gradients 1e31 times as small are numbers, too.
+// Exponent of the unit 2^(largest - unit_octaves) that the gradients of a cell's corners, `lower`
+// and `upper` on x, share; `largest` is their largest exponent. So the largest component is 2^46 up
+// to 2^47, and squares of gradients 1e31 times as small are numbers, too.
 constexpr int unit_octaves = 32;
 
-// 2^(exponent - 127), 0 where that is too small.
+// Returns 2^(exponent - 127), or 0 if that is too small.
 LAMINA_INLINE Float power_of_biased(Int exponent) {
     return bits_as<Float>(shift_left<23>(max(exponent, 0)));
 }
 
-// The square of the smallest gradient, in the unit of gradients with this largest exponent. It is
-// kept to what float32 can square: outside, all or nothing is lit.
+// Returns the square of the smallest gradient, in the unit of gradients with this largest exponent.
+// It is limited to the numbers that float32 can square: outside, all or nothing is lit.
 LAMINA_INLINE Float smallest_square_of(const TileLight& light, Int largest) {
     constexpr int most = 62;
     const Int exponent = light.smallest.exponent + unit_octaves - largest;
@@ -102,7 +103,7 @@ LAMINA_INLINE Float smallest_square_of(const TileLight& light, Int largest) {
     return smallest * smallest;
 }
 
-// `unit` plus the exponent of a sample: the biased exponent of the scale that takes its 16-bit
+// `unit` plus the exponent of a sample is the biased exponent of the scale that takes its 16-bit
 // components to the cell's unit.
 LAMINA_INLINE void set_corner(const GradientWords& words, Int unit, std::size_t row, bool upper,
                               Corners (&corners)[3]) {
@@ -148,8 +149,8 @@ LAMINA_INLINE void take_upper(std::size_t axis, FloatMask lanes, Corners& corner
     }
 }
 
-// Where rays run beyond the last samples (`cell` axes), or along a face, only the upper corners
-// count: the lower ones may be too long to be subtracted again.
+// If rays run beyond the last samples (`cell` axes), or along a face, only the upper corners count:
+// the lower ones may be too long to be subtracted again.
 LAMINA_INLINE void leave_out_lower(const Float (&place)[3], const Float (&change)[3],
                                    Corners (&corners)[3]) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -160,7 +161,7 @@ LAMINA_INLINE void leave_out_lower(const Float (&place)[3], const Float (&change
 }
 
 // Sets the gradients at the corners of cells in a set of lanes; `index`: of each cell's lowest
-// corner. Returns the largest exponent. `rows`: memory, in which the other lanes stay as they are.
+// corner. Returns the largest exponent. `rows`: memory, in which the other lanes keep their values.
 LAMINA_INLINE Int gradient_corners(const TileBrick& brick, const std::int32_t* index,
                                    std::uint32_t lanes, GradientRows& rows, Corners (&corners)[3]) {
     fetch_gradients(brick, index, lanes, rows);
@@ -194,8 +195,8 @@ struct GradientLanes {
     Float to_eye[3];
 };
 
-// Sets the gradients of the `members` of a vector of segments from segment i on. The others have
-// any. `rows`: kept from vector to vector.
+// Sets the gradients of the `members` of a vector of segments from segment i on. Those of the
+// others are undefined. `rows`: kept from vector to vector.
 LAMINA_INLINE GradientLanes set_gradients(const TileBrick& brick, FloatMask members, std::size_t i,
                                           const TileLight& light, const CellSegments& segments,
                                           GradientRows& rows) {
@@ -222,7 +223,7 @@ struct GradientNodes {
     Float g[3][3];  // by node and axis
 };
 
-// Returns a bound on what the nodes of a piece of `extent` from `at` on do not see, as a bend.
+// Returns a bound on the light that the nodes of a piece of `extent` from `at` on miss, as a bend.
 LAMINA_INLINE Float hidden_bend(const TileLight& light, const GradientLanes& gradient,
                                 const GradientNodes& nodes, Float at, Float extent) {
     const Float half = 0.5f * extent, middle = at + half;
@@ -238,7 +239,7 @@ LAMINA_INLINE Float hidden_bend(const TileLight& light, const GradientLanes& gra
     return hidden_effect(light, square, reach, gradient.smallest_square);
 }
 
-// The component of the gradient along a direction.
+// Returns the component of the gradient along a direction.
 LAMINA_INLINE CubicLanes component_along(const GradientLanes& gradient,
                                          const Float (&direction)[3]) {
     CubicLanes component;
@@ -249,7 +250,7 @@ LAMINA_INLINE CubicLanes component_along(const GradientLanes& gradient,
     return component;
 }
 
-// Returns a bound on what the three nodes miss of kinks, at which the gradient is perpendicular to
+// Returns a bound on the error of the three nodes at kinks, where the gradient is perpendicular to
 // a light, as a bend: a kink in the middle costs .045 of that. A kink at k of the piece's length
 // from an end, up to .5, costs up to .113 of the cosine at that end: k of it if k < .113, which no
 // node sees, and less beyond.
@@ -292,7 +293,7 @@ struct LitPiece {
     Float at, extent, depth, opacity;
 };
 
-// Adds light to the piece's colour by Gauss' rule with three nodes. Returns by how much it bends.
+// Adds light to the piece's colour by Gauss' rule with three nodes. Returns its bend.
 template <std::size_t channels, bool curved>
 LAMINA_INLINE Float add_light_of(const TileLight& light, const GradientLanes& gradient,
                                  const LitPiece<curved>& lit, Float (&color)[3]) {

@@ -34,7 +34,7 @@ struct IntervalBend<true> {
 };
 
 // One interval of the transfer function for each lane. Colour is linear in the share, which is 0 at
-// the left end and 1 at the right. Extinction is, too, or a curve.
+// the left end and 1 at the right. Extinction is linear, too, or a curve.
 template <bool curved>
 struct IntervalLanes : IntervalBend<curved> {
     Float left_end, right_end;  // the right end of the last interval lies beyond all scalars
@@ -45,7 +45,7 @@ struct IntervalLanes : IntervalBend<curved> {
     LAMINA_INLINE Float color(std::size_t channel, Float opacity, Float seen) const {
         return left[channel] * opacity + change[channel] * seen;
     }
-    // The share as a cubic, for scalars of this interval.
+    // Returns the share as a cubic, for scalars of this interval.
     LAMINA_INLINE CubicLanes share_along(const CubicLanes& scalar) const {
         return {{(scalar.c[0] - left_end) * inverse_width, scalar.c[1] * inverse_width,
                  scalar.c[2] * inverse_width, scalar.c[3] * inverse_width}};
@@ -114,25 +114,25 @@ struct PieceOptics<false> {
           change(interval.change[3] * length) {}
 
     // Returns the depth, exactly: the place is a cubic that stays in 0 .. 1 if the extinction
-    // changes. The clamp guards against samples far outside the range, beside which it is less
+    // changes. The clamp guards against samples far outside the range, next to which it is less
     // exact.
     LAMINA_INLINE Float depth() const {
         const Float mean = clamp01(share.mean());
         return max(extinction + change * mean, 0);
     }
-    // The optical depth up to t is t times this at t.
+    // Returns the cubic whose value at t, times t, is the optical depth up to t.
     LAMINA_INLINE CubicLanes mean_depth() const {
         return {{extinction + change * share.c[0], change * ((1 / 2.0f) * share.c[1]),
                  change * ((1 / 3.0f) * share.c[2]), change * ((1 / 4.0f) * share.c[3])}};
     }
-    // Returns the extinction at t, or where the place is `there`.
+    // Returns the extinction at t, at which the place is `there`.
     LAMINA_INLINE Float extinction_at(Float, Float there) const {
         return max(extinction + change * there, 0);
     }
 };
 
 // A curved interval. The extinction is the cubic that has its values at four nodes of Gauss' rule,
-// so that the optical depth is good where the curve and the share are a polynomial of degree 7.
+// so that the optical depth is right if the extinction along the piece is a polynomial of degree 7.
 template <>
 struct PieceOptics<true> {
     CubicLanes share;
@@ -161,7 +161,7 @@ struct PieceOptics<true> {
     LAMINA_INLINE Float extinction_at(Float t, Float) const { return max(extinction.at(t), 0); }
 
   private:
-    // The coefficients of the cubic that is 1 at one node of GaussRule<4> and 0 at the others.
+    // Coefficients of the cubic that is 1 at one node of GaussRule<4> and 0 at the others.
     static constexpr float through_nodes[4][4] = {
         {1.52678813f, -0.813632449f, 0.40076152f, -0.113917196f},
         {-8.54602361f, 13.8071669f, -7.41707042f, 2.1559271f},
@@ -170,7 +170,7 @@ struct PieceOptics<true> {
 };
 
 // Returns Q of (9.4) by Gauss' rule: the place in the interval, weighted by emission and
-// transmittance. `opacity`: of `depth`, which is at most largest_piece_depth. Only the place's
+// transmittance. `opacity`: that of `depth`, which is at most largest_piece_depth. Only the place's
 // slope is left for the rule, so a constant place is exact.
 template <std::size_t points, bool curved>
 LAMINA_INLINE Float seen_share(const PieceOptics<curved>& piece, Float depth, Float opacity) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewing rays of a vector of pixels in double precision, as shaders/slicing/ray.glsl has them.
+// The viewing rays of a vector of pixels in double precision, as in shaders/slicing/ray.glsl.
 //
 //   origin, direction = of each pixel, along the axes of the brick's samples; direction a depth
-//   enter, leave      = where the ray meets the planes of clips, and then the faces of the box
+//   enter, leave      = the depths at which the ray meets the planes of clips, then the box
 //   slabs             = those between the least enter and the largest leave of a packet
 #if defined(LAMINA_SLICING_CPU_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_RAYS_INL_H_
@@ -22,7 +22,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// The depths between which a ray is in a box; enter > leave where it misses the box.
+// The depths between which a ray is in a box; enter > leave if it misses the box.
 struct DepthSpan {
     Float64 enter, leave;
 };
@@ -31,10 +31,10 @@ struct PacketRays {
     Float64 origin[3], direction[3];
     Float64 length_per_depth;  // world units
     DepthSpan box, drawn;      // boxes of the brick, for pixels of the image
-    DepthSpan share;           // of the middles of segments to draw, where the brick says so
-    Float64 enter, leave;      // enter = leave where the ray misses the box or the slabs
+    DepthSpan share;           // of the middles of segments to draw, if the brick has a share
+    Float64 enter, leave;      // enter = leave if the ray misses the box or the slabs
     Float direction_float[3], length_float;
-    int first_slab, end_slab;  // slabs that may show something; first >= end where there are none
+    int first_slab, end_slab;  // slabs that may be visible; first >= end if there are none
 };
 
 // The unit vector to the eye along each ray, along the grid's axes.
@@ -51,21 +51,20 @@ LAMINA_INLINE EyeLanes eye_of(const TileLight& light, const PacketRays& rays) {
     return eye;
 }
 
-// Directions, in voxels per depth, that are smaller than this are those of rays that run along a
-// plane and never cross it.
+// Directions, in voxels per depth, below which a ray runs along a plane and never crosses it.
 constexpr double least_direction = 1e-20;
 
-// A direction to divide by: `along` in place of those that are too small.
+// Returns a direction to divide by: `along` in place of those that are too small.
 LAMINA_INLINE Float64 crossing_direction(Float64 direction, Float64 along = least_direction) {
     return select(abs(direction) < least_direction, along, direction);
 }
 
-// The depth of the boundary in front of a slab, clamped to a span.
+// Returns the depth of the boundary in front of a slab, clamped to a span.
 LAMINA_INLINE Float64 boundary(const TileRays& frame, const DepthSpan& span, int slab) {
     return clamp(Float64(slab * frame.slab_thickness), span.enter, span.leave);
 }
 
-// Clips to a box. A ray that runs in the box's first face is inside, and one in its last face is
+// Clips to a box. A ray that runs in the box's first face is inside; one in its last face is inside
 // if that is `last_face` (TileBrickView).
 LAMINA_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box,
                                const glm::dvec3& last_face, DepthSpan& span) {
@@ -95,8 +94,8 @@ LAMINA_INLINE void clip_to_plane(const PacketRays& rays, const IndexPlane& plane
     span.leave = select(enters, span.leave, min(span.leave, crossing));
 }
 
-// The smallest enter and the largest leave of the lanes whose rays hit. Returns false where no ray
-// does.
+// Sets the smallest enter and the largest leave of the lanes whose rays hit. Returns false if no
+// ray does.
 LAMINA_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last) {
     const Float64 far = 1e300;
     const Float64Mask hit = span.leave > span.enter;
@@ -105,14 +104,14 @@ LAMINA_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last
     return last > first;
 }
 
-// The part of `span` in which segments lie whose middles lie in `share`.
+// Returns the part of `span` that holds the segments whose middles lie in `share`.
 LAMINA_INLINE DepthSpan with_half_slabs(const TileRays& frame, const DepthSpan& share,
                                         const DepthSpan& span) {
     const double half = 0.5 * frame.slab_thickness;
     return {max(span.enter, share.enter - half), min(span.leave, share.leave + half)};
 }
 
-// The rays of the pixels from (column, row) on, in the order of a tile, through one brick.
+// Returns the rays of the pixels from (column, row) on, in the order of a tile, through one brick.
 LAMINA_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& brick, int column,
                                      int row) {
     alignas(64) static constexpr double columns[most_lanes] = {0, 1, 2, 3, 0, 1, 2, 3,
@@ -167,14 +166,14 @@ LAMINA_INLINE void set_span(const TileRays& frame, int first, int end, PacketRay
     rays.end_slab = std::min(end, static_cast<int>(farthest / frame.slab_thickness) + 2);
 }
 
-// A group of pixels that go through the volume together, so that what they fetch stays in the
-// cache: a square of 2 x 2 blocks.
+// Blocks of pixels, 2 x 2 of them, that go through the volume together, so that their samples stay
+// in the cache.
 constexpr std::size_t group_blocks = 4;
 constexpr std::size_t block_packets = most_lanes / Float::lanes;
 constexpr std::size_t group_packets = group_blocks * block_packets;
 constexpr std::size_t tile_groups = TileGrid::pixels / (group_blocks * most_lanes);
 
-// The place in a tile of the first pixel of a packet of a group.
+// Returns the place in a tile of the first pixel of a packet of a group.
 constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
     constexpr std::size_t edge = 2 * TileGrid::block, per_row = TileGrid::edge / edge;
     const std::size_t pixel = packet * Float::lanes;
@@ -190,9 +189,9 @@ constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
 struct GroupRays {
     PacketRays packets[group_packets];
     TileBounds bounds;
-    // Sets of slabs, counted from `origin`: those that may show something, and those in which
-    // something is not constant. Finding these sets block by block would make them smaller, but
-    // would take longer than it saves.
+    // Sets of slabs, counted from `origin`: those that may be visible, and those in which something
+    // is not constant. Finding these sets block by block would make them smaller, but would take
+    // longer than it saves.
     SlabMask shown, varied;
     int origin, first_slab, end_slab;  // slabs of all packets together
 
@@ -228,8 +227,8 @@ struct GroupRays {
                               [&](int first, int end) { mask.set(first - origin, end - origin); });
     }
 
-    // The slabs of block `number`, counted from `origin`, that a packet crosses and that may show
-    // something.
+    // Returns the slabs of block `number`, counted from `origin`, that a packet crosses and that
+    // may be visible.
     BlockMask wanted(const TileSlabs& slabs, std::size_t packet, int number) const {
         const int begin = origin + number * tile_block_slabs;
         const PacketRays& rays = packets[packet];
@@ -239,13 +238,13 @@ struct GroupRays {
         return all & shown.block(number);
     }
 
-    // Those of the `wanted` slabs that are constant, which a packet crosses in one step together
-    // with their neighbours.
+    // Returns those of the `wanted` slabs that are constant, which a packet crosses in one step
+    // together with their neighbours.
     BlockMask constant(const TileSlabs& slabs, int number, BlockMask wanted) const {
         return slabs.constant == nullptr ? 0 : wanted & ~varied.block(number);
     }
 
-    // The optical properties of a constant slab.
+    // Returns the optical properties of a constant slab.
     const OpticalProperties& constant_optics(const TileSlabs& slabs, int slab) const {
         const double middle = (slab + 0.5) * slabs.rays.slab_thickness;
         const ConstantBricks& constant = *slabs.constant;

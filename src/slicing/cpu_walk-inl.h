@@ -7,14 +7,14 @@
 //       plane[a] = the cell's far plane on axis a; of a brick that shows nothing, or has one colour
 //                  and one extinction: the far plane of the largest cube of such bricks around it
 //       to = the least depth (9.7) at which the ray meets one of them, at most the end
-//       if the cell shows something: store the segment (cell, depth .. to)
+//       if the cell is visible: store the segment (cell, depth .. to)
 //       cell[a] = the one behind plane[a] on each axis whose plane is met at `to`
 //       depth = to
 //
-// Every crossing is computed from the plane itself, so errors do not add up. Depths are floats
-// from a beginning in double precision, which is renewed every few cells. Lit rays are walked in
-// double precision throughout: whether light that bends is cut changes the picture by more than a
-// rounding does, and so must not depend on where the walk began.
+// Every crossing is computed from the plane itself, so errors do not add up. Depths are floats from
+// a beginning in double precision, which is renewed every few cells. Lit rays are walked in double
+// precision throughout: cutting light that bends changes the picture by more than a rounding, and
+// so must not depend on the beginning of the walk.
 #if defined(LAMINA_SLICING_CPU_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_WALK_INL_H_
 #undef LAMINA_SLICING_CPU_WALK_INL_H_
@@ -34,22 +34,23 @@
 
 LAMINA_SIMD_BEGIN
 
-// The segments of some steps of the rays of a few packets, and what is computed of them. In each
-// step a ray crosses one cell, or several that show nothing or are constant.
+// The segments of some steps of the rays of a few packets, and the results for them. In each step a
+// ray crosses one cell, or several that show nothing or are constant.
 struct CellSegments {
-    // Packets side by side hide the latency of their chains of operations.
+    // Number of packets that are computed side by side, to hide the latency of their chains of
+    // operations.
     static constexpr std::size_t most_packets = 2;
     static constexpr int most_steps = 32;
     static constexpr std::size_t capacity = (most_steps * most_packets + 1) * most_lanes;
 
-    // Where the ray enters the cell, from 0 to 1, and how far it goes in it.
+    // The place at which the ray enters the cell, from 0 to 1, and its way in the cell.
     alignas(64) float place[3][capacity];
     alignas(64) float change[3][capacity];
     alignas(64) float length[capacity];        // world units
     alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner
     // The normalised scalar from entry to exit (9.1).
     alignas(64) float cubic[4][capacity];
-    // The direction to the eye, of lit segments alone.
+    // The direction to the eye, for lit segments alone.
     alignas(64) float to_eye[3][capacity];
     // Associated colour, opacity and optical depth that the segment adds to its ray.
     alignas(64) float color[3][capacity];
@@ -71,7 +72,8 @@ class CellWalk {
   public:
     using Depth = std::conditional_t<lit, Float64, Float>;
 
-    // The rays between the depths of `span`, inside the box of a brick. `light`: of lit rays alone.
+    // Begins the rays between the depths of `span`, inside the box of a brick. `light`: for lit
+    // rays alone.
     void begin(const CellMap& map, const TileBrickView& view, const PacketRays& rays,
                const DepthSpan& span, const TileLight* light) {
         map_ = map.kinds.empty() ? nullptr : &map;
@@ -92,7 +94,7 @@ class CellWalk {
         if constexpr (lit) eye_ = eye_of(*light, rays);
     }
 
-    // Sets where the walk ends; not in front of where it is.
+    // Sets the end of the walk, not in front of the present depth.
     void set_end(const Float64& depth) { end_ = depth; }
 
     // Ends the rays whose value in `depths` is at least `limit`, until set_end() is called.
@@ -102,8 +104,8 @@ class CellWalk {
 
     bool done() const { return none_of(depth_ < end_); }
 
-    // Steps are taken between begin_steps() and end_steps(), relative to where the rays are then. A
-    // ray's steps do not depend on the rays beside it.
+    // Steps are taken between begin_steps() and end_steps(), relative to the rays' places at the
+    // first. A ray's steps do not depend on the rays beside it.
     LAMINA_INLINE void begin_steps() {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Float64 there = rays_->origin[static_cast<int>(axis)] + depth_ * direction_[axis];
@@ -123,7 +125,7 @@ class CellWalk {
         for (std::size_t axis = 0; axis < 3; ++axis) cell_[axis] = cell_at(axis);
     }
 
-    // Takes a step, and stores the rays' segments; returns which rays have one.
+    // Takes a step, and stores the rays' segments; returns the rays that have one.
     LAMINA_INLINE StoredLanes step(CellSegments& segments) {
         const Int cells[3] = {cell_at(0), cell_at(1), cell_at(2)};
         Float planes[3];
@@ -154,8 +156,8 @@ class CellWalk {
     }
 
   private:
-    // Tells which lanes cross a cube of bricks in one step, which of these bricks show nothing, and
-    // how many of them the cube has on each side. A constant cube is a segment of one scalar.
+    // The lanes that cross a cube of bricks in one step, those whose cube shows nothing, and the
+    // bricks that the cube has on each side. A constant cube is a segment of one scalar.
     struct Leaps {
         bool some;
         FloatMask lanes;  // over bricks
@@ -163,7 +165,7 @@ class CellWalk {
         Int reach;
     };
 
-    // Numbers of the precision of steps.
+    // Converts numbers to the precision of steps.
     static LAMINA_INLINE Depth in_steps(const Float64& v) {
         if constexpr (lit)
             return v;
@@ -177,8 +179,8 @@ class CellWalk {
             return v;
     }
 
-    // The cell in which the rays begin. On a plane between two cells a ray belongs to the cell that
-    // it enters.
+    // Returns the cell in which the rays begin. On a plane between two cells a ray belongs to the
+    // cell that it enters.
     LAMINA_INLINE Int first_cell(int axis) const {
         const Float64 direction = direction_[static_cast<std::size_t>(axis)];
         const Float64 place = rays_->origin[axis] + depth_ * direction;
@@ -192,8 +194,8 @@ class CellWalk {
         return cell_[axis] + to_int(passed_[axis]);
     }
 
-    // Reads the map: 0 for a cell by itself, else how far the cube reaches; a higher bit says that
-    // it is constant. Codes are stored with the bits of the background turned (SparseBytes).
+    // Reads the map: 0 for a cell by itself, else the reach of the cube; a higher bit says that it
+    // is constant. Codes are stored with the bits of the background inverted (SparseBytes).
     LAMINA_INLINE Leaps leaps_here(const Int (&bricks)[3]) const {
         const auto row = static_cast<std::int32_t>(map_->count[0]);
         const auto slice = static_cast<std::int32_t>(map_->count[0] * map_->count[1]);
@@ -205,15 +207,15 @@ class CellWalk {
         return {any_of(lanes), lanes, without(lanes, constant), kind & CellMap::farthest};
     }
 
-    // The brick of the map that holds a cell, on one axis.
+    // Returns the brick of the map that holds a cell, on one axis.
     LAMINA_INLINE Int brick_of(std::size_t axis, Int cell) const {
         static_assert(MinMaxBricks::edge == 4);
         const auto last = static_cast<std::int32_t>(map_->count[axis]) - 1;
         return clamp(shift_right<2>(cell + first_[axis]), 0, last);
     }
 
-    // The plane at which a leap ends on one axis, counted from the steps' first cell. Cubes at the
-    // volume's border go on beyond it.
+    // Returns the plane at which a leap ends on one axis, counted from the steps' first cell. Cubes
+    // at the volume's border go on beyond it.
     LAMINA_INLINE Float leap_plane(std::size_t axis, Int brick, Int reach) const {
         const auto count = static_cast<std::int32_t>(map_->count[axis]);
         const Int beyond(2);
@@ -225,7 +227,8 @@ class CellWalk {
         return to_float(side - (cell_[axis] + first_[axis]));
     }
 
-    // Finds how far the next step goes from where the steps began, and which planes it reaches.
+    // Returns the depth at which the next step ends, from the beginning of the steps, and sets the
+    // planes that it reaches.
     LAMINA_INLINE Depth end_of_step(const Float (&planes)[3], FloatMask (&passes)[3]) const {
         Depth crossings[3];
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -265,7 +268,7 @@ class CellWalk {
         return lanes;
     }
 
-    // Segments beside each other mostly lie in the same lines of the cache.
+    // Segments beside each other mostly lie in the same cache lines.
     LAMINA_INLINE void prefetch(const CellSegments& segments, std::size_t from) const {
         const TileBrick& brick = view_->brick;
         if (brick.pages != nullptr) return;
@@ -281,15 +284,15 @@ class CellWalk {
         }
     }
 
-    // Returns where the rays are, from `corner` on, which is counted from the steps' first cell. It
+    // Returns the rays' places from `corner` on, which is counted from the steps' first cell. It
     // computes in double precision: after leaps the depth is large, and floats would move the rays
-    // by 2e-6 of a cell and more, which rays that graze a surface show.
+    // by 2e-6 of a cell and more, which is visible on rays that graze a surface.
     LAMINA_INLINE Float place_in_cell(std::size_t axis, Int corner) const {
         const Float64 place = start_[axis] + Float64(at_) * direction_[axis];
         return to_float(place - Float64(corner));
     }
 
-    // The cell, counted from the steps' first, in which a ray is after a step.
+    // Returns the cell, counted from the steps' first, in which a ray is after a step.
     LAMINA_INLINE Float cell_after(std::size_t axis, const Depth& to) const {
         if constexpr (lit)
             return to_float(floor(place_[axis] + to * direction_[axis]));
@@ -297,8 +300,8 @@ class CellWalk {
             return floor(place_[axis] + to * slope_[axis]);
     }
 
-    // Enters the next cell on one axis. After a leap that is the one where the ray is then; it lies
-    // in the cube that was crossed, or behind the plane at which the ray leaves it.
+    // Enters the next cell on one axis. After a leap that is the cell at the ray's new place; it
+    // lies in the cube that was crossed, or behind the plane at which the ray leaves it.
     LAMINA_INLINE void advance(std::size_t axis, const Leaps& leaps, Float plane, FloatMask passes,
                                const Depth& to) {
         const FloatMask forward = forward_[axis];
@@ -319,15 +322,15 @@ class CellWalk {
     std::int32_t last_[3], first_[3];  // the brick's last samples, and its place in the volume
     Float64 depth_, end_;
     Float64 direction_[3];
-    Float slope_[3];  // the same in float
+    Float slope_[3];  // direction_ in float
     Depth inverse_[3];
     FloatMask forward_[3];  // towards larger indices
-    EyeLanes eye_;          // of lit walks alone
-    // When the steps began: the cell, and the place in it.
+    EyeLanes eye_;          // for lit walks alone
+    // At the beginning of the steps: the cell, and the place in it.
     Int cell_[3];
     Float64 start_[3];
-    Depth place_[3];  // the same
-    // Since then: cells passed, as whole numbers, and the depth.
+    Depth place_[3];  // start_ in the precision of steps
+    // Since the beginning of the steps: cells passed, as whole numbers, and the depth.
     Float passed_[3];
     Depth at_, steps_end_;
 };

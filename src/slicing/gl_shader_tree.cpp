@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "executors/gl_compositing.h"
 #include "gl/api.h"
-#include "gl/full_screen.h"
+#include "gl/framebuffer.h"
 #include "slicing/gl_slab_pass.h"
 #include "slicing/texture_bricks.h"
 
@@ -18,10 +18,11 @@ namespace {
 
 constexpr int children_unit = 5, children_alpha_unit = 6, sum_unit = 7;
 
-// The images of all levels stay below this, in bands if need be.
+// Bytes below which the images of all levels stay, in bands if necessary.
 constexpr std::int64_t image_budget = std::int64_t{1} << 28;
 
-// An alpha code of 16 bits beside colours of 8: in a texture of its own. Other formats hold both.
+// Tells whether an alpha code of 16 bits beside colours of 8 needs a texture of its own. Other
+// formats hold both.
 bool has_alpha_apart(const SlicePlan& plan) {
     return plan.target == Target::fixed8 && plan.tree->alpha_bits == 16;
 }

@@ -10,12 +10,11 @@
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
-#include "gl/vertex_array.h"
 #include "slicing/gl_slab_source.h"
 
 namespace lamina {
 
-// Which node's output a program of the tree writes: an inner node's or the root's.
+// The place of the node whose output a program of the tree writes: an inner node or the root.
 enum class NodePlace { inner, root };
 gl::Defines leaf_defines(const SlicePlan& plan, gl::Defines segments, NodePlace place);
 gl::Defines node_defines(const SlicePlan& plan, NodePlace place);
@@ -26,13 +25,13 @@ gl::Defines node_defines(const SlicePlan& plan, NodePlace place);
 // so that the images of a level need only the size of a band.
 class GlShaderTree {
   public:
-    // `source` and `plan` must outlive the tree. Throws Error where a level's images do not fit.
+    // `source` and `plan` must outlive the tree. Throws Error if a level's images do not fit.
     GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
                  const Capabilities& capabilities, int width, int height);
 
-    int step_count() const { return bands() * leaf_count_; }  // of the progress
-    // After source and plan have changed in what belongs to one view alone: makes other programs
-    // where that needs them.
+    int step_count() const { return bands() * leaf_count_; }  // steps of the progress
+    // Must be called after source and plan have changed in what belongs to one view alone. It makes
+    // other programs if the plan needs them.
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
     // Replaces the target by the picture. Ctrl-C ends it between leaves.

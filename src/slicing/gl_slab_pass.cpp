@@ -15,7 +15,7 @@ namespace lamina {
 namespace {
 
 constexpr int ranks_unit = GlSlabSource::first_free_unit;
-constexpr int ranks_width = 256;  // shaders/slicing/slab.vert
+constexpr int ranks_width = 256;  // of shaders/slicing/slab.vert
 
 gl::Texture upload_ranks(const Dither& dither) {
     std::vector<float> ranks;

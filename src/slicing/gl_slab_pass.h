@@ -8,12 +8,11 @@
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
-#include "gl/vertex_array.h"
 #include "slicing/gl_slab_source.h"
 
 namespace lamina {
 
-// The definitions that specialise slicing/slab.frag, added to those of its segments.
+// Returns the definitions that specialise slicing/slab.frag, added to those of its segments.
 gl::Defines slab_defines(const SlicePlan& plan, gl::Defines segments);
 
 // Composites slab after slab onto a target: a whole picture, or a leaf of a tree of fixed-point
@@ -23,8 +22,8 @@ class GlSlabPass : public TreeLeaves {
     // `source` and `plan` must outlive the pass.
     GlSlabPass(const GlSlabSource& source, const SlicePlan& plan, int image_height);
 
-    // After source and plan have changed in what belongs to one view alone: makes another program
-    // where that needs one.
+    // Must be called after source and plan have changed in what belongs to one view alone. It makes
+    // another program if the plan needs one.
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
     // Composites slabs onto the target, in the plan's order. `depth_scale`: for a leaf, the number
@@ -51,7 +50,7 @@ class GlSlabPass : public TreeLeaves {
     std::vector<std::size_t> starts_;  // slabs + 1 for each brick: see append_slab_polygons()
 };
 
-// Uploads vertices for the attributes 0 (position) and 1 (slab). Where they do not fit, the buffer
+// Uploads vertices for the attributes 0 (position) and 1 (slab). If they do not fit, the buffer
 // grows.
 void upload_vertices(const std::vector<SlabVertex>& triangles, gl::Buffer& buffer,
                      gl::VertexArray& vertex_array);

@@ -12,22 +12,21 @@
 #include <utility>
 #include <vector>
 
-#include "base/stage.h"
-#include "base/unreachable.h"
+#include "base/enum_words.h"
+#include "base/profile.h"
 #include "executors/gl_lights.h"
 #include "executors/shader_intervals.h"
 #include "executors/smallest_gradient.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
-#include "gl/check.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
 namespace {
 
-constexpr int distances_unit = 8, gradients_unit = 9;  // those of compositing lie between
+constexpr int distances_unit = 8, gradients_unit = 9;  // the units of compositing lie between
 
 gl::Texture upload_distances(const OccupiedBricks& bricks) {
     const int width = static_cast<int>(bricks.count[0]), height = static_cast<int>(bricks.count[1]);
@@ -39,7 +38,7 @@ gl::Texture upload_distances(const OccupiedBricks& bricks) {
     return texture;
 }
 
-// Of slicing/segment.glsl, which numbers them.
+// Returns the definition of slicing/segment.glsl, which numbers them.
 const char* sampling_define(VolumeSampling sampling) {
     switch (sampling) {
         case VolumeSampling::none:

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "executors/gl_transfer_tables.h"
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "lamina/transfer_function.h"
@@ -16,24 +16,24 @@
 
 namespace lamina {
 
-// The definitions that specialise slicing/segment.glsl. They depend on the plan and on the sizes of
-// its tables.
+// Returns the definitions that specialise slicing/segment.glsl. They depend on the plan and on the
+// sizes of its tables.
 gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes);
 
 // The data that the fragments of a slab read (slicing/segment.glsl): the volume, the transfer
 // function, and the viewing rays.
 class GlSlabSource {
   public:
-    // First texture unit that is free.
+    // First free texture unit.
     static constexpr int first_free_unit = GlTransferTables::first_free_unit + 1;
 
-    // Uploads the volume where `ready` does not serve, and builds the tables. The transfer function
-    // is in the plan's units, as views are; facts are the world's.
+    // Uploads the volume unless `ready` can be used, and builds the tables. The transfer function
+    // is in the plan's units, as views are; facts are in the world's.
     GlSlabSource(const Volume& volume, const TransferFunction& transfer_function,
                  const Facts& facts, const SlicePlan& plan,
                  std::shared_ptr<const VolumeTextures> ready);
 
-    // For further frames, a plan that differs in what belongs to one view alone.
+    // Takes, for further frames, a plan that differs only in what belongs to one view.
     void take_plan(const SlicePlan& plan);
     gl::Defines defines() const;
 
@@ -44,11 +44,11 @@ class GlSlabSource {
     void set_brick(gl::Program& program, const View& view, const Slabs& slabs,
                    std::size_t brick) const;
 
-    // The box of a brick that is drawn in this plan, in index space.
+    // Returns the box of a brick that is drawn in this plan, in index space.
     IndexBox drawn_box(std::size_t brick) const;
     const Grid& grid() const { return facts_.grid; }
     const glm::vec3& single_color() const { return single_color_; }
-    // Where no scalar is fetched, that of another renderer, or null.
+    // Returns the textures; if no scalar is fetched, those of another renderer, or null.
     std::shared_ptr<const VolumeTextures> volume() const { return volume_; }
     double upload_ms() const { return upload_ms_; }
     double table_ms() const { return table_ms_; }
@@ -63,8 +63,8 @@ class GlSlabSource {
     SlicePlan plan_;
     ValueRange range_;  // scalars that become [0, 1] in shaders
     glm::vec3 single_color_{0};
-    OpticalProperties constant_;              // where no scalar is fetched
-    std::optional<GlTransferTables> tables_;  // elsewhere
+    OpticalProperties constant_;              // if no scalar is fetched
+    std::optional<GlTransferTables> tables_;  // if scalars are fetched
     std::shared_ptr<const VolumeTextures> volume_;
     SampleCodes codes_;
     std::optional<gl::Texture> distances_;  // of OccupiedBricks, once a plan leaps by them

@@ -5,12 +5,11 @@
 
 #include <utility>
 
-#include "base/interrupt.h"
-#include "base/stage.h"
+#include "base/client.h"
+#include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
-#include "gl/check.h"
 
 namespace lamina {
 
@@ -38,7 +37,7 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
     }
 }
 
-// Where nothing was visible, nothing was made.
+// Nothing was made if nothing was visible.
 bool GlSliceRenderer::take(const Plan& plan) {
     const SlicePlan& slice = plan.slice;
     if ((!source_ && !slice.nothing_visible) || of_all_views(slice) != of_all_views(plan_))
@@ -85,7 +84,7 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     gl::check("drawing the slabs");
 }
 
-// In plan_.batches parts of equal numbers of slabs, each waited for.
+// Draws plan_.batches times an equal number of slabs, and waits for each.
 void GlSliceRenderer::draw_straight(Progress* progress) {
     const SampleSpan all{0, plan_.slabs};
     for (int batch = 0; batch < plan_.batches; ++batch) {

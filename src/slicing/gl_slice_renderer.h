@@ -20,9 +20,9 @@ namespace lamina {
 // Draws a volume as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlSliceRenderer : public SliceRenderer {
   public:
-    // Uploads the volume, builds the tables and compiles the programs that the context has not got;
-    // errors of OpenGL are Errors. `ready`: volume() of another renderer, taken over where it
-    // serves.
+    // Uploads the volume, builds the tables and compiles the programs that the context lacks;
+    // errors of OpenGL are Errors. `ready`: volume() of another renderer, which is used if it has
+    // the right form.
     GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                     const Facts& facts, const SlicePlan& plan, const Capabilities& capabilities,
                     int width, int height, std::shared_ptr<const VolumeTextures> ready = nullptr);
@@ -52,14 +52,15 @@ class GlSliceRenderer : public SliceRenderer {
     SlicePlan plan_;
     Grid grid_;
     gl::Framebuffer target_;
-    // All are empty where nothing is visible. Otherwise there are slabs, which are blended directly
-    // or are the leaves of a tree of fixed-point nodes, or there is a tree that marches the slabs.
+    // All are empty if nothing is visible. Otherwise there are slabs, which are blended directly or
+    // are the leaves of a tree of fixed-point nodes, or there is a tree that marches the slabs.
     std::optional<GlSlabSource> source_;
     std::optional<GlSlabPass> slabs_;
     std::optional<GlFixedTree> fixed_tree_;
     std::optional<GlShaderTree> shader_tree_;
     gl::Timeline timeline_;
-    std::shared_ptr<const VolumeTextures> kept_;  // for another renderer, where this needs none
+    std::shared_ptr<const VolumeTextures> kept_;  // kept for another renderer if this one needs
+                                                  // none
     double geometry_ms_ = 0, draw_ms_ = 0;
 };
 

@@ -2,7 +2,7 @@
 #include "slicing/gl_volume_textures.h"
 
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "facts/drawn_range.h"
@@ -76,7 +76,7 @@ void upload_brick(const Volume& volume, const ValueRange& range, bool as_float,
     }
 }
 
-// Layer by layer, as above.
+// Uploads layer by layer, as above.
 gl::Texture upload_gradients(const Volume& volume, const TextureBrick& brick, Progress& progress) {
     const auto row_size = static_cast<std::size_t>(brick.size[0]);
     gl::Texture texture =
@@ -133,7 +133,7 @@ VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, co
     }
 }
 
-// Codes are as they are in the volume, whatever its range.
+// Codes are those of the volume, whatever its range.
 bool VolumeTextures::serves(const Volume& volume, const ValueRange& range,
                             const SlicePlan& plan) const {
     return volume.shares_samples(volume_) && plan.bricks == parts_ &&

@@ -9,17 +9,17 @@
 
 namespace lamina {
 
-// The volume as 3D textures, one a brick of the plan; of a lit plan, those of its gradients, too.
+// The volume as 3D textures, one for each brick of the plan; for a lit plan also its gradients.
 class VolumeTextures {
   public:
-    // Samples that are no finite numbers become NaN. Shows progress.
+    // Samples that are not finite become NaN. Shows progress.
     VolumeTextures(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
-    // Whether it is what the constructor would make.
+    // Tells whether it equals what the constructor would make.
     bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
 
     const std::vector<gl::Texture>& bricks() const { return bricks_; }
-    // shaders/volume/gradient.glsl; empty where the plan is not lit.
+    // as shaders/volume/gradient.glsl reads them; empty if the plan is not lit
     const std::vector<gl::Texture>& gradients() const { return gradients_; }
 
   private:

@@ -13,8 +13,8 @@
 namespace lamina {
 namespace {
 
-// Beyond, of any gradient that light may ask about (Lighting::least_gradient), all or nothing is
-// lit.
+// Lengths of gradients beyond which all or nothing is lit, whatever gradient light may ask about
+// (Lighting::least_gradient).
 constexpr double least_length = 1e-280, largest_length = 1e280;
 constexpr int exponent_bias = 1023, mantissa_bits = 52;  // of doubles
 
@@ -31,7 +31,7 @@ class Differences {
             per_step_[axis] = 1 / glm::length(grid.step[axis]);
     }
 
-    // At a sample; beyond the last ones the border's repeats.
+    // Returns the gradient at a sample; beyond the last samples the border's repeats.
     std::array<double, 3> at(std::array<std::int64_t, 3> index) const {
         std::int64_t offset = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -45,7 +45,7 @@ class Differences {
     }
 
   private:
-    // One-sided beside what is outside or no number.
+    // The difference is one-sided next to samples that are outside or not finite.
     double difference(std::int64_t offset, std::int64_t index, std::size_t axis) const {
         const Sample* const here = samples_ + offset;
         const std::int64_t step = stride_[axis];
@@ -85,7 +85,7 @@ StoredGradient store_gradient(const std::array<double, 3>& gradient) {
     largest = std::min(largest, largest_length);
     const int octave =
         static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> mantissa_bits) - exponent_bias;
-    // The largest component is 2^14 up to 2^15, which int16 has not got.
+    // The largest component is 2^14 up to 2^15, which int16 cannot hold.
     const int exponent = octave - 14;
     const double scale = power_of_two(-exponent);
     StoredGradient stored;

@@ -9,10 +9,10 @@
 namespace lamina {
 namespace {
 
-// Rays and boxes are rounded to float here and there, far less than this.
+// Margin for the roundings of rays and boxes to float, which are far smaller.
 constexpr double margin_pixels = 1;
 
-// Corners nearer to the eye's plane than this share of the farthest one are as good as behind it.
+// Share of the farthest corner's depth: corners nearer to the eye's plane count as behind it.
 constexpr double nearest_share = 1e-6;
 
 int clamped(double place, int size) {
@@ -31,7 +31,7 @@ PixelBox PixelBox::common(const PixelBox& other) const {
             std::max(first_row, other.first_row), std::min(end_row, other.end_row)};
 }
 
-// A convex body that lies before the eye appears between its corners.
+// A convex body in front of the eye appears between its corners.
 PixelBox pixels_of(const IndexBox& box, const Grid& grid, const View& view) {
     constexpr double far = std::numeric_limits<double>::infinity();
     glm::dvec3 ways[8];

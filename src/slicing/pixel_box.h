@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/grid.h"
 #include "scene/camera.h"
 #include "tiles/tile_grid.h"
@@ -20,7 +20,7 @@ struct PixelBox {
     PixelBox common(const PixelBox& other) const;
 };
 
-// All pixels whose rays meet a box of the grid's index space, and some around them.
+// Returns the pixels whose rays meet a box of the grid's index space, and some around them.
 PixelBox pixels_of(const IndexBox& box, const Grid& grid, const View& view);
 
 }  // namespace lamina

@@ -15,7 +15,7 @@
 namespace lamina {
 namespace {
 
-// Some 10 ms. Where more bricks have points, these are no rare thing.
+// Number of bricks that are counted, in some 10 ms. If more have points, these are not rare.
 constexpr std::size_t most_bricks = 1 << 16;
 
 std::vector<std::size_t> bricks_with_points(const MinMaxBricks& bricks,
@@ -39,7 +39,7 @@ class RectangleCounts {
           height_(height),
           counts_(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height + 1)) {}
 
-    // Pixels first .. last of both.
+    // Adds pixels first .. last, inclusive on both axes.
     void add(glm::ivec2 first, glm::ivec2 last) {
         first = glm::max(first, glm::ivec2(0));
         last = glm::min(last, glm::ivec2(width_ - 1, height_ - 1));
@@ -78,7 +78,7 @@ struct Box {
     glm::dvec3 lo, hi;  // index space
 };
 
-// Half a sample more at each side: the outer half voxels of "cell" axes.
+// The outermost bricks have half a sample more: the outer half voxels of "cell" axes.
 Box box_of(const MinMaxBricks& bricks, std::size_t number, const Grid& grid) {
     auto rest = static_cast<std::int64_t>(number);
     glm::dvec3 lower;
@@ -95,7 +95,8 @@ struct Rectangle {
     glm::dvec2 first{std::numeric_limits<double>::infinity()}, last = -first;
 };
 
-// In pixels, as View::ray takes them. None of a box beside the eye: it would cover the picture.
+// Returns the rectangle around a box in pixels, as View::ray takes them; none if part of the box is
+// beside the eye: it would cover the picture.
 std::optional<Rectangle> rectangle_around(const Box& box, const Grid& grid, const View& view) {
     const glm::dvec2 middle = 0.5 * glm::dvec2(view.width, view.height) - 0.5;
     Rectangle found;

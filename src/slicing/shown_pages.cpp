@@ -17,7 +17,7 @@ struct PageSpan {
 PageSpan pages_of_brick(std::int64_t brick, std::int64_t first_sample, std::int64_t pages) {
     constexpr std::int64_t edge = MinMaxBricks::edge;
     const std::int64_t begin = brick * edge - first_sample;
-    // The outermost bricks also stand for what lies beyond the samples.
+    // The outermost bricks also stand for everything beyond the samples.
     const std::int64_t from = brick == 0 ? 0 : begin / BrickCache::edge;
     const std::int64_t to = (begin + edge) / BrickCache::edge;
     return {std::min(from, pages - 1), std::min(to, pages - 1)};
@@ -39,7 +39,7 @@ BrickSpan bricks_of(const std::optional<IndexBox>& share, int axis,
             std::min(brick_at(share->max[axis]) + 1, count)};
 }
 
-// For each page on one axis its bricks among those of `span`; none where first = end.
+// Returns for each page on one axis its bricks among those of `span`; none if first = end.
 std::vector<BrickSpan> bricks_of_pages(const BrickSpan& span, std::int64_t first_sample,
                                        std::int64_t pages) {
     std::vector<BrickSpan> bricks(static_cast<std::size_t>(pages), {0, 0});
@@ -54,7 +54,7 @@ std::vector<BrickSpan> bricks_of_pages(const BrickSpan& span, std::int64_t first
     return bricks;
 }
 
-// How far a point lies outside each of a view's five planes: behind the eye, and beside the
+// Returns how far a point lies outside each of a view's five planes: behind the eye, and beside the
 // picture's edges by a pixel and more. Below 0: inside.
 std::array<double, 5> outside_of(const View& view, const glm::dvec3& point) {
     const glm::dvec3 way = point - view.eye;
@@ -108,7 +108,7 @@ std::vector<std::uint32_t> pages_seen(const std::vector<std::uint32_t>& pages,
         std::array<double, 5> least;
         least.fill(1);
         for (int corner = 0; corner < 8; ++corner) {
-            // A sample more on each side, for what lies beyond the volume's samples.
+            // One sample more on each side covers everything beyond the volume's samples.
             const glm::dvec3 step{corner & 1, corner >> 1 & 1, corner >> 2};
             const glm::dvec3 at = begin - 1.0 + step * double(BrickCache::edge + 2);
             const auto outside = outside_of(view, grid.to_world(at));

@@ -6,20 +6,20 @@
 #include <optional>
 #include <vector>
 
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/grid.h"
 #include "scene/camera.h"
 #include "slicing/tile_volume.h"
 
 namespace lamina {
 
-// The numbers of the pages of a volume with cells in bricks that show something, ascending.
-// `share`: of these bricks, those that touch this box (SlicePlan::share).
+// Returns the numbers of the pages of a volume with cells in visible bricks, ascending. `share`:
+// only bricks that touch this box count (SlicePlan::share).
 std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedBricks& occupied,
                                        const std::optional<IndexBox>& share);
 
-// Those of them that the view may see. `count`: pages along each axis; `first`: the volume's sample
-// with which the first begins.
+// Returns those of `pages` that may be in the view. `count`: pages along each axis; `first`: the
+// volume's sample with which the first begins.
 std::vector<std::uint32_t> pages_seen(const std::vector<std::uint32_t>& pages,
                                       const std::array<std::int64_t, 3>& count,
                                       const std::array<std::int64_t, 3>& first, const Grid& grid,

@@ -18,7 +18,7 @@ namespace lamina {
 using BlockMask = std::uint32_t;
 static_assert(tile_block_slabs == 32);
 
-// The set of slabs first .. end - 1.
+// Returns the set of slabs first .. end - 1.
 inline BlockMask block_mask(int first, int end) {
     if (first >= end) return 0;
     return ~BlockMask{0} >> (tile_block_slabs - (end - first)) << first;
@@ -66,7 +66,7 @@ class SlabMask {
     BlockMask block(int number) const { return blocks_[static_cast<std::size_t>(number)]; }
 
   private:
-    // Defined as far as they were cleared.
+    // Only the blocks that were cleared are defined.
     std::array<BlockMask, max_slabs / tile_block_slabs> blocks_;
 };
 

@@ -8,19 +8,19 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "mesh/box_corners.h"
+#include "mesh/predicates.h"
 
 namespace lamina {
 namespace {
 
-// Rasterisers snap vertices to a grid (llvmpipe and most GPUs: 1/256 pixel), which can turn a
-// convex polygon into one whose triangles overlap, so that a pixel gets its slab twice: the corners
-// are put on that grid here, and the polygon is the convex hull of what comes out. It is drawn a
-// margin larger than needed; snapping takes 1/512 of a pixel of it.
+// Grid to which vertices are rounded. Rasterisers snap vertices to a grid (llvmpipe and most GPUs:
+// 1/256 pixel), which can turn a convex polygon into one whose triangles overlap, so that a pixel
+// gets its slab twice. So the corners are put on that grid here, and the convex hull of the result
+// is drawn. The polygon is a margin larger than needed; snapping takes 1/512 of a pixel of it.
 constexpr double grid_per_pixel = 256;
 constexpr double margin_pixels = 1.0 / 16;
-// A slab that begins nearer to the eye's plane than this part of its far depth is drawn over the
-// whole image: points in the eye's plane project to infinity.
+// Share of a slab's far depth: a slab that begins nearer to the eye's plane is drawn over the whole
+// image, because points in the eye's plane project to infinity.
 constexpr double near_share = 1e-6;
 
 using Polygon = std::vector<glm::dvec2>;
@@ -50,7 +50,7 @@ void convex_hull(Polygon& points, Polygon& hull) {
     add_chain(points.rbegin(), points.rend());
 }
 
-// Sutherland-Hodgman against one side: keeps the part where sign * coordinate >= sign * limit.
+// Sutherland-Hodgman against one side: keeps the part with sign * coordinate >= sign * limit.
 void clip_side(Polygon& polygon, Polygon& kept, int axis, double sign, double limit) {
     kept.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -75,8 +75,8 @@ class SlabCutter {
         }
     }
 
-    // The convex polygon, in pixels and inside the image, that covers the box between two depths;
-    // empty where there is nothing.
+    // Returns the convex polygon, in pixels and inside the image, that covers the box between two
+    // depths; empty if there is none.
     const Polygon& cut(double front, double back) {
         polygon_.clear();
         collect_points(front, back);
@@ -105,7 +105,8 @@ class SlabCutter {
     }
 
   private:
-    // Corners between the depths and crossings of the edges with both planes, in view coordinates.
+    // Collects corners between the depths and crossings of the edges with both planes, in view
+    // coordinates.
     void collect_points(double front, double back) {
         space_.clear();
         for (const glm::dvec3& corner : corners_) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compositing/tree_shape.h"
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "lamina/grid.h"
 #include "lamina/scene.h"
 #include "scene/camera.h"
@@ -39,8 +39,8 @@ void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& bo
                           const Slabs& slabs, Order order, std::vector<SlabVertex>& triangles,
                           std::vector<std::size_t>* starts = nullptr);
 
-// The same for several slabs together: appends one polygon around them all. Its corners carry the
-// number of the first slab.
+// Appends one polygon around several slabs together. Its corners carry the number of the first
+// slab.
 void append_span_polygon(const View& view, const Grid& grid, const IndexBox& box,
                          const Slabs& slabs, const SampleSpan& span,
                          std::vector<SlabVertex>& triangles);

@@ -9,9 +9,9 @@
 #include <limits>
 #include <memory>
 
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/stage.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "plan/classification_choice.h"
 #include "plan/light_choice.h"
 #include "plan/planners.h"
@@ -24,7 +24,7 @@
 namespace lamina {
 namespace {
 
-// The search for the fewest slabs whose picture keeps the goal, max_error less what else costs
+// The search for the fewest slabs whose picture keeps the goal, max_error minus all other errors
 // (slab_error_goal()):
 //
 //   too few = 0, enough = none
@@ -38,28 +38,28 @@ namespace {
 // Large pictures are searched on first_rays rays, and from there on most_rays. If errors are not of
 // second order, fewer slabs (`fewer`) are tried at the end: they may keep the goal by chance.
 struct TrialLimits {
-    static constexpr int most_trials = 8;  // pictures a search
+    static constexpr int most_trials = 8;  // pictures of a search
     static constexpr double most_slabs_per_voxel = 16;
-    // Volumes of few voxels along the view may have kinks, too.
+    // Largest number of slabs, at least: volumes of few voxels along the view may have kinks, too.
     static constexpr int fewest_most_slabs = 1024;
 
     static constexpr double aim = 0.9;  // share of the goal that is aimed at
     // Share of the goal that ends a search: of small pictures, and of large ones, whose trials cost
     // more than some slabs gain.
     static constexpr double near_aim_of_small = 0.78, near_aim_of_large = 0.6;
-    static constexpr double most_growth = 4;   // slabs of a trial over those of the one before
-    static constexpr double still_left = 0.7;  // share of the error; then slabs do not help
+    static constexpr double most_growth = 4;   // slabs of a trial over those of the last
+    static constexpr double still_left = 0.7;  // share of the error that means no help
     // Share of the goal below which an error is no measure of the next number of slabs.
     static constexpr double unbelievable = 1e-3;
-    // What rays find may be so many times what pictures show before the trial is doubtful: errors
-    // are not those of second order alone.
+    // Ratio of the error on rays to that of pictures above which the trial is doubtful: errors are
+    // not those of second order alone.
     static constexpr double most_doubt = 1.1;
     // Shares of the number of slabs that was found.
     static constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
 
-    // Rays. Pictures of at most all_traced_rays (330 x 248) are held against the tracer on each of
-    // them; of larger ones some_traced_rays are traced, for a fifth of the time that the pictures
-    // of a usual search take.
+    // Numbers of rays. Pictures of at most all_traced_rays (330 x 248) are compared with the tracer
+    // on each of them; of larger ones some_traced_rays are traced, for a fifth of the time that the
+    // pictures of a usual search take.
     static constexpr double all_traced_rays = 5 << 14;
     static constexpr std::size_t some_traced_rays = 3 << 12;
     static constexpr double first_rays = 1 << 13, most_rays = 1 << 20, filter_rays = 1 << 17;
@@ -67,7 +67,7 @@ struct TrialLimits {
     // The tracer's tolerance: this share of max_error, within limits that are worth their time.
     static constexpr double tracer_share = 0.01, finest_tolerance = 1e-8, coarsest_tolerance = 1e-4;
 
-    // Slabs of the finer picture over those of a trial, when it is drawn and at least.
+    // Ratio of the slabs of the finer picture to those of a trial: when it is drawn, and at least.
     static constexpr int finer = 3;
     static constexpr double fine_enough = 2;
 };
@@ -76,7 +76,8 @@ double rays_of(const Scene& scene) {
     return static_cast<double>(scene.width) * scene.height;
 }
 
-// Pictures of numbers of slabs, in at most `rays` rays. `last`: no search with more rays follows.
+// Pictures of different numbers of slabs, with at most `rays` rays. `last`: no search with more
+// rays follows.
 class SlabTrials {
   public:
     SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
@@ -102,7 +103,7 @@ class SlabTrials {
 
     std::vector<SlabTrial> run(int first) { return run_from(first, Filter::exact); }
 
-    // Where more slabs do not help.
+    // Tries two slabs a voxel, if more do not help.
     SlabTrial try_two_a_voxel() {
         return try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact);
     }
@@ -117,10 +118,10 @@ class SlabTrials {
 
     std::shared_ptr<const TileVolume> ready() const { return ready_; }
 
-    // From the slabs that the exact filter needs.
+    // Starts from the number of slabs that the exact filter needs.
     std::vector<SlabTrial> run_filter(int first) { return run_from(first, Filter::hardware); }
 
-    // Of the weights alone.
+    // Returns the error of the weights alone.
     SlabTrial try_filter(int slabs) {
         const Image exact = draw(slabs, Filter::exact, {});
         return trial_of(slabs, image_error(draw(slabs, Filter::hardware, {}), exact).all.linf);
@@ -143,7 +144,7 @@ class SlabTrials {
             (kept ? enough : too_few) = slabs;
             if (kept && (trial.error >= near_aim * trial.goal || shows_too_little(trial))) break;
             if (!kept) error_of_too_few = trial.error;
-            // The error falls with the square of the number, but where there are steps.
+            // The error falls with the square of the number, unless there are steps.
             const double next =
                 std::ceil(slabs * std::sqrt(trial.error / (TrialLimits::aim * trial.goal)));
             slabs =
@@ -152,8 +153,8 @@ class SlabTrials {
         return trials;
     }
 
-    // Where rays may cross a point of the transfer function, an error of nothing says that they met
-    // none, not that fewer slabs meet as much.
+    // Tells whether rays that may cross a point of the transfer function have an error near 0: it
+    // means that they met no point, not that fewer slabs are enough.
     bool shows_too_little(const SlabTrial& trial) const {
         return facts_.knots > 0 && trial.error < TrialLimits::unbelievable * trial.goal;
     }
@@ -210,7 +211,7 @@ class SlabTrials {
     void draw_fine(int slabs) {
         if (fine_slabs_ >= TrialLimits::fine_enough * slabs) return;
         fine_slabs_ = TrialLimits::finer * slabs;
-        OmissionSwitch exact;  // the error of early termination is one of the trial's
+        OmissionSwitch exact;  // the error of early termination counts for the trial
         exact.kept = {"early_termination"};
         fine_ = draw(fine_slabs_, Filter::exact, exact);
     }
@@ -252,8 +253,8 @@ bool some_keep_goal(const std::vector<SlabTrial>& trials) {
     return std::ranges::any_of(trials, &SlabTrial::keeps_goal);
 }
 
-// Up to `most` slabs. What is right by chance on some rays need not be so on others: fewer slabs
-// are tried for all rays alone.
+// Tries up to `most` slabs. A number that is right by chance on some rays may be wrong on others:
+// so fewer slabs are tried for all rays only.
 std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
                                    const MinMaxBricks& bricks, const Facts& facts, int most,
                                    TableCache& tables) {
@@ -282,7 +283,7 @@ int most_slabs(const Facts& facts) {
                       TrialLimits::fewest_most_slabs, max_slabs / TrialLimits::finer);
 }
 
-// Empty where exact segments are as quick.
+// Returns nothing if exact segments are as quick.
 std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
                                    const MinMaxBricks& bricks, const Facts& facts,
                                    TableCache& tables) {
@@ -293,7 +294,7 @@ std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
     return trials;
 }
 
-// What texture units make of NaN is their own.
+// Texture units differ in their filtering of NaN.
 bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
     return scene.slice.filter.is_automatic() && capabilities.eight_bit_filter &&
            facts.non_finite == 0 && !facts.constant;

@@ -14,7 +14,7 @@ class VolumeTextures;
 
 // The volume as renderers need it: the next renderer takes it over if it serves.
 struct SliceParts {
-    std::shared_ptr<const TileVolume> tiles;         // of the native engine
+    std::shared_ptr<const TileVolume> tiles;         // of the engine `cpu`
     std::shared_ptr<const VolumeTextures> textures;  // of OpenGL
 };
 
@@ -24,7 +24,7 @@ class SliceRenderer : public FrameRenderer {
 };
 
 // Makes a renderer that draws a volume as the plan says. The capabilities decide whether it is the
-// native engine or OpenGL in the current context. The context and the volume must outlive the
+// engine `cpu` or OpenGL in the current context. The context and the volume must outlive the
 // renderer. `ready`: parts of a renderer of the same volume and capabilities, or none.
 std::unique_ptr<SliceRenderer> make_slice_renderer(const Volume& volume,
                                                    const TransferFunction& transfer_function,

@@ -7,7 +7,7 @@
 #define LAMINA_TARGET_FILE "slicing/tile_blend.cpp"
 #include "simd/foreach_target.h"
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "slicing/cpu_cells-inl.h"
 #include "slicing/tile_precise-inl.h"
 #include "slicing/tile_segments-inl.h"
@@ -125,7 +125,7 @@ class SlabBlender {
                 color_of(slab, 2) * opacity, opacity};
     }
 
-    // blend() of tiles/target_pixels-inl.h with what it would ask known.
+    // A form of blend() (tiles/target_pixels-inl.h) for this target, without its questions.
     template <bool behind>
     LAMINA_INLINE void blend_float(int slab, Pixels& there) const {
         const Fragment source = fragment(slab, opacity_of(slab));

@@ -20,13 +20,13 @@ struct SlabBlock {
     alignas(64) float scalars[size];    // in the middles of slabs
     alignas(64) float lengths[size];    // world units
     alignas(64) float depths[size];     // optical depths
-    alignas(64) float colors[3][size];  // not used where the plan has a single colour
-    // Front parts of what is lit (optics/front_parts.h) per opacity: of colours, of opacity.
+    alignas(64) float colors[3][size];  // not used if the plan has a single colour
+    // Front parts of light (optics/segment_integral.h) per opacity: of colours, of opacity.
     alignas(64) float front_colors[3][size];
     alignas(64) float front_shares[size];
     alignas(64) float edges[size + most_lanes];  // depths of boundaries from the block's front on
     alignas(64) float middles[size];
-    // Optical depths of codes, which are computed in double precision.
+    // Optical depths for codes, which are computed in double precision.
     alignas(64) double precise_depths[size];
     int first_slab, from, end;
     BlockMask wanted;

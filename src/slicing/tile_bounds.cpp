@@ -11,13 +11,14 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// The depth at which a point that moves along an axis leaves the part between two places.
+// Returns the depth at which a point that moves along an axis leaves the interval between two
+// places.
 double depth_of_exit(double place, double change, double min, double max) {
     if (change > 0) return (max - place) / change;
     return change < 0 ? (min - place) / change : never;
 }
 
-// Slabs before `end` that lie in front of a depth as a whole.
+// Returns the number of slabs before `end` that lie wholly in front of a depth.
 int slabs_before(double depth, double thickness, int first, int end) {
     return static_cast<int>(std::clamp(std::floor(depth / thickness), static_cast<double>(first),
                                        static_cast<double>(end)));
@@ -25,8 +26,9 @@ int slabs_before(double depth, double thickness, int first, int end) {
 
 }  // namespace
 
-// Points of one depth are linear in column and row: all lie within the reach of the corners. Beyond
-// a pixel, origins and directions change alike, or directions not at all: so reach is linear too.
+// Points of one depth are linear in column and row: all lie within the reach of the corners. From
+// pixel to pixel either origins and directions change by constant steps, or directions not at all:
+// so reach is linear, too.
 TileBounds::TileBounds(const TileRays& rays, const TileBrickView& brick, int column, int row,
                        int edge) {
     const double half = 0.5 * (edge - 1);

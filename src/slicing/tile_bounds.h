@@ -27,7 +27,7 @@ class TileBounds {
         }
     }
 
-    // The point of the middle ray at a depth, in the volume's index space.
+    // Returns the point of the middle ray at a depth, in the volume's index space.
     glm::dvec3 middle_at(double depth) const { return middle_ + depth * middle_change_; }
 
   private:

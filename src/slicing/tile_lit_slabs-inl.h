@@ -8,13 +8,13 @@
 #define LAMINA_SLICING_TILE_LIT_SLABS_INL_H_
 #endif
 
-#include "slicing/tile_block-inl.h"
-#include "slicing/cpu_light-inl.h"
 #include "slicing/cpu_fetch-inl.h"
+#include "slicing/cpu_light-inl.h"
+#include "slicing/tile_block-inl.h"
 
 LAMINA_SIMD_BEGIN
 
-// Fetches the gradients ahead, of one pixel in each row and column.
+// Fetches gradients ahead, for one pixel in each row and column.
 LAMINA_INLINE void prefetch_gradients(const TileBrick& brick, const std::int32_t* index) {
     if (brick.pages != nullptr) return;
     for (std::size_t lane = 0; lane < Float::lanes; lane += TileGrid::block + 1) {
@@ -75,7 +75,7 @@ LAMINA_INLINE void light_ends(const EffectLanes<channels>& front, const EffectLa
     }
 }
 
-// Lights the run's slabs that show something: `shows(i)`. `middle(i)` and `edge(i)` are the points
+// Lights the run's visible slabs, those with `shows(i)`. `middle(i)` and `edge(i)` are the points
 // in the middle of a slab and in front of it.
 template <std::size_t channels, PointKind kind, class Middle, class Edge, class Shows>
 LAMINA_INLINE void light_slabs(const TileSlabs& slabs, const TileBrick& brick,

@@ -5,7 +5,7 @@
 #define LAMINA_TARGET_FILE "slicing/tile_march.cpp"
 #include "simd/foreach_target.h"
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "slicing/cpu_cells-inl.h"
 #include "slicing/tile_segments-inl.h"
 #include "tiles/node_code-inl.h"
@@ -30,7 +30,7 @@ class Marcher {
           area_(area),
           cells_(cell_integrator(slabs, !plan_.single_color)) {}
 
-    // The root of the tree for each packet, before it is written.
+    // Computes the root of the tree for each packet, before it is written.
     void evaluate(std::size_t group, NodeSum* sums) {
         group_ = group;
         if (slabs_.bricks.size() == 1)
@@ -71,7 +71,7 @@ class Marcher {
             sum.color[channel] += weight * image.color[channel];
     }
 
-    // A child as its node reads it: colour not associated, rounded to the image's format.
+    // Returns a child as its node reads it: colour not associated, rounded to the image's format.
     NodeSum stored(const NodeSum& child, int samples) const {
         const TreePlan& tree = *plan_.tree;
         const float share = static_cast<float>(samples) / static_cast<float>(shape_.samples());
@@ -108,13 +108,13 @@ class Marcher {
         return native_code(largest, value) / largest;
     }
 
-    // Sums of thousands of small terms: of a block in float, in which nothing is lost as opacity
+    // Sums of thousands of small terms: of a block in float, which loses nothing because opacity
     // begins at 0, of blocks in double.
     struct LeafSum {
         Float64 color[3], depth, transmittance;
     };
 
-    // All slabs of a leaf. Blocks begin at its first slab, whatever part of them is wanted:
+    // Marches all slabs of a leaf. Blocks begin at its first slab, whatever part of them is wanted:
     // pictures must not depend on that.
     void march(const SampleSpan& leaf, NodeSum* sums) {
         LeafSum leaves[group_packets];
@@ -152,8 +152,8 @@ class Marcher {
         }
     }
 
-    // The leaf's part of each ray, cell by cell. A ray that became opaque ends with the cells that
-    // are integrated together.
+    // Marches the leaf's part of each ray, cell by cell. A ray that became opaque ends with the
+    // cells that are integrated together.
     template <bool lit>
     void march_cells(const TileBrickView& brick, const SampleSpan& leaf, CellIntegrator<lit>& cells,
                      LeafSum* leaves) {
@@ -190,8 +190,8 @@ class Marcher {
         });
     }
 
-    // Takes back what a block added to rays that were opaque before: each pixel ends by itself,
-    // whatever its neighbours do. Whether all are opaque now.
+    // Undoes what a block added to rays that were opaque before: each pixel ends by itself,
+    // independent of its neighbours. Returns whether all are opaque now.
     LAMINA_INLINE bool end_rays(const LeafSum& before, LeafSum& leaf) const {
         const double opaque = plan_.opaque_depth;
         const Float64Mask ended = before.depth >= opaque;

@@ -9,7 +9,7 @@
 namespace lamina {
 
 // Replaces a tile by the picture of a tree whose nodes are computed in float (docs/numerics.md,
-// section 4). Where the root is a leaf, slabs are composited one after the other in registers. Each
+// section 4). If the root is a leaf, slabs are composited one after the other in registers. Each
 // vector of pixels goes through the whole tree by itself, nearest slab first. Returns the number of
 // segments that were evaluated.
 std::int64_t march_tile(const TileSlabs& slabs, const TreeShape& shape, const TileGrid::Tile& area,

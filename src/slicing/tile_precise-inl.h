@@ -9,13 +9,13 @@
 #endif
 
 #include "executors/tile_optics-inl.h"
+#include "slicing/cpu_fetch-inl.h"
 #include "slicing/tile_lit_slabs-inl.h"
 #include "slicing/tile_runs-inl.h"
-#include "slicing/cpu_fetch-inl.h"
 
 LAMINA_SIMD_BEGIN
 
-// The depth of the boundary in front of a slab, clamped to the box.
+// Returns the depth of the boundary in front of a slab, clamped to the box.
 LAMINA_INLINE Float64 boundary(const TileRays& frame, const PacketRays& rays, int slab) {
     return boundary(frame, DepthSpan{rays.enter, rays.leave}, slab);
 }
@@ -127,7 +127,7 @@ LAMINA_INLINE void classify_precisely(const TileTransfer& transfer, bool colored
     }
 }
 
-// Does what set_run does, with optical depths in double precision.
+// Sets a run as set_run() does, with optical depths in double precision.
 inline std::int64_t set_precise_run(const TileSlabs& slabs, const TileBrickView& brick,
                                     const PacketRays& rays, bool colored, SlabBlock& block) {
     const SlicePlan& plan = *slabs.plan;
@@ -157,7 +157,7 @@ inline std::int64_t set_precise_run(const TileSlabs& slabs, const TileBrickView&
     return segments;
 }
 
-// Does what set_segments does, with optical depths in double precision.
+// Sets segments as set_segments() does, with optical depths in double precision.
 inline std::int64_t set_precise_segments(const TileSlabs& slabs, const TileBrickView& brick,
                                          const PacketRays& rays, bool colored, SlabBlock& block) {
     std::int64_t segments = 0;

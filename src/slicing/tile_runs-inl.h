@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pre-integration of a block's slabs: vector form of how shaders/slicing/segment.glsl uses the
-// table.
+// Pre-integration of a block's slabs: vector form of the use of the table in
+// shaders/slicing/segment.glsl.
 #if defined(LAMINA_SLICING_TILE_RUNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_RUNS_INL_H_
 #undef LAMINA_SLICING_TILE_RUNS_INL_H_
@@ -13,7 +13,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// The normalised scalars of a segment. Where one of them is NaN, scalars and length are 0.
+// The normalised scalars of a segment. If one of them is NaN, scalars and length are 0.
 struct RunScalars {
     Float front, middle, back, length;
 };
@@ -38,7 +38,7 @@ LAMINA_INLINE void straighten(RunScalars& run) {
     run.back = clamp01(run.back + bend);
 }
 
-// Integrates in closed form where the transfer function is one linear piece, as
+// Integrates in closed form if the transfer function is one linear piece, as
 // shaders/slicing/segment.glsl does.
 LAMINA_INLINE RunSum integrate_linear(const TileTransfer& transfer, bool colored,
                                       const RunScalars& run) {
@@ -75,8 +75,8 @@ LAMINA_INLINE void store_run(const LitSum& run, bool colored, int slab, SlabBloc
 }
 
 // Integrates by the table, in stages of a few slabs, so that many entries are looked up at a time.
-// A segment shows nothing where the transfer function shows nothing between the least and the
-// largest of its three scalars.
+// A segment is invisible if the transfer function shows nothing between the least and the largest
+// of its three scalars.
 template <Lookup kind, bool lit>
 LAMINA_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored,
                                       bool nan_transparent, SlabBlock& block) {

@@ -10,9 +10,9 @@
 #endif
 
 #include "executors/tile_optics-inl.h"
+#include "slicing/cpu_fetch-inl.h"
 #include "slicing/tile_lit_slabs-inl.h"
 #include "slicing/tile_runs-inl.h"
-#include "slicing/cpu_fetch-inl.h"
 
 LAMINA_SIMD_BEGIN
 
@@ -37,7 +37,7 @@ LAMINA_INLINE Points point_at(const BlockRays& block, const PacketRays& rays, Fl
             depth * rays.direction_float[2] + block.base[2]};
 }
 
-// Whether all rays are, throughout the block's slabs, inside the box and between samples.
+// Tells whether all rays are, throughout the block's slabs, inside the box and between samples.
 LAMINA_INLINE bool is_inside(const TileRays& frame, const TileBrick& brick, const SlabBlock& block,
                              const BlockRays& rays, const PacketRays& packet) {
     const Float front(frame.edges[static_cast<std::size_t>(block.from)]);
@@ -54,7 +54,7 @@ LAMINA_INLINE bool is_inside(const TileRays& frame, const TileBrick& brick, cons
     return all_of(inside);
 }
 
-// Sets lengths and, where rays leave the box or the slabs, depths. Returns the number of segments.
+// Sets lengths and, if rays leave the box or the slabs, depths. Returns the number of segments.
 LAMINA_INLINE std::int64_t set_lengths(const TileRays& frame, const BlockRays& rays,
                                        Float length_per_depth, bool inside, SlabBlock& block) {
     if (inside) {
@@ -84,7 +84,7 @@ LAMINA_INLINE std::int64_t set_lengths(const TileRays& frame, const BlockRays& r
 }
 
 // Leaves out segments whose middles lie in the share of another renderer. All renderers compute the
-// same middles and the same crossings of the planes between shares, so each segment has one.
+// same middles and the same crossings of the planes between shares, so each segment is drawn once.
 LAMINA_INLINE void keep_share(const TileRays& frame, const PacketRays& packet, bool inside,
                               SlabBlock& block) {
     const double front = block.first_slab * frame.slab_thickness;
@@ -120,7 +120,7 @@ LAMINA_INLINE void with_points(const TileRays& frame, const BlockRays& rays,
         among(block.edges));
 }
 
-// Sets the scalars in the middles of slabs and, where the plan pre-integrates, at their boundaries.
+// Sets the scalars in the middles of slabs and, if the plan pre-integrates, at their boundaries.
 LAMINA_INLINE void set_scalars(const TileSlabs& slabs, const TileBrick& brick,
                                const PacketRays& packet, const BlockRays& rays, bool inside,
                                SlabBlock& block) {
@@ -181,8 +181,8 @@ LAMINA_INLINE void set_constant(const TileSlabs& slabs, SlabBlock& block) {
     }
 }
 
-// Sets optical depths and colours of slabs from .. end - 1. Returns how many segments have a
-// length.
+// Sets optical depths and colours of slabs from .. end - 1. Returns the number of segments that
+// have a length.
 inline std::int64_t set_run(const TileSlabs& slabs, const TileBrickView& brick,
                             const PacketRays& packet, bool colored, SlabBlock& block) {
     const SlicePlan& plan = *slabs.plan;
@@ -227,8 +227,8 @@ LAMINA_INLINE void set_constant_run(const TileSlabs& slabs, const OpticalPropert
     }
 }
 
-// Sets optical depths and colours of the slabs that are wanted. Returns how many segments have a
-// length.
+// Sets optical depths and colours of the slabs that are wanted. Returns the number of segments that
+// have a length.
 inline std::int64_t set_segments(const TileSlabs& slabs, const TileBrickView& brick,
                                  const PacketRays& packet, bool colored, SlabBlock& block) {
     std::int64_t segments = 0;

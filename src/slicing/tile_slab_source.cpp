@@ -6,23 +6,24 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "base/stage.h"
+#include "base/profile.h"
 #include "executors/light_cuts.h"
 #include "executors/shader_intervals.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
-#include "optics/linear_pieces.h"
+#include "optics/pieces.h"
 #include "slicing/shown_pages.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
 namespace {
 
-// A quarter of a brick's edge: smaller parts would leave out little more.
+// A quarter of a brick's edge: testing smaller steps would leave out little more.
 constexpr double tested_voxels = MinMaxBricks::edge / 4.0;
 
-// Four roundings to float32 of points that lie at most five times the brick's size from its first
-// sample, where a block of slabs begins before the box: 1.2e-6 of it. Cells are found by these.
+// Returns the largest error of a point: four roundings to float32 of points that lie at most five
+// times the brick's size from its first sample, as those of a block of slabs that begins before the
+// box: 1.2e-6 of it. Cells are found by these points.
 double point_margin(const TextureBrick& part) {
     const std::int64_t size = *std::ranges::max_element(part.size);
     return 0.01 + 2e-6 * static_cast<double>(size);
@@ -113,8 +114,9 @@ void TileSlabSource::set_view(const View& view, const Slabs& slabs) {
     for (const std::size_t number : order_) add_brick(number, view, slabs);
 }
 
-// What this view shows is brought from the disk in the order of the files. If it fits the memory,
-// it is read on all cores in this order, too; else pages are read when rays come to them.
+// The pages that this view shows are brought from the disk in the order of the files. If they fit
+// the memory, they are read on all cores in this order, too; else pages are read when rays come to
+// them.
 void TileSlabSource::load_pages(const View& view) const {
     if (!volume_ || volume_->pages() == nullptr) return;
     const BrickCache& cache = *volume_->pages();
@@ -171,7 +173,8 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
     see(brick, view);
 }
 
-// Cells lie in one share each: rays are clipped to it. False: the brick has nothing of it.
+// Each cell lies in one share: rays are clipped to it. Returns false if the brick has nothing of
+// the share.
 bool TileSlabSource::keep_to_share(const IndexBox& share, TileBrickView& brick) const {
     if (!plan_.integrates_cells()) {
         brick.share = share;

@@ -14,8 +14,8 @@ namespace lamina {
 class TileSlabSource {
   public:
     // `plan` must outlive the source. The transfer function is in the plan's units, and so are
-    // views; facts are in world units. `ready`: volume() of another source, which is
-    // taken over where it serves.
+    // views; facts are in world units. `ready`: volume() of another source, which is used if it has
+    // the right form.
     TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
                    const Facts& facts, const SlicePlan& plan,
                    std::shared_ptr<const TileVolume> ready);
@@ -26,11 +26,11 @@ class TileSlabSource {
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
     const TileSlabs& slabs() const { return slabs_; }
-    const PixelBox& seen() const { return seen_; }  // all pixels in which the view shows something
+    const PixelBox& seen() const { return seen_; }  // pixels in which the view may show something
 
     const std::shared_ptr<const TileVolume>& volume() const { return volume_; }
 
-    // Throws Error where the files of a volume that stays in them have changed.
+    // Throws Error if the files of a volume that stays in them have changed.
     void check_unchanged() const;
 
     double upload_ms() const { return upload_ms_; }
@@ -50,10 +50,10 @@ class TileSlabSource {
     OccupiedBricks occupied_;
     ConstantBricks constant_;
     CellMap cells_;
-    bool cells_leave_out_empty_ = false;  // views differ in this
+    bool cells_leave_out_empty_ = false;  // differs between views
     std::optional<TileTransfer> transfer_;
     std::shared_ptr<const TileVolume> volume_;
-    std::vector<std::uint32_t> shown_pages_;  // that hold something to see, of a paged volume
+    std::vector<std::uint32_t> shown_pages_;  // that hold something visible, of a paged volume
     std::optional<TileLight> light_;
     TileSlabs slabs_;
     PixelBox seen_;

@@ -10,7 +10,7 @@
 
 #include "executors/tile_light.h"
 #include "executors/tile_transfer.h"
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 #include "plan/plan.h"
 #include "slicing/cell_map.h"
 #include "slicing/slab_polygons.h"
@@ -19,8 +19,7 @@
 
 namespace lamina {
 
-// Slabs are computed in blocks of this many. The coordinates of a block are floats relative to its
-// front.
+// Number of slabs in a block. The coordinates of a block are floats relative to its front.
 inline constexpr int tile_block_slabs = 32;
 
 // The viewing rays: the uniforms of shaders/slicing/ray.glsl. Points are in the index space of a
@@ -29,9 +28,9 @@ struct TileRays {
     glm::dvec3 origin_column{0}, origin_row{0};  // change per pixel to the right and downwards
     glm::dvec3 direction_middle{0}, direction_column{0}, direction_row{0};
     double middle_column = 0, middle_row = 0;  // of the image, in pixels
-    double pixel_size = 0;                     // at depth 1; 0 where rays are parallel
+    double pixel_size = 0;                     // at depth 1; 0 if rays are parallel
     double slab_thickness = 0;
-    int tested_slabs = 1;  // number of slabs that are tested together for showing something
+    int tested_slabs = 1;  // number of slabs that are tested together for being visible
     // Depths of the boundaries of a block's slabs and of the middles between them, from the block's
     // front on.
     std::array<float, tile_block_slabs + 1> edges{};
@@ -46,22 +45,22 @@ struct TileBrickView {
     std::vector<IndexPlane> clip;
     glm::dvec3 first{0};  // the volume's sample at the brick's origin
     double margin = 0;    // largest error of a point in float, in voxels
-    // Where slabs are drawn whole: the box that holds the middles of the segments to draw
+    // The box that holds the middles of the segments to draw, if slabs are drawn whole
     // (SlicePlan::share).
     std::optional<IndexBox> share;
 };
 
-// All that the segments of slabs depend on.
+// Everything that the segments of slabs depend on.
 struct TileSlabs {
     const SlicePlan* plan = nullptr;
-    const TileTransfer* transfer = nullptr;    // null where no scalar is fetched
-    const OccupiedBricks* occupied = nullptr;  // null where all slabs are evaluated
-    const ConstantBricks* constant = nullptr;  // null where constant bricks are not used
-    // In place of both, where rays are integrated cell by cell; otherwise null.
+    const TileTransfer* transfer = nullptr;    // null if no scalar is fetched
+    const OccupiedBricks* occupied = nullptr;  // null if all slabs are evaluated
+    const ConstantBricks* constant = nullptr;  // null if constant bricks are not used
+    // In place of both if rays are integrated cell by cell; otherwise null.
     const CellMap* cells = nullptr;
-    const TileLight* light = nullptr;  // null where nothing is lit
+    const TileLight* light = nullptr;  // null if nothing is lit
     TileRays rays;
-    std::vector<TileBrickView> bricks;  // bricks that show something, in the plan's order
+    std::vector<TileBrickView> bricks;  // visible bricks, in the plan's order
     std::array<float, 3> single_color{};
     double constant_extinction = 0;
     // Ranks of dithering, by slab modulo period.

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "facts/world_unit.h"
 
 namespace lamina {
@@ -50,7 +50,7 @@ TileSliceRenderer::TileSliceRenderer(const Volume& volume,
         fixed_tree_.emplace(plan_, *shape_, source_->slabs().single_color);
 }
 
-// Where nothing was visible, nothing was made.
+// Nothing was made if nothing was visible.
 bool TileSliceRenderer::take(const Plan& plan) {
     const SlicePlan& slice = plan.slice;
     if ((!source_ && !slice.nothing_visible) || of_all_views(slice) != of_all_views(plan_))
@@ -73,8 +73,8 @@ void TileSliceRenderer::draw(const View& world_view, Progress* progress) {
     source_->set_view(view, {depth.near, depth.far, plan_.slabs});
     geometry_ms_ = geometry.end();
     Stage drawing("draw");
-    // One after the other, whichever thread: of a volume that stays in its files neighbours need
-    // the same pages.
+    // Tiles are taken one after the other, by whichever thread: in a volume that stays in its
+    // files, neighbours need the same pages.
     std::atomic<int> next{0};
     parallel_for(target_.grid().count(), 1, [&](std::int64_t) {
         const int tile = next++;

@@ -16,12 +16,11 @@
 
 namespace lamina {
 
-// Draws a volume as the plan says, with the native engine. GlSliceRenderer does the same with
-// OpenGL.
+// Draws a volume as the plan says, on the CPU. GlSliceRenderer draws it with OpenGL.
 class TileSliceRenderer : public SliceRenderer {
   public:
-    // Prepares the volume and the tables. `ready`: volume() of another renderer, which is taken
-    // over where it serves.
+    // Prepares the volume and the tables. `ready`: volume() of another renderer, which is used if
+    // it has the right form.
     TileSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                       const Facts& facts, const SlicePlan& plan, int width, int height,
                       std::shared_ptr<const TileVolume> ready = nullptr);
@@ -54,13 +53,13 @@ class TileSliceRenderer : public SliceRenderer {
     SlicePlan plan_;
     Grid grid_;
     TileImage target_;
-    std::vector<char> blank_;  // whether a tile shows nothing
+    std::vector<char> blank_;  // for each tile: it shows nothing
     TargetBlend blend_;
-    std::optional<TileSlabSource> source_;  // empty where nothing is visible
+    std::optional<TileSlabSource> source_;  // empty if nothing is visible
     std::optional<TreeShape> shape_;
     std::optional<TileFixedTree> fixed_tree_;
     std::atomic<std::int64_t> samples_{0};
-    std::shared_ptr<const TileVolume> kept_;  // for another renderer, where this needs none
+    std::shared_ptr<const TileVolume> kept_;  // kept for another renderer if this one needs none
     double geometry_ms_ = 0, draw_ms_ = 0;
 };
 

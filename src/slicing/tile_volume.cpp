@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "base/filled_memory.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
 #include "slicing/texture_bricks.h"
@@ -62,7 +62,7 @@ TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const Slic
     if (!volume.in_memory()) page();
 }
 
-// As GL reads codes: code / largest, int16 from 0 on.
+// Normalises as OpenGL reads codes: code / largest, int16 from 0 on.
 void TileVolume::normalise(const ValueRange& range, TileBrick& brick) const {
     if (brick.layout == TileLayout::floats) return;
     const double largest = volume_.type() == SampleType::uint8 ? 255 : 65535;

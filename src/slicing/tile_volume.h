@@ -7,24 +7,24 @@
 #include <span>
 #include <vector>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "lamina/volume.h"
 #include "plan/plan.h"
 #include "slicing/gradient_map.h"
 #include "slicing/tile_pages.h"
 #include "volume/min_max_bricks.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 
-// How the samples of a brick are stored.
+// Ways in which the samples of a brick are stored.
 enum class TileLayout {
     bytes,   // uint8 as in the volume
     words,   // int16 or uint16 as in the volume
-    floats,  // normalised to the volume's range; NaN where not finite
+    floats,  // normalised to the volume's range; NaN if not finite
 };
 
-// Bytes from one element to the next.
+// Returns the bytes from one element to the next.
 constexpr std::size_t bytes_of_sample(TileLayout layout) {
     switch (layout) {
         case TileLayout::bytes:
@@ -48,9 +48,9 @@ struct TileBrick {
     // Normalised scalar = interpolated code * scale + offset. Textures interpolate code * unit
     // instead; then it is interpolated value * unit_scale + offset.
     float scale = 1, offset = 0, unit = 1, unit_scale = 1;
-    const StoredGradient* gradients = nullptr;  // of lit volumes (slicing/gradient_map.h)
-    // Where the samples, and the gradients, are not all in memory: indices are those of pages then,
-    // and the pointers above are null.
+    const StoredGradient* gradients = nullptr;  // for lit volumes (slicing/gradient_map.h)
+    // Set if the samples, and the gradients, are not all in memory: then indices are those of
+    // pages, and the pointers above are null.
     const TilePages* pages = nullptr;
 };
 
@@ -61,19 +61,19 @@ class TileVolume {
     // `range`: the scalars that become [0, 1]; lo < hi.
     TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
-    // Whether it equals what the constructor would make from these arguments.
+    // Tells whether it equals what the constructor would make from these arguments.
     bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
 
     const std::vector<TileBrick>& bricks() const { return bricks_; }
-    // The pages of a volume that is not in memory; null where it is.
+    // Returns the pages of a volume that is not in memory, or null.
     BrickCache* pages() const { return cache_; }
-    // Pages that are read soon, ascending (SampleSource::will_read()); each is told to the source
-    // once.
+    // Announces pages that are read soon, ascending (SampleSource::will_read()); each is announced
+    // to the source once.
     void will_read(std::span<const std::uint32_t> pages) const;
-    // The sample of the volume, on each axis, with which the first page begins: -1 where bricks
-    // have a border.
+    // Returns the sample of the volume, on each axis, with which the first page begins: -1 if
+    // bricks have a border.
     const std::array<std::int64_t, 3>& first_of_pages() const { return parts_.front().first; }
-    // Throws Error where the files of a volume that stays in them have changed.
+    // Throws Error if the files of a volume that stays in them have changed.
     void check_unchanged() const { lamina::check_unchanged(volume_); }
     std::int64_t byte_count() const;  // memory beside the volume's own
 
@@ -97,14 +97,14 @@ class TileVolume {
     bool lit_;
     std::vector<std::shared_ptr<void>> copies_;
     std::int64_t copied_bytes_ = 0;
-    std::vector<std::vector<StoredGradient>> gradients_;  // where the plan is lit
+    std::vector<std::vector<StoredGradient>> gradients_;  // if the plan is lit
     std::vector<TileBrick> bricks_;
-    // The pages of a volume that is not in memory: the store's own bricks where their form is the
-    // same.
+    // The pages of a volume that is not in memory: the store's own bricks if they have the right
+    // form.
     std::unique_ptr<BrickCache> own_cache_;
     BrickCache* cache_ = nullptr;
     std::vector<TilePages> pages_;
-    mutable std::vector<std::uint8_t> told_;  // 1: pages that will_read() has had
+    mutable std::vector<std::uint8_t> told_;  // 1: pages that will_read() has announced
 };
 
 }  // namespace lamina

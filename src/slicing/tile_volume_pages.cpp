@@ -6,22 +6,22 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "facts/drawn_range.h"
 #include "slicing/tile_volume.h"
-#include "volume/brick_runs.h"
+#include "volume/brick_cache.h"
+#include "volume/sample_source.h"
 #include "volume/volume_store.h"
-#include "volume/with_sample_type.h"
 
 namespace lamina {
 namespace {
 
-// For pictures and what is made of them once the volume is drawn.
+// Bytes kept free for pictures and their results once the volume is drawn.
 constexpr std::uint64_t kept_free = 50'000'000;
 
 constexpr std::size_t page_samples = static_cast<std::size_t>(BrickCache::sample_count);
 
-// Gradients begin on a boundary of words of 8 bytes.
+// Returns the offset of the gradients, which begin on a boundary of words of 8 bytes.
 std::size_t gradients_after(std::size_t sample_bytes) {
     return (page_samples * sample_bytes + 7) / 8 * 8;
 }
@@ -42,8 +42,8 @@ void TileVolume::page() {
     }
 }
 
-// Floats are normalised, and gradients lie behind the samples, so the store's own bricks are of no
-// use.
+// Floats are normalised, and gradients lie behind the samples, so the store's own bricks cannot be
+// used.
 void TileVolume::make_own_pages() {
     BrickCache& of_store = volume_.store().bricks();
     of_store.clear();
@@ -61,7 +61,7 @@ void TileVolume::make_own_pages() {
     cache_ = own_cache_.get();
 }
 
-// Pages may take what the memory limit leaves.
+// Pages may take the memory that the limit leaves.
 void TileVolume::share_memory(BrickCache& cache) const {
     const std::uint64_t left = memory_left() + cache.resident_bytes();
     const std::uint64_t kept = kept_free + volume_.store().source().memory();

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/stage.h"
-#include "compositing/random_bits.h"
+#include "base/profile.h"
+#include "compositing/codes.h"
 
 namespace lamina {
 namespace {
@@ -19,7 +19,7 @@ double difference_of(const float* a, const float* b) {
     return largest;
 }
 
-// The largest difference of a channel from one of the four neighbours, for each pixel.
+// Returns the largest difference of a channel from one of the four neighbours, for each pixel.
 std::vector<float> contrasts_of(const Image& picture) {
     std::vector<float> contrasts(static_cast<std::size_t>(picture.width) *
                                  static_cast<std::size_t>(picture.height));
@@ -43,7 +43,7 @@ std::vector<float> contrasts_of(const Image& picture) {
     return contrasts;
 }
 
-// One pixel of each cell of `edge` x `edge` pixels.
+// Returns one pixel of each cell of `edge` x `edge` pixels.
 std::vector<glm::ivec2> pixels_all_over(int width, int height, int edge) {
     std::vector<glm::ivec2> pixels;
     for (int row = 0; row < height; row += edge) {
@@ -59,7 +59,7 @@ std::vector<glm::ivec2> pixels_all_over(int width, int height, int edge) {
     return pixels;
 }
 
-// The largest difference of a channel, for each pixel.
+// Returns the largest difference of a channel, for each pixel.
 std::vector<float> differences_of(const Image& a, const Image& b) {
     std::vector<float> differences;
     differences.reserve(a.rgba.size() / 4);
@@ -68,7 +68,8 @@ std::vector<float> differences_of(const Image& a, const Image& b) {
     return differences;
 }
 
-// Large where a pixel is covered, and rarely; at random among equals. Not covered: 0.
+// Returns large values for pixels that are covered, and rarely; at random among equals. Not
+// covered: 0.
 std::vector<float> rarity_of(const std::vector<float>& cover, int width) {
     std::vector<float> rarity;
     rarity.reserve(cover.size());
@@ -82,7 +83,7 @@ std::vector<float> rarity_of(const std::vector<float>& cover, int width) {
     return rarity;
 }
 
-// The `count` pixels of the largest values above 0.
+// Appends the `count` pixels of the largest values above 0.
 void append_largest(std::size_t count, int picture_width, const std::vector<float>& values,
                     std::vector<glm::ivec2>& pixels) {
     std::vector<std::size_t> order(values.size());

@@ -22,19 +22,18 @@ class TrialTruth {
 
     void trace_all();
     // Traces at most `count` pixels of a picture that is too large for trace_all(). One quarter
-    // lies all over the picture, one pixel at its own place in each of equal cells. One quarter
-    // lies where `picture` and `finer` differ most. One quarter lies where `cover`
-    // (slicing/point_cover.h; may be empty) counts the fewest points of the transfer function above
-    // zero, because both pictures may miss what is rare. The rest lies where a pixel of `finer`
-    // differs most from a neighbour: there rays graze what their neighbours hit, and segments miss
-    // most.
+    // lies all over the picture, one pixel at its own place in each of equal cells. One quarter has
+    // the largest differences between `picture` and `finer`. One quarter has the smallest counts of
+    // `cover` (slicing/point_cover.h; may be empty) above zero, because both pictures may miss what
+    // is rare. The rest has the largest differences between a pixel of `finer` and a neighbour:
+    // there rays graze what their neighbours hit, and segments miss most.
     void trace_some(std::size_t count, const Image& picture, const Image& finer,
                     const std::vector<float>& cover);
 
     bool empty() const { return pixels_.empty(); }
     std::int64_t rays() const { return static_cast<std::int64_t>(pixels_.size()); }
-    // The largest error of a channel on the traced pixels, including the tracer's own estimate, in
-    // 1/255.
+    // Returns the largest error of a channel on the traced pixels, including the tracer's own
+    // estimate, in 1/255.
     double error_of(const Image& picture) const;
 
   private:

@@ -7,12 +7,49 @@
 #include <string>
 #include <vector>
 
+#include "image/difference.h"
+#include "lamina/image.h"
+#include "lamina/image_color_space.h"
 #include "plan/capabilities.h"
-#include "study/error_budget.h"
-#include "study/interleaved_times.h"
+#include "study/frame_times.h"
 #include "study/reference_store.h"
 
 namespace lamina::study {
+
+// One volume drawn by two methods, and for each method the exact picture of the data that it draws.
+struct FourPictures {
+    Image traced_volume, traced_mesh, sliced, projected;
+    ImageColorSpace space = ImageColorSpace::linear;  // of all of them
+    // Pictures of a lit scene, traced without light; empty if the scene is not lit.
+    Image unlit_volume{}, unlit_mesh{};
+};
+
+// Splits the difference of the two methods into parts, in every pixel:
+//   projected - sliced = (traced mesh - traced volume) - (sliced - traced volume)
+//                      + (projected - traced mesh)
+// Of a lit scene, the first part is that of the unlit pictures, and what light adds to it is a part
+// of its own, the gradients: a mesh has other ones than the volume that it is made from.
+struct ErrorBudget {
+    struct Part {
+        std::string key, name;  // in files, in sentences
+        Difference e;           // in 1/255
+        ImageError error;
+        // The share of the raw difference d that the part s explains: <s, d> / <d, d>, with the
+        // part's sign in the sum above. The shares add up to 1. It is 0 if d is 0.
+        double share = 0;
+    };
+
+    // Mesh discretisation, slicing method, projection method; of a lit scene the gradients, too.
+    std::vector<Part> parts;
+    Difference raw;  // projected - sliced
+    ImageError raw_error;
+    double residual = 0;  // largest |raw - sum of the parts|, in 1/255; this is rounding
+
+    const Part& dominant() const;  // the part with the largest L2
+};
+
+// Throws Error if the pictures differ in size.
+ErrorBudget error_budget(const FourPictures& pictures);
 
 struct CrosscheckSettings {
     // Tolerances of meshes made from the volume, in addition to the scene's own.
@@ -24,7 +61,7 @@ struct CrosscheckSettings {
     // Numbers of slabs, in addition to the scene's own.
     std::vector<int> samples{64, 128, 256, 512, 1024};
     int rounds = 3;  // rounds of interleaved frames, >= 3
-    // Folder where meshes and traced pictures are kept as they are made, and found.
+    // Folder that keeps meshes and traced pictures as they are made, and is searched for them.
     std::filesystem::path kept;
     // Called once the volume is read, before anything is kept.
     std::function<void()> begin = [] {};
@@ -42,7 +79,7 @@ struct Crosscheck {
     };
     struct Projection {
         double tolerance = 0;  // 0 for a mesh from a file
-        // Certified error, as a share of the range of values; 0 where it is not known.
+        // Certified error, as a share of the range of values; 0 if it is not known.
         double mesh_error = 0;
         bool stopped = false;  // whether refining stopped because of too many tets
         std::int64_t tets = 0;
@@ -67,8 +104,8 @@ struct Crosscheck {
     std::vector<std::vector<Pair>> pairs;  // [projection][slicing]
 };
 
-// Tells whether meshes of several tolerances are made from the scene's volume: its mesh is no file, and
-// not Kuhn's, which has none.
+// Tells whether meshes of several tolerances are made from the scene's volume: its mesh is no file,
+// and not Kuhn's, which has none.
 bool makes_meshes(const Scene& scene);
 
 // Draws and traces all pictures. The scene must have a volume; without a mesh, one of tolerance .02

@@ -14,23 +14,23 @@ std::string slabs_text(int count);
 // "99.9 %": the part's share of the difference.
 std::string share_text(const ErrorBudget::Part& part);
 
-// What a report says about a cross-check beside its results.
+// Facts that a report states beside the results of a cross-check.
 struct CrosscheckSubject {
     std::string name;                    // name of the scene
     double wanted = 1;                   // largest error that counts as agreement, Linf in 1/255
     nlohmann::ordered_json environment;  // machine and version, for the report
 };
 
-// The contents of budget.json: the error budget of the four pictures, and all results of both
-// methods.
+// Returns the contents of budget.json: the error budget of the four pictures, and all results of
+// both methods.
 nlohmann::ordered_json budget_json(const Crosscheck& crosscheck, const ErrorBudget& budget,
                                    const CrosscheckSubject& subject);
 
-// The document that the page shows (docs/study.md).
+// Returns the document that the page shows (docs/study.md).
 nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const ErrorBudget& budget,
                                          const CrosscheckSubject& subject);
 
-// The findings as sentences, for stdout and the page.
+// Returns the findings as sentences, for stdout and the page.
 std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,
                                              const ErrorBudget& budget,
                                              const CrosscheckSubject& subject);

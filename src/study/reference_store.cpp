@@ -3,16 +3,16 @@
 
 #include <utility>
 
-#include "base/atomic_file.h"
 #include "base/content_hash.h"
 #include "base/enum_words.h"
 #include "base/json_text.h"
-#include "base/stopwatch.h"
+#include "base/output_file.h"
+#include "base/profile.h"
 #include "image/npy.h"
 #include "render/traced_picture.h"
 #include "scene_files/json_reader.h"
-#include "study/picture_key.h"
-#include "study/text_file.h"
+#include "study/data_store.h"
+#include "study/result_files.h"
 
 namespace lamina::study {
 namespace {
@@ -81,7 +81,7 @@ double ReferenceStore::error_estimate(const std::filesystem::path& folder, const
     return load_facts(folder, id).first.error_estimate;
 }
 
-// Returns nothing where the reference cannot be read, which is said once.
+// Returns nothing if the reference cannot be read, which is said once.
 std::optional<Reference> ReferenceStore::find(const std::string& id) {
     if (lost_.contains(id)) return std::nullopt;
     try {

@@ -24,8 +24,8 @@ struct Reference {
     PreciseImage image;
 };
 
-// Traced pictures, each made once. With a folder they are kept there as ID.npy and ID.json, where
-// later studies of the same content find them. Damaged files are made again.
+// Traced pictures, each made once. With a folder they are kept there as ID.npy and ID.json, for
+// later studies of the same content. Damaged files are made again.
 class ReferenceStore {
   public:
     using Say = std::function<void(const std::string&)>;
@@ -40,11 +40,11 @@ class ReferenceStore {
     const Reference& get(const Scene& scene, TraceOf of, DataStore& data);
     void clear() { references_.clear(); }  // from memory
 
-    // Whether a reference that was made before is intact in the folder. If not, it will be made
-    // again.
+    // Returns true if the folder has an intact reference that was made before. If not, it will be
+    // made again.
     bool is_kept(const std::string& id);
 
-    // Loads a reference from `folder`. Throws Error where it is missing or was changed.
+    // Loads a reference from `folder`. Throws Error if it is missing or was changed.
     static Reference load(const std::filesystem::path& folder, const std::string& id);
     static double error_estimate(const std::filesystem::path& folder, const std::string& id);
 

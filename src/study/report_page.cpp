@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "base/json_text.h"
-#include "base/printable.h"
-#include "study/report_files.h"
+#include "base/text.h"
+#include "study/report_figures.h"
 
 namespace lamina::study {
 namespace {
@@ -28,24 +28,8 @@ Json printable_json(const Json& json) {
     return shown;
 }
 
-// Escapes a text that stands between tags.
-std::string html_of(const std::string& text) {
-    std::string html;
-    for (const char c : text) {
-        if (c == '&')
-            html += "&amp;";
-        else if (c == '<')
-            html += "&lt;";
-        else if (c == '>')
-            html += "&gt;";
-        else
-            html += c;
-    }
-    return html;
-}
-
 std::string link_to(const std::string& anchor) {
-    return fmt::format("<a href=\"#{0}\">{0}</a>: ", html_of(anchor));
+    return fmt::format("<a href=\"#{0}\">{0}</a>: ", escaped_markup(anchor));
 }
 
 std::string findings_of(const Json& report) {
@@ -54,14 +38,14 @@ std::string findings_of(const Json& report) {
         const bool linked = finding.is_object();
         const Json& text = linked ? finding.at("text") : finding;
         html += "<li>" + (linked ? link_to(finding.at("anchor").get<std::string>()) : "") +
-                html_of(text.get<std::string>()) + "</li>\n";
+                escaped_markup(text.get<std::string>()) + "</li>\n";
     }
     return html;
 }
 
 std::string summary_of(const Json& report) {
     if (!report.contains("summary")) return {};
-    return "<p id=\"summary\">" + html_of(report["summary"].get<std::string>()) + "</p>\n";
+    return "<p id=\"summary\">" + escaped_markup(report["summary"].get<std::string>()) + "</p>\n";
 }
 
 // "<" occurs only within strings of the JSON and is escaped there, so that no text can end the
@@ -99,7 +83,7 @@ std::string report_page(const Json& given) {
         const std::string_view name = rest.substr(at + 2, end - at - 2);
         page += rest.substr(0, at);
         if (name == "title")
-            page += html_of(report.at("title").get<std::string>());
+            page += escaped_markup(report.at("title").get<std::string>());
         else if (name == "summary")
             page += summary_of(report);
         else if (name == "findings")

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "study/study_data.h"
 #include "study/study_file.h"
 
 namespace lamina::study {
@@ -21,7 +20,7 @@ struct StudyRun {
     Settings settings;  // values of the swept keys
 };
 
-// A name of settings for people: "fixed8, 32x32".
+// Returns a name of settings for people: "fixed8, 32x32".
 std::string run_name(const Settings& settings);
 
 // The runs of a study.
@@ -34,7 +33,7 @@ struct RunList {
     // A volume, a mesh or a colour map that runs draw.
     struct Data {
         std::string name;     // path or formula
-        std::string content;  // hash of its contents; empty where it could not be read
+        std::string content;  // hash of its contents; empty if it could not be read
     };
 
     std::string title;
@@ -54,33 +53,20 @@ struct RunList {
 
 constexpr std::uint64_t most_runs_unasked = 10000;
 
-// The number of runs of the file's sweep, before any is dropped.
+// Returns the number of runs of the file's sweep, before any is dropped.
 std::uint64_t run_count(const StudyFile& file);
 
-// Expands the sweep. Throws Error where no run is left, where the baseline does not name one run of
-// each scene, or where there are more than most_runs.
+// Expands the sweep. Throws Error if no run is left, if the baseline does not name one run of each
+// scene, or if there are more than most_runs.
 RunList list_runs(const StudyFile& file);
 
 nlohmann::json document_of(const StudyRun& run, const StudyFile& file);
-// The context of a run: auto, osmesa, egl or cpu.
+// Returns the context of a run: auto, osmesa, egl or cpu.
 std::string context_of(const StudyRun& run, const StudyFile& file);
 
-// The scene of a run. Throws KeyError for what no run can measure: the method "trace", or a
-// reference that the scene does not have.
-Scene scene_of(const StudyRun& run, const StudyFile& file);
-TraceOf reference_of(const Scene& scene, const StudyFile& file);
-
-// Reads every run's scene and checks that its files exist. Throws Error where a file is missing, a
-// key is unknown, or no run of a scene can be drawn. Other errors of single runs are found when
-// these are run. Returns the data that the runs draw, each once.
-std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);
-
-// Adds the data to the list, with the hashes of their contents (contents_of()).
-void list_data(const std::vector<StudyData>& data, DataStore& store, RunList& list);
-
-// Compares the data of two lists of one study. Throws Error where both lists know the contents of
-// data and they differ. Contents that only one list knows are added to `list`. `list_of`,
-// `other_of`: where the lists come from, for the message.
+// Compares the data of two lists of one study. Throws Error if both lists know the contents of data
+// and they differ. Contents that only one list knows are added to `list`. `list_of`, `other_of`:
+// origins of the lists, for the message.
 void match_data(RunList& list, const std::string& list_of, const RunList& other,
                 const std::string& other_of);
 

@@ -1,16 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lamina/scene.h"
-#include "study/sweep.h"
+#include "scene_files/json_reader.h"
 
 namespace lamina::study {
+
+// Keys of a scene, by name, with the values that a run gives them. null removes the key.
+using Settings = std::vector<std::pair<std::string, nlohmann::json>>;
+
+const nlohmann::json* find_setting(const Settings& settings, const std::string& key);
+
+constexpr std::uint64_t most_runs = 100000;  // runs of a study
+
+// One key with all values that it takes.
+struct SweepAxis {
+    std::string key;
+    std::vector<nlohmann::json> values;  // at least one
+};
+
+// The combinations of the values of several axes.
+struct SweepGrid {
+    std::vector<SweepAxis> axes;  // at least one
+
+    std::uint64_t count() const;               // saturates at 2^63 - 1
+    Settings settings(std::uint64_t n) const;  // the n-th; the last axis changes first
+};
+
+// Reads `sweep` of a study file: a grid {key: values, ...} or a list of grids. Values are a list,
+// one value, or {"factorizations": N, "levels": k}. Throws KeyError, also for more than most_runs
+// factorizations in all.
+std::vector<SweepGrid> read_sweep(JsonReader& study);
+
+// All ordered lists of factors >= 2 with the product `of` >= 2 and at most `levels` factors; short
+// lists come first. If there are more than most_runs, it stops soon after that number.
+std::vector<std::vector<int>> factorizations(int of, int levels);
+
+// Returns a setting as a name, or for a cell of a table: a list of whole numbers as "32x32", words
+// without quotes, everything else as JSON.
+std::string setting_text(const nlohmann::json& value);
 
 // A study as its file says (docs/study.md). Nothing is expanded yet.
 struct StudyFile {
@@ -20,7 +56,7 @@ struct StudyFile {
         nlohmann::json document;  // the scene file with `base` and the entry's own `set` applied
         Settings own;             // `set`
     };
-    // Runs are left out where all axes have one of these values.
+    // Runs are left out if all axes have one of these values.
     struct Drop {
         std::vector<SweepAxis> where;  // "scene" or a swept key, each with the values that match
         std::string because;

@@ -3,10 +3,25 @@
 
 #include <utility>
 
-#include "base/stopwatch.h"
-#include "gl/memory.h"
+#include "base/profile.h"
+#include "gl/api.h"
 
 namespace lamina::study {
+
+const Capabilities& DrawContexts::use(const std::string& word) {
+    const auto found = contexts_.find(word);
+    if (found != contexts_.end()) return found->second.capabilities();
+    const Auto<ContextChoice> choice = context_choice(word);
+    if (choice != ContextChoice::cpu) {
+        before_switch_();
+        current_.reset();
+        std::erase_if(contexts_,
+                      [](const auto& context) { return !context.second.capabilities().tiles; });
+    }
+    const DrawContext& context = contexts_.try_emplace(word, choice).first->second;
+    if (!context.capabilities().tiles) current_ = context.make_current();
+    return context.capabilities();
+}
 
 StudyFrames::StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities,
                          std::shared_ptr<TableCache> tables)

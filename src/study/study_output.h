@@ -2,13 +2,21 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "study/reference_store.h"
 #include "study/run_list.h"
 #include "study/study_folder.h"
 
 namespace lamina::study {
+
+// Copies the journals, references and pictures of shards of one study into a folder. Throws Error
+// if they belong to different studies or drew different data, if two of them are the same shard, or
+// if the folder holds another study. `say`: gets messages about damaged references.
+void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFolder& into,
+                   const ReferenceStore::Say& say);
 
 struct StudySummary {
     std::size_t runs = 0, wanted = 0;  // runs that are finished, and runs of the whole study

@@ -7,12 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "study/reference_store.h"
 #include "study/run_list.h"
 #include "study/study_folder.h"
 
 namespace lamina::study {
+
+struct CostAndError {
+    double cost = 0, error = 0;  // in any units, the same for all points
+};
+
+// Returns for each point whether no other point beats it. A point beats another if it is no larger
+// in both numbers and smaller in one.
+std::vector<bool> pareto_front(const std::vector<CostAndError>& points);
 
 // The measurements of one run. Times in ms, errors in 1/255.
 struct RunResult {
@@ -32,8 +40,8 @@ struct RunResult {
     std::string renderer;
     bool pareto = false;  // on the Pareto front of its scene's runs, in median frame time and L2
 
-    // Whether the error is below ten times the reference's own estimate. Then it says little about
-    // the run.
+    // Returns true if the error is below ten times the reference's own estimate. Then it says
+    // little about the run.
     bool near_reference() const { return all.linf < 10 * reference_error; }
 };
 
@@ -44,10 +52,10 @@ struct StudyResults {
     nlohmann::ordered_json environment;
 };
 
-// Reads the results. Throws Error where the folder holds no study, or one whose files were changed.
+// Reads the results. Throws Error if the folder holds no study, or one whose files were changed.
 StudyResults read_results(const StudyFolder& folder);
 
-// The contents of results.csv: one row for each run.
+// Returns the contents of results.csv: one row for each run.
 std::string csv_of(const StudyResults& results);
 
 }  // namespace lamina::study

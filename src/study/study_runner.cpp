@@ -8,14 +8,13 @@
 #include <numeric>
 #include <utility>
 
-#include "base/atomic_file.h"
+#include "base/client.h"
 #include "base/error.h"
-#include "base/error_text.h"
-#include "base/interrupt.h"
-#include "base/stopwatch.h"
+#include "base/output_file.h"
+#include "base/profile.h"
+#include "image/difference.h"
 #include "image/exr.h"
-#include "image/metrics.h"
-#include "study/error_json.h"
+#include "study/result_files.h"
 
 namespace lamina::study {
 namespace {

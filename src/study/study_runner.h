@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "study/draw_contexts.h"
-#include "study/journal.h"
 #include "study/reference_store.h"
-#include "study/run_list.h"
+#include "study/run_data.h"
 #include "study/study_folder.h"
 #include "study/study_frames.h"
 #include "study/time_left.h"
@@ -45,12 +43,12 @@ class StudyRunner {
   public:
     // `begin`: a record of where and how this process runs. `data`: may already hold data of the
     // first scene. `say`: gets messages about work that is done again, and how long the rest takes
-    // after the first round of each scene. Throws Error where the journal cannot be written, or
+    // after the first round of each scene. Throws Error if the journal cannot be written, or
     // another process writes it.
     StudyRunner(const RunList& list, const StudyFile& file, const StudyFolder& folder, Shard shard,
                 const nlohmann::ordered_json& begin, DataStore data, ReferenceStore::Say say);
 
-    // Does all runs that the journal lacks. Throws Interrupted, and Error where records cannot be
+    // Does all runs that the journal lacks. Throws Interrupted, and Error if records cannot be
     // written. Errors of single runs are recorded.
     void run();
     // The number of runs of this shard that the journal has.

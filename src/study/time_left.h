@@ -1,20 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <stop_token>
 #include <string>
+#include <thread>
+
+#include "base/profile.h"
+#include "base/progress.h"
 
 namespace lamina::study {
 
-// How long the rest of a study takes, from the visits to runs so far. First visits, which read
-// data, trace, set up and draw the first picture, and later ones are held apart.
+// Predicts how long the rest of a study takes, from the visits to runs so far. First visits, which
+// read data, trace, set up and draw the first picture, and later ones are held apart.
 class TimeLeft {
   public:
-    // `timing`: what of `seconds` was the timing of frames, which is all that a later visit does.
+    // `timing`: the part of `seconds` that timed frames, which is all that a later visit does.
     void add_first(double seconds, double timing);
     void add_later(double seconds);
 
-    // Seconds for so many visits of each kind. There was a first one.
+    // Returns the seconds for so many visits of each kind. At least one first visit must have been
+    // added.
     double of(std::size_t first_visits, std::size_t later_visits) const;
 
   private:
@@ -24,5 +35,54 @@ class TimeLeft {
 
 // "8 s", "3 min", "2 h 10 min": two digits or so.
 std::string duration_text(double seconds);
+
+// Shows the progress of work with few, long steps whose times are predicted, and predicted again
+// after each step. It advances by itself between them.
+class TimedProgress {
+  public:
+    explicit TimedProgress(const std::string& label);
+
+    void expect(double seconds_left);  // from now
+
+  private:
+    void keep_showing(const std::stop_token& stop);
+    void show();
+
+    Progress progress_;
+    Stopwatch watch_;
+    std::mutex mutex_;
+    std::condition_variable_any woken_;
+    double expected_end_ = 0;  // seconds of `watch_`
+    std::int64_t shown_ = 0;
+    std::jthread thread_;  // last: it uses the others
+};
+
+// Predicts how long the meshes of a ladder take to be made, drawn and traced, which is nearly all
+// of a cross-check's time. The time grows with the tets, and these with a power of 1 / tolerance.
+class LadderCost {
+  public:
+    struct Step {
+        double tolerance;
+        std::int64_t most_tets;
+        bool last_if_full = false;  // no such step comes after one that has most_tets
+    };
+
+    // Takes a mesh that is done. Tolerances decrease.
+    void add(double tolerance, std::int64_t tets, double seconds);
+
+    // Returns about how many seconds of one processor these meshes take if all are as large as they
+    // may be. Tolerances decrease.
+    static double most_seconds(std::span<const Step> steps);
+    // Returns the seconds to expect after the meshes that were added, one at least.
+    double expected_seconds(std::span<const Step> steps) const;
+
+  private:
+    struct Made {
+        double tolerance, tets;
+    };
+
+    double power_ = 0, seconds_a_tet_ = 0;  // as the last meshes had them
+    std::optional<Made> last_;
+};
 
 }  // namespace lamina::study

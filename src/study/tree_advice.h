@@ -12,6 +12,23 @@
 
 namespace lamina::study {
 
+constexpr const char* factors_key = "render.slice.tree.factors";
+
+// Returns the bifurcation factors of a run, from the root to the leaves. Empty if no tree is swept
+// or the run failed.
+std::vector<int> factors_of(const RunList& list, const RunResult& result);
+
+// Returns a name of the run's other settings: "fixed8".
+std::string name_without_factors(const StudyRun& run);
+
+// Returns the largest factor over the smallest: 1 for a regular tree.
+double irregularity(const std::vector<int>& factors);
+
+// The report's `plots` for runs of one scene with trees: L2 error and frame time over the tree's
+// height and over its irregularity (LaMar 2004, section 6.3, asks for both). There is one series
+// for each setting of the other swept keys. Empty if no run has a tree.
+nlohmann::ordered_json tree_plots(const RunList& list, const std::vector<const RunResult*>& runs);
+
 // Number of images that a tree composites into: 1 for the root, then those of each level above the
 // slabs. 32x32 has 33 nodes, and 8x128 has 9.
 std::int64_t nodes_of(const std::vector<int>& factors);
@@ -33,11 +50,11 @@ struct TreeGroup {
     const RunResult& best() const;  // smallest L2 of the choices
 };
 
-// Groups of the runs of one scene; those in floats last. Empty if no tree is swept.
+// Returns the groups of the runs of one scene; those in floats last. Empty if no tree is swept.
 std::vector<TreeGroup> tree_groups(const RunList& list, const std::vector<const RunResult*>& runs);
 
-// One sentence for each group of a scene, in floats or not: the tree to take, what it costs and
-// what it gains.
+// Returns one sentence for each group of a scene, in floats or not: the tree to take, its cost and
+// its gain.
 std::vector<std::string> tree_findings(const RunList& list, const std::string& scene,
                                        const std::vector<const RunResult*>& runs, bool in_floats);
 

@@ -7,7 +7,7 @@
 #define LAMINA_TILES_CODES_INL_H_
 #endif
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "compositing/codes.h"
 #include "simd/vectors-inl.h"
 
@@ -29,7 +29,7 @@ LAMINA_INLINE V code_nearest(V scaled) {
     return floor(scaled + 0.5);
 }
 
-// `code`, or the next code where `up`.
+// Returns `code`, or the next code if `up`.
 template <class V>
 LAMINA_INLINE V step_up(V code, typename V::Mask up) {
     return code + zero_unless(up, V(1.0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of compositing/dither.h, bit for bit, on vectors of doubles.
+// Vector form of compositing/codes.h, bit for bit, on vectors of doubles.
 #if defined(LAMINA_TILES_DITHER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_DITHER_INL_H_
 #undef LAMINA_TILES_DITHER_INL_H_
@@ -7,7 +7,7 @@
 #define LAMINA_TILES_DITHER_INL_H_
 #endif
 
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 #include "tiles/codes-inl.h"
 
 LAMINA_SIMD_BEGIN

@@ -24,7 +24,8 @@ LAMINA_INLINE Word lane_rows() {
     return shift_right<2>(iota<Word>(0));
 }
 
-// The pixels of a vector whose first pixel is (column, row) of the picture, rows from the top.
+// Returns random bits for the pixels of a vector whose first pixel is (column, row) of the picture,
+// rows from the top.
 LAMINA_INLINE Word random_of_pixels(int column, int row, std::uint32_t sample, std::uint32_t seed) {
     return random_bits(static_cast<std::uint32_t>(column) + lane_columns(),
                        static_cast<std::uint32_t>(row) + lane_rows(), Word(sample), Word(seed));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector form of shaders/optics/linear_segment.glsl: a segment on which colour and extinction are
 // linear. Opacity has a closed form; colour needs the weight of the segment's front
-// (optics/front_weights.h).
+// (optics/segment_integral.h).
 #if defined(LAMINA_TILES_LINEAR_SEGMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_LINEAR_SEGMENT_INL_H_
 #undef LAMINA_TILES_LINEAR_SEGMENT_INL_H_
@@ -9,7 +9,7 @@
 #define LAMINA_TILES_LINEAR_SEGMENT_INL_H_
 #endif
 
-#include "optics/front_weights.h"
+#include "optics/segment_integral.h"
 #include "tiles/opacity-inl.h"
 
 LAMINA_SIMD_BEGIN

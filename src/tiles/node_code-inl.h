@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/unreachable.h"
+#include "base/enum_words.h"
 #include "compositing/node_code.h"
 #include "simd/math-inl.h"
 #include "tiles/opacity-inl.h"
@@ -20,13 +20,13 @@ LAMINA_SIMD_BEGIN
 
 inline constexpr float inverse_e = static_cast<float>(1 / std::numbers::e);
 
-// log(1 / share) / e, for NodeCode::minimax.
+// Returns log(1 / share) / e, for NodeCode::minimax.
 LAMINA_INLINE float log_part_of(float share) {
     return static_cast<float>(-std::log(static_cast<double>(share)) / std::numbers::e);
 }
 
-// -log(1 - value), 0 <= value < 1. Below 1/4 it is 2 artanh(value / (2 - value)), because 1 - value
-// loses digits of small values. The first omitted term is 2e-8 of the result.
+// Returns -log(1 - value) for 0 <= value < 1. Below 1/4 it is 2 artanh(value / (2 - value)),
+// because 1 - value loses digits of small values. The first omitted term is 2e-8 of the result.
 LAMINA_INLINE Float depth_from_opacity(Float value) {
     const Float z = value / (2 - value);
     constexpr float series[] = {2.0f, 2.0f / 3, 2.0f / 5, 2.0f / 7};

@@ -13,8 +13,8 @@
 
 LAMINA_SIMD_BEGIN
 
-// The opacity of an optical depth >= 0, with a relative error of 3e-7 at every depth, infinity
-// included. The shader gives the reasons.
+// Returns the opacity of an optical depth >= 0, with a relative error of 3e-7 at every depth,
+// infinity included. The shader gives the reasons.
 LAMINA_INLINE Float opacity_from_depth(Float depth) {
     const Float octaves = min(depth * 1.4426950408889634f, 126.0f);
     const Int n = to_int(octaves + 0.5f);
@@ -26,7 +26,7 @@ LAMINA_INLINE Float opacity_from_depth(Float depth) {
     return (1 - power) - power * (f * polynomial(f, slope));
 }
 
-// The same in double precision, to 1e-13.
+// Returns the opacity in double precision, to 1e-13.
 template <class V>
 requires(std::is_same_v<typename V::Scalar, double>) LAMINA_INLINE V opacity_from_depth(V depth) {
     const V x = min(depth, 40.0) * (-1.0 / 256);

@@ -20,7 +20,7 @@ LAMINA_SIMD_BEGIN
 inline constexpr int max_float_over_bits = 12;
 inline constexpr int max_float_under_bits = 8;
 
-// x / n to the nearest whole number; n is odd.
+// Rounds x / n to the nearest whole number; n is odd.
 template <class V>
 LAMINA_INLINE V divide_nearest(V x, typename V::Scalar n) {
     return floor((x + (n - 1) / 2) / n);

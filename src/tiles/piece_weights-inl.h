@@ -13,9 +13,8 @@
 
 LAMINA_SIMD_BEGIN
 
-// The weight of the front's colour on a linear piece with extinction * length = p at its front and
-// q at its back. It is computed by nine-point Gauss-Legendre quadrature on the stretch of optical
-// depth below 12.
+// Returns the weight of the front's colour on a linear piece with extinction * length = p at its
+// front and q at its back, by nine-point Gauss-Legendre quadrature over optical depths below 12.
 LAMINA_INLINE Float piece_front_weight(Float p, Float q) {
     constexpr float nodes[] = {
         0.015919880246187f, 0.0819844463366821f, 0.193314283649705f,  0.337873288298096f, 0.5f,
@@ -25,7 +24,7 @@ LAMINA_INLINE Float piece_front_weight(Float p, Float q) {
                                  0.130305348201468f,  0.0903240803474287f, 0.0406371941807872f};
     constexpr float most_depth = 12;
     const Float depth = 0.5f * p + 0.5f * q;
-    // The place where the optical depth in front of it is most_depth, in units of depth.
+    // Place up to which the optical depth is most_depth, in units of depth.
     const Float slope = p / depth, share = most_depth / depth;
     const Float twice = share + share;
     const Float square = slope * slope + twice * (q / depth - slope);

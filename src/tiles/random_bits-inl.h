@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of random_bits (compositing/random_bits.h), on vectors of 32-bit unsigned numbers.
+// Vector form of random_bits (compositing/codes.h), on vectors of 32-bit unsigned numbers.
 #if defined(LAMINA_TILES_RANDOM_BITS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_RANDOM_BITS_INL_H_
 #undef LAMINA_TILES_RANDOM_BITS_INL_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of compositing/stochastic_over.h, bit for bit, on vectors of doubles.
+// Vector form of compositing/over.h, bit for bit, on vectors of doubles.
 #if defined(LAMINA_TILES_STOCHASTIC_OVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_STOCHASTIC_OVER_INL_H_
 #undef LAMINA_TILES_STOCHASTIC_OVER_INL_H_

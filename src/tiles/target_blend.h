@@ -7,12 +7,12 @@
 
 namespace lamina {
 
-// How fragments are composited onto the pixels of a tile: the plan's choices in the form that the
+// The plan's choices for compositing fragments onto the pixels of a tile, in the form that the
 // inner loops of tiles/target_pixels-inl.h use.
 struct TargetBlend {
     Target target = Target::float32;
     int bits = 8;       // bits of a code, for targets with codes
-    float largest = 1;  // value that represents 1 in the tiles: the largest code, or 1
+    float largest = 1;  // value that stands for 1 in the tiles: the largest code, or 1
     Order order = Order::back_to_front;
     AlphaRounding alpha_rounding = AlphaRounding::truncate;
     OverRounding over_rounding = OverRounding::separate;

@@ -54,8 +54,8 @@ LAMINA_INLINE Float native_code(float largest, Float value) {
     return round(clamp01(value) * largest);
 }
 
-// One channel of blend(). `kept`: the share of the pixel that the source leaves visible or, front
-// to back, the share of the source that the pixel leaves visible.
+// Blends one channel. `kept`: the share of the pixel that the source leaves visible or, front to
+// back, the share of the source that the pixel leaves visible.
 LAMINA_INLINE void blend_channel(const TargetBlend& target, Float source, Float kept,
                                  Float& there) {
     const bool behind = target.order == Order::front_to_back;
@@ -89,7 +89,7 @@ LAMINA_INLINE void blend(const TargetBlend& target, const Fragment& fragment, Pi
     blend_channel(target, source.alpha, kept, there.alpha);
 }
 
-// The same for opacity alone.
+// Blends opacity alone.
 LAMINA_INLINE void blend_opacity(const TargetBlend& target, Float opacity, Float& there) {
     const Float source =
         is_fixed_point(target.target) ? native_code(target.largest, opacity) : opacity;
@@ -97,7 +97,7 @@ LAMINA_INLINE void blend_opacity(const TargetBlend& target, Float opacity, Float
     blend_channel(target, source, kept, there);
 }
 
-// OVER or UNDER of one channel, in floats where they are precise enough.
+// OVER or UNDER of one channel, in floats if they are precise enough.
 LAMINA_INLINE Float composite_channel(const TargetBlend& target, Float color, Float alpha,
                                       Float there, Float there_alpha) {
     const bool behind = target.order == Order::front_to_back;
@@ -127,28 +127,30 @@ LAMINA_INLINE void composite_opacity(const TargetBlend& target, Float alpha, Flo
     there = composite_channel(target, Float(target.largest), alpha, there, there);
 }
 
-// The codes of opacities, rounded as render.emulate says. `random`: bits for stochastic rounding.
+// Returns the codes of opacities, rounded as render.emulate says. `random`: bits for stochastic
+// rounding.
 LAMINA_INLINE Float alpha_code(const TargetBlend& target, const Float64& opacity, Word random) {
     const double largest = target.largest;
     return to_float(
         round_alpha(target.alpha_rounding, split_scaled(largest * opacity), Float64(random)));
 }
 
-// The codes of opacities or colours in 0..1, dithered along depth. `rank`: rank of the slab.
+// Returns the codes of opacities or colours in 0..1, dithered along depth. `rank`: rank of the
+// slab.
 LAMINA_INLINE Float dithered_code(const TargetBlend& target, const Float64& value,
                                   const Dither& dither, std::uint32_t rank) {
     const double largest = target.largest;
     return to_float(dither_code(largest * value, rank, dither.period, dither.increment, largest));
 }
 
-// The nearest codes of colours.
+// Returns the nearest codes of colours.
 LAMINA_INLINE Float color_code(const TargetBlend& target, Float color) {
     const double largest = target.largest;
     return to_float(code_nearest(largest * Float64(clamp01(color))));
 }
 
 // OVER in real arithmetic on stored codes. The result is rounded at random, with one random number
-// for all channels (compositing/stochastic_over.h).
+// for all channels (compositing/over.h).
 LAMINA_INLINE void composite_stochastic(const TargetBlend& target, const Fragment& fragment,
                                         Word random, Pixels& there) {
     const Float64 chance(random), alpha(fragment.alpha);

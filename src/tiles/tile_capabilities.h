@@ -5,8 +5,8 @@
 
 namespace lamina {
 
-// The capabilities of the native engine on this machine. The renderer's name is, for example, "cpu:
-// AVX3".
+// Returns the capabilities of the engine `cpu` on this machine. The renderer's name is, for
+// example, "cpu: AVX3".
 Capabilities tile_capabilities();
 
 }  // namespace lamina

@@ -36,14 +36,14 @@ class TileGrid {
         return {column, row, std::min(edge, width_ - column), std::min(edge, height_ - row)};
     }
 
-    // The place at which a tile stores its pixel (column, row), both 0..edge-1. Blocks follow each
-    // other, and a block is stored row by row. So 4, 8 or 16 consecutive pixels are 4 x 1, 4 x 2 or
-    // 4 x 4 pixels of the picture.
+    // Returns the place at which a tile stores its pixel (column, row), both 0..edge-1. Blocks
+    // follow each other, and a block is stored row by row. So 4, 8 or 16 consecutive pixels are 4 x
+    // 1, 4 x 2 or 4 x 4 pixels of the picture.
     static constexpr int place(int column, int row) {
         const int number = row / block * (edge / block) + column / block;
         return number * block * block + row % block * block + column % block;
     }
-    // The pixel at a place: the inverse of place().
+    // Returns the pixel at a place: the inverse of place().
     struct Place {
         int column, row;
     };

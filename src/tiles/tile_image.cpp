@@ -5,7 +5,8 @@
 
 namespace lamina {
 
-// Memory is touched for the first time in parallel: the system takes its time to give it.
+// Memory is touched for the first time in parallel, because the system takes its time to provide
+// it.
 TileImage::TileImage(int width, int height)
     : grid_(width, height),
       tiles_(

@@ -21,7 +21,7 @@ struct TilePixels {
     Plane red, green, blue, alpha;
 };
 
-// A picture in tiles. It takes its memory once.
+// A picture in tiles. It allocates its memory once.
 class TileImage {
   public:
     TileImage(int width, int height);
@@ -29,7 +29,7 @@ class TileImage {
     const TileGrid& grid() const { return grid_; }
     TilePixels& tile(int number) { return tiles_[static_cast<std::size_t>(number)]; }
     const TilePixels& tile(int number) const { return tiles_[static_cast<std::size_t>(number)]; }
-    // `largest_code`: what stands for 1; 1 where the tiles hold values.
+    // `largest_code`: the number that stands for 1; it is 1 if the tiles hold values.
     void read(float largest_code, Image& image) const;
     std::int64_t byte_count() const {
         return grid_.count() * static_cast<std::int64_t>(sizeof(TilePixels));

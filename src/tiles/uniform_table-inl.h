@@ -16,8 +16,8 @@
 
 LAMINA_SIMD_BEGIN
 
-// The layer coordinate of a length that is given in units of layer 1's length. Whole numbers are
-// layers. It is not clamped to the last layer.
+// Returns the layer coordinate of a length that is given in units of layer 1's length. Whole
+// numbers are layers. It is not clamped to the last layer.
 LAMINA_INLINE Float length_layer(const UniformTable& table, Float v) {
     if (table.layers == 2 || table.request.mapping == LengthMapping::linear) return v;
     if (table.request.mapping == LengthMapping::log2) {
@@ -30,15 +30,15 @@ LAMINA_INLINE Float length_layer(const UniformTable& table, Float v) {
     return max(octaves, min(v, 1));
 }
 
-// The table's entries for some segments, before they are multiplied by its scale. `color` is used
-// for coloured tables.
+// The table's entries for a vector of segments, before they are multiplied by its scale. `color` is
+// set for coloured tables.
 struct SegmentEntry {
     Float color[3];
     Float value;  // mean extinction or opacity
 };
 
-// The positions of segments in the table: the number of the texel at the lower front node, back
-// node and layer, and the distances beyond them.
+// Positions of segments in the table: the number of the texel at the lower front node, back node
+// and layer, and the distances beyond them.
 struct SegmentPlace {
     Int texel;
     Float front, back, layer;
@@ -77,7 +77,8 @@ LAMINA_INLINE Float plain_entry(const UniformTable& table, const SegmentPlace& p
     return mix(below, layer_from(table.texels.data() + nodes * nodes), place.layer);
 }
 
-// For tables with four numbers a texel. It goes lane by lane, because these lie side by side.
+// For tables with four numbers a texel. Lanes are read one by one, because the four numbers lie
+// side by side.
 LAMINA_INLINE SegmentEntry colored_entry(const UniformTable& table, const SegmentPlace& place) {
     constexpr std::size_t lanes = Float::lanes;
     alignas(64) std::int32_t numbers[lanes];
@@ -110,8 +111,8 @@ LAMINA_INLINE SegmentEntry colored_entry(const UniformTable& table, const Segmen
     return entry;
 }
 
-// Associated colour and opacity of segments on which the scalar is linear from `front` to `back`.
-// `single_color`: the colour for tables without colour.
+// Returns associated colour and opacity of segments on which the scalar is linear from `front` to
+// `back`. `single_color`: the colour for tables without colour.
 LAMINA_INLINE SegmentEntry integrate_segment(const UniformTable& table, float inverse_first_length,
                                              const glm::vec3& single_color, Float front, Float back,
                                              Float world_length) {

@@ -4,10 +4,199 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/client.h"
+
 namespace lamina {
+
+CycleBreaker::Order CycleBreaker::order(std::size_t nodes, std::span<const Edge> edges,
+                                        std::int64_t work) {
+    most_work_ = work;
+    collect(nodes, edges);
+    work_ = 0;
+    drop_links();
+    work_ = 0;
+    take_back();
+    places_.resize(nodes);
+    for (std::size_t i = 0; i < nodes; ++i) places_[i] = nodes_[i].place;
+    Broken broken;
+    for (const Link& link : links_) {
+        if (node(link.from).place < node(link.to).place) continue;
+        ++broken.edges;
+        broken.area += link.area;
+    }
+    return {places_, broken};
+}
+
+void CycleBreaker::collect(std::size_t nodes, std::span<const Edge> edges) {
+    links_.clear();
+    nodes_.assign(nodes + 1, {});
+    auto next = edges.begin();
+    for (std::size_t i = 0; i < nodes; ++i) {
+        nodes_[i].out = nodes_[i].next = static_cast<std::int32_t>(links_.size());
+        for (; next != edges.end() && next->from == static_cast<std::int32_t>(i); ++next)
+            add(*next);
+    }
+    nodes_.back().out = static_cast<std::int32_t>(links_.size());
+    list_entering();
+}
+
+void CycleBreaker::add(const Edge& edge) {
+    for (auto at = static_cast<std::size_t>(node(edge.from).out); at < links_.size(); ++at) {
+        if (links_[at].to != edge.to) continue;
+        links_[at].area += edge.area;
+        links_[at].left += edge.area;
+        return;
+    }
+    links_.push_back({edge.from, edge.to, edge.area, edge.area, true});
+}
+
+void CycleBreaker::list_entering() {
+    for (const Link& edge : links_) ++node(edge.to + 1).in;
+    for (std::size_t i = 1; i < nodes_.size(); ++i) nodes_[i].in += nodes_[i - 1].in;
+    entering_.resize(links_.size());
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(links_.size()); ++i)
+        entering_[static_cast<std::size_t>(node(link(i).to).in++)] = i;
+    // Each list's start has moved to its end, at which the next list started.
+    for (std::size_t i = nodes_.size() - 1; i > 0; --i) nodes_[i].in = nodes_[i - 1].in;
+    nodes_[0].in = 0;
+}
+
+// Searches for cycles depth first, subtracts the smallest area left on each cycle from all its
+// links, and drops the links with nothing left. The links that are kept form no cycle. A node gets
+// its place, the nearest first, when all nearer nodes are done.
+void CycleBreaker::drop_links() {
+    dropped_.clear();
+    path_.clear();
+    const auto count = static_cast<std::int32_t>(nodes_.size()) - 1;
+    std::int32_t place = count;
+    for (std::int32_t root = 0; root < count; ++root) {
+        if (node(root).state == State::fresh) push(root);
+        while (!path_.empty()) {
+            const std::int32_t index = path_.back();
+            Node& top = node(index);
+            const std::int32_t end = node(index + 1).out;
+            while (top.next < end &&
+                   (!link(top.next).kept || node(link(top.next).to).state == State::done))
+                ++top.next;
+            if (top.next == end) {
+                top.state = State::done;
+                top.place = --place;
+                path_.pop_back();
+            } else if (const std::int32_t to = link(top.next).to; node(to).state == State::fresh) {
+                push(to);
+            } else if (work_ < most_work_) {
+                check_interrupt();
+                thin_cycle(node(to).depth);
+            } else {
+                link(top.next).kept = false;
+                dropped_.push_back(top.next);
+            }
+        }
+    }
+}
+
+void CycleBreaker::push(std::int32_t index) {
+    node(index).state = State::on_path;
+    node(index).depth = static_cast<std::int32_t>(path_.size());
+    path_.push_back(index);
+}
+
+// Thins a cycle: the path from depth `first` to its end, and the link back. The search goes on from
+// the first link of the path that is dropped.
+void CycleBreaker::thin_cycle(std::int32_t first) {
+    const auto begin = path_.begin() + first;
+    work_ += path_.end() - begin;
+    const auto edge_of = [&](std::int32_t index) -> Link& { return link(node(index).next); };
+    double least = edge_of(*begin).left;
+    for (auto at = begin; at != path_.end(); ++at) least = std::min(least, edge_of(*at).left);
+    auto cut = path_.end();
+    for (auto at = begin; at != path_.end(); ++at) {
+        Link& passed = edge_of(*at);
+        passed.left -= least;
+        if (passed.left > 0) continue;
+        passed.kept = false;
+        dropped_.push_back(node(*at).next);
+        if (cut == path_.end()) cut = at;
+    }
+    for (auto at = cut + 1; at != path_.end(); ++at) node(*at).state = State::fresh;
+    path_.erase(cut + 1, path_.end());
+}
+
+// Takes dropped links back, the largest first, if they close no cycle.
+void CycleBreaker::take_back() {
+    std::sort(dropped_.begin(), dropped_.end(), [&](std::int32_t a, std::int32_t b) {
+        return link(a).area != link(b).area ? link(a).area > link(b).area : a < b;
+    });
+    for (const std::int32_t index : dropped_) {
+        check_interrupt();
+        Link& dropped = link(index);
+        dropped.kept = node(dropped.from).place < node(dropped.to).place ||
+                       (work_ < most_work_ && keep(dropped));
+    }
+}
+
+// Changes the places so that the link is kept with all others, if that is possible (Pearce and
+// Kelly, A dynamic topological sort algorithm for directed acyclic graphs, 2007).
+bool CycleBreaker::keep(const Link& kept) {
+    nearer_.clear();
+    farther_.clear();
+    const std::int32_t first = node(kept.to).place, last = node(kept.from).place;
+    const bool free = mark_nearer(kept.to, last);
+    if (free) mark_farther(kept.from, first);
+    for (const auto* marked : {&nearer_, &farther_})
+        for (const std::int32_t index : *marked) node(index).marked = false;
+    if (!free) return false;
+    const auto by_place = [&](std::int32_t a, std::int32_t b) {
+        return node(a).place < node(b).place;
+    };
+    std::sort(nearer_.begin(), nearer_.end(), by_place);
+    std::sort(farther_.begin(), farther_.end(), by_place);
+    farther_.insert(farther_.end(), nearer_.begin(), nearer_.end());
+    free_.clear();
+    for (const std::int32_t index : farther_) free_.push_back(node(index).place);
+    std::sort(free_.begin(), free_.end());
+    for (std::size_t i = 0; i < free_.size(); ++i) node(farther_[i]).place = free_[i];
+    return true;
+}
+
+// Collects the nodes that kept links lead to before place `end`. Returns false if the node at that
+// place is among them.
+bool CycleBreaker::mark_nearer(std::int32_t from, std::int32_t end) {
+    nearer_.push_back(from);
+    node(from).marked = true;
+    for (std::size_t i = 0; i < nearer_.size(); ++i) {
+        work_ += node(nearer_[i] + 1).out - node(nearer_[i]).out;
+        for (std::int32_t at = node(nearer_[i]).out; at < node(nearer_[i] + 1).out; ++at) {
+            if (!link(at).kept) continue;
+            Node& to = node(link(at).to);
+            if (to.place == end) return false;
+            if (to.place > end || to.marked) continue;
+            to.marked = true;
+            nearer_.push_back(link(at).to);
+        }
+    }
+    return true;
+}
+
+void CycleBreaker::mark_farther(std::int32_t from, std::int32_t end) {
+    farther_.push_back(from);
+    node(from).marked = true;
+    for (std::size_t i = 0; i < farther_.size(); ++i) {
+        work_ += node(farther_[i] + 1).in - node(farther_[i]).in;
+        for (std::int32_t at = node(farther_[i]).in; at < node(farther_[i] + 1).in; ++at) {
+            const Link& entering = link(entering_[static_cast<std::size_t>(at)]);
+            if (!entering.kept) continue;
+            Node& other = node(entering.from);
+            if (other.place < end || other.marked) continue;
+            other.marked = true;
+            farther_.push_back(entering.from);
+        }
+    }
+}
+
 namespace {
 
-// The most edges that are visited to break the cycles of a component: some seconds. If tets overlap
+// Edges that are visited at most to break the cycles of a component: some seconds. If tets overlap
 // everywhere, there may be more cycles than can be broken in acceptable time.
 constexpr std::int64_t most_work = 200'000'000;
 
@@ -112,7 +301,7 @@ void OrderCycles::visit(const OrderGraph& graph, std::int32_t tet) {
     path_.push_back({tet, graph.first_edge(tet)});
 }
 
-// The tet was the first of its component to be found, so the component is what is open since. All
+// Completes the component of which the tet was found first: the tets that are open since. All
 // nearer components are complete, and follow it in the sequence.
 void OrderCycles::finish(std::int32_t tet) {
     const std::size_t end = memory_.size() - sequence_.size();

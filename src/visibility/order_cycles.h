@@ -5,15 +5,79 @@
 #include <span>
 #include <vector>
 
-#include "visibility/cycle_breaker.h"
 #include "visibility/order_graph.h"
 
 namespace lamina {
 
+// Orders the nodes of a graph with cycles so that the edges that it breaks have a small area. It
+// computes a feedback arc set as Demetrescu and Finocchi do (Combinatorial algorithms for feedback
+// problems in directed graphs, 2003), with areas as weights. For a ring the result is optimal. In
+// general no broken edge could be kept without breaking another one, unless the work is cut short.
+// Memory is kept from graph to graph.
+class CycleBreaker {
+  public:
+    // An edge from a node to a nearer one.
+    struct Edge {
+        std::int32_t from, to;
+        double area;
+    };
+    struct Broken {
+        std::int64_t edges = 0;  // pairs of nodes
+        double area = 0;         // sum of their areas
+    };
+    struct Order {
+        std::span<const std::int32_t> places;  // place of each node; 0 is the farthest
+        Broken broken;
+    };
+    // Orders the nodes. `edges`: in ascending order of `from`; several from one node to one other
+    // count as one edge with the sum of their areas. The result is valid until the next call.
+    // `work`: the most edges that are visited in the search for cycles, and again while broken
+    // edges are taken back; beyond that, edges are broken wherever they close a cycle.
+    Order order(std::size_t nodes, std::span<const Edge> edges, std::int64_t work);
+
+  private:
+    struct Link {
+        std::int32_t from, to;
+        double area;
+        double left;  // area that is left in the search for cycles
+        bool kept;
+    };
+    enum class State : std::uint8_t { fresh, on_path, done };
+    struct Node {
+        std::int32_t out, in;  // first place of its links in links_ and in entering_
+        std::int32_t next;     // link that the search follows next
+        std::int32_t depth;    // its place on the path
+        std::int32_t place;    // its place in the order, back to front
+        State state;
+        bool marked;
+    };
+    Node& node(std::int32_t index) { return nodes_[static_cast<std::size_t>(index)]; }
+    Link& link(std::int32_t index) { return links_[static_cast<std::size_t>(index)]; }
+    void collect(std::size_t nodes, std::span<const Edge> edges);
+    void add(const Edge& edge);
+    void list_entering();
+    void drop_links();
+    void push(std::int32_t index);
+    void thin_cycle(std::int32_t first);
+    void take_back();
+    bool keep(const Link& link);
+    bool mark_nearer(std::int32_t from, std::int32_t end);
+    void mark_farther(std::int32_t from, std::int32_t end);
+
+    std::vector<Link> links_;             // sorted by `from`
+    std::vector<std::int32_t> entering_;  // numbers of links, sorted by `to`
+    std::vector<Node> nodes_;             // with one more at the end
+    std::vector<std::int32_t> path_;
+    std::vector<std::int32_t> dropped_;
+    std::vector<std::int32_t> nearer_, farther_, free_;  // scratch of taking one link back
+    std::vector<std::int32_t> places_;
+    std::int64_t work_ = 0, most_work_ = 0;  // number of links that were visited
+};
+
 // Orders tets among which there are cycles. The strongly connected components of the graph (Tarjan,
 // Depth-first search and linear graph algorithms, 1972) are ordered without breaking a constraint.
 // Inside each component CycleBreaker breaks constraints of small seen area, which bounds the area
-// of the view where the order is wrong: on a ray that meets no broken constraint, each tet comes
+// of the view in which the order is wrong: on a ray that meets no broken constraint, each tet comes
 // before the next nearer one. Memory (28 bytes a tet) is taken at the first use, and more only for
 // larger cycles.
 class OrderCycles {
@@ -26,13 +90,13 @@ class OrderCycles {
         CycleBreaker::Broken broken;
     };
     // Orders all tets whose farther count is above zero. No edge may lead from such a tet to
-    // another tet. The time is linear in their number (n log n in a component).
-    // `break_rings`: the tets of each component are ordered, too; else they are in no order.
+    // another tet. The time is linear in their number (n log n in a component). `break_rings`: the
+    // tets of each component are ordered, too; without it they are in no order.
     Found order(const OrderGraph& graph, bool break_rings = true);
 
-    // The tets that order() ordered, back to front.
+    // Returns the tets that order() ordered, back to front.
     std::span<const std::int32_t> sequence() const { return sequence_; }
-    // The component of more than one tet that holds the tet, or none.
+    // Returns the component of more than one tet that holds the tet, or none.
     std::int32_t component(std::int32_t tet) const {
         return components_.empty() ? none : components_[static_cast<std::size_t>(tet)];
     }
@@ -62,7 +126,7 @@ class OrderCycles {
     std::int32_t found_ = 0;
     bool remembers_ = false;
     CycleBreaker breaker_;
-    std::vector<CycleBreaker::Edge> edges_;  // of one component
+    std::vector<CycleBreaker::Edge> edges_;  // edges of one component
     std::vector<std::int32_t> members_;
 };
 

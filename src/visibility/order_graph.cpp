@@ -2,11 +2,84 @@
 #include "visibility/order_graph.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include "base/parallel.h"
-#include "visibility/seen_area.h"
+#include "visibility/seen_shapes.h"
 
 namespace lamina {
+
+namespace {
+
+// A determinant of three rounded differences is off by less than 8 half ulps of its permanent
+// (Shewchuk 1997, section 4.3), which is at most 6 times the cube of the largest coordinate. The
+// bound is twice that, so that its own rounding does not matter.
+constexpr double error_bound = 96 * (std::numeric_limits<double>::epsilon() / 2);
+
+double largest(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+}  // namespace
+
+// The four faces share their vectors from the eye and two cross products.
+FaceSigner::Rounded FaceSigner::rounded(const Tet& tet) const {
+    std::array<glm::dvec3, 4> p;
+    double reach = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        p[i] = points_[static_cast<std::size_t>(tet[i])] - eye_.position;
+        reach = std::max(reach, largest(p[i]));
+    }
+    const glm::dvec3 p01 = glm::cross(p[0], p[1]), p23 = glm::cross(p[2], p[3]);
+    return {{glm::dot(p[1], p23), -glm::dot(p[0], p23), glm::dot(p[3], p01), -glm::dot(p[2], p01)},
+            error_bound * reach * reach * reach};
+}
+
+FaceSigner::Rounded FaceSigner::rounded_at_infinity(const Tet& tet) const {
+    const glm::dvec3& d = eye_.position;
+    const glm::dvec3& origin = points_[static_cast<std::size_t>(tet[0])];
+    std::array<glm::dvec3, 3> p;
+    double reach = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = points_[static_cast<std::size_t>(tet[i + 1])] - origin;
+        reach = std::max(reach, largest(p[i]));
+    }
+    const glm::dvec3 d1 = glm::cross(d, p[0]), d3 = glm::cross(d, p[2]);
+    const double d12 = glm::dot(d1, p[1]), d13 = glm::dot(d1, p[2]), d23 = -glm::dot(d3, p[1]);
+    // Face 0 is the sum of three determinants. Its bound is used for all faces.
+    return {{d12 + d23 - d13, -d23, d13, -d12}, 4 * error_bound * largest(d) * reach * reach};
+}
+
+int FaceSigner::exact(const Tet& tet, std::size_t face) const {
+    const auto [a, b, c] = corners_of_face(tet, face);
+    return sign_as_seen(eye_, points_[static_cast<std::size_t>(a)],
+                        points_[static_cast<std::size_t>(b)], points_[static_cast<std::size_t>(c)]);
+}
+
+// There are no branches on the signs, because these cannot be predicted.
+FaceSigns FaceSigner::signs(std::size_t index) const {
+    const Tet& tet = tets_[index];
+    const Rounded seen = eye_.at_infinity ? rounded_at_infinity(tet) : rounded(tet);
+    FaceSigns nearer = 0, farther = 0;
+    for (std::size_t face = 0; face < 4; ++face) {
+        const double value = seen.determinants[face];
+        nearer |= FaceSigns{-value > seen.error} << face;
+        farther |= FaceSigns{value > seen.error} << face;
+    }
+    if ((nearer | farther) != 0xf) {
+        for (std::size_t face = 0; face < 4; ++face) {
+            if ((nearer | farther) & nearer_bit(face)) continue;
+            const int sign = exact(tet, face);
+            nearer |= FaceSigns{sign < 0} << face;
+            farther |= FaceSigns{sign > 0} << face;
+        }
+    }
+    return nearer | farther * farther_bit(0);
+}
+
 OrderGraph::OrderGraph(const TetMesh& mesh, bool across_gaps)
     : mesh_(mesh), signs_(mesh.tets().size()), farther_counts_(mesh.tets().size()) {
     if (!across_gaps) return;
@@ -71,6 +144,71 @@ double OrderGraph::area(std::int32_t tet, std::int32_t edge) const {
     const Passage passed = passage(tet, edge);
     return passed.shared ? seen_area(eye_, passed.exit)
                          : seen_overlap(eye_, passed.exit, passed.entry);
+}
+
+namespace {
+
+// States of a tet: not met yet; on the path, and face `state - first_face` is the next to look
+// across; drawn.
+constexpr std::uint8_t unmet = 0, first_face = 1, drawn = 6;
+
+}  // namespace
+
+FarthestFirst::FarthestFirst(const TetMesh& mesh) : mesh_(mesh), next_face_(mesh.tets().size()) {
+    starts_.reserve(mesh.open_faces().size());
+}
+
+void FarthestFirst::find_starts(const Eye& eye) {
+    starts_.clear();
+    for (const TetFace& face : mesh_.open_faces()) {
+        const auto [a, b, c] = mesh_.corners(face);
+        if (sign_as_seen(eye, a, b, c) < 0)
+            starts_.push_back({view_distance(eye, (a + b + c) / 3.0), face.tet});
+    }
+    std::sort(starts_.begin(), starts_.end());
+}
+
+std::int64_t FarthestFirst::sort(const OrderGraph& graph, std::span<std::int32_t> order) {
+    find_starts(graph.eye());
+    std::fill(next_face_.begin(), next_face_.end(), unmet);
+    drawn_ = 0;
+    broken_ = 0;
+    for (const Start& start : starts_) draw(graph, start.tet, order);
+    // An eye inside the mesh has tets that no open face towards it leads to.
+    for (std::size_t tet = 0; tet < order.size(); ++tet)
+        draw(graph, static_cast<std::int32_t>(tet), order);
+    return broken_;
+}
+
+void FarthestFirst::draw(const OrderGraph& graph, std::int32_t root,
+                         std::span<std::int32_t> order) {
+    if (next_face_[static_cast<std::size_t>(root)] != unmet) return;
+    // The path grows from the end of `order`. Both fit, because no tet is drawn and on the path at
+    // once.
+    std::size_t top = order.size();
+    order[--top] = root;
+    next_face_[static_cast<std::size_t>(root)] = first_face;
+    while (top < order.size()) {
+        const std::int32_t tet = order[top];
+        std::uint8_t& state = next_face_[static_cast<std::size_t>(tet)];
+        const FaceSigns signs = graph.signs(tet);
+        while (state < first_face + 4 && !(signs & farther_bit(state - first_face))) ++state;
+        if (state == first_face + 4) {
+            state = drawn;
+            ++top;
+            order[drawn_++] = tet;
+            continue;
+        }
+        const auto face = static_cast<std::size_t>(state++ - first_face);
+        const std::int32_t farther = mesh_.neighbors()[static_cast<std::size_t>(tet)][face];
+        std::uint8_t& other = next_face_[static_cast<std::size_t>(farther)];
+        if (other == unmet) {
+            other = first_face;
+            order[--top] = farther;
+        } else if (other != drawn) {
+            ++broken_;
+        }
+    }
 }
 
 }  // namespace lamina

@@ -4,24 +4,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 
-#include "base/interrupt.h"
-#include "scene/window_view.h"
+#include <glm/geometric.hpp>
+#include "base/client.h"
+#include "scene/camera.h"
 
 namespace lamina {
+
 namespace {
 
 constexpr PixelArea no_pixels{0, -1, 0, -1};
 
-// So many constraints are visited for each, at most, while rings are broken. What is then broken
-// without need is found again, and mended, in smaller parts of the picture.
+// Constraints that are visited for each constraint, at most, while rings are broken. Constraints
+// that are then broken without need are found again, and kept, in smaller parts of the picture.
 constexpr std::int64_t work_a_constraint = 16;
 
-// Two tets overlap on a ray if they share more than this part of the shorter way through one of
-// them and of the depth. That is far above what rounding does to both ends of a way (1e-16 of the
-// depth, over the slope of a face, which the ray perturbation keeps above 1e-7), and what remains
-// below it is the same picture in either order to that part of one tet's opacity.
+// Two tets overlap on a ray if they share more than these parts of the shorter way through one of
+// them, and of the depth. That is far above what rounding does to both ends of a way (1e-16 of the
+// depth, over the slope of a face, which the ray perturbation keeps above 1e-7). A smaller overlap
+// changes the picture, in either order, by that part of one tet's opacity at most.
 constexpr double overlap_share = 1e-3, overlap_of_depth = 1e-9;
 
 // The depths between which a ray is inside a tet. If it misses the tet, `in` is above `out`.

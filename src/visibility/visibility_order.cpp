@@ -2,20 +2,60 @@
 #include "visibility/visibility_order.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
-#include <glm/geometric.hpp>
 #include <numeric>
+#include <vector>
 
+#include <glm/geometric.hpp>
+#include "base/error.h"
 #include "base/parallel.h"
-#include "base/stage.h"
+#include "base/profile.h"
 #include "mesh/mesh_shape.h"
-#include "visibility/view_distance.h"
+#include "visibility/order_graph.h"
 
 namespace lamina {
+
 namespace {
 
-// Projection cuts tets at a near plane of 1e-6 of the mesh's diagonal (plan/project_planner.cpp):
-// what it draws lies beyond half of that.
+std::vector<std::int32_t> places_in(std::span<const std::int32_t> order, std::size_t tets) {
+    if (order.size() != tets)
+        fail("an order has {} tets, expected the mesh's {}", order.size(), tets);
+    std::vector<std::int32_t> places(tets, -1);
+    for (std::size_t i = 0; i < tets; ++i) {
+        const auto tet = static_cast<std::size_t>(order[i]);
+        if (tet >= tets || places[tet] >= 0)
+            fail("place {} of an order is tet {}, expected each of {} tets once", i, order[i],
+                 tets);
+        places[tet] = static_cast<std::int32_t>(i);
+    }
+    return places;
+}
+
+}  // namespace
+
+std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
+                             std::span<const std::int32_t> order) {
+    const std::vector<std::int32_t> places = places_in(order, mesh.tets().size());
+    const FaceSigner signer(mesh, eye);
+    std::atomic<std::int64_t> violations{0};
+    parallel_for(static_cast<std::int64_t>(order.size()), tets_per_task, [&](std::int64_t index) {
+        const auto tet = static_cast<std::size_t>(index);
+        const FaceSigns signs = signer.signs(tet);
+        for (std::size_t face = 0; face < 4; ++face) {
+            const std::int32_t other = mesh.neighbors()[tet][face];
+            if (other == TetMesh::no_neighbor || !(signs & farther_bit(face))) continue;
+            if (places[static_cast<std::size_t>(other)] > places[tet])
+                violations.fetch_add(1, std::memory_order_relaxed);
+        }
+    });
+    return violations;
+}
+
+namespace {
+
+// Depth, as a share of the mesh's diagonal, beyond which everything is drawn: projection cuts tets
+// at a near plane of 1e-6 of the diagonal (plan/project_planner.cpp).
 constexpr double near_share = 0.5e-6;
 
 }  // namespace
@@ -60,7 +100,8 @@ DrawOrder<std::int32_t> VisibilityOrder::sort_pixels(const View& view,
     return rings_->order();
 }
 
-// `break_rings`: the tets of rings are ordered, too, as well as whole tets can be.
+// Sorts whole tets. `break_rings`: the tets of rings are ordered, too, as well as whole tets can
+// be.
 std::span<const std::int32_t> VisibilityOrder::sort_whole(const Eye& eye, bool break_rings,
                                                           const std::function<void()>& meanwhile) {
     report_ = {};
@@ -77,7 +118,7 @@ std::span<const std::int32_t> VisibilityOrder::sort_whole(const Eye& eye, bool b
     return order_;
 }
 
-// Lists the tets of each ring anew. In the order tets in no ring come first, then rings and tets
+// Lists the tets of each ring anew. In the order, tets in no ring come first, then rings and tets
 // between them (sort_topologically).
 void VisibilityOrder::solve_rings(const View& view) {
     const Stage solving("rings");
@@ -100,8 +141,9 @@ void VisibilityOrder::solve_rings(const View& view) {
     report_.broken_area = 0;
 }
 
-// VTK's vtkCellCenterDepthSort takes the depth along the camera's axis for perspective views, too.
-// The distance from the eye is the better estimate there, and needs no axis.
+// Sorts by the distance of centroids from the eye. VTK's vtkCellCenterDepthSort takes the depth
+// along the camera's axis for perspective views, too; the distance is the better estimate, and
+// needs no axis.
 void VisibilityOrder::sort_centroids(const Eye& eye) {
     const auto points = mesh_.points();
     parallel_for(static_cast<std::int64_t>(order_.size()), tets_per_task, [&](std::int64_t index) {
@@ -134,9 +176,9 @@ void VisibilityOrder::sort_topologically(bool break_rings) {
     std::copy(rest.begin(), rest.end(), order_.begin() + static_cast<std::ptrdiff_t>(drawn));
 }
 
-// Draws every tet when all farther tets have been drawn (Kahn 1962), and returns their number: all,
-// unless there are cycles. Tets that may be drawn wait on a stack, so that the next is mostly a
-// neighbour of the last one. The stack grows from the end of the order, which has room for both.
+// Draws every tet when all farther tets have been drawn (Kahn 1962), and returns how many it drew:
+// all, unless there are cycles. Tets that may be drawn wait on a stack, so that the next is mostly
+// a neighbour of the last one. The stack grows from the end of the order, which has room for both.
 std::size_t VisibilityOrder::draw_free() {
     const auto counts = graph_->farther_counts();
     const auto neighbors = mesh_.neighbors();

@@ -5,17 +5,18 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 
 namespace lamina {
+
 namespace {
 
-// Bricks read at a time ahead of their use.
+// Number of bricks that one task reads ahead of their use.
 constexpr std::size_t together = 64;
 
-// Bricks along x of which those that are expected are read together.
+// Length in bricks of the runs along x whose expected bricks are read together.
 constexpr std::uint32_t neighbours = 16;
 
 std::int64_t cache_bricks_along(std::int64_t size) {
@@ -63,7 +64,7 @@ std::uint64_t BrickCache::resident_bytes() const {
     return owners_.size() * brick_bytes_;
 }
 
-// Every thread has one of its own, as far as there are enough.
+// Returns this thread's stripe: each thread has one of its own as long as there are enough.
 std::mutex& BrickCache::stripe() const {
     static std::atomic<unsigned> threads{0};
     static thread_local const unsigned thread = threads++;
@@ -79,7 +80,8 @@ void BrickCache::expect(std::span<const std::uint32_t> bricks) {
     for (const std::uint32_t brick : bricks) expected_[brick] = 1;
 }
 
-// In ascending order, each once. All threads together may claim half of the slots.
+// Returns the bricks and their expected neighbours, in ascending order, each once. All threads
+// together may claim half of the slots.
 std::vector<std::uint32_t> BrickCache::with_neighbours(
     std::span<const std::uint32_t> bricks) const {
     std::vector<std::uint32_t> all(bricks.begin(), bricks.end());
@@ -114,7 +116,7 @@ void BrickCache::load(std::span<const std::uint32_t> bricks) const {
     publish(wanted, true);
 }
 
-// Takes the bricks that nobody reads yet. Where others read all of them, it waits for these.
+// Takes those of the bricks that no thread reads yet. If others read all of them, waits for these.
 std::vector<BrickCache::Wanted> BrickCache::claim(std::span<const std::uint32_t> bricks) const {
     std::unique_lock lock(access_);
     std::vector<Wanted> wanted;
@@ -169,8 +171,8 @@ std::uint32_t BrickCache::take_slot(std::unique_lock<std::mutex>& lock) const {
     }
 }
 
-// Frees an eighth of the slots, those whose bricks were used least recently. Who holds bricks has
-// locked a stripe: with all locked, none is held.
+// Frees an eighth of the slots, those whose bricks were used least recently. A thread that holds
+// bricks has locked a stripe: with all stripes locked, no brick is held.
 void BrickCache::evict() const {
     struct Slot {
         std::uint32_t number;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <condition_variable>
@@ -12,14 +13,15 @@
 #include <span>
 #include <vector>
 
-#include "base/reserved_memory.h"
+#include "base/memory.h"
+#include "volume/sample_source.h"
 
 namespace lamina {
 
-// A volume in bricks of edge^3 cells, of which as many are in memory as it may take; the least
+// A volume in bricks of edge^3 cells. As many are in memory as there is room for; the least
 // recently used ones make room for others. A brick has one more sample along each axis than cells,
-// so that each cell lies in one brick; beyond the volume's last sample that repeats. Safe from any
-// thread.
+// so that each cell lies in one brick; beyond the volume's last sample, that sample is repeated.
+// Safe from any thread.
 class BrickCache {
   public:
     static constexpr std::int64_t edge = 32, shift = 5;
@@ -44,8 +46,8 @@ class BrickCache {
         return static_cast<std::uint32_t>((z * count_[1] + y) * count_[0] + x);
     }
 
-    // How much memory bricks may take; at least `fewest_bytes()` are taken. What is in memory
-    // already stays there.
+    // Sets how many bytes bricks may take; at least `fewest_bytes()` are taken. Bricks in memory
+    // stay there.
     void set_capacity(std::uint64_t bytes);
     std::uint64_t capacity() const;
     static constexpr std::size_t most_held = 64;  // bricks in one call of hold()
@@ -80,23 +82,23 @@ class BrickCache {
             load(std::span(missing).first(lacking));
         }
     }
-    // The samples of a brick that is held.
+    // Returns the samples of a brick, which must be held.
     const std::byte* at(std::uint32_t brick) const {
         return memory_.data() +
                std::size_t{slots_[brick].load(std::memory_order_relaxed)} * brick_bytes_;
     }
 
     void clear();  // forgets all bricks, and gives their memory back; nobody may hold any
-    // Bricks that will be used sooner or later, ascending: where one is missing, its neighbours
-    // along x among these are read with it, because they lie beside each other in files. Without
-    // this, all neighbours are.
+    // Names the bricks, ascending, that will be used sooner or later: if one is missing, its
+    // neighbours along x among these are read with it, because they lie beside each other in files.
+    // Without this call, all neighbours are.
     void expect(std::span<const std::uint32_t> bricks);
-    // Those of the bricks that are not in memory, ascending.
+    // Returns the bricks that are not in memory, ascending.
     std::vector<std::uint32_t> missing(std::span<const std::uint32_t> bricks) const;
-    // Reads bricks that are to be used soon, and that fit, if they are not in memory, in ascending
+    // Reads bricks that will be used soon, and that fit, if they are not in memory, in ascending
     // order on all cores.
     void load_ahead(std::span<const std::uint32_t> bricks) const;
-    // How many bricks were read so far.
+    // Returns how many bricks were read so far.
     std::int64_t bricks_read() const { return bricks_read_.load(); }
 
   private:
@@ -118,14 +120,14 @@ class BrickCache {
     std::array<std::int64_t, 3> count_{};
     std::size_t brick_bytes_;
     Fill fill_;
-    mutable std::vector<std::atomic<std::uint32_t>> slots_;  // of each brick
+    mutable std::vector<std::atomic<std::uint32_t>> slots_;  // slot of each brick
     mutable std::vector<std::atomic<std::uint32_t>> used_;   // when last, by the clock, each brick
     mutable std::atomic<std::uint32_t> clock_{0};            // counts calls of fill_
     mutable std::atomic<std::int64_t> bricks_read_{0};
     std::vector<std::uint8_t> expected_;  // 1: this brick; empty: all
     mutable std::array<Stripe, 32> stripes_;
 
-    mutable std::mutex access_;  // of all below
+    mutable std::mutex access_;  // guards all members below
     mutable std::condition_variable changed_;
     mutable ReservedMemory memory_;
     std::uint32_t capacity_ = 0;                     // in slots
@@ -133,5 +135,63 @@ class BrickCache {
     mutable std::vector<std::uint32_t> free_;        // slots
     mutable std::vector<std::uint32_t> being_read_;  // bricks
 };
+
+// The places of bricks in a volume.
+struct BrickPlaces {
+    std::array<std::int64_t, 3> size;    // samples of the volume
+    std::array<std::int64_t, 3> count;   // of bricks
+    std::array<std::int64_t, 3> origin;  // the volume's sample with which brick 0 begins
+
+    std::array<std::int64_t, 3> first_sample(std::uint32_t brick) const {
+        const std::int64_t number = brick;
+        return {origin[0] + number % count[0] * BrickCache::edge,
+                origin[1] + number / count[0] % count[1] * BrickCache::edge,
+                origin[2] + number / (count[0] * count[1]) * BrickCache::edge};
+    }
+
+    // Returns the box of the samples of bricks that lie beside each other along x, with `margin`
+    // more samples on each side.
+    SampleBox box_of(std::uint32_t first_brick, std::uint32_t last_brick,
+                     std::int64_t margin) const {
+        const auto first = first_sample(first_brick), last = first_sample(last_brick);
+        SampleBox box;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::int64_t last_of_all = size[axis] - 1;
+            const std::int64_t from =
+                std::clamp<std::int64_t>(first[axis] - margin, 0, last_of_all);
+            const std::int64_t to =
+                std::clamp<std::int64_t>(last[axis] + BrickCache::edge + margin, from, last_of_all);
+            box.first[axis] = from;
+            box.size[axis] = to - from + 1;
+        }
+        return box;
+    }
+};
+
+// Reads the samples of bricks, with `margin` more on each side, at once for those that lie beside
+// each other along x, and calls make(wanted, first sample, window) for each. T: the type of the
+// source's samples.
+template <typename T, typename Make>
+void read_brick_runs(const SampleSource& source, const BrickPlaces& places,
+                     std::span<const BrickCache::Wanted> wanted, std::int64_t margin,
+                     const Make& make) {
+    const auto together = [&](std::uint32_t a, std::uint32_t b) {
+        return a / places.count[0] == b / places.count[0];
+    };
+    for (std::size_t begin = 0, end = 0; begin < wanted.size(); begin = end) {
+        for (end = begin + 1; end < wanted.size() &&
+                              wanted[end].brick == wanted[end - 1].brick + 1 &&
+                              together(wanted[end].brick, wanted[begin].brick);)
+            ++end;
+        SampleWindow<T> window;
+        window.box = places.box_of(wanted[begin].brick, wanted[end - 1].brick, margin);
+        const auto samples =
+            std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(window.box.count()));
+        source.read(window.box, samples.get());
+        window.samples = samples.get();
+        for (std::size_t i = begin; i < end; ++i)
+            make(wanted[i], places.first_sample(wanted[i].brick), window);
+    }
+}
 
 }  // namespace lamina

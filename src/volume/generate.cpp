@@ -9,20 +9,20 @@
 #include <memory>
 #include <type_traits>
 
+#include "base/enum_words.h"
 #include "base/error.h"
-#include "base/filled_memory.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "base/shortened.h"
-#include "base/unreachable.h"
-#include "volume/analytic_generators.h"
-#include "volume/mixing_generator.h"
+#include "base/text.h"
+#include "volume/generators.h"
 #include "volume/nrrd_writer.h"
 
 namespace lamina {
 namespace {
 
-constexpr std::int64_t slab_bytes = std::int64_t{1} << 25;  // what generate_nrrd holds at once
+// Bytes that generate_nrrd() holds at a time.
+constexpr std::int64_t slab_bytes = std::int64_t{1} << 25;
 
 struct Entry {
     const char* name;
@@ -46,7 +46,7 @@ const Entry& entry_of(const std::string& name) {
          fmt::join(generator_names(), ", "));
 }
 
-// Rounds to the nearest code of an integer type, whose whole range is 0..1.
+// Rounds values to the nearest codes of an integer type, whose whole range stands for 0..1.
 template <typename T>
 void quantize(const double* values, std::int64_t count, T* samples) {
     for (std::int64_t i = 0; i < count; ++i) {
@@ -59,7 +59,7 @@ void quantize(const double* values, std::int64_t count, T* samples) {
     }
 }
 
-// Fills `samples`, which holds nothing else, with the slices [begin, end).
+// Fills `samples`, which has room for just these, with the slices [begin, end).
 template <typename T>
 void fill_slices(const Generator& generator, const GridSize& size, std::int64_t begin,
                  std::int64_t end, T* samples, Progress& progress) {
@@ -114,6 +114,7 @@ Grid generated_grid(const GeneratorRequest& request) {
                  fmt::join(grid.size, ","), largest_generated_axis);
         }
     }
+    grid.centering.fill(Centering::cell);
     if (request.name == "ramp") return grid;  // voxels of edge 1
     for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t size = grid.size[static_cast<std::size_t>(axis)];

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "lamina/generator_request.h"
 #include "lamina/volume.h"
 
@@ -17,9 +17,9 @@ constexpr std::int64_t largest_generated_axis = 2048;
 
 const std::vector<std::string>& generator_names();
 
-// The grid is the unit box with samples at its faces (`node`; an axis of one sample is `cell`). For
-// "ramp" it has voxels of edge 1 and the first sample at the origin. Throws Error where name, size
-// (1..2048 along each axis) or type is not valid.
+// Returns the grid of a request: the unit box with samples at its faces (`node`; an axis of one
+// sample is `cell`), or for "ramp" voxels of edge 1 with the first sample at the origin. Throws
+// Error if name, size (1..2048 along each axis) or type is not valid.
 Grid generated_grid(const GeneratorRequest& request);
 
 // Generate values over the type's whole range: 0..255, 0..65535, 0..1. Parallel, with progress.

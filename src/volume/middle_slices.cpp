@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "image/pixel_text.h"
-#include "volume/sample_access.h"
+#include "image/coded_image.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 namespace {

@@ -7,14 +7,15 @@
 #include <type_traits>
 
 #include "base/parallel.h"
-#include "volume/volume_index.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
+
 namespace {
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
 
-// Minima and maxima in the samples' own type; lo > hi where there is nothing finite.
+// Minima and maxima in the samples' own type; lo > hi if nothing is finite.
 template <typename T>
 struct Extrema {
     explicit Extrema(std::size_t count)
@@ -62,8 +63,8 @@ std::int64_t bricks_along(std::int64_t samples) {
     return std::max<std::int64_t>(1, (samples - 1 + edge - 1) / edge);
 }
 
-// The samples that a block's bricks touch on an axis, and those of them that they own: all but the
-// last, which the next brick owns where there is one.
+// The samples that a block's bricks touch on an axis, and those that they own: all but the last
+// one, if another brick follows, which owns it.
 struct Touched {
     std::int64_t begin, end, owned_end;
 };

@@ -17,9 +17,9 @@
 
 namespace lamina {
 
-// Answers of a slow function of the ranges of bricks. Samples of 8 bits have few different ranges:
-// of many bricks all are answered at once. Otherwise answers are remembered for a while, since
-// holes of any type have one range.
+// The answers of a slow function of the ranges of bricks. Samples of 8 bits have few different
+// ranges, so if there are many bricks, all ranges are answered at once. Otherwise the latest
+// answers are remembered, because holes of any sample type have one range.
 template <typename Answer>
 class RangeAnswers {
     static_assert(!std::is_same_v<Answer, bool>);  // threads cannot set bits of a vector
@@ -53,8 +53,8 @@ class RangeAnswers {
             return entry.answer;
         }
 
-        // The answers for consecutive bricks. Large holes are told by their bytes, and answered
-        // at once.
+        // Fills in the answers for consecutive bricks. Large holes are recognised by their bytes,
+        // and answered at once.
         void fill(std::size_t first, std::span<Answer> answers) {
             while (!answers.empty()) {
                 const std::size_t count = std::min(answers.size(), together);

@@ -7,15 +7,18 @@
 #include <cstring>
 #include <memory>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 #include "lamina/volume.h"
 #include "volume/brick_cache.h"
+#include "volume/min_max_bricks.h"
 #include "volume/sample_source.h"
 
 namespace lamina {
 
-// The samples of a volume that stay in its files, and those bricks of them that were used last.
-// Safe from any thread.
+// The samples of a volume that stays in its files, and the bricks of them that were used last. Safe
+// from any thread.
 class VolumeStore {
   public:
     VolumeStore(const Grid& grid, SampleType type, std::unique_ptr<const SampleSource> source);
@@ -23,16 +26,17 @@ class VolumeStore {
     const SampleSource& source() const { return *source_; }
     const std::array<std::int64_t, 3>& size() const { return size_; }
     SampleType type() const { return type_; }
-    // Bricks of samples of the volume's type.
+    // Returns the bricks, with samples of the volume's type.
     BrickCache& bricks() const { return bricks_; }
 
-    // One sample, by its place: reads the brick that holds it.
+    // Returns one sample, by its place: reads the brick that holds it.
     template <typename T>
     T sample(std::int64_t x, std::int64_t y, std::int64_t z) const {
         return corners<T>({x, y, z}, {x, y, z})[0];
     }
 
-    // The samples at the corners of a cell, x fastest; `upper`: at most one more than `lower`.
+    // Returns the samples at the corners of a cell, x fastest; `upper`: at most one more than
+    // `lower`.
     template <typename T>
     std::array<T, 8> corners(const std::array<std::int64_t, 3>& lower,
                              const std::array<std::int64_t, 3>& upper) const {
@@ -66,5 +70,63 @@ class VolumeStore {
     std::unique_ptr<const SampleSource> source_;
     mutable BrickCache bricks_;
 };
+
+// Samples of a volume that stays in its files, one by one, as through a pointer to the first: x
+// changes fastest.
+template <typename T>
+class SamplesInFiles {
+  public:
+    SamplesInFiles() = default;  // samples of no volume
+    explicit SamplesInFiles(const VolumeStore& store, std::int64_t first = 0)
+        : store_(&store), first_(first) {}
+
+    T operator[](std::int64_t number) const {
+        number += first_;
+        const auto& size = store_->size();
+        return store_->template sample<T>(number % size[0], number / size[0] % size[1],
+                                          number / (size[0] * size[1]));
+    }
+    // Returns the samples at the corners of a cell, x fastest. The cell is at most one step wide on
+    // each axis.
+    std::array<T, 8> corners(const std::array<std::int64_t, 3>& lower,
+                             const std::array<std::int64_t, 3>& upper) const {
+        return store_->template corners<T>(lower, upper);
+    }
+    friend SamplesInFiles operator+(const SamplesInFiles& samples, std::int64_t steps) {
+        return SamplesInFiles(*samples.store_, samples.first_ + steps);
+    }
+
+  private:
+    const VolumeStore* store_ = nullptr;
+    std::int64_t first_ = 0;
+};
+
+// The type of the samples behind a pointer or SamplesInFiles.
+template <typename Samples>
+using SampleOf = std::remove_cvref_t<decltype(std::declval<const Samples&>()[0])>;
+
+// Calls visitor(samples) with a pointer to the first sample, or with SamplesInFiles: for work that
+// looks at few samples.
+template <typename Visitor>
+decltype(auto) visit_samples(const Volume& volume, const Visitor& visitor) {
+    if (volume.in_memory()) return volume.visit(visitor);
+    return with_sample_type(volume.type(), [&](auto zero) {
+        return visitor(SamplesInFiles<decltype(zero)>(volume.store()));
+    });
+}
+
+// Throws Error if the files of a volume that stays in them have changed since it was opened.
+inline void check_unchanged(const Volume& volume) {
+    if (!volume.in_memory()) volume.store().source().check_unchanged();
+}
+
+// Returns the samples at the corners of a cell, x fastest; `upper`: at most one more than `lower`.
+// If the volume stays in its files they are read alone, so that no bricks are read for the sake of
+// a few samples, and cells of bricks with one value are not read. `bricks`: the volume's, or null.
+std::array<double, 8> scattered_corners(const Volume& volume, const MinMaxBricks* bricks,
+                                        const std::array<std::int64_t, 3>& lower,
+                                        const std::array<std::int64_t, 3>& upper);
+
+double scattered_sample(const Volume& volume, const std::array<std::int64_t, 3>& place);
 
 }  // namespace lamina

@@ -11,8 +11,8 @@
 namespace lamina {
 
 // A copy of a volume's samples beside its files, as FILE.lamina-bricks: a Zarr array of chunks, for
-// files of which no part can be read alone. What it is a copy of, and the volume's grid, its
-// attributes say; hashes of its chunks are checked as they are read.
+// files of which no part can be read alone. Its attributes name what it is a copy of, and the
+// volume's grid; hashes of its chunks are checked as they are read.
 std::filesystem::path bricked_copy_of(const std::filesystem::path& file);
 
 // A copy that was written, for messages.
@@ -22,13 +22,14 @@ struct BrickedCopy {
     std::uint64_t bytes = 0;
 };
 
-// Writes the copy, in place of one that was there; the volume is read slice by slice where its
-// files allow that. Throws Error, and then leaves nothing. Distances and origin of the request do
-// not matter.
+// Writes the copy, and replaces one that is there. The volume is read slice by slice if its files
+// allow that. Distances and origin of the request do not matter. Throws Error, and then leaves
+// nothing.
 BrickedCopy write_bricked_copy(const std::filesystem::path& file, const VolumeRequest& request);
 
-// The volume of the copy, if there is one and the volume stays in files by this use. Where the
-// files are not those that were copied, or another part of them is requested, a warning says so.
+// Returns the volume of the copy, if there is one and the volume stays in files by this use. A
+// warning says if the files are not those that were copied, or if another part of them is
+// requested.
 std::optional<Volume> open_bricked_copy(const std::filesystem::path& file,
                                         const VolumeRequest& request, const VolumeUse& use);
 

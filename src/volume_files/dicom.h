@@ -6,17 +6,21 @@
 
 #include "lamina/volume.h"
 #include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 
-// Whether the path is a DICOM file, or a folder with one among its first files.
+// Tells if the path is a DICOM file, or a folder with one among its first files.
 bool is_dicom(const std::filesystem::path& path);
 
-// Reads the series of a folder, or a file of several frames: volume_files/dicom_series.h. Samples
-// are what RescaleSlope and RescaleIntercept make of the pixels. Throws Error.
-Volume read_dicom(const std::filesystem::path& path, const VolumeRequest& request);
+// Reads one series of a folder, or a file of several frames: the largest series unless
+// request.array names another by its UID or description; and the request's time of a series that
+// has several images at each place. Samples are what RescaleSlope and RescaleIntercept make of the
+// pixels. Throws Error, also if slices are missing or do not go together.
+Volume open_dicom(const std::filesystem::path& path, const VolumeRequest& request = {},
+                  const VolumeUse& use = {});
 
-// The folder's files.
+// Returns the folder's files, or the file.
 std::vector<std::filesystem::path> files_of_dicom(const std::filesystem::path& path);
 
 }  // namespace lamina

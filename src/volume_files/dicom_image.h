@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,13 +19,14 @@ struct DicomImage {
     std::string series, description;  // SeriesInstanceUID, SeriesDescription
     std::int64_t instance = 0;        // InstanceNumber
     std::int64_t columns = 0, rows = 0, frames = 1;
-    std::optional<glm::dvec3> position;                    // of the first pixel's centre
-    std::vector<glm::dvec3> frame_positions;               // of each frame, or none
+    std::optional<glm::dvec3> position;                    // the first pixel's centre
+    std::vector<glm::dvec3> frame_positions;               // each frame's, or none
     glm::dvec3 along_row{1, 0, 0}, along_column{0, 1, 0};  // unit vectors
-    glm::dvec3 spacing{1};  // between columns, rows and, of several frames, these
+    glm::dvec3 spacing{1};                                 // between columns, rows and frames
     double slope = 1, intercept = 0;
 
-    // How the pixels are stored: in `allocated` bits, of which `stored` up to the bit `high` count.
+    // Pixels have `allocated` bits (by `type`), of which `stored_bits` up to the bit `high_bit`
+    // count.
     ValueType type = ValueType::uint8;
     std::int64_t stored_bits = 8, high_bit = 7;
     bool big_endian = false, swapped_bytes = false;
@@ -39,8 +39,11 @@ struct DicomImage {
     }
 };
 
-// Nothing where the file is no DICOM image. Throws Error where its header is damaged, or of an
-// image that is no volume.
+// Tells by its first bytes whether a file is a DICOM file.
+bool has_dicom_mark(const std::filesystem::path& file);
+
+// Returns nothing if the file is no DICOM image. Throws Error if its header is damaged, or if the
+// image is no volume.
 std::optional<DicomImage> read_dicom_image(const std::filesystem::path& file);
 
 // Writes byte_count() bytes of pixels in native byte order to `to`. Throws Error.

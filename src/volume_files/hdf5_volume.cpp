@@ -2,6 +2,7 @@
 #include "volume_files/hdf5_volume.h"
 
 #include <fmt/ranges.h>
+#include <hdf5_hl.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,24 +11,130 @@
 #include <limits>
 #include <type_traits>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/shortened.h"
-#include "base/warning.h"
-#include "volume_files/grid_check.h"
-#include "volume_files/stored_axes.h"
+#include "base/input_file.h"
+#include "base/text.h"
+#include "volume_files/stored_data.h"
+#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {
 
-// The data sets that a volume can be, by their paths.
+constexpr int most_rank = 5;
+
+// Most bytes that a byte of a packed data set gives: deflate's 1032, twice over.
+constexpr std::uint64_t most_hdf5_expansion = 1 << 20;
+
+hid_t memory_type(ValueType type) {
+    switch (type) {
+        case ValueType::int8:
+            return H5T_NATIVE_INT8;
+        case ValueType::uint8:
+            return H5T_NATIVE_UINT8;
+        case ValueType::int16:
+            return H5T_NATIVE_INT16;
+        case ValueType::uint16:
+            return H5T_NATIVE_UINT16;
+        case ValueType::int32:
+            return H5T_NATIVE_INT32;
+        case ValueType::uint32:
+            return H5T_NATIVE_UINT32;
+        case ValueType::int64:
+            return H5T_NATIVE_INT64;
+        case ValueType::uint64:
+            return H5T_NATIVE_UINT64;
+        case ValueType::float32:
+            return H5T_NATIVE_FLOAT;
+        case ValueType::float64:
+            break;
+    }
+    return H5T_NATIVE_DOUBLE;
+}
+
+// Returns nothing if samples of that type are no numbers that can be drawn.
+std::optional<ValueType> value_type_of(hid_t type) {
+    const std::size_t bytes = H5Tget_size(type);
+    switch (H5Tget_class(type)) {
+        case H5T_INTEGER: {
+            const bool is_signed = H5Tget_sign(type) == H5T_SGN_2;
+            for (const ValueType word : value_types) {
+                if (is_integer(word) && bytes_of(word) == bytes &&
+                    (std::string_view(name_of(word)).front() == 'i') == is_signed)
+                    return word;
+            }
+            return {};
+        }
+        case H5T_FLOAT:
+            if (bytes == 8) return ValueType::float64;
+            if (bytes == 4 || bytes == 2) return ValueType::float32;
+            return {};
+        default:
+            return {};
+    }
+}
+
+// Returns the numbers of a small data space.
+template <typename Read>
+std::vector<double> numbers_of(hid_t space, std::size_t most, const Read& read) {
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    if (count < 1 || static_cast<std::size_t>(count) > most) return {};
+    std::vector<double> numbers(static_cast<std::size_t>(count));
+    if (read(numbers.data()) < 0) return {};
+    return numbers;
+}
+
+bool has_numbers(hid_t type) {
+    const H5T_class_t kind = H5Tget_class(type);
+    return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
+// Refuses a link into another file: HDF5 calls it, and then does not follow the link.
+herr_t refuse_file(const char* /*file*/, const char* /*group*/, const char* /*to*/,
+                   const char* /*object*/, unsigned* /*flags*/, hid_t /*access*/,
+                   void* is_refused) {
+    *static_cast<bool*>(is_refused) = true;
+    return -1;
+}
+
+hid_t opened_set(hid_t file, const std::string& path, const std::string& name) {
+    const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    bool is_refused = false;
+    if (is_restricted()) H5Pset_elink_cb(access.id(), refuse_file, &is_refused);
+    const hid_t set = H5Dopen2(file, path.c_str(), access.id());
+    if (is_refused) fail("{}: not opened: it is a link into another file", name);
+    return set;
+}
+
+struct ScaleFound {
+    std::size_t length;
+    std::vector<double> numbers;
+};
+
+// Reads a scale of an axis: H5DSiterate_scales calls it for each.
+herr_t read_scale(hid_t /*set*/, unsigned /*axis*/, hid_t scale, void* data) {
+    if (is_restricted() && stores_elsewhere(scale)) return 0;
+    auto& found = *static_cast<ScaleFound*>(data);
+    const Hdf5Handle space(H5Dget_space(scale), H5Sclose);
+    const Hdf5Handle type(H5Dget_type(scale), H5Tclose);
+    if (!space.valid() || !type.valid() || !has_numbers(type.id())) return 0;
+    if (H5Dget_storage_size(scale) == 0) return 0;  // a dimension of NetCDF without coordinates
+    auto numbers = numbers_of(space.id(), found.length, [&](double* to) {
+        return H5Dread(scale, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, to);
+    });
+    if (numbers.size() != found.length) return 0;
+    found.numbers = std::move(numbers);
+    return 1;  // no further one
+}
+
+// The paths of data sets that can be volumes.
 struct FoundArrays {
     std::vector<std::string> names;
     bool too_deep = false;
 };
 
-// Groups in groups that are searched: real files have a few, and the time that the library takes
-// grows with the square of the depth.
+// Most groups within groups that are searched: real files have a few, and the time that the library
+// takes grows with the square of the depth.
 constexpr std::ptrdiff_t most_groups = 64;
 
 herr_t note_array(hid_t file, const char* name, const H5O_info_t* info, void* data) {
@@ -69,10 +176,12 @@ std::string only_array(hid_t file, const std::string& name) {
     return found.names.front();
 }
 
-// Distance and beginning of equally spaced coordinates; nothing where they are not.
+// Distance and beginning of equally spaced coordinates.
 struct RegularAxis {
     double step, first;
 };
+
+// Returns nothing unless the coordinates are equally spaced.
 std::optional<RegularAxis> regular(const std::vector<double>& coordinates) {
     // Coordinates in float32 are off by 6e-8 of themselves; what people call regular is closer.
     constexpr double tolerance = 1e-3;
@@ -134,6 +243,135 @@ std::optional<double> missing_value(const Hdf5Array& array, const char* key) {
 
 }  // namespace
 
+bool stores_elsewhere(hid_t set) {
+    const Hdf5Handle properties(H5Dget_create_plist(set), H5Pclose);
+    return !properties.valid() || H5Pget_layout(properties.id()) == H5D_VIRTUAL ||
+           H5Pget_external_count(properties.id()) > 0;
+}
+
+Hdf5Array::Hdf5Array(hid_t file, const std::string& path, std::string name)
+    : name_(std::move(name)), set_(opened_set(file, path, name_), H5Dclose) {
+    if (!set_.valid()) fail("{}: found no data set of this name", name_);
+    if (is_restricted() && stores_elsewhere(set_.id()))
+        fail("{}: not opened: its samples lie in other files", name_);
+    const Hdf5Handle space(H5Dget_space(set_.id()), H5Sclose);
+    const int rank = H5Sget_simple_extent_ndims(space.id());
+    if (rank < 2 || rank > most_rank)
+        fail("{}: found {} dimensions, expected 2 to {}", name_, rank, most_rank);
+    hsize_t sizes[most_rank] = {};
+    H5Sget_simple_extent_dims(space.id(), sizes, nullptr);
+    for (int axis = 0; axis < rank; ++axis) {
+        if (sizes[axis] < 1 || sizes[axis] > (hsize_t{1} << 40))
+            fail("{}: dimension {}: found {} samples", name_, axis, sizes[axis]);
+        shape_.push_back(static_cast<std::int64_t>(sizes[axis]));
+    }
+    const Hdf5Handle stored(H5Dget_type(set_.id()), H5Tclose);
+    const auto type = value_type_of(stored.id());
+    if (!type)
+        fail("{}: found a type that is none of numbers of 1, 2, 4 or 8 bytes, expected one", name_);
+    type_ = *type;
+}
+
+std::vector<double> Hdf5Array::attribute(const char* key) const {
+    constexpr std::size_t most_numbers = 16;
+    if (H5Aexists(set_.id(), key) <= 0) return {};
+    const Hdf5Handle found(H5Aopen(set_.id(), key, H5P_DEFAULT), H5Aclose);
+    if (!found.valid()) return {};
+    const Hdf5Handle space(H5Aget_space(found.id()), H5Sclose);
+    const Hdf5Handle type(H5Aget_type(found.id()), H5Tclose);
+    if (!space.valid() || !type.valid() || !has_numbers(type.id())) return {};
+    return numbers_of(space.id(), most_numbers,
+                      [&](double* to) { return H5Aread(found.id(), H5T_NATIVE_DOUBLE, to); });
+}
+
+std::vector<double> Hdf5Array::scale_of(std::size_t axis) const {
+    constexpr std::int64_t most_coordinates = 1 << 20;
+    if (shape_[axis] > most_coordinates) return {};
+    ScaleFound found{static_cast<std::size_t>(shape_[axis]), {}};
+    const auto number = static_cast<unsigned>(axis);
+    if (H5DSget_num_scales(set_.id(), number) < 1) return {};
+    if (H5DSiterate_scales(set_.id(), number, nullptr, read_scale, &found) < 0) return {};
+    return found.numbers;
+}
+
+// Throws Error if the data set is packed by a filter that this machine's library does not have.
+void Hdf5Array::expect_filters() const {
+    const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
+    const int count = properties.valid() ? H5Pget_nfilters(properties.id()) : 0;
+    for (int i = 0; i < count; ++i) {
+        unsigned flags = 0, config = 0;
+        std::size_t values = 0;
+        char word[64] = {};
+        const H5Z_filter_t filter =
+            H5Pget_filter2(properties.id(), static_cast<unsigned>(i), &flags, &values, nullptr,
+                           sizeof word, word, &config);
+        if (filter >= 0 && H5Zfilter_avail(filter) <= 0) {
+            fail("{}: found the filter {} ({}), expected one that HDF5 has here", name_, filter,
+                 one_line(word));
+        }
+    }
+}
+
+std::vector<std::int64_t> Hdf5Array::chunk() const {
+    const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
+    if (!properties.valid() || H5Pget_layout(properties.id()) != H5D_CHUNKED) return {};
+    hsize_t edges[most_rank] = {};
+    const int rank = static_cast<int>(shape_.size());
+    if (H5Pget_chunk(properties.id(), most_rank, edges) != rank) return {};
+    std::vector<std::int64_t> chunk;
+    for (std::size_t axis = 0; axis < shape_.size(); ++axis)
+        chunk.push_back(
+            std::clamp<std::int64_t>(static_cast<std::int64_t>(edges[axis]), 1, shape_[axis]));
+    return chunk;
+}
+
+bool Hdf5Array::lies_elsewhere(hid_t file) const {
+    const auto name_of_file = [](hid_t id) {
+        char name[4096] = {};
+        return H5Fget_name(id, name, sizeof name) > 0 ? std::string(name) : std::string();
+    };
+    if (name_of_file(set_.id()) != name_of_file(file)) return true;
+    return stores_elsewhere(set_.id());
+}
+
+std::optional<Hdf5Array::RawPlace> Hdf5Array::raw_place() const {
+    const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
+    if (!properties.valid() || H5Pget_layout(properties.id()) != H5D_CONTIGUOUS) return {};
+    const haddr_t place = H5Dget_offset(set_.id());
+    if (place == HADDR_UNDEF || place > (haddr_t{1} << 62)) return {};
+    const Hdf5Handle stored(H5Dget_type(set_.id()), H5Tclose);
+    for (const H5T_order_t order : {H5T_ORDER_LE, H5T_ORDER_BE}) {
+        const Hdf5Handle plain(H5Tcopy(memory_type(type_)), H5Tclose);
+        if (H5Tset_order(plain.id(), order) >= 0 && H5Tequal(stored.id(), plain.id()) > 0)
+            return RawPlace{static_cast<std::int64_t>(place), order == H5T_ORDER_BE};
+    }
+    return {};
+}
+
+void Hdf5Array::expect_readable(std::uint64_t bytes, std::uint64_t file_bytes) const {
+    const std::uint64_t stored =
+        std::min<std::uint64_t>(H5Dget_storage_size(set_.id()), file_bytes);
+    if (stored == 0) fail("{}: found no samples in it, expected {} bytes", name_, bytes);
+    if (bytes / most_hdf5_expansion > stored) {
+        fail("{}: the array promises {} bytes, the file has {}, which cannot hold them", name_,
+             bytes, stored);
+    }
+    expect_filters();
+}
+
+void Hdf5Array::read(std::vector<std::int64_t> begin, std::vector<std::int64_t> count,
+                     char* to) const {
+    const Hdf5Handle space(H5Dget_space(set_.id()), H5Sclose);
+    const std::vector<hsize_t> first(begin.begin(), begin.end()), sizes(count.begin(), count.end());
+    H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, first.data(), nullptr, sizes.data(), nullptr);
+    const Hdf5Handle memory(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr),
+                            H5Sclose);
+    if (H5Dread(set_.id(), memory_type(type_), memory.id(), space.id(), H5P_DEFAULT, to) < 0) {
+        fail("{}: damaged data: HDF5 cannot read the samples from {} on, {} of each dimension",
+             name_, fmt::join(begin, ", "), fmt::join(count, ", "));
+    }
+}
+
 Hdf5Volume::Hdf5Volume(const std::string& file, const std::string& array,
                        const VolumeRequest& request)
     : file_(opened(file)),
@@ -178,7 +416,7 @@ void Hdf5Volume::read(const SampleBox& box, bool is_all, void* to) const {
     mark_missing(box.count(), is_all, to);
 }
 
-// Samples that NetCDF calls missing become NaN where there is one.
+// Makes samples that NetCDF calls missing NaN, if their type has one.
 void Hdf5Volume::mark_missing(std::int64_t count, bool is_told, void* samples) const {
     if (is_integer(head_.type) && !is_told) return;
     for (const char* const key : missing_keys) {

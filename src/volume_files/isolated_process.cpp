@@ -21,9 +21,6 @@
 
 #include "base/client.h"
 #include "base/error.h"
-#include "base/error_text.h"
-#include "base/interrupt.h"
-#include "base/warning.h"
 
 namespace lamina {
 namespace {
@@ -52,7 +49,7 @@ bool send_all(int to, const void* bytes, std::size_t count) {
     return true;
 }
 
-// A few seconds, and what so many bytes take.
+// Limits processor time to a few seconds, and the time that so many bytes take.
 void allow_time(std::size_t bytes) {
     constexpr std::size_t slowest = 1 << 20;  // bytes a second, decompressed
     rusage used{};
@@ -66,8 +63,9 @@ void allow_time(std::size_t bytes) {
     setrlimit(RLIMIT_CPU, &limit);
 }
 
-// Address space beside what there is: for headers, and for copies of the bytes: the samples, what
-// is packed, and what a library holds while it unpacks. Sanitizers reserve more than any limit.
+// Limits address space to the present one, 256 MiB for headers, and four copies of the bytes: the
+// samples, their packed form, and buffers of a library that unpacks. Sanitizers reserve more than
+// any limit.
 void allow_memory([[maybe_unused]] std::size_t bytes) {
 #ifndef LAMINA_SANITIZED
     constexpr std::size_t for_headers = std::size_t{256} << 20, copies = 4;
@@ -81,14 +79,14 @@ void allow_memory([[maybe_unused]] std::size_t bytes) {
 #endif
 }
 
-// The line's end in the process of its own.
+// The line's end in the isolated process.
 class OwnLine final : public IsolatedLine {
   public:
     OwnLine(int line, int memory, pid_t starter)
         : line_(line), memory_(memory), starter_(starter) {}
 
-    // The processes of other files hold copies of this line, so its end does not tell that the
-    // starter has ended.
+    // Processes of other files hold copies of this line, so its end does not show that the starter
+    // has ended.
     bool next(void* question, std::size_t count) override {
         constexpr int milliseconds = 1000;
         pollfd waiting{line_, POLLIN, 0};
@@ -120,7 +118,7 @@ class OwnLine final : public IsolatedLine {
     pid_t starter_;
 };
 
-pid_t awaited_starter = -1;  // in the process of its own
+pid_t awaited_starter = -1;  // set in the isolated process
 
 // Ends this process within a second of the one that started it, even if it waits for a file that
 // never gives anything. (PR_SET_PDEATHSIG would end it with the thread that started it.)
@@ -145,7 +143,7 @@ void end_with_starter(pid_t starter) {
     setrlimit(RLIMIT_CORE, &no_core);
     line.allow_bytes(0);
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    dup2(nowhere, STDERR_FILENO);  // what libraries print of their assertions
+    dup2(nowhere, STDERR_FILENO);  // libraries print their assertions there
     const WarningTaker taker = [&](const std::string& text) { line.text(warning, text); };
     try {
         const ClientScope scope({{}, &taker, nullptr, ClientScope::current().only_below});
@@ -158,11 +156,18 @@ void end_with_starter(pid_t starter) {
     _exit(0);
 }
 
+// The answer of an isolated reader, of fixed size: both processes run one program.
+struct ReadHead {
+    Grid grid;
+    ValueType type;
+    double scale, offset;
+};
+
 }  // namespace
 
 IsolatedProcess::IsolatedProcess(std::string name, const char* library, const Work& work)
     : name_(std::move(name)), library_(library) {
-    // One at a time: a process that began meanwhile would keep the other end open.
+    // Processes start one at a time: one that began meanwhile would keep the other end open.
     static std::mutex starting;
     const std::lock_guard lock(starting);
     int ends[2] = {-1, -1};
@@ -224,7 +229,7 @@ std::shared_ptr<void> IsolatedProcess::shared_memory(std::size_t bytes) {
     return mapped(memory_, bytes);
 }
 
-// False at the end.
+// Returns false if the process has ended before it has sent all.
 bool IsolatedProcess::receive_all(void* bytes, std::size_t count) {
     char* at = static_cast<char*>(bytes);
     while (count > 0) {
@@ -267,6 +272,21 @@ void IsolatedProcess::fail_as_ended() {
     fail("{}: damaged: {} ended with signal {} ({})", name_, library_,
          WIFSIGNALED(status) ? WTERMSIG(status) : 0,
          WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "none");
+}
+
+ReadSamples read_isolated(const std::string& name, const char* library,
+                          const std::function<ReadSamples(IsolatedLine&)>& read) {
+    IsolatedProcess process(name, library, [&](IsolatedLine& line) {
+        const ReadSamples found = read(line);
+        const ReadHead head{found.grid, found.samples.type, found.samples.scale,
+                            found.samples.offset};
+        line.answer(&head, sizeof head);
+    });
+    ReadHead head;
+    process.receive(&head, sizeof head);
+    const std::size_t bytes =
+        static_cast<std::size_t>(head.grid.sample_count()) * bytes_of(head.type);
+    return {head.grid, {name, head.type, process.shared_memory(bytes), head.scale, head.offset}};
 }
 
 }  // namespace lamina

@@ -7,18 +7,21 @@
 #include <memory>
 #include <string>
 
+#include "lamina/grid.h"
+#include "volume_files/stored_samples.h"
+
 namespace lamina {
 
-// In a process of its own: its line to the process that started it.
+// The line of an isolated process to the process that started it.
 class IsolatedLine {
   public:
-    // Takes the next question, of `count` bytes; false where no more come.
+    // Takes the next question, of `count` bytes. Returns false when no more come.
     virtual bool next(void* question, std::size_t count) = 0;
     virtual void answer(const void* bytes, std::size_t count) = 0;
-    // Allows more processor time and memory, beside those of headers: those of so many bytes of
-    // samples.
+    // Allows the processor time and memory that so many bytes of samples take, beside those of
+    // headers.
     virtual void allow_bytes(std::size_t bytes) = 0;
-    // Memory that both processes see, of the size that was given last.
+    // Returns memory that both processes see, of the size that was asked for last.
     virtual std::shared_ptr<void> shared_memory(std::size_t bytes) = 0;
 
   protected:
@@ -26,22 +29,22 @@ class IsolatedLine {
 };
 
 // A process that works with `library`, which may crash at a damaged file, or never end: both become
-// an Error. Its warnings and its Error are passed on. The work must start no threads. The process
-// ends with this object, with its work, and when the client requests a stop.
+// an Error here. Its warnings and its Error are passed on. The work must start no threads. The
+// process ends with this object, with its work, and when the client requests a stop.
 class IsolatedProcess {
   public:
     using Work = std::function<void(IsolatedLine&)>;
 
-    // `name`: of the file, for messages.
+    // `name`: the file's, for messages.
     IsolatedProcess(std::string name, const char* library, const Work& work);
     ~IsolatedProcess();
     IsolatedProcess(const IsolatedProcess&) = delete;
     IsolatedProcess& operator=(const IsolatedProcess&) = delete;
 
     void ask(const void* question, std::size_t count);
-    // The next answer, which has `count` bytes. Throws Error.
+    // Receives the next answer, which has `count` bytes. Throws Error.
     void receive(void* bytes, std::size_t count);
-    // Memory that both processes see. The other one must not use what it had before.
+    // Returns memory that both processes see. The other one must no longer use what it had before.
     std::shared_ptr<void> shared_memory(std::size_t bytes);
 
   private:
@@ -56,5 +59,16 @@ class IsolatedProcess {
     int line_ = -1, memory_ = -1;
     bool ended_ = false;
 };
+
+// The grid and the samples that a reader has taken of a file.
+struct ReadSamples {
+    Grid grid;
+    StoredSamples samples;
+};
+
+// Calls `read` in a process of its own. Its samples are in the line's shared_memory(). `name`: the
+// file's, for messages. Throws Error.
+ReadSamples read_isolated(const std::string& name, const char* library,
+                          const std::function<ReadSamples(IsolatedLine&)>& read);
 
 }  // namespace lamina

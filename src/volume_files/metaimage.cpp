@@ -3,23 +3,142 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "volume_files/file_pattern.h"
-#include "volume_files/grid_check.h"
-#include "volume_files/metaimage_fields.h"
-#include "volume_files/plain_grid.h"
+#include "base/input_file.h"
+#include "volume_files/numbered_files.h"
 #include "volume_files/stored_data.h"
-#include "volume_files/whole_number.h"
+#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {
 
 using Path = std::filesystem::path;
+
+// The header of a MetaImage: lines "Key = value" up to ElementDataFile. Throws Error, which names
+// the file, the key, what was found and what was expected.
+class MetaImageFields {
+  public:
+    explicit MetaImageFields(const std::filesystem::path& path);
+
+    const std::string& file() const { return file_; }
+    // Returns the bytes up to the end of ElementDataFile's line, -1 if the file ends with it.
+    std::int64_t length() const { return length_; }
+    const std::vector<std::string>& listed() const { return listed_; }  // the lines behind it
+
+    bool has(const std::string& key) const { return fields_.contains(key); }
+    std::string text(const std::string& key, const std::string& otherwise = "") const;
+    bool flag(const std::string& key, bool otherwise) const;  // True or False
+    std::int64_t whole(const std::string& key, std::int64_t least, std::int64_t most) const;
+    std::vector<std::int64_t> wholes(const std::string& key, std::size_t count, std::int64_t least,
+                                     std::int64_t most) const;
+    std::vector<double> numbers(const std::string& key, std::size_t count) const;  // finite
+
+    [[noreturn]] void reject(const std::string& key, const std::string& expected) const;
+
+  private:
+    std::string file_;
+    std::map<std::string, std::string> fields_;
+    std::int64_t length_ = 0;
+    std::vector<std::string> listed_;
+};
+
+constexpr std::size_t header_limit = std::size_t{1} << 20;
+
+std::string without_blanks(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t\r");
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    return words;
+}
+
+MetaImageFields::MetaImageFields(const std::filesystem::path& path) : file_(path.string()) {
+    expect_regular_file(path);
+    std::istringstream stream(file_beginning(path, header_limit));
+    int number = 0;
+    for (std::string line; !has("ElementDataFile") && std::getline(stream, line);) {
+        ++number;
+        if (without_blanks(line).empty()) continue;
+        const std::size_t equals = line.find('=');
+        if (equals == std::string::npos || line.size() > 4096) {
+            fail("{}: line {}: found '{}', expected 'Key = value'", file_, number,
+                 one_line(line.substr(0, 40)));
+        }
+        const std::string key = without_blanks(line.substr(0, equals));
+        if (!fields_.emplace(key, without_blanks(line.substr(equals + 1))).second)
+            fail("{}: line {}: second '{}'", file_, number, one_line(key.substr(0, 40)));
+    }
+    if (!has("ElementDataFile")) fail("{}: no ElementDataFile in the header, expected one", file_);
+    length_ = stream.eof() ? -1 : static_cast<std::int64_t>(stream.tellg());
+    if (!text("ElementDataFile").starts_with("LIST")) return;
+    for (std::string line; std::getline(stream, line);)
+        if (!without_blanks(line).empty()) listed_.push_back(without_blanks(line));
+}
+
+std::string MetaImageFields::text(const std::string& key, const std::string& otherwise) const {
+    const auto found = fields_.find(key);
+    return found == fields_.end() ? otherwise : found->second;
+}
+
+bool MetaImageFields::flag(const std::string& key, bool otherwise) const {
+    const std::string word = text(key);
+    if (word.empty() && !has(key)) return otherwise;
+    const char letter = word.empty() ? ' ' : word[0];
+    if (letter == 'T' || letter == 't' || letter == '1') return true;
+    if (letter == 'F' || letter == 'f' || letter == '0') return false;
+    reject(key, "True or False");
+}
+
+std::int64_t MetaImageFields::whole(const std::string& key, std::int64_t least,
+                                    std::int64_t most) const {
+    return wholes(key, 1, least, most)[0];
+}
+
+std::vector<std::int64_t> MetaImageFields::wholes(const std::string& key, std::size_t count,
+                                                  std::int64_t least, std::int64_t most) const {
+    std::vector<std::int64_t> result;
+    for (const std::string& word : words_of(text(key))) {
+        const auto number = whole_number(word);
+        if (!number || *number < least || *number > most) break;
+        result.push_back(*number);
+    }
+    if (result.size() != count || words_of(text(key)).size() != count)
+        reject(key, fmt::format("{} whole numbers from {} to {}", count, least, most));
+    return result;
+}
+
+std::vector<double> MetaImageFields::numbers(const std::string& key, std::size_t count) const {
+    std::vector<double> result;
+    const std::vector<std::string> words = words_of(text(key));
+    for (const std::string& word : words) {
+        char* end = nullptr;
+        const double number = std::strtod(word.c_str(), &end);
+        if (*end != '\0' || !std::isfinite(number)) break;
+        result.push_back(number);
+    }
+    if (result.size() != count || words.size() != count)
+        reject(key, fmt::format("{} finite numbers", count));
+    return result;
+}
+
+void MetaImageFields::reject(const std::string& key, const std::string& expected) const {
+    if (!has(key)) fail("{}: {}: found nothing, expected {}", file_, key, expected);
+    fail("{}: {}: found '{}', expected {}", file_, key, one_line(text(key).substr(0, 80)),
+         expected);
+}
 
 constexpr std::int64_t largest_size = std::int64_t{1} << 40;
 
@@ -91,7 +210,7 @@ class MetaImage {
         return found->type;
     }
 
-    // Channels lie beside each other; one channel is no axis.
+    // Channels lie beside each other; a single channel is no axis.
     std::vector<StoredAxis> axes(std::int64_t channels, const VolumeRequest& request) const {
         std::vector<StoredAxis> axes;
         const StoredAxis channel = taken_axis(fields_.file(), "channel", request.channel, channels);
@@ -103,7 +222,7 @@ class MetaImage {
         return axes;
     }
 
-    // Says where the samples lie.
+    // Sets the files and the place of the samples in them.
     void place(StoredData& data, bool has_channels) const {
         const std::string value = fields_.text("ElementDataFile");
         std::int64_t skip = 0;
@@ -118,9 +237,7 @@ class MetaImage {
             data.byte_skip = skip;  // the data end the file
         else
             data.offset = skip;
-        std::istringstream stream(value);
-        std::vector<std::string> words;
-        for (std::string word; stream >> word;) words.push_back(word);
+        const std::vector<std::string> words = words_of(value);
         std::optional<std::size_t> each;  // axes in one file
         const auto set_each = [&](std::size_t word) {
             if (words.size() <= word) return;
@@ -159,14 +276,14 @@ class MetaImage {
         return *names;
     }
 
-    // The first of the keys that is there: one number a dimension.
+    // Returns the numbers of the first key that is there, one a dimension.
     std::vector<double> vector_of(std::initializer_list<const char*> keys, double otherwise) const {
         for (const char* const key : keys)
             if (fields_.has(key)) return fields_.numbers(key, dimensions_);
         return std::vector<double>(dimensions_, otherwise);
     }
 
-    // ElementSize, the voxel's size, counts where no spacing is said.
+    // ElementSize, the voxel's size, counts if there is no spacing.
     std::vector<double> spacings() const { return vector_of({"ElementSpacing", "ElementSize"}, 1); }
 
     std::vector<double> row_vectors() const {
@@ -193,10 +310,6 @@ bool is_metaimage(const Path& path) {
     if (!equals.starts_with("=") && key.find('=') == std::string::npos) return false;
     key = key.substr(0, key.find('='));
     return key == "ObjectType" || key == "NDims" || key == "Comment" || key == "ObjectSubType";
-}
-
-Volume read_metaimage(const Path& path, const VolumeRequest& request) {
-    return open_metaimage(path, request, {});
 }
 
 Volume open_metaimage(const Path& path, const VolumeRequest& request, const VolumeUse& use) {

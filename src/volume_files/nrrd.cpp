@@ -1,17 +1,391 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume_files/nrrd.h"
 
-#include "base/file_bytes.h"
-#include "volume_files/nrrd_header.h"
+#include <teem/nrrd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/input_file.h"
+#include "volume_files/nrrd_grid.h"
+#include "volume_files/numbered_files.h"
 
 namespace lamina {
+namespace {
+
+// The value of the field `data file` of a NRRD header: one file, a list ("LIST", then the names,
+// one a line, up to the end of the header file), or a pattern ("slice%03d.raw MIN MAX STEP").
+struct NrrdDataFiles {
+    std::vector<std::string> names;
+    // The number of axes, the first ones, that one file holds, if the field names it.
+    std::optional<std::size_t> axes_each;
+};
+
+class DataFileField {
+  public:
+    DataFileField(const std::string& path, int line, const std::string& value)
+        : path_(path), line_(line), value_(value) {
+        std::istringstream stream(value);
+        for (std::string word; stream >> word;) words_.push_back(word);
+    }
+
+    bool is_list() const { return !words_.empty() && words_[0] == "LIST"; }
+    bool is_pattern() const { return value_.find('%') != std::string::npos; }
+
+    NrrdDataFiles list(const std::string& following) const {
+        if (words_.size() > 2) reject("LIST, and the number of axes in one file");
+        NrrdDataFiles files;
+        if (words_.size() == 2) files.axes_each = axes_in(words_[1]);
+        std::istringstream lines(following);
+        for (std::string name; std::getline(lines, name);) {
+            if (!name.empty() && name.back() == '\r') name.pop_back();
+            if (!name.empty()) files.names.push_back(name);
+        }
+        if (files.names.empty())
+            fail("{}: line {}: data file: found no names after LIST, expected one a line", path_,
+                 line_);
+        return files;
+    }
+
+    NrrdDataFiles pattern() const {
+        const auto from = number(1), to = number(2), step = number(3);
+        const std::optional<FilePattern> name =
+            words_.empty() ? std::nullopt : file_pattern(words_[0]);
+        if (!name || !from || !to || !step || words_.size() > 5)
+            reject("a name with one %d or %03d in it, and first, last and step of its number");
+        NrrdDataFiles files;
+        if (words_.size() == 5) files.axes_each = axes_in(words_[4]);
+        const auto names = names_of(*name, *from, *to, *step);
+        if (!names)
+            reject(fmt::format("a step from {} to {}, and at most {} files", *from, *to,
+                               most_pattern_files));
+        files.names = *names;
+        return files;
+    }
+
+    NrrdDataFiles single() const {
+        if (value_.empty() || value_ == "-" || value_.starts_with("SKIPLIST"))
+            fail("{}: data file: found '{}', expected a file name", path_, value_);
+        return {{value_}, {}};
+    }
+
+  private:
+    std::optional<std::int64_t> number(std::size_t word) const {
+        return word < words_.size() ? whole_number(words_[word]) : std::nullopt;
+    }
+
+    std::size_t axes_in(const std::string& word) const {
+        const auto axes = whole_number(word);
+        if (!axes || *axes < 1 || *axes > NRRD_DIM_MAX) reject("a number of axes in one file");
+        return static_cast<std::size_t>(*axes);
+    }
+
+    [[noreturn]] void reject(const std::string& expected) const {
+        fail("{}: line {}: data file: found '{}', expected {}", path_, line_, value_.substr(0, 80),
+             expected);
+    }
+
+    std::string path_;
+    int line_;
+    std::string value_;
+    std::vector<std::string> words_;
+};
+
+// `path` and `line` are for messages; `following`: the header after the field's line. Throws Error.
+NrrdDataFiles nrrd_data_files(const std::string& path, int line, const std::string& value,
+                              const std::string& following) {
+    const DataFileField field(path, line, value);
+    if (field.is_list()) return field.list(following);
+    return field.is_pattern() ? field.pattern() : field.single();
+}
+
+constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
+// Most bytes of a field's line: teem prints lines that are wrong into buffers of some 1000 bytes.
+constexpr std::size_t line_limit = 512;
+
+// The lines of a header, separated by the rules of the format; teem interprets them.
+struct HeaderText {
+    std::string text;  // magic and fields, without `data file` and remarks
+    std::optional<NrrdDataFiles> data_files;
+    std::set<std::string> fields;  // names of all, lower case
+    std::int64_t length = 0;       // bytes up to and including the empty line
+    bool ended = false;            // with an empty line, not with the end of the file
+};
+
+std::string trimmed_field(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t");
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+void check_regular_file(const std::filesystem::path& path, const std::string& role) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) fail("{}: {}no such file", path.string(), role);
+    if (!std::filesystem::is_regular_file(status))
+        fail("{}: {}not a regular file", path.string(), role);
+}
+
+// Reads the beginning of a file, at most most_header_bytes bytes.
+std::string read_beginning(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) fail("{}: cannot read: permission denied", path.string());
+    std::error_code error;
+    const std::uintmax_t length = std::filesystem::file_size(path, error);
+    if (error) fail("{}: cannot read: {}", path.string(), error.message());
+    std::string bytes(std::min<std::uintmax_t>(length, most_header_bytes), '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    return bytes;
+}
+
+bool has_magic(const std::string& line) {
+    return line == "NRRD00.01" ||
+           (line.size() == 8 && line.starts_with("NRRD000") && line[7] >= '1' && line[7] <= '6');
+}
+
+struct Field {
+    std::string name;  // lower case
+    std::string value;
+};
+
+// Tells if a line says nothing about the samples: comments, key/value pairs, `content`. teem keeps
+// such lines in lists, and takes minutes for a header with a megabyte of them.
+bool is_remark(const std::string& line) {
+    const auto colon = line.find(':');
+    return line[0] == '#' || line.starts_with("content:") ||
+           (colon != std::string::npos && line.substr(colon, 2) == ":=");
+}
+
+// Returns the field of a `name: value` line, and nothing for comments and key/value pairs.
+std::optional<Field> field_of(const std::string& line) {
+    const auto colon = line.find(':');
+    if (colon == std::string::npos || is_remark(line)) return {};
+    std::string name = trimmed_field(line.substr(0, colon));
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return Field{name, trimmed_field(line.substr(colon + 1))};
+}
+
+[[noreturn]] void fail_at(const std::string& path, int line, const Field& field,
+                          const std::string& expected) {
+    fail("{}: line {}: {}: found '{}', expected {}", path, line, field.name,
+         field.value.substr(0, 80), expected);
+}
+
+// Checks the sizes: teem would read "8.9" as 8, and -8 or 2^64 as a missing field.
+void check_sizes(const std::string& path, int line, const Field& field) {
+    std::istringstream words(field.value);
+    std::uint64_t samples = 1;
+    bool overflow = false;
+    for (std::string word; words >> word;) {
+        const bool digits = word.find_first_not_of("0123456789") == std::string::npos;
+        if (!digits || word.size() > 18 || std::stoull(word) == 0)
+            fail_at(path, line, field, "whole numbers from 1 to 10^18");
+        overflow |= __builtin_mul_overflow(samples, std::stoull(word), &samples);
+    }
+    if (overflow || samples > (std::uint64_t{1} << 62))
+        fail_at(path, line, field, "at most 2^62 samples in all");
+}
+
+// Checks the spacings, because teem's messages name neither field nor number. NaN: the axis has
+// none, or its mins and maxs give it (volume_files/nrrd_grid.h).
+void check_spacings(const std::string& path, int line, const Field& field) {
+    std::istringstream words(field.value);
+    for (std::string word; words >> word;) {
+        const char* const start = word.c_str();
+        char* end = nullptr;
+        const double spacing = std::strtod(start, &end);
+        if (end == start || *end != '\0' || spacing <= 0 || std::isinf(spacing))
+            fail_at(path, line, field, "finite numbers above 0");
+    }
+}
+
+// Checks the fields that are one number each. teem takes them modulo 2^32, ignores what follows
+// them, and treats what it does not understand as missing.
+void check_number(const std::string& path, int line, const Field& field) {
+    struct Limits {
+        std::set<std::string> names;
+        std::int64_t least, most;
+        const char* expected;
+    };
+    constexpr std::int64_t most = std::int64_t{1} << 62;
+    static const std::array limits{
+        Limits{{"dimension"}, 1, NRRD_DIM_MAX, "3"},
+        Limits{{"line skip", "lineskip"}, 0, INT32_MAX, "a whole number from 0 to 2147483647"},
+        Limits{{"byte skip", "byteskip"}, -most, most, "a whole number from -2^62 to 2^62"}};
+    const auto limit = std::ranges::find_if(
+        limits, [&](const Limits& one) { return one.names.contains(field.name); });
+    if (limit == limits.end()) return;
+    std::int64_t number = 0;
+    const char* const end = field.value.data() + field.value.size();
+    const auto [stop, error] = std::from_chars(field.value.data(), end, number);
+    if (error != std::errc{} || stop != end || number < limit->least || number > limit->most)
+        fail_at(path, line, field, limit->expected);
+}
+
+HeaderText split_header(const std::string& path, const std::string& bytes) {
+    HeaderText header;
+    std::size_t position = 0;
+    for (int number = 1; position < bytes.size(); ++number) {
+        const auto end = std::min(bytes.find('\n', position), bytes.size());
+        std::string line = bytes.substr(position, end - position);
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        position = std::min(end + 1, bytes.size());
+        if (number == 1 && !has_magic(line))
+            fail("{}: not a NRRD file (no NRRD magic at its start)", path);
+        if (line.empty()) {
+            header.ended = true;
+            break;
+        }
+        const bool binary = std::any_of(line.begin(), line.end(),
+                                        [](unsigned char c) { return c < ' ' && c != '\t'; });
+        if (binary) fail("{}: line {} of the NRRD header holds binary bytes", path, number);
+        const auto field = field_of(line);
+        if (field) {
+            header.fields.insert(field->name);
+            if (field->name == "sizes") check_sizes(path, number, *field);
+            if (field->name == "spacings") check_spacings(path, number, *field);
+            check_number(path, number, *field);
+        }
+        if (field && (field->name == "data file" || field->name == "datafile")) {
+            if (header.data_files) fail("{}: line {}: second 'data file' field", path, number);
+            header.data_files = nrrd_data_files(path, number, field->value, bytes.substr(position));
+            if (field->value.starts_with("LIST")) break;  // the rest are names
+        } else if (number == 1 || !is_remark(line)) {
+            if (line.size() > line_limit) {
+                fail("{}: line {}: found {} bytes, '{}...', expected at most {}", path, number,
+                     line.size(), line.substr(0, 20), line_limit);
+            }
+            header.text += line + "\n";
+        }
+    }
+    header.length = static_cast<std::int64_t>(position);
+    if (!header.ended && position == most_header_bytes) {
+        fail("{}: the NRRD header does not end within {} bytes", path, most_header_bytes);
+    }
+    if (header.text.empty()) fail("{}: not a NRRD file (it is empty)", path);
+    if (!header.ended && !header.data_files) {
+        fail("{}: the NRRD header ends without an empty line, and names no data file", path);
+    }
+    return header;
+}
+
+// Returns the innermost two of teem's stacked messages ("[nrrd] function: message") on one line.
+std::string teem_message() {
+    const std::unique_ptr<char, decltype(&std::free)> stack(biffGetDone(NRRD), &std::free);
+    std::vector<std::string> messages;
+    const std::string text = stack ? stack.get() : "";
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find('\n', at), text.size());
+        std::string line = text.substr(at, end - at);
+        if (line.starts_with("[nrrd] ")) line.erase(0, 7);
+        if (const auto colon = line.find(':'); colon != std::string::npos) line.erase(0, colon + 1);
+        if (line = trimmed_field(line); !line.empty()) messages.push_back(line);
+        at = end + 1;
+    }
+    if (messages.empty()) return "teem gives no reason";
+    const std::size_t last = messages.size() - 1;
+    const bool outer = last > 0 && messages[last - 1].starts_with("trouble parsing");
+    return one_line(outer ? messages[last - 1] + ": " + messages[last] : messages[last]);
+}
+
+ValueType value_type_of(const std::string& path, int type) {
+    switch (type) {
+        case nrrdTypeChar:
+            return ValueType::int8;
+        case nrrdTypeUChar:
+            return ValueType::uint8;
+        case nrrdTypeShort:
+            return ValueType::int16;
+        case nrrdTypeUShort:
+            return ValueType::uint16;
+        case nrrdTypeInt:
+            return ValueType::int32;
+        case nrrdTypeUInt:
+            return ValueType::uint32;
+        case nrrdTypeLLong:
+            return ValueType::int64;
+        case nrrdTypeULLong:
+            return ValueType::uint64;
+        case nrrdTypeFloat:
+            return ValueType::float32;
+        case nrrdTypeDouble:
+            return ValueType::float64;
+        default:
+            break;
+    }
+    fail("{}: type: found '{}', expected a type of numbers, such as uint8 or float", path,
+         airEnumStr(nrrdType, type));
+}
+
+DataEncoding encoding_of(const std::string& path, const ::NrrdEncoding* encoding) {
+    if (encoding == nrrdEncodingRaw) return DataEncoding::raw;
+    if (encoding == nrrdEncodingAscii) return DataEncoding::ascii;
+    if (encoding == nrrdEncodingGzip) return DataEncoding::gzip;
+    if (encoding == nrrdEncodingBzip2) return DataEncoding::bzip2;
+    fail("{}: encoding: found '{}', expected raw, gzip, bzip2 or ascii", path, encoding->name);
+}
+
+void check_required_fields(const std::string& path, const HeaderText& header) {
+    for (const char* const field : {"type", "dimension", "sizes", "encoding"}) {
+        if (!header.fields.contains(field))
+            fail("{}: the NRRD header has no '{}' field", path, field);
+    }
+}
+
+}  // namespace
+
+NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
+    const std::string name = path.string();
+    check_regular_file(path, "");
+    const HeaderText text = split_header(name, read_beginning(path));
+
+    const std::unique_ptr<Nrrd, decltype(&nrrdNuke)> nrrd(nrrdNew(), &nrrdNuke);
+    const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> state(nrrdIoStateNew(),
+                                                                        &nrrdIoStateNix);
+    if (!nrrd || !state) throw std::bad_alloc();
+    nrrdStateVerboseIO = 0;
+    nrrdIoStateSet(state.get(), nrrdIoStateSkipData, 1);
+    const bool bad = nrrdStringRead(nrrd.get(), text.text.c_str(), state.get()) != 0;
+    const std::string reason = bad ? teem_message() : "";
+    if (bad && reason.starts_with("trouble parsing")) fail("{}: bad NRRD header: {}", name, reason);
+    check_required_fields(name, text);
+    if (bad) fail("{}: bad NRRD header: {}", name, reason);
+
+    NrrdHeader header;
+    header.grid = nrrd_grid(name, *nrrd, text.fields.contains("spacings"));
+    StoredData& data = header.data;
+    data.path = path;
+    data.type = value_type_of(name, nrrd->type);
+    data.axes = nrrd_axes(name, *nrrd, request);
+    data.encoding = encoding_of(name, state->encoding);
+    set_byte_order(data, state->endian == airEndianBig);
+    if (text.data_files) {
+        set_data_files(data, text.data_files->names, text.data_files->axes_each, "data file");
+    } else {
+        data.files = {path};
+        data.offset = text.length;
+    }
+    data.line_skip = state->lineSkip;
+    data.byte_skip = state->byteSkip;
+    return header;
+}
 
 bool is_nrrd(const std::filesystem::path& path) {
     return file_beginning(path, 5).starts_with("NRRD0");
-}
-
-Volume read_nrrd(const std::filesystem::path& path, const VolumeRequest& request) {
-    return open_nrrd(path, request, {});
 }
 
 Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request,

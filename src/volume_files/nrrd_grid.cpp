@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "volume_files/grid_check.h"
+#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {
@@ -23,7 +23,7 @@ bool any_direction(const Nrrd& nrrd) {
     return false;
 }
 
-// Whether the header says that an axis does not lie in space.
+// Tells if the header says that an axis does not lie in space.
 bool is_apart(const Nrrd& nrrd, unsigned axis) {
     const int kind = nrrd.axis[axis].kind;
     if (kind != nrrdKindUnknown && kind != nrrdKindDomain)
@@ -31,8 +31,9 @@ bool is_apart(const Nrrd& nrrd, unsigned axis) {
     return any_direction(nrrd) && !has_direction(nrrd, axis);
 }
 
-// Returns the three axes that span the volume. Where there are more, first those are left out that
-// do not lie in space, then axes of one sample, first those without a direction in space.
+// Returns the three axes that span the volume. If there are more axes, those are left out first
+// that do not lie in space, then axes of one sample, beginning with those without a direction in
+// space.
 std::vector<unsigned> volume_axes(const std::string& file, const Nrrd& nrrd) {
     std::vector<unsigned> axes(nrrd.dim);
     std::vector<std::size_t> sizes(nrrd.dim);
@@ -78,13 +79,14 @@ double known_spacing_of(const NrrdAxisInfo& axis) {
     return (axis.max - axis.min) / intervals;
 }
 
-// The same, or 1 where the file does not say.
+// Returns the known spacing, or 1 if the file gives none.
 double spacing_of(const NrrdAxisInfo& axis) {
     const double known = known_spacing_of(axis);
     return std::isnan(known) ? 1 : known;
 }
 
-// A field `spacings` gives the spacing of every axis that has no mins and maxs.
+// Throws Error if an axis has no spacing: a field `spacings` gives those of all axes that have no
+// mins and maxs.
 void expect_spacings(const std::string& file, const Nrrd& nrrd, const std::vector<unsigned>& axes) {
     for (const unsigned axis : axes) {
         if (std::isnan(known_spacing_of(nrrd.axis[axis])))

@@ -3,52 +3,123 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "base/value_type.h"
-#include "volume_files/stored_axes.h"
+#include "volume_files/byte_readers.h"
 #include "volume_files/stored_samples.h"
 
 namespace lamina {
 
+// An axis of an array in a file.
+struct StoredAxis {
+    StoredAxis(std::int64_t a_size = 1, std::optional<std::int64_t> a_taken = {},
+               const char* its_name = "", bool is_told = false)
+        : size(a_size), taken(a_taken), what(its_name), told(is_told) {}
+
+    std::int64_t size;
+    std::optional<std::int64_t> taken;  // index of the only one that is read; empty: all are
+    const char* what;                   // "channel" or "time", if one is taken
+    bool told;                          // the request names the one
+};
+
+// Makes an axis of `count` things, such as channels, of which one is taken: the wanted one, else
+// the first. `what`: "channel" or "time", as the request's key is called. Throws Error if there is
+// no such one.
+StoredAxis taken_axis(const std::string& file, const char* what,
+                      const std::optional<std::int64_t>& wanted, std::int64_t count);
+
+// Warns of every axis of which the first is taken because the request names none.
+void say_taken(const std::string& file, std::span<const StoredAxis> axes);
+
+// Return the number of bytes of an array, and of the part of it that is taken. Throw Error if no
+// file holds as much. `file`: for messages.
+std::size_t stored_bytes(const std::string& file, std::span<const StoredAxis> axes,
+                         std::size_t value_bytes);
+std::size_t taken_bytes(const std::string& file, std::span<const StoredAxis> axes,
+                        std::size_t value_bytes);
+
+// Reads the part of an array that is taken. `axes`: the fastest first, as in the file; those that
+// are taken as a whole keep their order. `to` has room for taken_bytes(). Uses all of the array's
+// bytes.
+void read_taken(ByteReader& reader, std::span<const StoredAxis> axes, std::size_t value_bytes,
+                void* to);
+
+// Copies the part that is taken of an array in memory.
+void take_of_memory(const char* from, std::span<const StoredAxis> axes, std::size_t value_bytes,
+                    char* to);
+
+// Returns the index that taken_axis() takes, and warns as say_taken() does.
+std::int64_t taken_of(const std::string& file, const char* what,
+                      const std::optional<std::int64_t>& wanted, std::int64_t count);
+
 enum class DataEncoding { raw, ascii, gzip, bzip2 };  // gzip: or zlib
 
-// Where the samples of a volume lie, as a header says.
+// Describes where the samples of a volume lie, as a header says.
 struct StoredData {
     std::filesystem::path path;         // the file that the user named
-    const char* teller = "the header";  // what says all this, for messages
+    const char* teller = "the header";  // the source of all this, for messages
     ValueType type = ValueType::uint8;
-    std::vector<StoredAxis> axes;  // of the data, and what of them makes the volume's samples
+    std::vector<StoredAxis> axes;  // the data's, and which part of each is the volume's
     DataEncoding encoding = DataEncoding::raw;
     bool swap_bytes = false;  // the samples are not in this machine's byte order
-    // At least one, `path` itself where the header is attached. All hold the same number of
-    // samples.
+    // At least one: `path` itself if the header is attached. All hold the same number of samples.
     std::vector<std::filesystem::path> files;
     std::int64_t offset = 0;     // bytes to skip first in each
     std::int64_t line_skip = 0;  // lines to skip next
-    // Bytes to skip last, of the decompressed stream. -1 - n means raw data that end n bytes before
-    // the end of the file.
+    // Bytes of the decompressed stream to skip last. -1 - n: raw data that end n bytes before the
+    // end of the file.
     std::int64_t byte_skip = 0;
-    double scale = 1, shift = 0;  // what samples mean (StoredSamples)
+    double scale = 1, shift = 0;  // StoredSamples::scale and offset
 
     bool is_scaled() const { return scale != 1 || shift != 0; }
 };
 
-// Sets swap_bytes.
+// Sets swap_bytes. Type and encoding must be set before.
 void set_byte_order(StoredData& data, bool big_endian);
 
-// Sets `files`, which a header in `path` names relative to itself, once axes are known: each holds
-// the first `axes_each` axes (all but the last where it is empty; all axes where there is one
-// file), or an equal part of the last axis. Throws Error where their number does not fit, or one is
-// no regular file. `field`: for messages.
+// Sets `files`, which a header in `path` names relative to itself. Axes must be set before. Each
+// file holds the first `axes_each` axes, or an equal part of the last axis; if `axes_each` is
+// empty, one file holds all axes, and several hold all but the last each. Throws Error if their
+// number does not fit, or if one is no regular file. `field`: for messages.
 void set_data_files(StoredData& data, const std::vector<std::string>& names,
                     const std::optional<std::size_t>& axes_each, const char* field);
 
-// Reads what is taken of the data. It takes memory only after it has checked that the files can
-// hold what the header promises; a warning counts what they hold more. Throws Error.
+// Reads the part of the data that is taken. Takes memory only after it has checked that the files
+// can hold what the header promises; a warning counts surplus bytes. Throws Error.
 StoredSamples read_stored(const StoredData& data);
 
-// Of raw data: the byte of each file with which its samples begin. Checks as read_stored() does.
-std::vector<std::int64_t> raw_data_offsets(const StoredData& data);
+// Reads data that a header describes.
+class StoredReader {
+  public:
+    // `data` must outlive the reader. Throws Error if the files cannot hold them.
+    explicit StoredReader(const StoredData& data);
+
+    // Reads the part that is taken, as read_stored() does.
+    StoredSamples read() const;
+    // Returns, of raw data, the byte of each file with which its samples begin.
+    std::vector<std::int64_t> raw_offsets() const;
+    // Opens all data of all files, whichever part is taken; not text. This must outlive the result.
+    std::unique_ptr<ByteReader> open_all() const;
+    // Warns of bytes beyond those that the header promises, once all is read.
+    void warn_of_surplus(ByteReader& reader) const;
+
+  private:
+    OpenedFile open(const std::filesystem::path& path) const;
+    std::uint64_t capacity(std::uint64_t stored) const;
+    void check_capacity(const std::filesystem::path& path) const;
+    void skip_bytes(std::FILE* file) const;
+    std::unique_ptr<ByteReader> open_binary(const std::filesystem::path& path) const;
+    std::shared_ptr<void> text_samples() const;
+    std::shared_ptr<void> taken(std::shared_ptr<void> all) const;
+
+    const StoredData& data_;
+    std::string name_;
+    std::size_t bytes_, bytes_each_;
+};
 
 }  // namespace lamina

@@ -11,9 +11,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/filled_memory.h"
+#include "base/client.h"
+#include "base/memory.h"
 #include "base/parallel.h"
-#include "base/warning.h"
 
 namespace lamina {
 namespace {
@@ -65,7 +65,7 @@ bool is_within(T value, int least, int most) {
         return value >= least && value <= most;
 }
 
-// The first of the types that holds both and all between.
+// Returns the first of the types that holds both numbers and all between.
 template <typename T>
 SampleType type_for(T lo, T hi) {
     const auto both = [&](int least, int most) {
@@ -76,7 +76,7 @@ SampleType type_for(T lo, T hi) {
     return both(0, 65535) ? SampleType::uint16 : SampleType::float32;
 }
 
-// What float32 cannot hold.
+// Counts the samples that float32 cannot hold.
 struct Rounded {
     std::int64_t inexact = 0, infinite = 0;
     double largest_error = 0;
@@ -131,7 +131,7 @@ void warn_of(const Rounded& rounded, const StoredSamples& samples, std::int64_t 
     }
 }
 
-// Calls make(index) for each sample of the type, which is what `type` names.
+// Makes samples of the type, each by make(index).
 template <typename Make>
 std::shared_ptr<const void> filled(SampleType type, std::int64_t count, const Make& make) {
     const std::shared_ptr<void> memory =

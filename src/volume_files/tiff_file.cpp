@@ -6,18 +6,19 @@
 #include <cstring>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/interrupt.h"
-#include "volume_files/stored_axes.h"
+#include "base/input_file.h"
+#include "volume_files/stored_data.h"
 #include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {
 
-// No compression of libtiff makes more of one byte: zstd's longest run, 128 KiB, takes 4 bytes.
+// Most bytes that one byte gives with any compression of libtiff: zstd's longest run, 128 KiB,
+// takes 4 bytes.
 constexpr std::uint64_t most_expansion = 32768;
-constexpr tmsize_t most_memory = tmsize_t{1} << 31;  // of libtiff itself, at once
+constexpr tmsize_t most_memory = tmsize_t{1} << 31;  // bytes that libtiff itself may take at once
 
 std::optional<ValueType> type_of(std::uint16_t bits, std::uint16_t format) {
     const bool is_float = format == SAMPLEFORMAT_IEEEFP, is_signed = format == SAMPLEFORMAT_INT;
@@ -148,7 +149,7 @@ double TiffFile::resolution(int axis) const {
     return static_cast<double>(value);
 }
 
-// The sizes of a damaged page would take all memory.
+// Rejects the sizes of a damaged page, which would take all memory.
 void TiffFile::check_capacity(const TiffPage& page) const {
     const StoredAxis axes[] = {page.width, page.height, page.samples};
     const std::size_t bytes = stored_bytes(name_, axes, bytes_of(page.type));
@@ -179,7 +180,7 @@ void TiffFile::read(const TiffPage& page, std::int64_t sample, char* to) {
 
 namespace {
 
-// Takes one of every `samples` values.
+// Copies one of every `samples` values.
 void take_sample(const char* from, std::int64_t samples, std::int64_t sample, std::int64_t count,
                  std::size_t word, char* to) {
     const StoredAxis axes[] = {{samples, sample}, count};

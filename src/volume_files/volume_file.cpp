@@ -3,25 +3,153 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "volume_files/bricked_copy.h"
-#include "volume_files/grid_check.h"
-#include "volume_files/raw_volume.h"
-#include "volume_files/volume_format.h"
+#include "volume_files/dicom.h"
+#include "volume_files/hdf5.h"
+#include "volume_files/metaimage.h"
+#include "volume_files/nifti.h"
+#include "volume_files/npy.h"
+#include "volume_files/nrrd.h"
+#include "volume_files/stored_data.h"
+#include "volume_files/tiff.h"
+#include "volume_files/volume_grid.h"
+#include "volume_files/vti.h"
+#include "volume_files/zarr.h"
 
 namespace lamina {
 namespace {
 
 using Path = std::filesystem::path;
 
-constexpr VolumeFormat raw_format{"raw", {},    {},    read_raw, {},
-                                  false, false, false, false,    open_raw};
+// Names the things of which files of a format may hold several; the request then chooses one by the
+// key of that name.
+enum Keys : unsigned {
+    has_none = 0,
+    has_arrays = 1,
+    has_levels = 2,
+    has_channels = 4,
+    has_times = 8
+};
+
+// A kind of files that hold volumes.
+struct VolumeFormat {
+    const char* name;  // "NIfTI"
+    // Extensions in small letters, for files whose content tells nothing because they are damaged;
+    // null ends the list.
+    const char* extensions[4];
+    // Tells a file by its content, or a folder by that of its files. Never throws.
+    bool (*recognizes)(const Path& path);
+    // Throws Error: one line that names the file, what was found and what was expected.
+    Volume (*open)(const Path& path, const VolumeRequest& request, const VolumeUse& use);
+    std::vector<Path> (*files)(const Path& path);
+    unsigned keys;               // sum of Keys
+    bool is_read_whole = false;  // a volume never stays in such files
+};
+
+std::vector<Path> that_file(const Path& path) {
+    return {path};
+}
+
+// Tried in this order: the first that recognizes a file reads it.
+constexpr VolumeFormat formats[] = {
+    {"NRRD", {".nrrd", ".nhdr"}, is_nrrd, open_nrrd, files_of_nrrd, has_channels | has_times},
+    {"Zarr",
+     {".zarr"},
+     is_zarr,
+     open_zarr,
+     files_of_zarr,
+     has_arrays | has_levels | has_channels | has_times},
+#ifdef LAMINA_HAS_HDF5
+    {"HDF5",
+     {".h5", ".hdf5", ".nc"},
+     is_hdf5,
+     open_hdf5,
+     files_of_hdf5,
+     has_arrays | has_channels | has_times},
+#endif
+#ifdef LAMINA_HAS_GDCM
+    {"DICOM", {".dcm"}, is_dicom, open_dicom, files_of_dicom, has_arrays | has_times, true},
+#else
+    {"DICOM without compression",
+     {".dcm"},
+     is_dicom,
+     open_dicom,
+     files_of_dicom,
+     has_arrays | has_times,
+     true},
+#endif
+    {"MetaImage",
+     {".mha", ".mhd"},
+     is_metaimage,
+     open_metaimage,
+     files_of_metaimage,
+     has_channels | has_times},
+    {"NIfTI",
+     {".nii", ".nii.gz", ".hdr", ".img"},
+     is_nifti,
+     open_nifti,
+     files_of_nifti,
+     has_channels | has_times},
+    {"VTK image data", {".vti"}, is_vti, open_vti, that_file, has_arrays | has_channels, true},
+    {"TIFF", {".tif", ".tiff"}, is_tiff, open_tiff, files_of_tiff, has_channels | has_times, true},
+    {"NumPy", {".npy"}, is_npy, open_npy, that_file, has_none}};
+
+bool has_extension(const VolumeFormat& format, const Path& path) {
+    std::string name = path.filename().string();
+    std::ranges::transform(name, name.begin(), [](unsigned char letter) {
+        return static_cast<char>(std::tolower(letter));
+    });
+    return std::ranges::any_of(format.extensions, [&](const char* extension) {
+        return extension != nullptr && name.size() > std::string_view(extension).size() &&
+               name.ends_with(extension);
+    });
+}
+
+// Returns the format of a file or folder: by its content, else by its extension, in capitals or
+// not; null if neither tells.
+const VolumeFormat* format_of(const Path& path) {
+    for (const VolumeFormat& format : formats)
+        if (format.recognizes(path)) return &format;
+    for (const VolumeFormat& format : formats)
+        if (has_extension(format, path)) return &format;
+    return nullptr;
+}
+
+// Opens samples that lie in a file without a header, as request.raw says: x fastest, 1 apart from
+// the origin on, as nodes. Throws Error if the file is too short.
+Volume open_raw(const std::filesystem::path& path, const VolumeRequest& request,
+                const VolumeUse& use) {
+    const RawLayout& raw = *request.raw;
+    const auto type = value_type_of(raw.type);
+    if (!type) {
+        fail("{}: type: found \"{}\", expected one of {}", path.string(), raw.type,
+             value_type_list());
+    }
+    StoredData data;
+    data.path = path;
+    data.teller = "the layout";
+    data.type = *type;
+    for (const std::int64_t size : raw.size) {
+        if (size < 1)
+            fail("{}: size: found {}, expected three numbers above 0", path.string(), size);
+        data.axes.emplace_back(size);
+    }
+    set_byte_order(data, raw.big_endian);
+    data.files = {path};
+    data.byte_skip = raw.offset;
+    return open_stored(plain_grid(raw.size), data, use);
+}
+
+constexpr VolumeFormat raw_format{"raw", {}, {}, open_raw, that_file, has_none};
 
 const VolumeFormat& expected_format(const Path& path) {
-    // A part of a file ("FILE.h5:/ARRAY") is none by itself, nor what is not there.
+    // Neither a part of a file ("FILE.h5:/ARRAY") nor a missing file is a regular file.
     std::error_code absent;
     const auto status = std::filesystem::status(path, absent);
     if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
@@ -34,19 +162,19 @@ const VolumeFormat& expected_format(const Path& path) {
 }
 
 void expect_known_keys(const Path& path, const VolumeFormat& format, const VolumeRequest& request) {
-    const auto expect = [&](bool known, bool told, const char* key) {
-        if (told && !known) {
-            fail("{}: {}: expected no such key: {} files hold only one", path.string(), key,
+    const auto expect = [&](Keys key, bool told, const char* word) {
+        if (told && (format.keys & key) == 0) {
+            fail("{}: {}: expected no such key: {} files hold only one", path.string(), word,
                  format.name);
         }
     };
-    expect(format.has_arrays, !request.array.empty(), "array");
-    expect(format.has_levels, request.level.has_value(), "level");
-    expect(format.has_channels, request.channel.has_value(), "channel");
-    expect(format.has_times, request.time.has_value(), "time");
+    expect(has_arrays, !request.array.empty(), "array");
+    expect(has_levels, request.level.has_value(), "level");
+    expect(has_channels, request.channel.has_value(), "channel");
+    expect(has_times, request.time.has_value(), "time");
 }
 
-// With the distances and the origin that the request has in place of the file's.
+// Replaces the file's distances and origin by those of the request.
 Volume placed(const Path& path, const Volume& volume, const VolumeRequest& request) {
     if (!request.spacing && !request.origin) return volume;
     Grid grid = volume.grid();
@@ -79,18 +207,15 @@ Volume open_volume(const Path& path, const VolumeRequest& request, const VolumeU
         if (const auto copy = open_bricked_copy(path, request, use))
             return placed(path, *copy, request);
     }
-    if (format.open == nullptr && use.residence == VolumeUse::Residence::in_files)
+    if (format.is_read_whole && use.residence == VolumeUse::Residence::in_files)
         expect_room(path.string(), 0, use, fmt::format("{} is read as a whole", format.name));
-    return placed(
-        path, format.open != nullptr ? format.open(path, request, use) : format.read(path, request),
-        request);
+    return placed(path, format.open(path, request, use), request);
 }
 
 std::vector<Path> files_of_volume(const Path& path, const VolumeRequest& request) {
     expect_allowed(path);
-    if (request.raw) return {path};
     try {
-        return expected_format(path).files(path);
+        return (request.raw ? raw_format : expected_format(path)).files(path);
     } catch (const Error&) {
         return {path};  // errors are reported when the volume is read
     }
@@ -98,7 +223,7 @@ std::vector<Path> files_of_volume(const Path& path, const VolumeRequest& request
 
 std::string volume_format_names() {
     std::string names;
-    for (const VolumeFormat& format : volume_formats()) {
+    for (const VolumeFormat& format : formats) {
         std::string extensions;
         for (const char* const extension : format.extensions)
             if (extension != nullptr)

@@ -11,22 +11,22 @@
 
 namespace lamina {
 
-// By its content, or by its extension, in capitals or not (volume_files/volume_format.h).
+// Tells if a file or folder is a volume: by its content, else by its extension, in capitals or not.
 bool is_volume_file(const std::filesystem::path& path);
 
 // Reads a volume of any format. Throws Error: one line that names the file, what was found and what
-// was expected. What was taken of several, rounded or left over is said in warnings
-// (base/warning.h).
+// was expected. Warnings (base/client.h) say which of several things was taken, and what was
+// rounded or left over.
 Volume read_volume(const std::filesystem::path& path, const VolumeRequest& request = {});
-// The same for a volume that may stay in its files.
+// Opens a volume, which may stay in its files.
 Volume open_volume(const std::filesystem::path& path, const VolumeRequest& request,
                    const VolumeUse& use);
 
-// The file and those that reading it means, too. Where it cannot be read, it alone.
+// Returns the file and those that it refers to; it alone if it cannot be read.
 std::vector<std::filesystem::path> files_of_volume(const std::filesystem::path& path,
                                                    const VolumeRequest& request = {});
 
-// The formats by name, with their extensions, for people: "NRRD (.nrrd, .nhdr), ...".
+// Returns the formats by name, with their extensions, for people: "NRRD (.nrrd, .nhdr), ...".
 std::string volume_format_names();
 
 }  // namespace lamina

@@ -6,19 +6,18 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "volume/volume_store.h"
-#include "volume_files/file_source.h"
-#include "volume_files/stream_source.h"
+#include "volume_files/sample_sources.h"
 
 namespace lamina {
 namespace {
 
-// Bytes that drawing takes for each min/max brick of 64 samples beside its range: what it shows,
-// whether it is constant, and how rays pass it.
+// Bytes that drawing takes for each min/max brick of 64 samples beside its range: whether it shows
+// something, whether it is constant, and how rays pass it.
 constexpr double bytes_per_brick = 4, samples_per_brick = 64;
 
-constexpr double gradient_bytes = 8, float_bytes = 4;  // of a sample
+constexpr double gradient_bytes = 8, float_bytes = 4;  // for each sample
 
 }  // namespace
 
@@ -31,7 +30,7 @@ bool stays_in_files(const Grid& grid, SampleType type, const VolumeUse& use) {
     if (type == SampleType::float32)
         bytes += samples * float_bytes;  // normalised
     else if (samples * each > std::numeric_limits<std::int32_t>::max())
-        bytes += samples * each;  // in parts
+        bytes += samples * each;  // copied in parts
     if (use.lit) bytes += samples * gradient_bytes;
     return bytes > static_cast<double>(memory_limit());
 }

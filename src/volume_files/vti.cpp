@@ -9,24 +9,23 @@
 #include <sstream>
 #include <string>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/filled_memory.h"
-#include "base/warning.h"
-#include "mesh_files/vtu_file.h"
-#include "volume_files/grid_check.h"
-#include "volume_files/memory_reader.h"
-#include "volume_files/plain_grid.h"
-#include "volume_files/stored_axes.h"
+#include "base/input_file.h"
+#include "base/memory.h"
+#include "mesh_files/vtk_xml.h"
+#include "volume_files/stored_data.h"
 #include "volume_files/stored_samples.h"
+#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {
 
 using Path = std::filesystem::path;
 
-constexpr std::size_t most_vti_expansion = 32768;  // of any compressor, LZMA's is some 7000
-constexpr std::size_t most_pieces = 4096;          // each is compared with each
+// Most bytes that one byte gives, above that of every compressor: LZMA's is some 7000.
+constexpr std::size_t most_vti_expansion = 32768;
+constexpr std::size_t most_pieces = 4096;  // each is compared with each
 
 // The first and the last point along each axis.
 struct Extent {
@@ -112,7 +111,7 @@ class ImageFile {
         return numbers;
     }
 
-    // Samples along each axis.
+    // Returns the samples along each axis.
     std::array<std::int64_t, 3> size_of(const Extent& extent) const {
         std::array<std::int64_t, 3> size{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -124,7 +123,7 @@ class ImageFile {
 
     static std::string name_of_array(Node array) { return array.attribute("Name").value(); }
 
-    // The array and whether cells have it, by the first piece.
+    // Chooses the array, and finds if cells have it, by the first piece.
     void choose_array() {
         std::vector<std::string> names;
         std::string preferred;
@@ -171,7 +170,7 @@ class ImageFile {
         const auto count = static_cast<std::int64_t>(stored_bytes(what, axes, 1));
         const std::int64_t components = file_.components_of(array, what);
         auto values =
-            std::make_shared<VtuValues>(file_.stored_values(array, count, components, what));
+            std::make_shared<VtkXmlValues>(file_.stored_values(array, count, components, what));
         StoredSamples samples{what, values->type, nullptr};
         const StoredAxis channel = taken_axis(what, "channel", request_.channel, components);
         if (components == 1) {
@@ -182,12 +181,13 @@ class ImageFile {
         if (piece == pieces_[0]) say_taken(what, axes);
         const std::size_t word = bytes_of(values->type);
         samples.bytes = filled_memory(taken_bytes(what, axes, word));
-        MemoryReader reader(values->bytes.text(), what);
-        read_taken(reader, axes, word, samples.bytes.get());
+        take_of_memory(values->bytes.text().data(), axes, word,
+                       static_cast<char*>(samples.bytes.get()));
         return samples;
     }
 
-    // Memory for the whole is taken before each piece is known to hold what it promises.
+    // Checks the size of the whole, because memory for it is taken before each piece is known to
+    // hold what it promises.
     void check_capacity() const {
         const std::array<std::int64_t, 3> size = size_of(whole_);
         const StoredAxis axes[] = {size[0], size[1], size[2]};
@@ -219,8 +219,8 @@ class ImageFile {
         return all;
     }
 
-    // Pieces share the points between them, and no cells: their cells fill the whole exactly once
-    // where the sum says so and none lies outside. What two of them cover, another one would lack.
+    // Checks that the pieces fill the whole. They share the points between them, but no cells: they
+    // do so if none overlaps another, none lies outside, and their cells add up to the whole.
     void check_pieces() const {
         double covered = 0, expected = 1;
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -278,7 +278,7 @@ class ImageFile {
         }
     }
 
-    VtuFile file_;
+    VtkXmlFile file_;
     const VolumeRequest& request_;
     Extent whole_;
     std::vector<Node> pieces_;
@@ -299,14 +299,10 @@ bool is_vti(const Path& path) {
            element.find("ImageData'") != std::string::npos;
 }
 
-Volume read_vti(const Path& path, const VolumeRequest& request) {
+Volume open_vti(const Path& path, const VolumeRequest& request, const VolumeUse& /*use*/) {
     const ImageFile image(path, request);
     const Grid grid = image.grid();
     return drawn_volume(grid, image.samples());
-}
-
-std::vector<Path> files_of_vti(const Path& path) {
-    return {path};
 }
 
 }  // namespace lamina

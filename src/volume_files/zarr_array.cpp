@@ -1,20 +1,92 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Zarr v2 specification (zarr.readthedocs.io, "Zarr Storage Specification Version 2").
+// The Zarr v2 specification (zarr.readthedocs.io, "Zarr Storage Specification Version 2"), and
+// numcodecs for the bytes of chunks.
 #include "volume_files/zarr_array.h"
+
+#include <blosc.h>
+#include <zlib.h>
+#include <zstd.h>
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <new>
 
-#include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/json_text.h"
-#include "volume_files/json_excerpt.h"
+#include "base/input_file.h"
+#include "base/lz4_block.h"
+#include "volume_files/npy.h"
 
 namespace lamina {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr const char* codec_names[] = {"none", "zlib", "gzip", "zstd", "lz4", "blosc"};
+
+// Decodes zlib and gzip streams alike, each as a whole.
+bool inflate_all(std::span<const char> stored, std::span<char> chunk) {
+    constexpr int any_header = 15 + 32;
+    if (stored.size() > std::numeric_limits<uInt>::max()) return false;
+    z_stream stream{};
+    if (inflateInit2(&stream, any_header) != Z_OK) throw std::bad_alloc();
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(stored.data()));
+    stream.avail_in = static_cast<uInt>(stored.size());
+    std::size_t done = 0;
+    int result = Z_OK;
+    while (result == Z_OK) {
+        const std::size_t room =
+            std::min<std::size_t>(chunk.size() - done, std::numeric_limits<uInt>::max());
+        stream.next_out = reinterpret_cast<Bytef*>(chunk.data() + done);
+        stream.avail_out = static_cast<uInt>(room);
+        result = inflate(&stream, room == 0 ? Z_FINISH : Z_NO_FLUSH);
+        done += room - stream.avail_out;
+    }
+    inflateEnd(&stream);
+    return result == Z_STREAM_END && done == chunk.size();
+}
+
+bool decode_zstd(std::span<const char> stored, std::span<char> chunk) {
+    return ZSTD_decompress(chunk.data(), chunk.size(), stored.data(), stored.size()) ==
+           chunk.size();
+}
+
+// Decodes a block of LZ4. numcodecs puts the length before it, in four bytes.
+bool decode_lz4(std::span<const char> stored, std::span<char> chunk) {
+    std::uint32_t size = 0;
+    if (stored.size() < sizeof size) return false;
+    std::memcpy(&size, stored.data(), sizeof size);
+    if constexpr (std::endian::native == std::endian::big) size = __builtin_bswap32(size);
+    return size == chunk.size() && decode_lz4_block(stored.subspan(sizeof size), chunk);
+}
+
+bool decode_blosc(std::span<const char> stored, std::span<char> chunk) {
+    std::size_t size = 0;
+    if (blosc_cbuffer_validate(stored.data(), stored.size(), &size) != 0) return false;
+    if (size != chunk.size()) return false;
+    if (size == 0) return true;
+    return blosc_decompress_ctx(stored.data(), chunk.data(), chunk.size(), 1) ==
+           static_cast<int>(size);
+}
+
+bool decode(ZarrCodec codec, std::span<const char> stored, std::span<char> chunk) {
+    switch (codec) {
+        case ZarrCodec::zlib:
+        case ZarrCodec::gzip:
+            return inflate_all(stored, chunk);
+        case ZarrCodec::zstd:
+            return decode_zstd(stored, chunk);
+        case ZarrCodec::lz4:
+            return decode_lz4(stored, chunk);
+        case ZarrCodec::blosc:
+            return decode_blosc(stored, chunk);
+        case ZarrCodec::none:
+            break;
+    }
+    if (stored.size() != chunk.size()) return false;
+    std::memcpy(chunk.data(), stored.data(), chunk.size());
+    return true;
+}
 
 constexpr std::size_t most_zarr_axes = 16;
 
@@ -39,23 +111,14 @@ std::vector<std::int64_t> sizes_in(const Json& document, const char* key, const 
     return sizes;
 }
 
-// NumPy's typestr: byte order, kind, bytes.
+// Reads NumPy's typestr: byte order, kind, bytes.
 void read_type(const Json& document, ZarrArray& array, const std::string& name) {
     const Json& dtype = zarray_member(document, "dtype", name);
     const std::string word = dtype.is_string() ? dtype.get<std::string>() : "";
-    struct Kind {
-        const char* code;
-        ValueType type;
-    };
-    constexpr Kind kinds[] = {
-        {"b1", ValueType::uint8},   {"i1", ValueType::int8},   {"u1", ValueType::uint8},
-        {"i2", ValueType::int16},   {"u2", ValueType::uint16}, {"i4", ValueType::int32},
-        {"u4", ValueType::uint32},  {"i8", ValueType::int64},  {"u8", ValueType::uint64},
-        {"f4", ValueType::float32}, {"f8", ValueType::float64}};
     const bool ordered = word.size() == 3 && std::string("<>|=").find(word[0]) != std::string::npos;
-    for (const Kind& kind : kinds) {
-        if (!ordered || word.substr(1) != kind.code) continue;
-        array.type = kind.type;
+    const auto type = numpy_type(std::string_view(word).substr(word.empty() ? 0 : 1));
+    if (ordered && type) {
+        array.type = *type;
         const bool big = std::endian::native == std::endian::big;
         array.swap = (word[0] == '<' && big) || (word[0] == '>' && !big);
         return;
@@ -86,6 +149,25 @@ std::string compressor_id(const Json& document, const std::string& name) {
 }
 
 }  // namespace
+
+ZarrCodec zarr_codec(const std::string& id, const std::string& name) {
+    if (id.empty()) return ZarrCodec::none;
+    for (const ZarrCodec codec :
+         {ZarrCodec::zlib, ZarrCodec::gzip, ZarrCodec::zstd, ZarrCodec::lz4, ZarrCodec::blosc}) {
+        if (id == codec_names[static_cast<std::size_t>(codec)]) return codec;
+    }
+    fail("{}: compressor: found \"{}\", expected blosc, zlib, gzip, zstd, lz4 or null", name,
+         one_line(id));
+}
+
+void decode_chunk(ZarrCodec codec, std::span<const char> stored, std::span<char> chunk,
+                  const std::string& name) {
+    if (decode(codec, stored, chunk)) return;
+    if (codec == ZarrCodec::none)
+        fail("{}: found {} bytes, expected {}", name, stored.size(), chunk.size());
+    fail("{}: damaged {} data in its {} bytes, or not of the {} bytes that a chunk has", name,
+         codec_names[static_cast<std::size_t>(codec)], stored.size(), chunk.size());
+}
 
 std::int64_t ZarrArray::chunk_samples() const {
     std::int64_t samples = 1;

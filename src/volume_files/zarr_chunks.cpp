@@ -7,14 +7,33 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/file_bytes.h"
-#include "base/interrupt.h"
-#include "volume_files/chunk_hashes.h"
-#include "volume_files/stored_axes.h"
+#include "base/input_file.h"
+#include "base/output_file.h"
+#include "volume_files/stored_data.h"
+#include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {
+
+// The file of hashes has one for each chunk, one for the array's two headers, and one for all
+// these.
+constexpr const char* file_name = "lamina-chunks";
+constexpr std::size_t more_hashes = 2;
+
+std::uint64_t hash_of_headers(const std::filesystem::path& folder) {
+    ContentHash hash;
+    for (const char* const name : {".zarray", ".zattrs"})
+        hash.add(read_large_file(folder / name).text());
+    return hash.word();
+}
+
+std::uint64_t hash_of_all(std::span<const std::uint64_t> hashes) {
+    ContentHash hash;
+    hash.add(hashes.data(), hashes.size_bytes());
+    return hash.word();
+}
 
 template <typename Word>
 void copy_row(const char* from, std::size_t step, char* to, std::int64_t count) {
@@ -23,7 +42,43 @@ void copy_row(const char* from, std::size_t step, char* to, std::int64_t count) 
                     from + static_cast<std::size_t>(i) * step, sizeof(Word));
 }
 
+std::array<std::int64_t, 3> x_first(const ZarrChunks::Triple& of) {
+    return {of[2], of[1], of[0]};
+}
+
 }  // namespace
+
+std::uint64_t hash_of_chunk(std::span<const char> stored) {
+    ContentHash hash;
+    hash.add(stored.data(), stored.size());
+    return hash.word() | 1;  // not no_chunk
+}
+
+void write_chunk_hashes(const std::filesystem::path& folder,
+                        const std::vector<std::uint64_t>& hashes) {
+    std::vector<std::uint64_t> all = hashes;
+    all.push_back(hash_of_headers(folder));
+    all.push_back(hash_of_all(all));
+    AtomicFile file(folder / file_name);
+    file.write(all.data(), all.size() * sizeof all[0]);
+    file.commit();
+}
+
+std::optional<std::vector<std::uint64_t>> read_chunk_hashes(const std::filesystem::path& folder,
+                                                            std::int64_t count) {
+    std::vector<std::uint64_t> all(static_cast<std::size_t>(count) + more_hashes);
+    const std::filesystem::path file = folder / file_name;
+    std::error_code absent;
+    if (!std::filesystem::is_regular_file(file, absent)) return std::nullopt;
+    const ByteBuffer bytes = read_large_file(file);
+    if (bytes.size() != all.size() * sizeof all[0]) return std::nullopt;
+    std::memcpy(all.data(), bytes.text().data(), bytes.size());
+    const std::uint64_t of_all = all.back();
+    all.pop_back();
+    if (hash_of_all(all) != of_all || hash_of_headers(folder) != all.back()) return std::nullopt;
+    all.pop_back();
+    return all;
+}
 
 ZarrChunks::ZarrChunks(ZarrArray array, ZarrSelection selection)
     : array_(std::move(array)), selection_(std::move(selection)), bytes_(bytes_of(array_.type)) {
@@ -117,7 +172,7 @@ std::filesystem::path ZarrChunks::file_of(std::int64_t chunk) const {
     return array_.folder / name;
 }
 
-// Bytes between neighbours along an axis in a chunk.
+// Returns the bytes between neighbours along an axis in a chunk.
 std::size_t ZarrChunks::step_of(std::size_t axis) const {
     std::size_t step = bytes_;
     for (std::size_t i = 0; i < array_.chunks.size(); ++i) {
@@ -168,7 +223,7 @@ Value ZarrChunks::fill_as() const {
     }
 }
 
-// In the byte order of the file, as the other samples are.
+// Fills a chunk with the fill value, in the byte order of the file.
 void ZarrChunks::fill(ByteBuffer& samples) const {
     with_type(array_.type, [&](auto zero) {
         using Value = decltype(zero);
@@ -221,6 +276,35 @@ void ZarrChunks::copy_samples(const char* from, std::size_t step, char* to,
         return;
     }
     with_type(array_.type, [&](auto zero) { copy_row<decltype(zero)>(from, step, to, count); });
+}
+
+ZarrSource::ZarrSource(ZarrChunks chunks)
+    : ChunkedSource(x_first(chunks.size()), x_first(chunks.edge()), bytes_of(chunks.array().type)),
+      chunks_(std::move(chunks)),
+      header_(FileState::of(chunks_.array().folder / ".zarray")) {}
+
+void ZarrSource::decode(std::int64_t chunk, const SampleBox& box, void* to) const {
+    chunks_.copy(chunks_.decoded(chunk), chunk, box, static_cast<char*>(to));
+    const ZarrArray& array = chunks_.array();
+    if (array.swap) swap_bytes_alone(to, box.count(), bytes_of(array.type));
+}
+
+bool ZarrSource::is_zero(std::int64_t chunk) const {
+    return chunks_.array().fill == 0 && chunks_.state(chunk) == 0;
+}
+
+std::string ZarrSource::name() const {
+    return fmt::format("{} {} {}", std::filesystem::absolute(chunks_.array().folder).string(),
+                       fmt::join(chunks_.size(), " "), chunks_.selection_text());
+}
+
+std::string ZarrSource::identity() const {
+    ContentHash hash;
+    hash.add(name());
+    hash.add(header_.text());
+    const std::uint64_t files = chunks_.files();
+    hash.add(&files, sizeof files);
+    return hash.hex();
 }
 
 }  // namespace lamina

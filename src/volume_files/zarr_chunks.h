@@ -4,55 +4,74 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "base/byte_buffer.h"
 #include "base/content_hash.h"
+#include "base/input_file.h"
 #include "volume/sample_source.h"
+#include "volume_files/sample_sources.h"
 #include "volume_files/zarr_array.h"
 
 namespace lamina {
 
+// Hashes of the chunks of an array that lamina wrote, in the order of ZarrChunks, so that a damaged
+// or lost chunk is never drawn.
+inline constexpr std::uint64_t no_chunk = 0;  // hash for a chunk of zeros, which has no file
+
+std::uint64_t hash_of_chunk(std::span<const char> stored);
+
+// Writes the hashes into the array's folder, with one of .zarray and .zattrs, which must be there.
+// Throws Error.
+void write_chunk_hashes(const std::filesystem::path& folder,
+                        const std::vector<std::uint64_t>& hashes);
+
+// Returns nothing if there is no such file, if it is damaged or of another number of chunks, or if
+// .zarray or .zattrs are not those that were written.
+std::optional<std::vector<std::uint64_t>> read_chunk_hashes(const std::filesystem::path& folder,
+                                                            std::int64_t count);
+
 inline constexpr std::int64_t most_chunks = 1'000'000;
 
-// The chunks of an array that hold what is selected of it. Safe from any thread.
+// The chunks of an array that hold its selected samples. Safe from any thread.
 class ZarrChunks {
   public:
-    using Triple = std::array<std::int64_t, 3>;  // of z, y, x
+    using Triple = std::array<std::int64_t, 3>;  // along z, y, x
 
-    // Throws Error where the files cannot hold what is selected.
+    // Throws Error if the files cannot hold what is selected.
     ZarrChunks(ZarrArray array, ZarrSelection selection);
 
     const ZarrArray& array() const { return array_; }
     const Triple& size() const { return size_; }  // samples that are selected
-    const Triple& edge() const { return edge_; }  // of a chunk
+    const Triple& edge() const { return edge_; }  // a chunk's
     std::int64_t count() const { return counts_[0] * counts_[1] * counts_[2]; }
     std::size_t selected_bytes() const;
     std::size_t chunk_bytes() const {
         return static_cast<std::size_t>(array_.chunk_samples()) * bytes_;
     }
 
-    // Which of the files, as they were at first, a chunk is: a hash of its size and time; 0 where
-    // there is none, and the fill value counts.
+    // Returns a hash of the size and time that a chunk's file had at first; 0 if there is no file,
+    // and the fill value counts.
     std::uint64_t state(std::int64_t chunk) const {
         return states_[static_cast<std::size_t>(chunk)];
     }
-    // Tells all files from copies of them that have the same sizes and times.
+    // Returns a hash that tells all files from copies of them with the same sizes and times.
     std::uint64_t files() const { return files_.word(); }
     std::int64_t missing() const;
-    // Takes the hashes of all chunks (volume_files/chunk_hashes.h): decoded() then expects them.
-    // Throws Error if a chunk is missing.
+    // Takes the hashes of all chunks, which decoded() then expects. Throws Error if a chunk is
+    // missing.
     void expect(std::vector<std::uint64_t> hashes);
-    // Throws Error where the files cannot hold all that is selected, what is missing included.
+    // Throws Error if the files cannot hold all that is selected, missing chunks included.
     void expect_all() const;
     std::string selection_text() const;  // tells what is selected from what else might be
 
-    // A chunk's samples, decoded, in the byte order of the file. Throws Error where it is damaged,
-    // has another hash, or is not the one that was there at first.
+    // Returns a chunk's samples, decoded, in the byte order of the file. Throws Error if it is
+    // damaged, has another hash, or is not the one that was there at first.
     ByteBuffer decoded(std::int64_t chunk) const;
-    // Copies what a decoded chunk has of a box of the selected samples, which is at `to`, x
-    // fastest.
+    // Copies the part of a decoded chunk that lies in a box of the selected samples to that box, at
+    // `to`, x fastest.
     void copy(const ByteBuffer& samples, std::int64_t chunk, const SampleBox& box, char* to) const;
 
   private:
@@ -76,6 +95,24 @@ class ZarrChunks {
     std::vector<std::uint64_t> states_, hashes_;
     ContentHash files_;
     std::uint64_t stored_ = 0;  // bytes of all files
+};
+
+// Samples in the chunks of a Zarr array.
+class ZarrSource : public ChunkedSource {
+  public:
+    explicit ZarrSource(ZarrChunks chunks);
+
+    void check_unchanged() const override { header_.check_unchanged(); }
+    std::filesystem::path main_file() const override { return chunks_.array().folder; }
+    std::string name() const override;
+    std::string identity() const override;
+
+  private:
+    void decode(std::int64_t chunk, const SampleBox& box, void* to) const override;
+    bool is_zero(std::int64_t chunk) const override;
+
+    ZarrChunks chunks_;
+    FileState header_;
 };
 
 }  // namespace lamina

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

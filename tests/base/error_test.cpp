@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "base/error_text.h"
-
 namespace lamina {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/client.h"
-#include "base/signal_stop.h"
+#include "base/process.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

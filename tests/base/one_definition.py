@@ -199,10 +199,10 @@ def main():
         return 1
     symbols = [symbol for archive in options.archives for symbol in symbols_of(options.nm, archive)]
     headers = []
-    for folder in ("include", "src"):
-        for path in sorted((options.source / folder).rglob("*.h")):
-            place = path.relative_to(options.source)
-            headers += functions_in_header(str(place), place.parts[1], path.read_text())
+    for folder in ("include", "src", "tools/lamina", "tools/lamina-mpi"):
+        for path in sorted((options.source / folder).glob("*/**/*.h")):
+            room = path.relative_to(options.source / folder).parts[0]
+            headers += functions_in_header(str(path.relative_to(options.source)), room, path.read_text())
     if len(symbols) < 1000 or len(headers) < 250:  # an empty answer would hide everything
         print(f"found {len(symbols)} symbols of lamina and {len(headers)} definitions in headers, expected more")
         return 1

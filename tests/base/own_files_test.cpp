@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/own_files.h"
+#include "base/output_file.h"
 
 #include <gtest/gtest.h>
 

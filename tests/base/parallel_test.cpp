@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/signal_stop.h"
+#include "base/process.h"
 
 namespace lamina {
 namespace {

@@ -8,8 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "base/stage.h"
-
 namespace lamina {
 namespace {
 

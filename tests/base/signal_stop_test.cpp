@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/signal_stop.h"
+#include "base/process.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 
 #include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 
 namespace lamina {
 namespace {

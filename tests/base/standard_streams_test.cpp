@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/standard_streams.h"
+#include "base/process.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "base/warning.h"
+#include "base/client.h"
 #include "support/heard_warnings.h"
 
 namespace lamina {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "choice/changed_transfer.h"
+#include "choice/automatic_transfer.h"
 
 #include <gtest/gtest.h>
 

@@ -9,10 +9,8 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "choice/mesh_field.h"
-#include "choice/volume_field.h"
+#include "choice/field.h"
 #include "scene/camera.h"
-#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 #include "support/expect_error.h"
 #include "support/heard_warnings.h"

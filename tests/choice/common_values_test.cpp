@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "choice/common_values.h"
+#include "choice/value_distribution.h"
 
 #include <gtest/gtest.h>
 

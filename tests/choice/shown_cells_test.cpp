@@ -11,8 +11,8 @@
 #include <memory>
 #include <random>
 
-#include "base/reserved_memory.h"
-#include "choice/volume_field.h"
+#include "base/memory.h"
+#include "choice/field.h"
 #include "support/volume_of.h"
 
 namespace lamina {
@@ -140,7 +140,7 @@ TEST(ShownCells, AreTheSameForAxesThatAreStoredTheOtherWayRound) {
     }
 }
 
-// Of large volumes (choice/large_volume.h) the corners of bricks are taken. The samples are not
+// Of large volumes (choice/shown_cells.h) the corners of bricks are taken. The samples are not
 // looked at.
 TEST(ShownCells, OfLargeVolumesAreBricks) {
     const Grid grid = test::grid_of({1024, 1024, 258}, Centering::node);

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "cli/run_program.h"
 #include "image/exr.h"
 #include "image/npy.h"

@@ -107,7 +107,7 @@ TEST_F(FaultsOfMemory, TooLittleForOpenGLIsSaidBefore) {
 }
 
 // The decoder asked for a gigabyte, which the reading process may not take: 256 MiB beside what it
-// has (volume_files/isolated_read.cpp), of which the program takes less than 64.
+// has (volume_files/isolated_process.cpp), of which the program takes less than 64.
 TEST_F(FaultsOfMemory, ADamagedImageOfAKilobyteTakesLittle) {
     const std::string image = folder / "image.dcm";
     std::filesystem::copy_file(

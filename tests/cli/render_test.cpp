@@ -7,8 +7,8 @@
 
 #include "cli/blobs_scene.h"
 #include "cli/run_program.h"
+#include "image/difference.h"
 #include "image/exr.h"
-#include "image/metrics.h"
 #include "image/npy.h"
 #include "support/temporary_folder.h"
 

@@ -11,7 +11,6 @@
 #include "cli/blobs_scene.h"
 #include "cli/lamina_run.h"
 #include "image/exr.h"
-#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 #include "support/temporary_folder.h"
 #include "support/transfer_functions.h"

@@ -8,8 +8,7 @@
 #include <set>
 
 #include "compositing/fixed_ray.h"
-#include "compositing/random_bits.h"
-#include "compositing/unit_opacity.h"
+#include "compositing/over.h"
 
 namespace lamina {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dithering along depth: LaMar 2004, section 5; docs/numerics.md, section 2.
-#include "compositing/dither.h"
+#include "compositing/codes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "compositing/fixed_ray.h"
-#include "compositing/random_bits.h"
 #include "oracles.h"
 
 namespace lamina {

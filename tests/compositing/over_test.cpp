@@ -9,7 +9,6 @@
 
 #include "compositing/codes.h"
 #include "compositing/fixed_ray.h"
-#include "compositing/unit_opacity.h"
 #include "oracles.h"
 
 namespace lamina {

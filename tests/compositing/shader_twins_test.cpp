@@ -6,12 +6,9 @@
 #include <string>
 
 #include "compositing/codes.h"
-#include "compositing/dither.h"
 #include "compositing/node_code.h"
 #include "compositing/over.h"
-#include "compositing/random_bits.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl/gl_fixture.h"
 
 namespace lamina {

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "compositing/fixed_ray.h"
-#include "compositing/unit_opacity.h"
+#include "compositing/over.h"
 #include "oracles.h"
 #include "support/expect_error.h"
 

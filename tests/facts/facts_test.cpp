@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "facts/facts.h"
+#include "facts/volume_facts.h"
 
 #include <cmath>
 #include <memory>

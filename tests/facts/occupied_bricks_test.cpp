@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "facts/occupied_bricks.h"
+#include "facts/bricks.h"
 
 #include <gtest/gtest.h>
 

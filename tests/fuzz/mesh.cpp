@@ -4,7 +4,7 @@
 #include <set>
 
 #include "input_parts.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "mesh_files/mesh_file.h"
 #include "plan_check.h"
 #include "runs.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 #include "corpus_folder.h"
 #include "support/temporary_folder.h"
 

@@ -38,7 +38,7 @@ void run_nrrd(std::string_view input) {
     if (!data_file_stays_in_folder(parts.first)) return;
     const auto file = scratch_file("volume.nrrd", parts.first);
     scratch_file("data", parts.second);
-    may_fail([&] { check_volume(read_nrrd(file)); });
+    may_fail([&] { check_volume(open_nrrd(file)); });
 }
 
 }  // namespace lamina::fuzz

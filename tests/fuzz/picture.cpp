@@ -2,7 +2,7 @@
 // exr, npy, png: pictures as `lamina compare` reads them, each compared with itself.
 #include <variant>
 
-#include "image/loaded_image.h"
+#include "image/picture.h"
 #include "runs.h"
 #include "scratch_folder.h"
 #include "violation.h"

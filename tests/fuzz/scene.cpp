@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/camera.h"
 #include "scene/given_transfer.h"
-#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 #include "input_parts.h"

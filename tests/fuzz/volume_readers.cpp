@@ -9,8 +9,8 @@
 #include "volume_check.h"
 #include "volume_files/metaimage.h"
 #include "volume_files/nifti.h"
-#include "volume_files/npy_volume.h"
-#include "volume_files/tiff_stack.h"
+#include "volume_files/npy.h"
+#include "volume_files/tiff.h"
 #include "volume_files/vti.h"
 
 namespace lamina::fuzz {
@@ -30,9 +30,10 @@ bool data_file_stays_in_folder(std::string_view header) {
 }
 
 void run_reader(std::string_view input, const char* name,
-                Volume (*read)(const std::filesystem::path&, const VolumeRequest&)) {
+                Volume (*open)(const std::filesystem::path&, const VolumeRequest&,
+                               const VolumeUse&)) {
     const auto file = scratch_file(name, input);
-    may_fail([&] { check_volume(read(file, {})); });
+    may_fail([&] { check_volume(open(file, {}, {})); });
 }
 
 }  // namespace
@@ -41,25 +42,25 @@ void run_metaimage(std::string_view input) {
     const InputParts parts = parts_of(input);
     if (!data_file_stays_in_folder(parts.first)) return;
     scratch_file("data", parts.second);
-    run_reader(parts.first, "volume.mhd", read_metaimage);
+    run_reader(parts.first, "volume.mhd", open_metaimage);
 }
 
 void run_nifti(std::string_view input) {
     const InputParts parts = parts_of(input);
     scratch_file("volume.img", parts.second);
-    run_reader(parts.first, "volume.hdr", read_nifti);
+    run_reader(parts.first, "volume.hdr", open_nifti);
 }
 
 void run_npy_volume(std::string_view input) {
-    run_reader(input, "volume.npy", read_npy_volume);
+    run_reader(input, "volume.npy", open_npy);
 }
 
 void run_tiff(std::string_view input) {
-    run_reader(input, "volume.tif", read_tiff_stack);
+    run_reader(input, "volume.tif", open_tiff);
 }
 
 void run_vti(std::string_view input) {
-    run_reader(input, "volume.vti", read_vti);
+    run_reader(input, "volume.vti", open_vti);
 }
 
 }  // namespace lamina::fuzz

@@ -9,8 +9,6 @@
 
 #include "gl/api.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
-#include "gl/vertex_array.h"
 #include "gl_fixture.h"
 
 namespace lamina::gl {

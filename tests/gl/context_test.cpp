@@ -14,10 +14,8 @@
 
 #include "base/error.h"
 #include "gl/api.h"
-#include "gl/check.h"
 #include "gl/filter_probe.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl/shared_library.h"
 #include "gl_fixture.h"
 #include "support/expect_error.h"

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "gl/full_screen.h"
 #include "gl_fixture.h"
 
 namespace lamina::gl {

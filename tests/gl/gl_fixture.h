@@ -11,10 +11,9 @@
 #include <optional>
 #include <string>
 
-#include "gl/current_context.h"
-#include "gl/memory.h"
+#include "gl/api.h"
+#include "gl/context.h"
 #include "gl/program.h"
-#include "gl/shader_files.h"
 #include "gl/shader_source.h"
 
 namespace lamina::gl {

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "gl/current_context.h"
+#include "gl/context.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl_fixture.h"
 
 namespace lamina::gl {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gl/query.h"
+#include "gl/timeline.h"
 
 #include <glad/gl.h>
 
 #include "gl/api.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl_fixture.h"
 
 namespace lamina::gl {

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "gl/shader_files.h"
 
 namespace lamina::gl {
 namespace {

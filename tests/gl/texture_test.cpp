@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl_fixture.h"
 
 namespace lamina::gl {

@@ -5,8 +5,6 @@
 
 #include <array>
 
-#include "image/false_color.h"
-
 namespace lamina {
 namespace {
 

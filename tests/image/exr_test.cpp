@@ -12,7 +12,7 @@
 #include <cstring>
 #include <limits>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "image/test_images.h"
 #include "support/expect_error.h"
 #include "support/file_size_limit.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image/loaded_image.h"
+#include "image/picture.h"
 
 #include <gtest/gtest.h>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
+#include "image/difference.h"
 #include "image/exr.h"
-#include "image/metrics.h"
 #include "image/npy.h"
 #include "image/png.h"
 #include "support/expect_error.h"

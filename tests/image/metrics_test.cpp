@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image/metrics.h"
+#include "image/difference.h"
 
 #include <gtest/gtest.h>
 
@@ -25,17 +25,17 @@ TEST(Metrics, RampHasTheClosedFormsOfItsSums) {
     // root.
     EXPECT_EQ(error.channels, difference.channels);
     EXPECT_DOUBLE_EQ(error.of_channel[0].linf, n - 1);
-    EXPECT_DOUBLE_EQ(error.of_channel[0].l1, (n - 1) / 2.0);
+    EXPECT_DOUBLE_EQ(error.of_channel[0].mean, (n - 1) / 2.0);
     EXPECT_DOUBLE_EQ(error.of_channel[0].l2, std::sqrt((n - 1) * (2.0 * n - 1) / 6));
     EXPECT_DOUBLE_EQ(error.of_channel[1].linf, 2);
-    EXPECT_DOUBLE_EQ(error.of_channel[1].l1, -2);
+    EXPECT_DOUBLE_EQ(error.of_channel[1].mean, -2);
     EXPECT_DOUBLE_EQ(error.of_channel[1].l2, 2);
     EXPECT_DOUBLE_EQ(error.of_channel[2].linf, 0);
     EXPECT_DOUBLE_EQ(error.of_channel[3].linf, 3);
-    EXPECT_DOUBLE_EQ(error.of_channel[3].l1, 0);
+    EXPECT_DOUBLE_EQ(error.of_channel[3].mean, 0);
     EXPECT_DOUBLE_EQ(error.of_channel[3].l2, 3);
     EXPECT_DOUBLE_EQ(error.all.linf, n - 1);
-    EXPECT_DOUBLE_EQ(error.all.l1, ((n - 1) / 2.0 - 2) / 4);
+    EXPECT_DOUBLE_EQ(error.all.mean, ((n - 1) / 2.0 - 2) / 4);
     EXPECT_DOUBLE_EQ(error.all.l2, std::sqrt(((n - 1) * (2.0 * n - 1) / 6 + 4 + 9) / 4));
     EXPECT_EQ(error.worst.column, n / 10 - 1);
     EXPECT_EQ(error.worst.row, 9);
@@ -50,7 +50,7 @@ TEST(Metrics, DifferenceIsAMinusBIn255ths) {
     b.pixel(2, 1)[2] = 0.5;
     const ImageError error = image_error(a, b);
     EXPECT_EQ(error.all.linf, 63.75);
-    EXPECT_EQ(error.of_channel[2].l1, -63.75 / 6);
+    EXPECT_EQ(error.of_channel[2].mean, -63.75 / 6);
     EXPECT_EQ(error.worst.e, -63.75);
     EXPECT_EQ(error.worst.column, 2);
     EXPECT_EQ(error.worst.row, 1);
@@ -72,7 +72,7 @@ TEST(Metrics, StoredCodesOfBothDepths) {
     a.codes = {10, 200};
     b.codes = {13, 200};
     c.codes = {10 * 257, 200 * 257 - 257};
-    EXPECT_EQ(measure(difference(a, b)).all.l1, -1.5);
+    EXPECT_EQ(measure(difference(a, b)).all.mean, -1.5);
     EXPECT_EQ(measure(difference(a, b)).channels, std::vector<std::string>{"Y"});
     EXPECT_EQ(difference(a, c).e, (std::vector<double>{0, 1}));
     EXPECT_EQ(difference(c, c).e, (std::vector<double>{0, 0}));

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "cli/run_program.h"
 #include "image/test_images.h"
 #include "support/expect_error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image/pixel_text.h"
+#include "image/coded_image.h"
 
 #include <gtest/gtest.h>
 

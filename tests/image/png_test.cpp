@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "image/srgb.h"
 #include "image/test_images.h"
 #include "support/expect_error.h"

@@ -23,8 +23,8 @@ TEST(PictureComparison, HasNormsByChannelAndTheWorstPixel) {
     const PictureComparison found = compare(a, b);
     EXPECT_EQ(found.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
     EXPECT_EQ(found.all.linf, 3);
-    EXPECT_EQ(found.of_channel[2].l1, 2);
-    EXPECT_EQ(found.of_channel[3].l1, -1);
+    EXPECT_EQ(found.of_channel[2].mean, 2);
+    EXPECT_EQ(found.of_channel[3].mean, -1);
     EXPECT_EQ(found.column, 1);
     EXPECT_EQ(found.channel, 2u);
     EXPECT_EQ(difference_png(a, b, 3).substr(1, 3), "PNG");

@@ -24,6 +24,7 @@ Volume waves(int size) {
         samples->push_back(.5f + .5f * std::sin(.11f * static_cast<float>(i)));
     Grid grid;
     grid.size = {size, size, size};
+    grid.centering.fill(Centering::cell);
     const float* const first = samples->data();
     return {grid, SampleType::float32, {std::move(samples), first}};
 }

@@ -72,8 +72,24 @@ def check_links():
     assert checked > 100, checked
 
 
+def check_release():
+    """Version and date are the same wherever a release says them, and its notes stay short."""
+    version = re.search(r"^project\(lamina VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text(), re.MULTILINE)[1]
+    notes = re.split(r"^## ", (SOURCE / "CHANGELOG.md").read_text(), flags=re.MULTILINE)[1]
+    heading = re.match(r"([\d.]+) \((\d{4}-\d\d-\d\d)\)\n", notes)
+    store = re.search(r'<release version="([\d.]+)" date="([\d-]+)"',
+                      (SOURCE / "packaging/org.lamina.View.metainfo.xml").read_text())
+    if not heading or heading[1] != version:
+        FAULTS.append(f"CHANGELOG.md: found {notes.splitlines()[0]!r}, expected {version} and its date")
+    elif store.groups() != heading.groups():
+        FAULTS.append(f"org.lamina.View.metainfo.xml: found {store.groups()}, expected {heading.groups()}")
+    if len(notes.splitlines()) > 80:
+        FAULTS.append(f"CHANGELOG.md: found {len(notes.splitlines())} lines of {version}, expected at most 80")
+
+
 check_page_of_commands()
 check_options()
 check_links()
+check_release()
 print("\n".join(FAULTS))
 sys.exit(bool(FAULTS))

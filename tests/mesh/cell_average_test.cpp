@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/cell_average.h"
+#include "mesh/tet_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/mesh_overlap.h"
+#include "mesh/mesh_shape.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/point_gradients.h"
+#include "mesh/tet_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -15,28 +15,36 @@ std::vector<glm::dvec3> gradients_of(const TetMesh& mesh) {
     return point_gradients(mesh, mesh.point_scalars()[0].values);
 }
 
-// Each tet's gradient is g. A tet's volume times its gradient is a sum of products of up to 7.7 (a
-// value) and 3 (an area): good to 1e-14. Around some points there are slivers alone.
+// Each tet's gradient is g, |g| = 7.6. A tet's volume times its gradient is a sum of three products
+// of a difference of values and a normal, which is a cross product of two edges. In units of u =
+// 2^-53: stored values (up to 14) have errors of 45 (three products, three sums), so their
+// differences have 104; a normal has 8 of the product of its edges, which a difference multiplies
+// by 14 at most. That makes 216 in each direction, 375 in space, and the volume's own error 8
+// sqrt(3) |g| = 106: less than 500 u for each product of two edges. Around some points there are
+// slivers alone.
 TEST(PointGradients, OfALinearFieldAreItsGradient) {
     const glm::dvec3 g(3, -.5, 7);
     for (const double least : {.1, 1e-6}) {
         const TetMesh mesh(test::split_box(3, 2000, least,
                                            [&](const glm::dvec3& p) { return 4 + glm::dot(g, p); }),
                            "test");
-        std::vector<double> tets(mesh.points().size()), volumes(mesh.points().size());
+        std::vector<double> errors(mesh.points().size()), volumes(mesh.points().size());
         for (const Tet& tet : mesh.tets()) {
-            const auto at = [&](std::size_t i) {
-                return mesh.points()[static_cast<std::size_t>(tet[i])];
+            const auto edge = [&](std::size_t i) {
+                return mesh.points()[static_cast<std::size_t>(tet[i])] -
+                       mesh.points()[static_cast<std::size_t>(tet[0])];
             };
-            const double volume = glm::dot(at(1) - at(0), glm::cross(at(2) - at(0), at(3) - at(0)));
+            const double volume = glm::dot(edge(1), glm::cross(edge(2), edge(3)));
+            const double a = glm::length(edge(1)), b = glm::length(edge(2)),
+                         c = glm::length(edge(3));
             for (const std::int32_t point : tet) {
-                tets[static_cast<std::size_t>(point)] += 1;
+                errors[static_cast<std::size_t>(point)] += 500 * 0x1p-53 * (a * b + b * c + c * a);
                 volumes[static_cast<std::size_t>(point)] += std::abs(volume);
             }
         }
         const std::vector<glm::dvec3> found = gradients_of(mesh);
         for (std::size_t i = 0; i < found.size(); ++i)
-            EXPECT_LE(glm::distance(found[i], g), 1e-14 * tets[i] / volumes[i]) << least;
+            EXPECT_LE(glm::distance(found[i], g), errors[i] / volumes[i]) << least;
     }
 }
 

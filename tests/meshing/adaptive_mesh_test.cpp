@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "meshing/delaunay_process.h"
+#include "meshing/delaunay.h"
 #include "meshing/volume_mesh.h"
 #include "support/expect_error.h"
 #include "support/mesh_checks.h"

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "meshing/cell_pieces.h"
+#include "meshing/trilinear_field.h"
 #include "support/volume_of.h"
 
 namespace lamina {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "meshing/kuhn_mesh.h"
+#include "meshing/volume_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "meshing/volume_mesh.h"
 #include "support/expect_error.h"
 #include "support/mesh_checks.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "optics/css_colors.h"
+#include "optics/colors.h"
 #include "support/expect_error.h"
 
 namespace lamina {

@@ -11,9 +11,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "optics/color_space.h"
+#include "optics/colors.h"
 #include "optics/opacity.h"
-#include "optics/opacity_slope.h"
 
 namespace lamina {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/curved_pieces.h"
+#include "optics/pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "optics/given_points.h"
-#include "optics/opacity_slope.h"
+#include "optics/opacity.h"
 
 namespace lamina {
 namespace {

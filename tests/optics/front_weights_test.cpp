@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/front_weights.h"
+#include "optics/segment_integral.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <random>
 
 #include "optics/opacity.h"
-#include "optics/segment_integral.h"
 
 namespace lamina {
 namespace {

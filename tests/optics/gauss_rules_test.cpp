@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/gauss_rules.h"
+#include "optics/segment_integral.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/given_points.h"
+#include "optics/opacity.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "optics/colormap.h"
-#include "optics/opacity.h"
-#include "optics/opacity_slope.h"
 #include "support/expect_error.h"
 
 namespace lamina {

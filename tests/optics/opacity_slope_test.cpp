@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/opacity_slope.h"
+#include "optics/opacity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/shipped_colormaps.h"
+#include "optics/colormap.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <fstream>
 
-#include "optics/color_space.h"
-#include "optics/colormap.h"
+#include "optics/colors.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

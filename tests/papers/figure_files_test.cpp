@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "papers/figure_files.h"
+#include "papers/ramp.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "study/line_plot.h"
-#include "study/text_file.h"
-#include "study/thumbnail.h"
+#include "study/report_figures.h"
+#include "study/result_files.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::papers {

@@ -6,12 +6,10 @@
 #include <algorithm>
 
 #include "gl/gl_fixture.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "mesh/mesh_shape.h"
 #include "papers/grid_mesh.h"
-#include "papers/kraus_stage.h"
-#include "papers/kraus_variants.h"
-#include "papers/panels.h"
+#include "papers/paper_item.h"
 #include "render/pipeline.h"
 #include "support/temporary_folder.h"
 

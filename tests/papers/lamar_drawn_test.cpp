@@ -5,8 +5,7 @@
 
 #include "gl/gl_fixture.h"
 #include "papers/lamar.h"
-#include "papers/lamar_stage.h"
-#include "papers/palette_slices.h"
+#include "papers/lamar_times.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::papers {

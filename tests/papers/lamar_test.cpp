@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "papers/findings.h"
+#include "papers/paper_item.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::papers {

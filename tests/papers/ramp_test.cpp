@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "papers/dither_spans.h"
-
 namespace lamina::papers {
 namespace {
 
@@ -51,8 +49,8 @@ TEST(Ramp, SixteenBitsAreInTheSameUnits) {
 TEST(CurveNorms, AreThoseOfTheDifferences) {
     const ErrorNorms e = error_of({1, 2, 3, 4}, {1, 2, 0, 8});
     EXPECT_EQ(e.linf, 4);
-    EXPECT_EQ(e.l1, -0.25);  // (3 - 4) / 4
-    EXPECT_EQ(e.l2, 2.5);    // sqrt((9 + 16) / 4)
+    EXPECT_EQ(e.mean, -0.25);  // (3 - 4) / 4
+    EXPECT_EQ(e.l2, 2.5);      // sqrt((9 + 16) / 4)
 }
 
 TEST(CurveShape, CountsFallsLevelsAndTheFirstShown) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "parallel/active_runs.h"
+#include "parallel/fragment_code.h"
 
 #include <gtest/gtest.h>
 

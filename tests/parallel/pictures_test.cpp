@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "image/difference.h"
 #include "image/exr.h"
-#include "image/metrics.h"
 #include "mpi_run.h"
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "compositing/random_bits.h"
-#include "compositing/stochastic_over.h"
+#include "compositing/codes.h"
+#include "compositing/over.h"
 
 namespace lamina {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes with values far from all others, as those that mark missing data are, against the tracer.
-#include "facts/far_scalars.h"
+#include "facts/drawn_range.h"
 #include "projection_fixture.h"
 #include "support/split_box.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "gl/gl_fixture.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "plan/plan.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/tile_project_renderer.h"

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "scene/window_view.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {

@@ -9,11 +9,9 @@
 
 #include "executors/shader_intervals.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl/gl_fixture.h"
 #include "gl/texture.h"
 #include "lamina/image.h"
-#include "optics/front_weights.h"
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
 #include "preintegration/preintegration_table.h"

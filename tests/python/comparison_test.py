@@ -14,7 +14,8 @@ def test_norms_are_those_of_their_definition():
     found = lamina.compare(a, b)
     e = 255 * (a - b.astype(np.float64))
     # Sums of 140 numbers of up to 255 in double precision.
-    assert np.allclose((found.linf, found.l1, found.l2), (np.abs(e).max(), e.mean(), np.sqrt((e * e).mean())), atol=1e-11)
+    assert np.allclose((found.linf, found.mean, found.l2), (np.abs(e).max(), e.mean(), np.sqrt((e * e).mean())), atol=1e-11)
+    assert found.l1 == found.mean and found.channels["R"].l1 == found.channels["R"].mean
     for index, name in enumerate("RGBA"):
         assert np.isclose(found.channels[name].linf, np.abs(e[:, :, index]).max())
     row, column, channel = np.unravel_index(np.abs(e).argmax(), e.shape)

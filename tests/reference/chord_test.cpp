@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/double_double.h"
+#include "base/arithmetic.h"
 #include "fixtures.h"
 #include "support/each_instruction_set.h"
 

@@ -25,6 +25,7 @@ glm::dvec3 gradient_at(const Grid& grid, const std::vector<Sample>& samples, con
 Grid turned_grid(const std::array<std::int64_t, 3>& size) {
     Grid grid;
     grid.size = size;
+    grid.centering.fill(Centering::cell);
     grid.origin = {3, -5, 7};
     grid.step = {glm::dvec3(2, 1, 2) * .25, glm::dvec3(-2, 2, 1) * .5, glm::dvec3(1, 2, -2)};
     return grid;

@@ -72,7 +72,7 @@ TEST(LitMesh, AmbientAloneAndNoWeightAreTheUnlitPicture) {
         const MeshTraceResult unlit = trace(data, peaks(4), view, {});
         const MeshTraceResult ambient = trace(data, peaks(4), view, {1e-5, ambient_alone()});
         // Lit segments are summed one by one, others in vectors that share a Gauss rule: either is
-        // good to some 1e-15 of the opacity (optics/gauss_rules.h).
+        // good to some 1e-15 of the opacity (optics/segment_integral.h).
         const MeshTraceResult weightless = trace(data, peaks(4), view, {1e-5, no_weight});
         EXPECT_LE(largest_difference(ambient.image, unlit.image), 1e-14);
         EXPECT_LE(largest_difference(weightless.image, unlit.image), 1e-14);

@@ -44,6 +44,7 @@ std::vector<Camera> cameras(const Grid& grid) {
 TEST(LitVolume, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     Grid grid;
     grid.size = {6, 4, 5};
+    grid.centering.fill(Centering::cell);
     grid.step = {glm::dvec3(2, 1, 2) * .25, glm::dvec3(-2, 2, 1) * .5, glm::dvec3(1, 2, -2) * .25};
     const glm::dvec3 gradient(.25, -.125, .5);
     std::vector<float> samples;

@@ -15,7 +15,7 @@
 #include "support/carved_mesh.h"
 #include "support/delaunay_mesh.h"
 #include "support/split_box.h"
-#include "visibility/order_check.h"
+#include "visibility/visibility_order.h"
 
 namespace lamina {
 namespace {

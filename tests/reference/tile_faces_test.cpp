@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fixtures.h"
-#include "mesh/box_corners.h"
+#include "mesh/predicates.h"
 #include "mesh/ray_walk.h"
 #include "reference/chord.h"
 #include "support/split_box.h"

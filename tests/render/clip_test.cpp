@@ -2,7 +2,7 @@
 // A clip that changes: every frame is the one of a new renderer, and volume and choices stay.
 #include <gtest/gtest.h>
 
-#include "choice/volume_field.h"
+#include "choice/field.h"
 #include "render/scene_renderer.h"
 #include "render/warnings.h"
 #include "renderer_scenes.h"

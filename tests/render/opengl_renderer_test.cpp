@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "gl/current_context.h"
+#include "gl/context.h"
 #include "projection/gl_project_renderer.h"
 #include "render/draw_context.h"
 #include "render/scene_renderer.h"

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <memory>
 
-#include "base/atomic_file.h"
-#include "image/metrics.h"
+#include "base/output_file.h"
+#include "image/difference.h"
 #include "mesh_files/mesh_file.h"
 #include "scene/given_transfer.h"
 #include "support/expect_error.h"
@@ -85,6 +85,7 @@ TEST(Pipeline, StretchesAColormapOverDataInMemory) {
     EXPECT_EQ(of_mesh.scene().transfer_function->knots().back().value, 14);  // x goes to 2
     Grid grid;
     grid.size = {2, 2, 2};
+    grid.centering.fill(Centering::cell);
     const auto samples =
         std::make_shared<const std::array<float, 8>>(std::array<float, 8>{0, 1, 2, 9, 1, 1, 1, 1});
     const Volume volume(grid, SampleType::float32, {samples, samples->data()});

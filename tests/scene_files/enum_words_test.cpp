@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
 #include "lamina/scene.h"
 #include "plan/project_plan.h"

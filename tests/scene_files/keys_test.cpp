@@ -2,7 +2,6 @@
 // Tables of keys: reader, writer and schema of one struct.
 #include "scene_files/keys.h"
 
-#include "scene_files/forms.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 

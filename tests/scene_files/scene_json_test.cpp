@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_files/scene_json.h"
+#include "scene_files/scene_reader.h"
 
 #include <filesystem>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "optics/opacity_slope.h"
+#include "optics/opacity.h"
 #include "scene/given_transfer.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"

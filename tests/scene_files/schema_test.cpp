@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // docs/scene.schema.json is made from the tables that files are read by.
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "scene_files/scene_keys.h"
 #include "support/scene_fixture.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A volume's file with what of it is drawn.
-#include "scene_files/scene_json.h"
+#include "scene_files/scene_reader.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "selftest/mesh_chords.h"
+#include "selftest/picture_bounds.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "selftest/case_makers.h"
-#include "selftest/selftest_meshes.h"
+#include "selftest/layered_box.h"
 
 namespace lamina::selftest {
 namespace {

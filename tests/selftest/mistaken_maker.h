@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "selftest/picture_maker.h"
+#include "selftest/drawing_way.h"
 
 namespace lamina::selftest {
 

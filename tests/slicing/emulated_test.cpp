@@ -3,7 +3,6 @@
 // the processor.
 #include "compositing/fixed_ray.h"
 #include "compositing/over.h"
-#include "compositing/unit_opacity.h"
 #include "ramp_scene.h"
 #include "volume/generate.h"
 

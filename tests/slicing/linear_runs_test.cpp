@@ -33,10 +33,10 @@ Plan plan_of(const Volume& volume, const Scene& scene, const OmissionSwitch& omi
                      omissions);
 }
 
-// The weight of a segment's front is off by at most 3e-5 (optics/front_weights.h), which adds up to
-// as much of the colour's change, here less than 1; a slab's products and sums in float are off by
-// some 2e-7 of 1, its scalars by 1e-6 of theirs and the optical depth of a ray with them: depth *
-// exp(-depth) < .4.
+// The weight of a segment's front is off by at most 3e-5 (optics/segment_integral.h), which adds up
+// to as much of the colour's change, here less than 1; a slab's products and sums in float are off
+// by some 2e-7 of 1, its scalars by 1e-6 of theirs and the optical depth of a ray with them: depth
+// * exp(-depth) < .4.
 TEST_F(SlicingTest, LinearRunsAreExact) {
     const Volume volume = ramp();
     for (const Projection projection : {Projection::orthographic, Projection::perspective}) {

@@ -6,7 +6,6 @@
 #include "executors/gl_lights.h"
 #include "executors/smallest_gradient.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "optics/ray_lights.h"
 #include "plan/brick_cuts.h"
 #include "reference/cells.h"

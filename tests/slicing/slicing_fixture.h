@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gl/gl_fixture.h"
-#include "image/metrics.h"
+#include "image/difference.h"
 #include "lamina/image.h"
 #include "plan/plan.h"
 #include "reference/fixtures.h"

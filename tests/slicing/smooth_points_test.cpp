@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "exact_fixture.h"
-#include "optics/curved_pieces.h"
+#include "optics/pieces.h"
 #include "simd/instruction_set.h"
 #include "tile_fixture.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "compositing/fixed_ray.h"
-#include "compositing/unit_opacity.h"
+#include "compositing/over.h"
 #include "ramp_scene.h"
 #include "tile_fixture.h"
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "optics/opacity.h"
 #include "slicing_fixture.h"
 

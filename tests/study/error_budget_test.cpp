@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/error_budget.h"
+#include "study/crosscheck.h"
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,7 @@ TEST(ErrorBudget, FindsTheDominantPart) {
         EXPECT_EQ(&budget.dominant(), &budget.parts[each.dominant]);
         for (std::size_t i = 0; i < 3; ++i) {
             const ErrorBudget::Part& part = budget.parts[i];
-            EXPECT_DOUBLE_EQ(part.error.all.l1, 255 * each.e[i]);
+            EXPECT_DOUBLE_EQ(part.error.all.mean, 255 * each.e[i]);
             EXPECT_DOUBLE_EQ(part.error.all.linf, 255 * std::abs(each.e[i]));
             EXPECT_DOUBLE_EQ(part.error.all.l2, 255 * std::abs(each.e[i]));
             EXPECT_DOUBLE_EQ(part.share, each.shares[i]);

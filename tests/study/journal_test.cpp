@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/journal.h"
+#include "study/study_folder.h"
 
 #include <gtest/gtest.h>
 

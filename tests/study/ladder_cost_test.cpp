@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/ladder_cost.h"
+#include "study/time_left.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Lit scenes in studies.
 #include <gtest/gtest.h>
 
-#include "image/metrics.h"
-#include "study/picture_key.h"
+#include "image/difference.h"
+#include "study/data_store.h"
 #include "study/reference_store.h"
 #include "study/study_frames.h"
 #include "support/transfer_functions.h"

@@ -8,8 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "study/report_files.h"
-
 namespace lamina::study {
 namespace {
 

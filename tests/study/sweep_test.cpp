@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/sweep.h"
+#include "study/study_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/text_file.h"
+#include "study/result_files.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "study/study_report.h"
-#include "study/tree_plots.h"
 
 namespace lamina::study {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/report_page.h"
-#include "study/text_file.h"
+#include "study/result_files.h"
 
 int main(int argc, char** argv) {
     if (argc != 3) {

@@ -5,7 +5,7 @@
 
 namespace lamina::test {
 
-// How often operator new was called so far in this program, by any thread.
+// Returns how often operator new was called so far in this program, by any thread.
 std::int64_t allocation_count();
 
 }  // namespace lamina::test

@@ -11,7 +11,7 @@
 
 namespace lamina::test {
 
-// The tets whose centroid fulfils keep(centroid).
+// Returns the tets whose centroid fulfils keep(centroid).
 template <typename Keep>
 MeshData carved(MeshData mesh, const Keep& keep) {
     std::erase_if(mesh.tets, [&](const Tet& tet) {

@@ -18,7 +18,7 @@ struct NamedClip {
     Clip clip;
 };
 
-// Of the unit box.
+// Clips of the unit box, with names.
 inline std::vector<NamedClip> clips_of_unit_box() {
     const glm::dvec3 middle(.5);
     return {

@@ -43,8 +43,8 @@ class DelaunayMesh {
         const Point& p = points_[static_cast<std::size_t>(a)];
         return {p[0] - b[0], p[1] - b[1], p[2] - b[2]};
     }
-    // Six times the volume of face `face` of a cell and a point: negative where the point lies on
-    // its outer side.
+    // Returns six times the volume of face `face` of a cell and a point: negative if the point lies
+    // on the face's outer side.
     Integer inside(const Cell& cell, std::size_t face, const Point& point) const {
         const auto [a, b, c] = corners_of_face(cell.corners, face);
         return determinant(difference(a, point), difference(b, point), difference(c, point));

@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// The message of the Error that `action` throws; a test failure and "" when it throws none.
+// Returns the message of the Error that `action` throws; "" and a test failure if it throws none.
 template <typename Action>
 std::string error_of(const Action& action) {
     try {

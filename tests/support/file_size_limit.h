@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// While it lives, no file can grow beyond `bytes`: a full disk, as far as a writer can tell.
+// Lets no file grow beyond `bytes` while it exists: to a writer, this is a full disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must hold for every mesh that is made from a volume.
+// Checks that every mesh made from a volume must pass.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ inline double volume_of_tet(const MeshData& mesh, const Tet& tet) {
     return glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0)) / 6;
 }
 
-// Positive tets that share whole faces, use every point and fill the grid's box.
+// Expects positive tets that share whole faces, use every point and fill the grid's box.
 inline void expect_fills_box(const MeshData& mesh, const Grid& grid) {
     double volume = 0, least = 1e300;
     for (const Tet& tet : mesh.tets) {

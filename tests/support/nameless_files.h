@@ -8,7 +8,8 @@
 
 namespace lamina {
 
-// Whether files without a name can be made here (O_TMPFILE; not on NFS, for example).
+// Tells whether files without a name can be made in the folder (O_TMPFILE; not on NFS, for
+// example).
 inline bool has_nameless_files(const TemporaryFolder& folder) {
     const int descriptor = open(folder.path().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
     if (descriptor >= 0) close(descriptor);

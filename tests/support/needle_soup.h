@@ -16,7 +16,7 @@ namespace lamina::test {
 
 using NeedleCorners = std::array<glm::dvec3, 4>;
 
-// Whether some plane across one of the axes has the tets on different sides.
+// Tells whether some plane across the axis has the tets on different sides.
 inline bool apart_along(const glm::dvec3& axis, const NeedleCorners& a, const NeedleCorners& b) {
     double a_low = INFINITY, a_high = -INFINITY, b_low = INFINITY, b_high = -INFINITY;
     for (std::size_t i = 0; i < 4; ++i) {

@@ -88,7 +88,7 @@ inline TestGrid mixed_grid() {
     return grid;
 }
 
-// The scalars that an array gives: itself; or a vector's length and components.
+// Returns the scalars that an array gives: itself, or a vector's length and components.
 inline std::vector<MeshScalar> scalars_of(const TestArray& array) {
     if (array.components == 1) return {{array.name, array.values}};
     if (array.components != 3) return {};
@@ -104,7 +104,7 @@ inline std::vector<MeshScalar> scalars_of(const TestArray& array) {
     return scalars;
 }
 
-// What read_mesh should make of a grid.
+// Returns the mesh that read_mesh() should make of a grid.
 inline MeshData expected_mesh(const TestGrid& grid) {
     MeshData mesh;
     mesh.points = grid.points;

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "compositing/random_bits.h"
+#include "compositing/codes.h"
 #include "gl/api.h"
 #include "gl/framebuffer.h"
-#include "gl/full_screen.h"
 #include "gl/gl_fixture.h"
 #include "tiles/instruction_set_fixture.h"
 #include "tiles/vector_functions.h"

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "compositing/codes.h"
 #include "compositing/over.h"
-#include "compositing/random_bits.h"
-#include "compositing/stochastic_over.h"
 #include "tiles/instruction_set_fixture.h"
 #include "tiles/vector_functions.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "visibility/face_signs.h"
+#include "visibility/order_graph.h"
 
 #include <gtest/gtest.h>
 

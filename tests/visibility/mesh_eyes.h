@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "mesh/eye.h"
+#include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina::test {

@@ -12,7 +12,6 @@
 #include "support/carved_mesh.h"
 #include "support/delaunay_mesh.h"
 #include "support/split_box.h"
-#include "visibility/gap_faces.h"
 
 namespace lamina {
 namespace {

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "support/carved_mesh.h"
-#include "visibility/order_check.h"
 #include "visibility/order_graph.h"
 #include "visibility/visibility_order.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "visibility/seen_triangle.h"
+#include "visibility/seen_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,7 @@
 #include <random>
 
 #include "mesh/predicates.h"
-#include "visibility/face_signs.h"
-#include "visibility/seen_area.h"
+#include "visibility/order_graph.h"
 
 namespace lamina {
 namespace {

@@ -14,8 +14,7 @@
 #include "support/delaunay_mesh.h"
 #include "support/expect_error.h"
 #include "support/split_box.h"
-#include "visibility/face_signs.h"
-#include "visibility/order_check.h"
+#include "visibility/order_graph.h"
 
 namespace lamina {
 namespace {

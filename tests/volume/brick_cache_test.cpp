@@ -10,7 +10,7 @@
 #include "support/expect_error.h"
 #include "support/stored_volume.h"
 #include "support/volume_of.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 namespace {

@@ -39,6 +39,13 @@ TEST(Grid, CellBoxReachesHalfAVoxelFarther) {
     EXPECT_EQ(grid.index_max(), glm::dvec3(4.5, 3.5, 2.5));
 }
 
+TEST(Grid, SpansTheSamplesByDefault) {
+    Grid grid;
+    grid.size = {5, 4, 1};
+    EXPECT_EQ(grid.index_min(), glm::dvec3(0, 0, -.5));
+    EXPECT_EQ(grid.index_max(), glm::dvec3(4, 3, .5));
+}
+
 TEST(Grid, AxisWithOneSampleIsAlwaysAVoxel) {
     const Grid grid = make_grid({5, 1, 1}, Centering::node);
     EXPECT_EQ(grid.index_min(), glm::dvec3(0, -0.5, -0.5));

@@ -67,6 +67,7 @@ TEST(MiddleSlices, ShowEveryPlaneWithItsSecondAxisUp) {
 TEST(MiddleSlices, HaveTheAspectOfTheWorld) {
     Grid grid;
     grid.step = {glm::dvec3(0.5, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 2)};
+    grid.centering.fill(Centering::cell);
     const CodedImage image = middle_slices(counted(grid), {0, 25.5});
     EXPECT_EQ(image.height, 2 * room + titles + 256);
     const int bottom = image.height - room - 1;
@@ -80,6 +81,7 @@ TEST(MiddleSlices, HaveTheAspectOfTheWorld) {
 TEST(MiddleSlices, LongVolumesFitThePicture) {
     Grid grid;
     grid.size = {5000, 1, 2};
+    grid.centering.fill(Centering::cell);
     const auto bytes = std::make_shared<std::vector<std::uint8_t>>(10000, 7);
     const Volume volume(grid, SampleType::uint8, std::shared_ptr<const void>(bytes, bytes->data()));
     const CodedImage image = middle_slices(volume, {7, 7});

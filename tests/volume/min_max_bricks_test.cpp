@@ -16,6 +16,7 @@ Volume make_volume(std::array<std::int64_t, 3> size, SampleType type,
                    const std::vector<T>& values) {
     Grid grid;
     grid.size = size;
+    grid.centering.fill(Centering::cell);
     const auto samples = std::make_shared<std::vector<T>>(values);
     return Volume(grid, type, std::shared_ptr<const void>(samples, samples->data()));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume/portable_math.h"
+#include "volume/generators.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume/scattered_samples.h"
+#include "volume/volume_store.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,6 @@
 #include <random>
 
 #include "support/volume_of.h"
-#include "volume/histogram_picture.h"
 
 namespace lamina {
 namespace {

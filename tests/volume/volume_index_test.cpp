@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume/volume_index.h"
+#include "volume/volume_data.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include "support/stored_volume.h"
 #include "support/temporary_folder.h"
 #include "support/volume_of.h"
-#include "volume/index_file.h"
 
 namespace lamina {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "base/memory_limit.h"
+#include "base/memory.h"
 #include "expect_boxes.h"
 #include "lamina/memory.h"
 #include "support/expect_error.h"

@@ -32,7 +32,7 @@ TEST_P(DataSets, HaveTheSizesTypesAndRangesTheyShould) {
     const DataSet& expected = GetParam();
     const auto path = data_folder() / (std::string(expected.name) + ".nrrd");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-    const Volume volume = read_nrrd(path);
+    const Volume volume = open_nrrd(path);
     EXPECT_EQ(volume.grid().size, expected.size);
     EXPECT_EQ(volume.type(), expected.type);
     for (int axis = 0; axis < 3; ++axis) {

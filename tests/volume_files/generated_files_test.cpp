@@ -24,7 +24,7 @@ TEST_F(GenerateFiles, StreamedFileHoldsTheSameVolume) {
             AtomicFile file(folder() / "a.nrrd");
             generate_nrrd(file, wanted);
             file.commit();
-            const Volume streamed = read_nrrd(folder() / "a.nrrd");
+            const Volume streamed = open_nrrd(folder() / "a.nrrd");
             const Volume whole = generate(wanted);
             EXPECT_EQ(streamed.type(), type);
             EXPECT_EQ(streamed.grid().step, whole.grid().step);
@@ -42,7 +42,7 @@ TEST_F(GenerateFiles, ManySlabsMakeTheSameVolumeAsOne) {
     AtomicFile file(folder() / "a.nrrd");
     generate_nrrd(file, wanted);
     file.commit();
-    const Volume streamed = read_nrrd(folder() / "a.nrrd");
+    const Volume streamed = open_nrrd(folder() / "a.nrrd");
     const Volume whole = generate(wanted);
     ASSERT_EQ(streamed.byte_count(), whole.byte_count());
     EXPECT_EQ(std::memcmp(streamed.data(), whole.data(), whole.byte_count()), 0);

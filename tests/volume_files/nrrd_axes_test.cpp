@@ -5,7 +5,7 @@
 #include "nrrd_files.h"
 #include "support/expect_error.h"
 #include "support/heard_warnings.h"
-#include "volume_files/folder_files.h"
+#include "volume_files/numbered_files.h"
 
 namespace lamina {
 namespace {
@@ -34,20 +34,20 @@ TEST_F(NrrdAxes, OneChannelOfThreeIsTaken) {
               "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 3 2 2 1\nkinds: RGB-color domain domain "
               "domain\nencoding: raw\n\n" +
                   counting(12));
-    EXPECT_EQ(samples_of<std::uint8_t>(read_nrrd(path)), (Samples{0, 3, 6, 9}));
+    EXPECT_EQ(samples_of<std::uint8_t>(open_nrrd(path)), (Samples{0, 3, 6, 9}));
     ASSERT_EQ(warnings_.size(), 1u);
     expect_says(warnings_[0], {"a.nrrd: channel 0 of 3 is taken"});
     warnings_.clear();
     VolumeRequest request;
     request.channel = 2;
-    EXPECT_EQ(samples_of<std::uint8_t>(read_nrrd(path, request)), (Samples{2, 5, 8, 11}));
+    EXPECT_EQ(samples_of<std::uint8_t>(open_nrrd(path, request)), (Samples{2, 5, 8, 11}));
     EXPECT_TRUE(warnings_.empty());
     request.channel = 3;
-    expect_error([&] { read_nrrd(path, request); },
+    expect_error([&] { open_nrrd(path, request); },
                  {"a.nrrd: channel: found 3, expected a whole number from 0 to 2"});
     request = {};
     request.time = 1;
-    expect_error([&] { read_nrrd(path, request); }, {"time: found 1", "from 0 to 0"});
+    expect_error([&] { open_nrrd(path, request); }, {"time: found 1", "from 0 to 0"});
     files_of_nrrd(path);
 }
 
@@ -63,7 +63,7 @@ TEST_F(NrrdAxes, ChannelAndTimeAreTakenTogetherAndInPackedData) {
         request.channel = 1;
         request.time = 2;
         // channel + 2 * (y + 2 * (time + 3 * z))
-        EXPECT_EQ(samples_of<std::uint8_t>(read_nrrd(path, request)), (Samples{9, 11, 21, 23}));
+        EXPECT_EQ(samples_of<std::uint8_t>(open_nrrd(path, request)), (Samples{9, 11, 21, 23}));
     }
 }
 
@@ -77,7 +77,7 @@ TEST_F(NrrdAxes, LargeDataAreTakenPieceByPiece) {
                                 bytes_of_values(values, true));
     VolumeRequest request;
     request.channel = 1;
-    const auto found = samples_of<std::uint16_t>(read_nrrd(path, request));
+    const auto found = samples_of<std::uint16_t>(open_nrrd(path, request));
     ASSERT_EQ(found.size() * 3, values.size());
     for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i], values[3 * i + 1]) << i;
 }
@@ -88,7 +88,7 @@ TEST_F(NrrdAxes, WithoutDirectionsInSpaceAreChannels) {
               "NRRD0004\ntype: uint8\ndimension: 4\nspace dimension: 3\nsizes: 1 2 2 3\nspace "
               "directions: (1,0,0) (0,1,0) (0,0,1) none\nencoding: raw\n\n" +
                   counting(12));
-    EXPECT_EQ(samples_of<std::uint8_t>(read_nrrd(path)), (Samples{0, 1, 2, 3}));
+    EXPECT_EQ(samples_of<std::uint8_t>(open_nrrd(path)), (Samples{0, 1, 2, 3}));
 }
 
 TEST_F(NrrdAxes, DataFilesAreListedOrNumbered) {
@@ -112,21 +112,21 @@ TEST_F(NrrdAxes, DataFilesAreListedOrNumbered) {
           "raw\ndata file: half%d.raw 0 2 1 3\n"}) {
         SCOPED_TRACE(fields);
         const auto path = write("a.nhdr", header + fields);
-        EXPECT_EQ(samples_of<std::uint8_t>(read_nrrd(path)), expected);
+        EXPECT_EQ(samples_of<std::uint8_t>(open_nrrd(path)), expected);
         EXPECT_EQ(files_of_nrrd(path).size(), 4u);
     }
     EXPECT_TRUE(warnings_.empty()) << warnings_[0];
-    read_nrrd(write("a.nhdr", header + "raw\ndata file: LIST\ns7.raw\nhalf1.raw\nhalf2.raw\n"));
+    open_nrrd(write("a.nhdr", header + "raw\ndata file: LIST\ns7.raw\nhalf1.raw\nhalf2.raw\n"));
     ASSERT_EQ(warnings_.size(), 1u);
     expect_says(warnings_[0],
                 {"a.nhdr: found 2 bytes more in ", "s7.raw than the 2 x 2 x 3 uint8"});
     write("half1.raw", "123");
-    expect_error([&] { read_nrrd(folder() / "a.nhdr"); }, {"half1.raw holds 3 bytes", "(4 bytes)"});
+    expect_error([&] { open_nrrd(folder() / "a.nhdr"); }, {"half1.raw holds 3 bytes", "(4 bytes)"});
 }
 
 TEST_F(NrrdAxes, EveryScalarTypeIsRead) {
     const auto read = [&](const std::string& type, const std::string& bytes) {
-        return read_nrrd(write("a.nrrd", "NRRD0004\ntype: " + type +
+        return open_nrrd(write("a.nrrd", "NRRD0004\ntype: " + type +
                                              "\ndimension: 3\nsizes: 3 1 1\nendian: "
                                              "big\nencoding: raw\n\n" +
                                              bytes));
@@ -146,11 +146,11 @@ TEST_F(NrrdAxes, EveryScalarTypeIsRead) {
     EXPECT_EQ(samples_of<float>(read("double", big(std::vector<double>{-.5, 0, 7}))),
               (std::vector<float>{-.5F, 0, 7}));
     const std::string text = "NRRD0004\ndimension: 3\nsizes: 2 1 1\nencoding: ascii\ntype: ";
-    EXPECT_EQ(samples_of<float>(read_nrrd(write("t.nrrd", text + "double\n\n.5 1e30\n"))),
+    EXPECT_EQ(samples_of<float>(open_nrrd(write("t.nrrd", text + "double\n\n.5 1e30\n"))),
               (std::vector<float>{.5F, 1e30F}));
-    EXPECT_EQ(samples_of<std::int16_t>(read_nrrd(write("t.nrrd", text + "int64\n\n-5 1e2\n"))),
+    EXPECT_EQ(samples_of<std::int16_t>(open_nrrd(write("t.nrrd", text + "int64\n\n-5 1e2\n"))),
               (Shorts{-5, 100}));
-    expect_error([&] { read_nrrd(write("t.nrrd", text + "int64\n\n1 9223372036854775808\n")); },
+    expect_error([&] { open_nrrd(write("t.nrrd", text + "int64\n\n1 9223372036854775808\n")); },
                  {"sample 2 of 2", "'9223372036854775808'"});
 }
 
@@ -172,7 +172,7 @@ TEST_F(NrrdAxes, NamedSpacesOfPatientsBecomeLps) {
                               "space directions: ({},{},0) ({},{},0) (0,0,2)\n"
                               "space origin: ({},{},7)\nencoding: raw\n\n{}",
                               space.name, 3 * x, 4 * y, -4 * x, 3 * y, 5 * x, 6 * y, counting(12)));
-        const Grid grid = read_nrrd(path).grid();
+        const Grid grid = open_nrrd(path).grid();
         EXPECT_EQ(grid.axes, WorldAxes::left_posterior_superior);
         EXPECT_EQ(grid.origin, glm::dvec3(5, 6, 7));
         EXPECT_EQ(grid.step[0], glm::dvec3(3, 4, 0));
@@ -181,7 +181,7 @@ TEST_F(NrrdAxes, NamedSpacesOfPatientsBecomeLps) {
     }
     // Nothing is known of other spaces, which stay as they are.
     const Grid other =
-        read_nrrd(write("a.nrrd",
+        open_nrrd(write("a.nrrd",
                         "NRRD0005\ntype: uint8\ndimension: 3\nspace: 3D-left-handed\nsizes: 2 2 3\n"
                         "space directions: (1,0,0) (0,1,0) (0,0,1)\n"
                         "space origin: (5,6,7)\nencoding: raw\n\n" +

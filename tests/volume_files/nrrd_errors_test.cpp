@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "nrrd_files.h"
-#include "volume_files/nrrd_header.h"
+#include "volume_files/nrrd.h"
 
 namespace lamina {
 namespace {
@@ -145,7 +145,7 @@ TEST_F(NrrdErrors, MoreVoxelsThanTheFileHas) {
 TEST_F(NrrdErrors, TruncatedData) {
     const std::string text = with("encoding", "encoding: gzip\n") + "\n";
     const std::string packed = gzip("abcdefghijklmnopqrstuvwx");
-    read_nrrd(write("a.nrrd", text + packed));
+    open_nrrd(write("a.nrrd", text + packed));
     for (std::size_t length = 3; length < packed.size(); ++length) {
         expect_says(error_of(write("a.nrrd", text + packed.substr(0, length))), {"truncated gzip"});
     }
@@ -157,7 +157,7 @@ TEST_F(NrrdErrors, TruncatedData) {
 TEST_F(NrrdErrors, TruncatedBzip2) {
     const std::string text = with("encoding", "encoding: bzip2\n") + "\n";
     const std::string packed = bzip2("abcdefghijklmnopqrstuvwx");
-    read_nrrd(write("a.nrrd", text + packed));
+    open_nrrd(write("a.nrrd", text + packed));
     for (std::size_t length = 3; length < packed.size(); ++length) {
         expect_says(error_of(write("a.nrrd", text + packed.substr(0, length))),
                     {"a.nrrd: truncated bzip2 data"});
@@ -228,7 +228,7 @@ TEST_F(NrrdErrors, SmallNumbersAreRounded) {
                             "NRRD0004\ntype: float\ndimension: 3\nsizes: 3 2 1\nencoding: ascii\n\n"
                             "1e-5000 -1e-400 1e-45 7e-46 1e-40 3.4028235e38\n");
     constexpr float least = std::numeric_limits<float>::denorm_min();
-    EXPECT_EQ(testing::samples_of<float>(read_nrrd(path)),
+    EXPECT_EQ(testing::samples_of<float>(open_nrrd(path)),
               (std::vector<float>{0, -0.f, least, 0, 1e-40f, std::numeric_limits<float>::max()}));
 }
 

@@ -70,10 +70,10 @@ inline std::string bzip2(const std::string& bytes) {
     return packed;
 }
 
-// What read_nrrd says about a file; empty, and a failure, when it reads it.
+// What open_nrrd says about a file; empty, and a failure, when it reads it.
 inline std::string error_of(const std::filesystem::path& path) {
     try {
-        read_nrrd(path);
+        open_nrrd(path);
     } catch (const Error& error) {
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
         return error.what();

@@ -4,7 +4,7 @@
 
 #include "nrrd_files.h"
 #include "support/heard_warnings.h"
-#include "volume_files/packed_reader.h"
+#include "volume_files/byte_readers.h"
 
 namespace lamina {
 namespace {
@@ -26,7 +26,7 @@ class NrrdSurplus : public testing::NrrdFiles {
     // Of reading a file with the usual samples.
     std::vector<std::string> warnings_of(const std::filesystem::path& path) {
         warnings_.clear();
-        const auto found = samples_of<std::uint8_t>(read_nrrd(path));
+        const auto found = samples_of<std::uint8_t>(open_nrrd(path));
         EXPECT_EQ(std::string(found.begin(), found.end()), samples);
         return warnings_;
     }
@@ -80,7 +80,7 @@ TEST_F(NrrdSurplus, PackedData) {
 
 // A bomb: one byte more than is counted.
 TEST_F(NrrdSurplus, IsCountedSoFar) {
-    const std::string bomb(PackedReader::most_unpacked + 1, '\0');
+    const std::string bomb(most_counted_surplus + 1, '\0');
     expect_warning(header("gzip") + gzip(samples + bomb), {"found at least 6"});
 }
 

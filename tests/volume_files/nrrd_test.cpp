@@ -40,7 +40,7 @@ std::string as_text(const std::vector<T>& values) {
 
 template <typename T>
 void expect_samples(const std::filesystem::path& path, SampleType type) {
-    const Volume volume = read_nrrd(path);
+    const Volume volume = open_nrrd(path);
     EXPECT_EQ(volume.type(), type) << path;
     EXPECT_EQ(volume.grid().size, (std::array<std::int64_t, 3>{4, 3, 2})) << path;
     EXPECT_EQ(samples_of<T>(volume), test_values<T>()) << path;
@@ -100,7 +100,7 @@ TEST_F(Nrrd, ReadsBzip2) {
         0xf8, 0x46, 0x53, 0xa5, 0x6d, 0x7c, 0x64, 0x34, 0x3b, 0xe7, 0x48, 0xfc, 0x8b,
         0xf1, 0x77, 0x24, 0x53, 0x85, 0x09, 0x0f, 0x7c, 0xd3, 0xb6, 0x10};
     const std::string data(packed.begin(), packed.end());
-    const Volume volume = read_nrrd(write("a.nrrd", header("uint8", "bzip2") + data));
+    const Volume volume = open_nrrd(write("a.nrrd", header("uint8", "bzip2") + data));
     std::vector<std::uint8_t> expected(24);
     for (std::size_t i = 0; i < 24; ++i) expected[i] = static_cast<std::uint8_t>(i);
     EXPECT_EQ(samples_of<std::uint8_t>(volume), expected);
@@ -126,14 +126,14 @@ TEST_F(Nrrd, ReadsLinesThatEndInCarriageReturns) {
 TEST_F(Nrrd, KeepsNanAndInfinity) {
     const std::string text =
         "NRRD0001\ntype: float\ndimension: 3\nsizes: 3 1 1\nencoding: ascii\n\nnan -inf +2.5e0\n";
-    const auto values = samples_of<float>(read_nrrd(write("a.nrrd", text)));
+    const auto values = samples_of<float>(open_nrrd(write("a.nrrd", text)));
     EXPECT_TRUE(std::isnan(values[0]));
     EXPECT_EQ(values[1], -std::numeric_limits<float>::infinity());
     EXPECT_EQ(values[2], 2.5f);
 }
 
 Grid grid_of(const std::filesystem::path& path) {
-    return read_nrrd(path).grid();
+    return open_nrrd(path).grid();
 }
 
 TEST_F(Nrrd, PlacesSamplesByOriginAndDirections) {
@@ -187,7 +187,7 @@ TEST_F(Nrrd, WritesWhatItReads) {
     AtomicFile file(folder() / "a.nrrd");
     write_nrrd(file, volume);
     file.commit();
-    const Volume again = read_nrrd(folder() / "a.nrrd");
+    const Volume again = open_nrrd(folder() / "a.nrrd");
     EXPECT_EQ(again.type(), SampleType::int16);
     EXPECT_EQ(again.grid().size, grid.size);
     EXPECT_EQ(again.grid().centering, grid.centering);

@@ -8,10 +8,10 @@
 #include <cstring>
 #include <limits>
 
-#include "base/filled_memory.h"
+#include "base/memory.h"
 #include "support/heard_warnings.h"
 #include "support/samples_of.h"
-#include "volume_files/plain_grid.h"
+#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {

@@ -10,8 +10,8 @@
 #include "support/temporary_folder.h"
 #include "volume_files/metaimage.h"
 #include "volume_files/nifti.h"
-#include "volume_files/npy_volume.h"
-#include "volume_files/tiff_stack.h"
+#include "volume_files/npy.h"
+#include "volume_files/tiff.h"
 #include "volume_files/volume_file.h"
 #include "volume_files/vti.h"
 

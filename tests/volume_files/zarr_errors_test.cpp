@@ -4,7 +4,7 @@
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
-#include "volume_files/isolated_read.h"
+#include "volume_files/isolated_process.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {

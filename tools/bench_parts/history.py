@@ -43,7 +43,7 @@ def read(path):
 
 
 def series_of(runs, scene):
-    """Of each way: (number of the run, how many times as fast as the first run that had it)."""
+    """For each way (number of the run, how many times as fast as the first run that had it)."""
     series = {}
     for number, run in enumerate(runs):
         for way, ms in run["ms"].get(scene, {}).items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tables of docs/performance.md have in common: timed ways, tables, and how numbers are written."""
+"""Shared pieces of the tables of docs/performance.md: timed ways, tables, and how numbers are written."""
 import contextlib
 import importlib.machinery
 import importlib.util
@@ -57,7 +57,7 @@ class Bench:
         return [*([] if "--size" in arguments else self.pixels(size)), *context, *arguments]
 
     def ways(self, scene, ways, size=FULL, frames=3):
-        """What `tools/bench` finds for each way, by name."""
+        """Returns the findings of `tools/bench` for each way, by name."""
         options = types.SimpleNamespace(common=[], rounds=self.rounds, frames=1 if self.quick else frames)
         whole = {name: self.whole(arguments, size) for name, arguments in ways.items()}
         result = self.measure(self.lamina, scene, whole, options)
@@ -138,7 +138,7 @@ def digits(value):
 
 
 def drawn_by(plan):
-    """What a plan draws a scene with, in words."""
+    """Says in words what a plan draws a scene with."""
     if plan["method"] == "project":
         return "projected tetrahedra"
     return "exact" if plan["classification"] == "exact" else f"{plan['classification']}, {plan['slabs']} slabs"

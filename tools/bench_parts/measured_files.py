@@ -60,7 +60,7 @@ def first_picture(bench):
 
 
 def data_bytes(bench, path):
-    """What a file's samples or tets take in memory, and what they are."""
+    """Returns the memory that a file's samples or tets take, and what they are."""
     facts = bench.info(path)
     if facts["kind"] == "mesh":
         return f"{facts['tets']:,} tets", TET_BYTES * facts["tets"] + POINT_BYTES * facts["points"]

@@ -82,7 +82,7 @@ def vtk(bench):
 
 
 class Limits:
-    """What one core can do at most, in units a nanosecond."""
+    """Peak rates of one core, in units a nanosecond."""
 
     def __init__(self, bench):
         found = pathlib.Path(bench.folder) / "limits.json"
@@ -105,7 +105,8 @@ WORK = {"post": (80, 4), "project": (170, 0)}  # operations and fetches a segmen
 
 
 def limits(bench):
-    """What counts and the machine's limits imply for a frame on one core, beside what it takes."""
+    """Returns a table of the times that counts and the machine's limits imply for a frame on one core, beside those
+    measured."""
     machine, rows = Limits(bench), []
     for name, kind in (("bonsai", "post"), ("engine", "post"), ("mixing", "post"), ("bluntfin", "project"),
                        ("combustor", "project"), ("torso", "project")):

@@ -26,7 +26,7 @@ def replace(text, blocks):
 
 
 def commit():
-    """Of the source, and whether what is built from it was changed since."""
+    """Returns the commit of the source, and whether what is built from it was changed since."""
     def git(*arguments):
         return subprocess.run(["git", "-C", str(ROOT), *arguments], capture_output=True, text=True).stdout.strip()
     changed = git("status", "--porcelain", "--untracked-files=no", "src", "tools/lamina", "CMakeLists.txt")

@@ -119,7 +119,7 @@ def transfer_functions(shipped):
 
 
 def points(bench):
-    """What points of the transfer function cost."""
+    """Measures the cost of points of the transfer function."""
     bonsai = scenes.find("bonsai")
     rows = []
     for name, function in transfer_functions(bonsai.json["transfer_function"]).items():
@@ -132,7 +132,7 @@ def points(bench):
 
 
 def omissions(bench):
-    """What leaving out saves."""
+    """Measures the time that leaving out saves."""
     kept = {"everything": "--no-omit", "`empty_space`": "--no-omit=empty_space",
             "`early_termination`": "--no-omit=early_termination", "`constant_regions`": "--no-omit=constant_regions"}
     rows = []

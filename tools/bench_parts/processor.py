@@ -5,7 +5,7 @@ import platform
 
 
 def fields():
-    """Of the first processor in /proc/cpuinfo, by name; empty where there is none."""
+    """Fields of the first processor in /proc/cpuinfo, by name; empty if there is none."""
     found = {}
     try:
         lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()

@@ -14,7 +14,7 @@ def interleaved(ways, rounds):
 
 
 def ratio(slower, faster):
-    """Of the times of two ways: median and range over the rounds of how many times as fast the second one is."""
+    """Returns median and range over the rounds of how many times as fast the second way is as the first."""
     ratios = sorted(a / b for a, b in zip(slower, faster))
     return {"median": statistics.median(ratios), "min": ratios[0], "max": ratios[-1]}
 

@@ -114,7 +114,8 @@ def dicom(array, path):
 
 
 def write_all(folder, size):
-    """What lamina is told to read, by the format's name; the first is a raw NRRD, which others are held against."""
+    """Arguments that make lamina read each format, by the format's name; the first is a raw NRRD, which others are held
+    against."""
     array = samples(size)
     return {"NRRD, raw": nrrd(array, folder / "raw.nrrd", "raw"),
             "NRRD, gzip": nrrd(array, folder / "gzip.nrrd", "gzip"),

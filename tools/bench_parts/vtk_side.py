@@ -23,7 +23,7 @@ GL_RGBA, GL_RGBA32F, GL_FLOAT = 0x1908, 0x8814, 0x1406
 
 
 def linear_in_opacity(function):
-    """Whether all points give opacity, and opacity is linear between them, as VTK has it."""
+    """Tells whether all points give opacity, and opacity is linear between them, as VTK has it."""
     return function.get("interpolation", "linear") == "linear" and all("opacity" in p for p in function["points"])
 
 
@@ -138,7 +138,7 @@ class Window:
         return (time.perf_counter() - start) * 1e3
 
     def median_ms(self, frames):
-        """Of this many frames after one to warm up."""
+        """Times this many frames after one to warm up."""
         return statistics.median([self.frame_ms(DEGREES_PER_FRAME * i) for i in range(frames + 1)][1:])
 
     def write_picture(self, path):

@@ -71,7 +71,7 @@ def make(dice, corner, edges):
 
 
 class Rays:
-    """Of the pixels of an image: origin + z * direction, z >= 0 the depth before the eye's plane."""
+    """Returns the rays of an image's pixels: origin + z * direction, z >= 0 the depth before the eye's plane."""
 
     def __init__(self, camera, width, height):
         self.eye = numpy.array(camera["eye"], float)

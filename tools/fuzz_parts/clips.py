@@ -14,7 +14,7 @@ def plane(dice, corner, edges, eye):
     share = {"inside": lambda: dice.vector(0, 1), "corner": lambda: [dice.pick(0, 1) for _ in range(3)],
              "middle": lambda: [0.5, 0.5, 0.5], "beside": lambda: dice.vector(-0.6, 1.6), "eye": lambda: None}[place]()
     point = eye if share is None else corner + edges @ numpy.array(share, float)
-    # Where the data are thin, oblique planes should still cross more of them than one corner.
+    # Oblique planes should cross more than one corner of thin data, too.
     sizes = numpy.linalg.norm(edges, axis=0)
     normal = numpy.array(dice.direction())
     if dice.chance(0.3):
@@ -51,7 +51,7 @@ def half_spaces(clip):
 
 
 def spans(clip, origins, directions):
-    """Where in z each ray begins and ends to be kept, and whether it runs along a plane within roundings of it."""
+    """Returns the z at which each ray begins and ends to be kept, and whether it runs along a plane within roundings of it."""
     near, far = numpy.zeros(len(origins)), numpy.full(len(origins), numpy.inf)
     tied = numpy.zeros(len(origins), bool)
     for point, normal in half_spaces(clip or {}):

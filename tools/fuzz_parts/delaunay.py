@@ -3,7 +3,7 @@
 
 
 def determinant(rows):
-    """Of whole numbers, 3 x 3 or 4 x 4."""
+    """Determinant of whole numbers, 3 x 3 or 4 x 4."""
     if len(rows) == 3:
         (a, b, c), (d, e, f), (g, h, i) = rows
         return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
@@ -17,7 +17,7 @@ def orientation(a, b, c, d):
 
 
 def in_sphere(tet, point):
-    """Of a tet of positive orientation(): > 0 where the point lies inside its sphere."""
+    """In-sphere test of a tet of positive orientation(): > 0 if the point lies inside its sphere."""
     rows = []
     for corner in tet:
         away = [corner[i] - point[i] for i in range(3)]

@@ -48,7 +48,7 @@ class Dice:
         return [self.between(least, most) for _ in range(3)]
 
     def direction(self):
-        """Of any length between about .1 and 1."""
+        """A vector of any length between about .1 and 1."""
         while True:
             found = self.vector(-1, 1)
             if 0.01 < sum(x * x for x in found) <= 1:

@@ -13,7 +13,7 @@ HIDDEN = 45.0  # optical depth behind which nothing shows: e^-45 is 3e-20
 
 @dataclass
 class Pieces:
-    """Of all rays together: from `start`, `length` world units long; scalars: Bernstein coefficients [piece, 4]."""
+    """Pieces of all rays together: from `start`, `length` world units long; scalars: Bernstein coefficients [piece, 4]."""
     ray: numpy.ndarray
     start: numpy.ndarray
     length: numpy.ndarray
@@ -75,7 +75,7 @@ def integrate(pieces, optics, rays):
 
 
 def thin_pieces(pieces, optics, rays):
-    """What emitted() takes: of each piece ray, length, values and the optical depth before it, in the order of the
+    """Arguments of emitted(): for each piece its ray, length, values and the optical depth before it, in the order of the
     rays; and the bound of integrate()."""
     pieces, part, undecided = cut_at_knots(pieces, optics)
     doubt = numpy.bincount(undecided.ray, undecided.length * optics.densest, rays) * optics.brightest

@@ -199,8 +199,8 @@ class Judge:
             self.omitted(drawn, plan)
 
     def rounding_bound(self, plan):
-        """What compositing in the plan's target may add, where the scene asked for it (plan/tree_choice.cpp has the
-        same bounds for what is automatic, which max_error counts); None where nothing is promised."""
+        """Largest error that compositing in the plan's target may add if the scene asked for it (plan/tree_choice.cpp has the
+        same bounds for what is automatic, which max_error counts); None if nothing is promised."""
         target, tree = self.render.get("target", "float32"), plan.get("tree")
         asked_tree = self.render["slice"].get("tree")
         levels = tree and (len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"])
@@ -225,7 +225,7 @@ class Judge:
         return min(roundings * code * brightest if target == "float16" else roundings * code + brightest - 1, brightest)
 
     def left_out(self, plan):
-        """What two pictures of the same slabs in float32 may differ by: float32's roundings (docs/precision.md,
+        """Largest difference between two pictures of the same slabs in float32: float32's roundings (docs/precision.md,
         "Opacity in float32"), what lies behind the depth where marching ends (max_error / 1024), empty bricks
         (.026 / 255)."""
         return ((self.max_error / 1024 + 0.026) / 255

@@ -14,7 +14,7 @@ import numpy
 
 from . import pictures
 
-# What the sanitizers write.
+# Words by which reports of the sanitizers are known.
 REPORTS = ("AddressSanitizer", "LeakSanitizer", "ThreadSanitizer", "UndefinedBehaviorSanitizer", "runtime error:")
 WAITING = 10  # times as long may a run wait for its processors
 
@@ -23,7 +23,7 @@ WAITING = 10  # times as long may a run wait for its processors
 class Finding:
     kind: str
     text: str
-    times: float = 0  # how many times the bound, where there is one
+    times: float = 0  # how many times the bound; 0 if there is none
 
 
 @dataclass
@@ -44,7 +44,7 @@ class Program:
         self.commands = []
 
     def limit(self, seconds):
-        """Of processor time: other work on the machine does not count."""
+        """Limits processor time: other work on the machine does not count."""
         resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds) + 5))
 
     def report(self, kind, text, times=0):
@@ -101,13 +101,13 @@ class Program:
         return None
 
     def ended_well(self, name, found, picture, stats):
-        """Whether there is a picture; reports what is wrong."""
+        """Tells whether there is a picture; reports what is wrong."""
         text = " | ".join(found.messages[:4])[:400]
         if any(report in line for report in REPORTS for line in found.messages):
             self.report("sanitizer", f"{name}: {text}")
         elif found.exit_code == 1:
             written = picture.exists() or stats.exists()
-            # What is noticed earlier has lines of its own; the error is the last one.
+            # The error is the last line; warnings before it have lines of their own.
             if not found.messages or any(not line.startswith("lamina: ") for line in found.messages) or written:
                 self.report("message", f"{name}: expected one line, nothing written; found {text or 'nothing'}")
             self.refusal = found.messages[-1] if found.messages else ""

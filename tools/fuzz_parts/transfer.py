@@ -27,7 +27,7 @@ def as_written(color, dice):
 
 
 def linear_light(color):
-    """Of a colour as scenes have it (docs/scene.md, "Colours")."""
+    """Returns the linear components of a colour as scenes have it (docs/scene.md, "Colours")."""
     if not isinstance(color, str):
         return color
     stored = [int(color[i:i + 2], 16) / 255 for i in (1, 3, 5)]
@@ -91,7 +91,7 @@ def make(dice, value_range, length):
              "dense": dice.log_between(30, 3000)}[dice.weighted(faint=1, usual=7, dense=2)]
     result = {"points": []}
     opacities = dice.chance(0.15)
-    opaque = dice.chance(0.3)  # where there are opacities
+    opaque = dice.chance(0.3)  # if there are opacities
     if opacities:
         result["unit_length"] = float(length * dice.pick(1, 0.1, 0.01))
     if dice.chance(0.15):
@@ -192,7 +192,7 @@ class Optics:
         return self.in_part(self.part_at(scalars), scalars)
 
     def shows(self, low, high):
-        """Whether there is extinction anywhere between two scalars."""
+        """Tells whether there is extinction anywhere between two scalars."""
         first, last = self.part_at(low), self.part_at(high)
         shown = (self.at_low[:, 3] > 0) | (self.at_high[:, 3] > 0)
         up_to = numpy.concatenate([[0], numpy.cumsum(shown)])

@@ -150,9 +150,9 @@ def post_classified(rays, optics):
 
 
 def preintegrated(rays, optics):
-    """The same of slabs in which the scalar runs straight from end to end, moved so that its mean is that of the
-    parabola through both and the middle (docs/precision.md), within the range of the data; what shows nothing between
-    the least and the largest of the three shows nothing."""
+    """Returns the picture of slabs in which the scalar runs straight from end to end, moved so that its mean is that
+    of the parabola through both and the middle (docs/precision.md), within the range of the data; what shows nothing
+    between the least and the largest of the three shows nothing."""
     parts, samples = [], []
     for slab in range(rays.count):
         hit, start, end = rays.slab(slab)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is checked, each as plain data for the report."""
+"""The checks, each of which gives plain data for the report."""
 import datetime
 import json
 import os
@@ -13,7 +13,7 @@ CONTEXTS = ("egl", "cpu")
 
 
 def machine(lamina):
-    """What the figures belong to."""
+    """Describes the machine and the program that the figures belong to."""
     try:
         driver = subprocess.run(["nvidia-smi", "--query-gpu=name,driver_version", "--format=csv,noheader"],
                                 capture_output=True, text=True).stdout.strip()
@@ -24,7 +24,7 @@ def machine(lamina):
 
 
 def renderer_of(lamina):
-    """What draws through EGL, or None: then the reason was printed."""
+    """Returns the device that draws through EGL, or None: then the reason was printed."""
     scene = scenes.find("gaussians")
     stats = lamina.folder / "egl.json"
     command = [str(lamina.program), "render", str(scene.path), "-o", str(lamina.folder / "egl.exr"), "--context", "egl",

@@ -7,9 +7,8 @@
 #include <string>
 
 #include "base/large_stack.h"
-#include "parallel/followers.h"
 #include "parallel/leader.h"
-#include "parallel/rank_resources.h"
+#include "parallel/ranks.h"
 #include "program.h"
 #include "render_extras.h"
 #include "shared_frames.h"

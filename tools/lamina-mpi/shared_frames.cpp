@@ -8,7 +8,6 @@
 
 #include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "render/context_choice.h"
 
 namespace lamina {

@@ -54,7 +54,7 @@ std::vector<char> read_all(std::FILE* stream) {
     return bytes;
 }
 
-// TetGen would end by an assertion where all points lie in one plane.
+// TetGen would end by an assertion if all points lay in one plane.
 void check_extent(const REAL* points, std::size_t count) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         bool differ = false;
@@ -180,7 +180,7 @@ void catch_crashes() {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) sigaction(signal, &action, nullptr);
 }
 
-// Returns false where the process that asked has ended already.
+// Returns false if the process that asked has ended already.
 bool end_with_parent(const char* parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     return std::to_string(getppid()) == parent;

@@ -104,7 +104,7 @@ void ComparisonView::draw_wipe(Comparison& comparison, const std::string& a, con
     ImGui::PopStyleVar(2);
 }
 
-// Both whole, at half their size.
+// Draws both pictures whole, at half their size.
 void ComparisonView::draw_side_by_side(const std::string& a, const std::string& b) {
     ImDrawList& list = background();
     list.AddRectFilled(min_, max_, theme::plot_back);

@@ -12,18 +12,18 @@
 
 namespace lamina::view {
 
-// Draws two pictures where the window has one.
+// Draws two pictures in the window's place for one.
 class ComparisonView {
   public:
     explicit ComparisonView(const GladGLContext& gl);
 
-    // Over the picture in `area`, where there is something to be compared. `a`, `b`: what the two
-    // are, for people.
+    // Draws over the picture in `area`, if there is something to be compared. `a`, `b`: names of
+    // the two pictures.
     void draw(Comparison& comparison, const PictureArea& area, const std::string& a,
               const std::string& b);
 
   private:
-    // A texture and the picture that is in it.
+    // A texture with the picture that it shows.
     struct Slot {
         explicit Slot(const GladGLContext& gl) : texture(gl) {}
         void take(const std::shared_ptr<const ScreenPicture>& picture);

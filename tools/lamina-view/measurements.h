@@ -8,7 +8,7 @@
 
 namespace lamina::view {
 
-// What the window took since it was last asked.
+// Times of the window's frames since they were last asked for.
 class Measurements {
   public:
     Measurements() { start(); }

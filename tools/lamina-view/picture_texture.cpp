@@ -3,7 +3,7 @@
 
 namespace lamina::view {
 
-// Where one pixel of the picture is one of the screen, interpolation changes nothing.
+// Interpolation changes nothing if a pixel of the picture covers one of the screen.
 PictureTexture::PictureTexture(const GladGLContext& gl) : gl_(gl) {
     gl_.GenTextures(1, &name_);
     gl_.BindTexture(GL_TEXTURE_2D, name_);

@@ -13,14 +13,14 @@ struct ScriptCommand {
     std::string name;
     std::vector<std::string> words;  // what follows
 
-    double number(std::size_t word) const;  // throws Error where it is none
+    double number(std::size_t word) const;  // throws Error if it is none
     [[noreturn]] void fail(const std::string& expected) const;
 };
 
-// Throws Error, also for commands that there are not.
+// Reads a script. Throws Error, also for unknown commands.
 std::vector<ScriptCommand> load_script(const std::filesystem::path& file);
 
-// GLFW's number of a key by its name ("A", "7", "Home"); throws Error.
+// Returns GLFW's number of a key by its name ("A", "7", "Home"); throws Error.
 int key_of(const ScriptCommand& command, const std::string& name);
 
 }  // namespace lamina::view

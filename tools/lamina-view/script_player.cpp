@@ -138,7 +138,7 @@ void ScriptPlayer::begin_drag(const ScriptCommand& command) {
     then([=, this] { window_.button(button, false, shift, false); });
 }
 
-// What went wrong in the window ends the waiting.
+// Begins to wait. An error in the window ends the waiting.
 void ScriptPlayer::begin_wait(const ScriptCommand& command, double seconds) {
     const std::string& what = command.words[0];
     until_ = 0;

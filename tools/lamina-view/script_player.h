@@ -15,12 +15,13 @@ namespace lamina::view {
 class Viewer;
 class Window;
 
-// Does what a script says, one thing a frame, as if a user did it.
+// Plays a script, one command a frame, as if a user did it.
 class ScriptPlayer {
   public:
     ScriptPlayer(std::vector<ScriptCommand> commands, Window& window, Viewer& viewer);
 
-    // Before a frame. Throws Error where something cannot be done, or went wrong in the window.
+    // Carries out commands before a frame. Throws Error if a command cannot be carried out, or
+    // something went wrong in the window.
     void advance(double seconds);
     // When it has to go on; nothing: when something happens.
     std::optional<double> next(double seconds) const;

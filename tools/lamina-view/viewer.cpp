@@ -18,7 +18,7 @@ namespace lamina::view {
 namespace {
 
 constexpr float side_width = 25, bottom_height = 19, status_height = 1.8f;  // of the font's height
-// What is held still while it is dragged is drawn in full after so many seconds.
+// Seconds after which a picture is drawn in full if it is held still during a drag.
 constexpr double still_seconds = .3;
 constexpr int key_f1 = 290;
 
@@ -56,7 +56,7 @@ Viewer::Viewer(const GladGLContext& gl, const SessionOptions& options, std::func
     }
 }
 
-// The settings are a convenience: where they cannot be kept, nobody is there any more to be told.
+// The settings are a convenience: if they cannot be kept, there is no one left to tell.
 Viewer::~Viewer() {
     if (settings_file_.empty()) return;
     try {
@@ -291,7 +291,7 @@ void Viewer::frame(float width, float height, float pixels, double seconds) {
     draw_status(width, height);
     prompt_.draw();
     help_window(help_);
-    // What is done in one go can be undone in one go.
+    // Changes made in one gesture are undone together.
     const bool* const keys = ImGui::GetIO().KeysDown;
     if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown() &&
         std::none_of(keys, keys + IM_ARRAYSIZE(ImGui::GetIO().KeysDown), std::identity()))
@@ -326,7 +326,8 @@ void Viewer::draw_comparison() {
     comparison_view_.draw(comparison, area_, "A: " + a, "B: " + short_text(*shown_->resolved));
 }
 
-// Of a picture that moves, the value would belong to another place when it is read.
+// Finds the value under the pointer, unless the picture moves: the value would belong to another
+// place when it is read.
 void Viewer::find_value() {
     seen_.reset();
     const bool at_rest = shown_->kind == PictureKind::full || shown_->kind == PictureKind::traced;

@@ -22,39 +22,41 @@
 
 namespace lamina::view {
 
-// What happens in the window: input changes the document, the worker draws it, and a frame shows
-// that.
+// The window's main loop: input changes the document, the worker draws it, and a frame shows the
+// picture.
 class Viewer {
   public:
     // `wake` is called, from any thread, when there is something new to be shown. `settings_file`:
-    // empty where none is kept.
+    // empty if none is kept.
     Viewer(const GladGLContext& gl, const SessionOptions& options, std::function<void()> wake,
            std::filesystem::path settings_file);
     ~Viewer();
 
-    // A scene or data file. What is wrong with it is shown.
+    // Opens a scene or data file. What is wrong with it is shown.
     void open(const std::filesystem::path& file);
-    // When the full picture is there. Returns what is wrong with the name, or nothing.
+    // Saves the full picture once it is there. Returns what is wrong with the name, or an empty
+    // text.
     std::string save(const std::filesystem::path& file);
     void set_trace(bool trace);
     void set_coarse(bool coarse);
     void show_panels(bool panels);
     void fix_size(int width, int height);  // of the picture, whatever the window's
-    // Of the window, for a picture of another size that is to be seen as it is.
+    // Returns the size that the window needs for a picture of another size that is to be seen pixel
+    // by pixel.
     std::optional<glm::ivec2> take_wanted_size();
 
     void handle(const InputEvent& event);
     // Declares the window's contents to ImGui. `width`, `height`: of the window, in ImGui's units;
     // `pixels`: of the screen for one of them; `seconds`: now.
     void frame(float width, float height, float pixels, double seconds);
-    // When a frame is needed although nothing happens.
+    // Returns the time at which a frame is needed even without input.
     std::optional<double> next_frame() const;
     std::string title() const;
     bool is_closing() const { return closing_; }
 
     const Shown& shown() const { return *shown_; }
-    // How far it is with what was asked for last: in full, saved, and all of it traced. What cannot
-    // be drawn is at rest, too.
+    // States of the last request: drawn in full, and traced to its end. A request that cannot be
+    // drawn counts as at rest, too.
     bool is_full() const;
     bool is_truth() const;
     bool is_saving() const { return !waiting_.empty() || saving_.busy(); }

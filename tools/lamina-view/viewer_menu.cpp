@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the picture, in 1/255.
+// Formats an error of the picture, which is in 1/255.
 std::string in_255ths(double error) {
     return fmt::format("{:.3g}/255", error);
 }

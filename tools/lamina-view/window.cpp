@@ -250,7 +250,8 @@ std::optional<double> Window::next_frame(double now) const {
     return next && then ? std::min(*next, *then) : next ? next : then;
 }
 
-// What went down is seen to be down for one frame, even where it has gone up since.
+// Gives ImGui a key or button that went down as down for one frame at least, even if it has gone up
+// since.
 void Window::give_input_to_imgui() {
     ImGuiIO& io = ImGui::GetIO();
     io.MousePos = pointer_.x < 0

@@ -32,16 +32,17 @@ struct WindowOptions {
 // The window with its OpenGL and ImGui. One at a time.
 class Window {
   public:
-    // Throws Error where there is no display or no OpenGL 3.3.
+    // Throws Error if there is no display or no OpenGL 3.3.
     explicit Window(const WindowOptions& options);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Until it is closed, or its script is over. Throws Error for what a script cannot do.
+    // Runs until it is closed, or its script is over. Throws Error for a command that a script
+    // cannot do.
     void run();
 
-    // What a user does, or a script. Places are in the window, from its upper left corner.
+    // Input of a user or a script. Places are in the window, from its upper left corner.
     void move(const glm::dvec2& place);
     void button(PointerButton button, bool down, bool shift, bool control);
     void wheel(const glm::dvec2& steps);

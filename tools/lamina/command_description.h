@@ -26,7 +26,8 @@ struct CommandDescription {
     std::vector<CommandDescription> verbs;
 };
 
-// What manual pages and completions are made from: the declarations that --help prints.
+// Verbs, options and texts that manual pages and completions are made from: the declarations that
+// --help prints.
 CommandDescription describe(const CLI::App& app);
 
 }  // namespace lamina

@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// What this process was started with, for reports: "lamina study ...".
+// Returns the command line of this process, for reports: "lamina study ...".
 void set_command_line(int argc, char** argv);
 const std::string& command_line();
 

@@ -7,16 +7,16 @@
 #include <optional>
 #include <string>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "base/standard_streams.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "different_files.h"
+#include "image/difference.h"
 #include "image/difference_picture.h"
-#include "image/loaded_image.h"
-#include "image/metrics.h"
+#include "image/picture.h"
 #include "image/png.h"
-#include "study/error_json.h"
+#include "study/result_files.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -30,7 +30,8 @@ struct CompareOptions {
 };
 
 std::string table_row(const std::string& label, const ErrorNorms& norms) {
-    return fmt::format("{:<8}{:>12.6g}{:>14.6g}{:>12.6g}\n", label, norms.linf, norms.l1, norms.l2);
+    return fmt::format("{:<8}{:>12.6g}{:>14.6g}{:>12.6g}\n", label, norms.linf, norms.mean,
+                       norms.l2);
 }
 
 std::string table_text(const ImageError& error) {

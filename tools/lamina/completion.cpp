@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/shortened.h"
-#include "base/standard_streams.h"
+#include "base/process.h"
+#include "base/text.h"
 #include "verbs.h"
 
 namespace lamina {

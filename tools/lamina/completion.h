@@ -7,8 +7,8 @@
 
 namespace lamina {
 
-// Scripts by which a shell completes the program's verbs, options and the values of options that
-// are fixed lists; other values are completed as files.
+// Returns scripts by which a shell completes the program's verbs, options and the values of options
+// that are fixed lists; other values are completed as files.
 std::string bash_completion(const CommandDescription& program);
 std::string zsh_completion(const CommandDescription& program);
 std::string fish_completion(const CommandDescription& program);

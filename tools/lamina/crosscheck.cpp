@@ -8,14 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
-#include "base/folder.h"
 #include "base/json_text.h"
-#include "base/own_files.h"
-#include "base/printable.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
+#include "base/text.h"
 #include "command_line.h"
 #include "git_commit.h"
 #include "image/exr.h"
@@ -28,9 +26,9 @@
 #include "scene_options.h"
 #include "study/crosscheck.h"
 #include "study/crosscheck_report.h"
-#include "study/machine.h"
+#include "study/frame_times.h"
 #include "study/report_page.h"
-#include "study/text_file.h"
+#include "study/result_files.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -149,7 +147,8 @@ void run(const CrosscheckOptions& options) {
     check_ladder(options.settings);
     nlohmann::json ignored;
     Scene scene = load_scene(options.scene, {}, ignored);
-    // Before anything is made: what is compared is a volume, and a mesh of it.
+    // The methods are compared on a volume and a mesh of it; this is checked before anything is
+    // made.
     if (!scene.has_volume())
         fail("{}: volume: is missing, expected the volume that both methods show",
              scene.file.string());

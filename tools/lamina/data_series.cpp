@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "base/input_file.h"
 #include "mesh_files/mesh_file.h"
 #include "named_output.h"
 #include "volume_files/volume_file.h"
@@ -37,7 +37,7 @@ std::string* path_in(nlohmann::json& document, const char* key) {
 
 // A '%' of a folder's name is no number.
 std::optional<FilePattern> DataSeries::take(std::string& path, const std::string& what) const {
-    const std::size_t name = path.rfind('/') + 1;  // 0 where there is no folder
+    const std::size_t name = path.rfind('/') + 1;  // 0 if there is no folder
     if (path.find('%', name) == std::string::npos) return {};
     const auto pattern = file_pattern(path.substr(name));
     if (!pattern) {

@@ -10,29 +10,30 @@
 
 #include "lamina/scene.h"
 #include "time_range.h"
-#include "volume_files/file_pattern.h"
+#include "volume_files/numbered_files.h"
 
 namespace lamina {
 
-// The data of a scene that changes with time: files that a number tells apart, "head_%04d.nrrd";
+// Data of a scene that change with time: files whose names differ in a number, "head_%04d.nrrd";
 // the steps of a .pvd; or the time axis of a volume's file.
 class DataSeries {
   public:
-    // `file`: as the command line names it: a scene, a data file, or a pattern of data files.
-    // Throws UsageError for a pattern that is none.
+    // `file`: the command line's scene, data file, or pattern of data files. Throws UsageError for
+    // a text with % that is no pattern.
     DataSeries(std::string file, const TimeRange& range);
 
-    // What the first step's scene is read from, where `file` is a pattern: its first file.
+    // The file that the first step's scene is read from. For a pattern it is the pattern's first
+    // file.
     const std::string& first_file() const { return first_file_; }
-    // Puts the first step in place of the patterns in a scene's document.
+    // Replaces the patterns in a scene's document by the first step's files.
     void begin(nlohmann::json& document);
 
     const std::vector<std::int64_t>& steps() const { return steps_; }
     // The scene with the data of another step.
     Scene at(Scene scene, std::int64_t step) const;
-    // The files that are this step's alone.
+    // Returns the files that only this step reads.
     std::vector<std::filesystem::path> files_of_step(const Scene& scene, std::int64_t step) const;
-    // Throws Error where a step of the scene is missing, UsageError where its data have no steps.
+    // Throws Error if a step of the scene is missing, UsageError if its data have no steps.
     void check(const Scene& scene) const;
 
   private:

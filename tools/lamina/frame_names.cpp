@@ -16,7 +16,8 @@ namespace {
                     pattern, found));
 }
 
-// What begins with the percent sign at `at`: "%%", or a number such as "%04d".
+// Returns the directive that begins with the percent sign at `at`: "%%", or a number such as
+// "%04d".
 std::string directive_at(const std::string& pattern, std::size_t at) {
     std::size_t end = at + 1;
     if (pattern[end] == '%') return "%%";
@@ -34,7 +35,7 @@ std::string directive_at(const std::string& pattern, std::size_t at) {
 }  // namespace
 
 FrameNames::FrameNames(const std::string& pattern) {
-    const std::size_t name_start = pattern.rfind('/') + 1;  // 0 where there is no folder
+    const std::size_t name_start = pattern.rfind('/') + 1;  // 0 if there is no folder
     std::string folder, before, after;
     bool numbered = false;
     for (std::size_t at = 0; at < pattern.size();) {

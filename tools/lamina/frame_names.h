@@ -6,8 +6,8 @@
 
 namespace lamina {
 
-// The names of the files of a series, from a pattern whose last part has one number: %d, or %04d
-// for four digits with leading zeros. %% is a percent sign.
+// File names of a series, made from a pattern whose last part has one number: %d, or %04d for four
+// digits with leading zeros. %% is a percent sign.
 class FrameNames {
   public:
     explicit FrameNames(const std::string& pattern);  // throws UsageError
@@ -15,7 +15,7 @@ class FrameNames {
     const std::filesystem::path& folder() const { return folder_; }
     // In the folder: of a frame, and of what is recorded of the series.
     std::string name(int frame) const;
-    // `series`: a word for what the series is.
+    // `series`: the kind of the series as a word.
     std::string record_name(const char* series) const;
 
   private:

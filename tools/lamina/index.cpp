@@ -5,14 +5,13 @@
 #include <memory>
 #include <string>
 
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
 #include "memory_option.h"
 #include "only_below_option.h"
 #include "raw_options.h"
 #include "verbs.h"
-#include "volume/index_file.h"
-#include "volume/volume_index.h"
+#include "volume/volume_data.h"
 #include "volume_files/bricked_copy.h"
 #include "volume_files/volume_file.h"
 

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
-#include "base/printable.h"
-#include "base/standard_streams.h"
+#include "base/process.h"
+#include "base/text.h"
 #include "different_files.h"
 #include "file_report.h"
 #include "memory_option.h"

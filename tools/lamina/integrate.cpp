@@ -7,15 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/standard_streams.h"
-#include "base/warning.h"
+#include "base/process.h"
 #include "different_files.h"
 #include "named_output.h"
 #include "optics/segment_integral.h"
-#include "scene_files/integration_case.h"
 #include "scene_files/json_reader.h"
+#include "scene_files/transfer_keys.h"
 #include "verbs.h"
 
 namespace lamina {

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/shortened.h"
-#include "base/standard_streams.h"
+#include "base/process.h"
+#include "base/text.h"
 #include "manual_page.h"
 #include "markdown_page.h"
 #include "scene_files/scene_keys.h"

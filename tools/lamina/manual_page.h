@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// The page for `man`, section 1, of a verb or of the program. `version`: "lamina 0.1.0".
+// Returns the page for `man`, section 1, of a verb or of the program. `version`: "lamina 0.1.0".
 std::string manual_page(const CommandDescription& command, const std::string& version);
 
 }  // namespace lamina

@@ -7,7 +7,8 @@
 
 namespace lamina {
 
-// All verbs of a program as one page of Markdown (docs/commands.md). Ends with a newline.
+// Returns all verbs of a program as one page of Markdown (docs/commands.md), which ends with a
+// newline.
 std::string markdown_page(const CommandDescription& program);
 
 }  // namespace lamina

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/memory_limit.h"
-#include "base/shortened.h"
+#include "base/memory.h"
+#include "base/text.h"
 
 namespace lamina {
 namespace {

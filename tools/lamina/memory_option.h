@@ -5,7 +5,8 @@
 
 namespace lamina {
 
-// --memory SIZE: sets the memory limit (base/memory_limit.h) when the command line is read.
+// Adds --memory SIZE, which sets the memory limit (base/memory.h) when the command line is
+// read.
 void add_memory_option(CLI::App& verb);
 
 }  // namespace lamina

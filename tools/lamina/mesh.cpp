@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
 #include "different_files.h"
 #include "lamina/scene.h"
 #include "mesh_files/mesh_file.h"
@@ -21,7 +21,7 @@
 #include "raw_options.h"
 #include "render/pipeline.h"
 #include "scene_files.h"
-#include "scene_files/scene_document.h"
+#include "scene_files/scene_reader.h"
 #include "verbs.h"
 #include "volume_files/volume_file.h"
 

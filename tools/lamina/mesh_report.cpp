@@ -2,16 +2,15 @@
 #include <cmath>
 #include <optional>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "file_report.h"
 #include "image/png.h"
 #include "json_vector.h"
 #include "mesh/mesh_picture.h"
 #include "mesh/mesh_shape.h"
-#include "mesh/scalar_range.h"
+#include "mesh/tet_mesh.h"
 #include "mesh_files/mesh_file.h"
 #include "statistics_report.h"
-#include "volume/histogram_picture.h"
 #include "volume/value_statistics.h"
 
 namespace lamina {
@@ -64,7 +63,7 @@ Json describe(const TetMesh& mesh, const ValueStatistics& statistics) {
     return info;
 }
 
-// Of the first scalar at points; none where there is none.
+// Returns the first scalar at points, or nothing if the mesh has none.
 std::span<const double> first_scalar(const TetMesh& mesh) {
     if (mesh.point_scalars().empty()) return {};
     return mesh.point_scalars().front().values;

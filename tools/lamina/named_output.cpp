@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "named_output.h"
 
-#include "base/atomic_file.h"
-#include "base/piped_file.h"
+#include "base/output_file.h"
 
 namespace lamina {
 

@@ -8,10 +8,10 @@
 
 namespace lamina {
 
-// The name that means stdout for what is written, and stdin for scenes.
+// The name of stdout for outputs, and of stdin for scenes.
 inline constexpr const char* standard_stream = "-";
 
-// What an option names: a file, or stdout. Throws Error where it cannot be written.
+// The output that an option names: a file, or stdout. Throws Error if it cannot be written.
 std::unique_ptr<OutputFile> open_named(const std::string& name);
 
 }  // namespace lamina

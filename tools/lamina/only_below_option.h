@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// Adds --only-below FOLDER: the verb opens no data outside the folder (base/file_bytes.h).
+// Adds --only-below FOLDER: the verb opens no data outside the folder (base/input_file.h).
 void add_only_below_option(CLI::App& verb);
 
 }  // namespace lamina

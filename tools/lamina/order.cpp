@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "base/arithmetic.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "base/median.h"
+#include "base/process.h"
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
-#include "base/stopwatch.h"
 #include "lamina/scene.h"
 #include "mesh/mesh_shape.h"
 #include "mesh_files/mesh_file.h"
@@ -26,9 +26,8 @@
 #include "reference/order_pixels.h"
 #include "render/pipeline.h"
 #include "scene/scene_mesh.h"
-#include "scene_files/scene_document.h"
+#include "scene_files/scene_reader.h"
 #include "verbs.h"
-#include "visibility/order_check.h"
 #include "visibility/visibility_order.h"
 
 namespace lamina {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "output_folder.h"
 
-#include "base/own_files.h"
+#include "base/output_file.h"
 #include "different_files.h"
 
 namespace lamina {

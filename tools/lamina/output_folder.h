@@ -7,9 +7,9 @@
 
 namespace lamina {
 
-// The folder that a verb writes into, before it reads, computes or writes anything else. Throws
-// UsageError where one of these names in it is a file of `read`, and Error where it is there and
-// the verb did not write it (base/own_files.h), unless `force`.
+// Checks the folder that a verb will write into, before it reads, computes or writes anything else.
+// Throws UsageError if one of these names in it is a file of `read`, and Error if it is there and
+// the verb did not write it (base/output_file.h), unless `force`.
 void expect_own_folder(const std::filesystem::path& folder, const std::string& verb,
                        const std::vector<std::string>& names,
                        const std::vector<std::filesystem::path>& read, bool force);

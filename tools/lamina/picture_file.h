@@ -19,13 +19,13 @@ using PictureAttributes = std::map<std::string, std::string>;  // of an EXR file
 // that a path that cannot be written fails at once.
 class PictureFile {
   public:
-    // Throws Error, and UsageError where stdout is a terminal.
+    // Throws Error, and UsageError if stdout is a terminal.
     PictureFile(const std::string& output, PictureFormat format);
 
     // `space`: of image and background. Returns how many pixels had to be clamped (PNG).
     std::size_t write(const Image& image, const glm::dvec3& background,
                       const PictureAttributes& attributes, ImageColorSpace space);
-    // The same; NPY keeps the double precision.
+    // Writes a picture in double precision, which NPY keeps.
     std::size_t write(const PreciseImage& image, const glm::dvec3& background,
                       const PictureAttributes& attributes, ImageColorSpace space);
 

@@ -7,8 +7,8 @@ namespace lamina {
 
 enum class PictureFormat { exr, png, npy };
 
-// How `output` (-o) is written: as its suffix says, or as `format` (--format) says where it is
-// stdout. Throws UsageError where the two leave that open or contradict each other.
+// Returns the format of `output` (-o): that of its suffix, or `format` (--format) for stdout.
+// Throws UsageError if the two leave it open or contradict each other.
 PictureFormat picture_format(const std::string& output, const std::string& format);
 
 }  // namespace lamina

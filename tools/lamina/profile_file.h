@@ -10,15 +10,15 @@
 
 namespace lamina {
 
-// A profile of the program from here on, for a file in Chrome's trace event format, which
-// Perfetto and chrome://tracing open.
+// A profile of the program from its construction on, as a file in Chrome's trace event format,
+// which Perfetto and chrome://tracing open.
 class ProfileFile {
   public:
-    // Throws Error where the file cannot be written.
+    // Throws Error if the file cannot be written.
     explicit ProfileFile(const std::string& name) : file_(open_named(name)) {}
 
-    // The title of it all, and what drew. Returns how many spans were too many to be kept: the file
-    // says so, too.
+    // Writes the file. `title`: of the whole; `context`: what drew. Returns the number of spans
+    // that were too many to be kept, which the file states, too.
     std::int64_t write(const std::string& title, const std::string& context);
 
   private:

@@ -13,21 +13,18 @@
 
 #include "base/client.h"
 #include "base/error.h"
-#include "base/error_text.h"
 #include "base/large_stack.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/shortened.h"
-#include "base/signal_stop.h"
-#include "base/standard_streams.h"
-#include "base/warning.h"
+#include "base/text.h"
 #include "command_line.h"
 #include "version_text.h"
 
 namespace lamina {
 namespace {
 
-// What a user gave may be long, wherever a message shows it: its beginning and end are kept, which
-// say what is wrong and what is expected.
+// Shortens a message, because it may quote a long input. Its beginning says what is wrong and its
+// end what is expected, so both are kept.
 std::string of_bounded_length(const std::string& message) {
     constexpr std::size_t most = 2000, most_of_end = 500;  // bytes: far more than any message needs
     if (message.size() <= most) return message;

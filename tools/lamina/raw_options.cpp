@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/shortened.h"
+#include "base/text.h"
 #include "base/value_type.h"
-#include "volume_files/whole_number.h"
+#include "volume_files/numbered_files.h"
 
 namespace lamina {
 namespace {

@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// A file without a header, as the command line describes it.
+// The layout of a file without a header, from the command line.
 struct RawOptions {
     std::string layout;  // "X,Y,Z,TYPE" or "X,Y,Z,TYPE,SX,SY,SZ"; empty: the file has a header
     std::int64_t offset = 0;
@@ -18,7 +18,7 @@ struct RawOptions {
 
 void add_raw_options(CLI::App& verb, RawOptions& options);
 
-// Throws UsageError for what is no layout.
+// Throws UsageError if the options do not describe a layout.
 VolumeRequest request_of(const RawOptions& options);
 
 }  // namespace lamina

@@ -10,10 +10,9 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/process.h"
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/stage.h"
-#include "base/standard_streams.h"
-#include "base/stopwatch.h"
 #include "data_series.h"
 #include "memory_option.h"
 #include "named_output.h"
@@ -69,7 +68,7 @@ void write_profile(ProfileFile& profile, const RenderOptions& options,
                                      Profile::most_spans, left_out));
 }
 
-// The explanation goes to stdout; to stderr, line by line, where a file goes to stdout.
+// The explanation goes to stdout or, if a file goes to stdout, to stderr, line by line.
 void print_explanation(const RenderOptions& options, const std::string& explanation) {
     const bool taken = options.output.piped() || options.stats == standard_stream ||
                        options.profile == standard_stream;

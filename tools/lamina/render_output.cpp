@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
+#include "base/profile.h"
 #include "base/progress.h"
-#include "base/stage.h"
 #include "different_files.h"
 #include "named_output.h"
 #include "scene_files.h"

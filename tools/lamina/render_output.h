@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/stopwatch.h"
+#include "base/profile.h"
 #include "data_series.h"
 #include "picture_file.h"
 #include "render/pipeline.h"
@@ -18,7 +18,7 @@
 
 namespace lamina {
 
-// The options of `lamina render` that say what is written.
+// Options of `lamina render` for its output.
 struct OutputOptions {
     std::string output;               // -o; empty: nothing, "-": stdout
     std::string format;               // --format
@@ -29,12 +29,12 @@ struct OutputOptions {
     bool force = false;               // --force
 
     bool piped() const;
-    void check() const;  // throws UsageError where they contradict one another
+    void check() const;  // throws UsageError if they contradict one another
 };
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
 
-// A scene to be drawn, and how; all outlives the output.
+// A scene to be drawn, with the settings of drawing. All of it outlives the output.
 struct OutputScene {
     const Scene& scene;  // as it was read
     const PipelineOptions& how;
@@ -46,8 +46,8 @@ struct OutputScene {
 class RenderOutput {
   public:
     virtual ~RenderOutput() = default;
-    // Draws and writes them, and returns their names in words. `attributes`: of the scene's own
-    // picture, but for the renderer. The pipeline has planned.
+    // Draws and writes the pictures, and returns their names in words. `attributes`: those of the
+    // scene's own picture, except for the renderer. The pipeline has planned.
     virtual std::string draw(Pipeline& pipeline, RunStatistics& run,
                              PictureAttributes attributes) = 0;
 };
@@ -57,8 +57,8 @@ class RenderOutput {
 std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& picture,
                            const PictureAttributes& attributes);
 
-// Opens the output, null where there is none: paths that cannot be written fail at once. `others`:
-// files that are written, too. Throws UsageError where one of them or of the output is a file that
+// Opens the output, null if there is none: paths that cannot be written fail at once. `others`:
+// files that are written, too. Throws UsageError if one of them or of the output is a file that
 // the scene reads. `series`: of --time, else null; it outlives the output.
 std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const OutputScene& scene,
                                           const DataSeries* series,

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "base/median.h"
-#include "base/memory_limit.h"
-#include "base/unreachable.h"
+#include "base/arithmetic.h"
+#include "base/enum_words.h"
+#include "base/memory.h"
 
 namespace lamina {
 namespace {

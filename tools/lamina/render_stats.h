@@ -17,14 +17,15 @@ namespace lamina {
 struct RunStatistics {
     FrameStatistics picture = {};  // before the first one: of what led to it
     std::vector<double> frames_ms = {};
-    // From the start of reading the scene to the written picture, without the frames of --frames.
+    // Time from the start of reading the scene to the written picture, without the frames of
+    // --frames.
     double first_picture_ms = 0;
 
     // Takes the next picture into account.
     void add(const FrameStatistics& next);
 };
 
-// Raises each of `largest` to what `counts` has of its name.
+// Raises each of `largest` to the count of its name, if that is larger.
 void keep_largest(const std::map<std::string, std::int64_t>& counts,
                   std::map<std::string, std::int64_t>& largest);
 

@@ -10,26 +10,21 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
-#include "base/folder.h"
 #include "base/json_text.h"
-#include "base/own_files.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
 #include "command_line.h"
 #include "git_commit.h"
 #include "output_folder.h"
-#include "papers/findings.h"
 #include "papers/kraus.h"
-#include "papers/kraus_stage.h"
 #include "papers/lamar.h"
-#include "papers/lamar_stage.h"
-#include "papers/panels.h"
+#include "papers/paper_item.h"
 #include "render/context_choice.h"
 #include "render/draw_context.h"
 #include "scene_files.h"
-#include "study/machine.h"
+#include "study/frame_times.h"
 #include "study/report_page.h"
 #include "verbs.h"
 #include "volume_files/volume_file.h"
@@ -71,7 +66,7 @@ std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& i
     return files;
 }
 
-// Returns the files that items read where they exist.
+// Returns those of the items' data files that exist.
 std::vector<std::filesystem::path> data_files() {
     const std::filesystem::path data = papers::KrausStage::data_folder();
     if (data.empty()) return {};

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "base/json_text.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
 #include "different_files.h"
 #include "named_output.h"
 #include "only_below_option.h"

@@ -8,7 +8,8 @@
 
 namespace lamina {
 
-// The scene's own, and those of all that it names: its volume, its mesh, its colour map.
+// Returns the files that a scene is made of: its own, and those that it names: volume, mesh and
+// colour map.
 std::vector<std::filesystem::path> files_of(const Scene& scene);
 
 }  // namespace lamina

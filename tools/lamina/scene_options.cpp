@@ -6,12 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/json_stdin.h"
-#include "base/shortened.h"
+#include "base/json_text.h"
+#include "base/text.h"
 #include "named_output.h"
 #include "scene_files/json_reader.h"
-#include "scene_files/scene_document.h"
-#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
@@ -25,7 +23,7 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
     document = piped ? load_json_from_stdin() : scene_document(file, request);
     std::vector<std::string> keys;
     const auto apply = [&](const std::string& key, const std::string& value) {
-        // A volume of which more than its path is told is an object.
+        // A volume is written as an object if it has more settings than its path.
         const bool of_volume = key.starts_with("volume.") && document.contains("volume");
         if (of_volume && document["volume"].is_string())
             document["volume"] = {{"path", document["volume"]}};

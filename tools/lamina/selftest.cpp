@@ -6,19 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
-#include "base/folder.h"
 #include "base/json_text.h"
-#include "base/own_files.h"
+#include "base/output_file.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
 #include "git_commit.h"
 #include "output_folder.h"
 #include "render/context_choice.h"
 #include "render/draw_context.h"
 #include "selftest/selftest.h"
-#include "selftest/selftest_case.h"
-#include "study/machine.h"
+#include "study/frame_times.h"
 #include "verbs.h"
 
 namespace lamina {

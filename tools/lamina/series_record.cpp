@@ -4,16 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "base/atomic_file.h"
-#include "base/file_hash.h"
+#include "base/content_hash.h"
 #include "base/json_text.h"
+#include "base/output_file.h"
 
 namespace lamina {
 namespace {
 
 using Hashes = std::map<std::string, std::string>;
 
-// Returns nothing where the document is not a record of this key.
+// Returns nothing if the document is not a record of this key.
 Hashes hashes_in(const nlohmann::json& document, const std::string& key) {
     if (!document.is_object() || document.value("key", nlohmann::json()) != nlohmann::json(key))
         return {};

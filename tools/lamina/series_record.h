@@ -6,24 +6,24 @@
 #include <string>
 
 #include "base/client.h"
-#include "base/stopwatch.h"
+#include "base/profile.h"
 
 namespace lamina {
 
-// The thread's client without its wish to stop, for what is done with a series after that.
+// The thread's client without its request to stop, for work on a series after that.
 Client finishing_client();
 
-// What a series of pictures has written, in a file beside them: what the pictures were made of, and
-// a hash of each file. So a later run knows which ones are there, whole, and its own.
+// A file beside a series of pictures that lists them: the input of each, and a hash of each file. A
+// later run learns from it which pictures are there, intact, and made from its own input.
 class SeriesRecord {
   public:
-    // `key`: a hash of all that the pictures depend on. What a record of another key lists is
-    // forgotten, as is one that cannot be read.
+    // `key`: a hash of all that the pictures depend on. A record of another key, or one that cannot
+    // be read, counts as empty.
     SeriesRecord(std::filesystem::path file, std::string key);
 
-    // Whether the file is in the record's folder as it was written, from this input.
+    // Returns true if the file is in the record's folder as it was written, from this input.
     bool has(const std::string& name, const std::string& input = "") const;
-    // Adds a file that is complete. `input`: a hash of what it alone depends on, beside the key.
+    // Adds a file that is complete. `input`: a hash of the input that only this file depends on.
     // The record itself is written once a second, and by write().
     void add(const std::string& name, const std::string& input = "");
     void write();

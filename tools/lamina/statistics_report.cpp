@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/number_text.h"
-#include "image/pixel_text.h"
-#include "volume/histogram_picture.h"
+#include "base/text.h"
+#include "image/coded_image.h"
+#include "volume/value_statistics.h"
 
 namespace lamina {
 namespace {

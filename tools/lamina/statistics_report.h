@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `lamina info` says of the values of volumes and meshes.
+// The part of `lamina info` about the values of volumes and meshes.
 #pragma once
 
 #include <functional>
@@ -11,15 +11,17 @@
 
 namespace lamina {
 
-// Adds the keys "percentiles" {"0.1": value, ...} and "histogram" {edges, counts}: null where there
+// Adds the keys "percentiles" {"0.1": value, ...} and "histogram" {edges, counts}: null if there
 // is no finite value.
 void add_statistics(const ValueStatistics& statistics, nlohmann::ordered_json& info);
 
-// The two keys as lines for people, where `info` has them: 16 intervals of the histogram at most.
+// Return the values of the two keys, which must not be null, as lines for people: at most 16
+// intervals of the histogram.
 std::string percentiles_text(const nlohmann::ordered_json& percentiles);
 std::string histogram_text(const nlohmann::ordered_json& histogram);
 
-// A picture on white, above the one that `below` makes for its width (300 pixels or more).
+// Returns `above` on white, and under it the picture that `below` makes for its width, at least 480
+// pixels.
 CodedImage above_one_another(const CodedImage& above, const std::function<CodedImage(int)>& below);
 
 }  // namespace lamina

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "base/printable.h"
+#include "base/process.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
+#include "base/text.h"
 #include "command_line.h"
 #include "different_files.h"
 #include "git_commit.h"
@@ -21,9 +21,8 @@
 #include "render/context_choice.h"
 #include "scene_files.h"
 #include "scene_files/json_reader.h"
-#include "study/machine.h"
-#include "study/run_list.h"
-#include "study/study_merge.h"
+#include "study/frame_times.h"
+#include "study/run_data.h"
 #include "study/study_output.h"
 #include "study/study_runner.h"
 #include "verbs.h"
@@ -94,7 +93,7 @@ void say_what_is_left_out(const study::RunList& list, const StudyOptions& option
         say(options, fmt::format("{} runs left out: {}", dropped.runs, dropped.because));
 }
 
-// Before anything runs: how much work the file means.
+// Prints the amount of work that the file means, before anything runs.
 void say_what_it_makes(const study::RunList& list, const StudyOptions& options) {
     say(options,
         fmt::format("{}: {} runs of {} scenes, each timed in {} rounds of {} frames", options.study,

@@ -6,14 +6,14 @@
 #include <charconv>
 
 #include "base/error.h"
-#include "base/shortened.h"
+#include "base/text.h"
 
 namespace lamina {
 namespace {
 
 constexpr std::int64_t largest_number = 1'000'000'000, most_steps = 100'000;
 
-// Whole numbers from 0 with colons between; empty where it is anything else.
+// Whole numbers from 0 with colons between; empty if it is anything else.
 std::vector<std::int64_t> numbers_of(const std::string& text) {
     std::vector<std::int64_t> numbers;
     const char* at = text.data();

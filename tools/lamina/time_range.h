@@ -14,7 +14,7 @@ struct TimeRange {
     std::vector<std::int64_t> steps() const;
 };
 
-// From "FIRST:LAST" or "FIRST:LAST:STEP": whole numbers from 0, LAST not below FIRST, STEP from 1,
+// Reads "FIRST:LAST" or "FIRST:LAST:STEP": whole numbers from 0, LAST not below FIRST, STEP from 1,
 // at most 100000 steps. Throws UsageError.
 TimeRange time_range(const std::string& text);
 

@@ -5,19 +5,17 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "base/atomic_file.h"
+#include "base/client.h"
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/file_hash.h"
-#include "base/interrupt.h"
 #include "base/json_text.h"
-#include "base/own_files.h"
+#include "base/output_file.h"
 #include "base/progress.h"
 #include "different_files.h"
 #include "git_commit.h"
 #include "output_folder.h"
 #include "scene_files.h"
-#include "scene_files/scene_json.h"
+#include "scene_files/scene_reader.h"
 
 namespace lamina {
 namespace {
@@ -91,7 +89,7 @@ std::vector<std::int64_t> TimeSeries::missing(const SeriesRecord& record) const 
     std::vector<std::int64_t> steps;
     for (const std::int64_t step : series_.steps()) {
         check_interrupt();
-        // Input is hashed where there may be something to keep.
+        // Input is hashed if a file may be kept.
         const bool there = !force_ && std::filesystem::exists(path_of(name_at(step)));
         if (!there || !record.has(name_at(step), input_of(step))) steps.push_back(step);
     }

@@ -13,12 +13,12 @@
 
 namespace lamina {
 
-// The pictures of `render --time`: one of each step of the data, all with the transfer function,
-// the camera and the settings that are the first step's. The next step is read while one is drawn.
-// Pictures that an earlier run wrote of the same scene and data are kept.
+// Pictures of `render --time`: one of each step of the data, all with the transfer function, the
+// camera and the settings of the first step. The next step is read while one is drawn. Pictures
+// that an earlier run wrote of the same scene and data are kept.
 class TimeSeries : public RenderOutput {
   public:
-    // Throws UsageError where the names or the format of the files cannot be had.
+    // Throws UsageError if the options do not give names and a format of the files.
     static void check(const OutputOptions& options);
 
     // Throws as Turntable does.

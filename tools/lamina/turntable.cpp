@@ -3,19 +3,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.h"
+#include "base/client.h"
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/file_hash.h"
-#include "base/interrupt.h"
 #include "base/json_text.h"
-#include "base/own_files.h"
+#include "base/output_file.h"
 #include "base/progress.h"
 #include "different_files.h"
 #include "git_commit.h"
 #include "output_folder.h"
 #include "scene_files.h"
-#include "scene_files/scene_json.h"
+#include "scene_files/scene_reader.h"
 
 namespace lamina {
 namespace {

@@ -11,16 +11,16 @@
 
 namespace lamina {
 
-// The pictures of `render --turntable`: views around the camera's axis `up` through its centre, at
+// Pictures of `render --turntable`: views around the camera's axis `up` through its centre, at
 // equal angles over 360 degrees, the scene's own first. Views that an earlier run wrote of the same
 // scene and data are kept.
 class Turntable : public RenderOutput {
   public:
-    // Throws UsageError where the names or the format of the files cannot be had.
+    // Throws UsageError if the options do not give names and a format of the files.
     static void check(const OutputOptions& options);
 
-    // Throws UsageError where it would replace a file of `read` or write one of `others`, and Error
-    // where a file is there that no turntable wrote, unless options.force.
+    // Throws UsageError if it would replace a file of `read` or write one of `others`, and Error
+    // if a file is there that no turntable wrote, unless options.force.
     Turntable(const OutputOptions& options, const OutputScene& scene,
               const std::vector<std::filesystem::path>& read,
               const std::vector<std::filesystem::path>& others);

@@ -4,7 +4,7 @@
 
 #include <fmt/ranges.h>
 
-#include "base/find_program.h"
+#include "base/process.h"
 #include "git_commit.h"
 #include "mesh_files/mesh_file.h"
 #include "volume_files/volume_file.h"

@@ -5,8 +5,8 @@
 
 namespace lamina {
 
-// What --version prints: version and commit, then a line each for what depends on the build and on
-// the machine.
+// Returns the text of --version: version and commit, then a line for each property of the build and
+// of the machine.
 std::string version_text();
 
 }  // namespace lamina

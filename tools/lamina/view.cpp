@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/find_program.h"
-#include "base/standard_streams.h"
+#include "base/process.h"
 #include "verbs.h"
 
 namespace lamina {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/shortened.h"
-#include "optics/shipped_colormaps.h"
+#include "base/text.h"
+#include "optics/colormap.h"
 
 namespace lamina {
 namespace {
@@ -77,7 +77,7 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
 
 namespace {
 
-// A name that is neither a map's nor a file's is a mistake of usage; a damaged file is none.
+// Throws UsageError if the name is neither a map's nor a file's; a damaged file stays an Error.
 Colormap colormap_of(const std::string& name_or_path, ImageColorSpace space) {
     try {
         return load_colormap(name_or_path, space);
@@ -93,7 +93,8 @@ Wishes wishes_of(const ViewOptions& options, ImageColorSpace space) {
     Wishes wishes;
     if (!options.colormap.empty()) {
         Colormap colormap = colormap_of(options.colormap, space);
-        // A file seldom says whether its values are those of data. Most are not.
+        // Positions in files of colour maps are rarely values of data: they are stretched over
+        // these.
         if (!is_colormap_name(options.colormap)) colormap.own_range = false;
         wishes.transfer.colormap = std::move(colormap);
     }

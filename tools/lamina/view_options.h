@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// The options that change the look of a picture without a word of JSON.
+// Options that change the look of a picture without JSON.
 struct ViewOptions {
     ViewTurn turn;
     double zoom = 1, density = 1;
@@ -18,10 +18,11 @@ struct ViewOptions {
 
 void add_view_options(CLI::App& verb, ViewOptions& options);
 
-// What is to be changed in the scene, which --colormap may have to read. Throws UsageError.
+// Returns the changes that the options make to the scene. Reads the file of --colormap, if that is
+// given. Throws UsageError.
 Wishes wishes_of(const ViewOptions& options, ImageColorSpace space);
 
-// The others, as values of --set: "image.width=800".
+// Returns the other options as values of --set: "image.width=800".
 std::vector<std::string> settings_of(const ViewOptions& options);
 
 }  // namespace lamina

@@ -2,12 +2,11 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "file_report.h"
 #include "image/png.h"
 #include "json_vector.h"
 #include "statistics_report.h"
-#include "volume/histogram_picture.h"
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
 #include "volume/value_statistics.h"
@@ -19,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Returns one word where all axes agree, else one word an axis.
+// Returns one word if all axes agree, else one word an axis.
 Json json_of(const std::array<Centering, 3>& centering) {
     const auto word = [](Centering c) { return c == Centering::cell ? "cell" : "node"; };
     if (centering[0] == centering[1] && centering[1] == centering[2]) return word(centering[0]);

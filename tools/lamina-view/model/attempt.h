@@ -10,7 +10,7 @@
 
 namespace lamina::view {
 
-// Settings that were tried, and what came of them.
+// Settings that were tried, with their error and time.
 struct Attempt {
     Scene scene;     // as it was asked for: to go back to
     Scene resolved;  // with everything automatic written out
@@ -22,7 +22,7 @@ struct Attempt {
     double draw_ms = 0;              // of the picture, with all that was chosen and made for it
     double frame_ms = 0;  // of that, what each further picture of the same settings takes
 
-    // In short, of `resolved`.
+    // Short texts of settings of `resolved`.
     std::string method;          // "slice"
     std::string classification;  // of slices; the coloring of tets: "preintegrated, linear"
     std::string target;          // "fixed8"
@@ -30,11 +30,11 @@ struct Attempt {
     std::string samples;         // "512"; empty: no slices
 };
 
-// The part of it that says what was tried.
+// Returns an attempt with its settings only.
 Attempt attempt_of(const Scene& scene, const Scene& resolved);
-// Attempt::frame_ms.
+// Returns Attempt::frame_ms.
 double frame_ms_of(const FrameStatistics& statistics);
-// In a line: "slice, exact, fixed8, tree 32x32, 1024 slabs".
+// Returns the settings as one line: "slice, exact, fixed8, tree 32x32, 1024 slabs".
 std::string short_text(const Scene& scene);
 
 }  // namespace lamina::view

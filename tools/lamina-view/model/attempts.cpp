@@ -42,7 +42,7 @@ std::string csv_row(const Attempt& row) {
                                  number(row.resolved.max_error),
                                  row.expected ? number(*row.expected) : "",
                                  error(row.error.linf),
-                                 error(row.error.l1),
+                                 error(row.error.mean),
                                  error(row.error.l2),
                                  number(row.share_measured),
                                  number(row.draw_ms),

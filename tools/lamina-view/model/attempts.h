@@ -9,29 +9,30 @@
 
 namespace lamina::view {
 
-// What has been tried, in the order in which it was tried first. A scene has one row: drawn again,
-// it goes on with that. A row whose error is not yet measured on all pixels goes along to another
-// view (camera or size) of the same settings, or moving the camera would fill the table.
+// Settings that have been tried, in the order of their first trial. A scene has one row, which it
+// continues when it is drawn again. A row whose error is not yet measured on all pixels keeps its
+// place if the view (camera or size) changes but not the settings: else moving the camera would
+// fill the table.
 class Attempts {
   public:
     const std::vector<Attempt>& rows() const { return rows_; }
-    // The row of the last picture; none where rows() is empty.
+    // The row of the last picture; none if rows() is empty.
     std::size_t newest() const { return newest_; }
 
-    // A full picture of the scene. `expected`: its error; `statistics`: its own.
+    // Adds a full picture of the scene. `expected`: its predicted error; `statistics`: its own.
     void add(const Scene& scene, const Scene& resolved, std::optional<double> expected,
              const FrameStatistics& statistics);
-    // How far the tracer is with that picture. Fewer pixels than are measured already, of a picture
-    // that was drawn again, change nothing.
+    // Takes the share of that picture's pixels that the tracer has done, and their error. If the
+    // picture was drawn again, fewer pixels than are measured already change nothing.
     void measured(double share, const ErrorNorms& error);
     void clear();
 
-    // A table (RFC 4180), a row each. Its last column is the resolved scene as JSON: a scene file
-    // of the same picture, for data that it can name.
+    // Returns a table (RFC 4180) with a line for each row. Its last column is the resolved scene as
+    // JSON: a scene file of the same picture, for data that it can name.
     std::string csv() const;
 
-    // Rows whose settings differ from those of the newest row at most in the key that `without`
-    // takes away, in its view.
+    // Returns the rows of the newest row's view whose settings are the newest row's, except for the
+    // key that `without` removes.
     std::vector<std::size_t> alike(void (*without)(Scene&)) const;
 
   private:

@@ -11,26 +11,26 @@
 
 namespace lamina::view {
 
-// What the pointer and the keys do to the camera.
+// Moves the camera by pointer and keys.
 class CameraControl {
   public:
-    // What is in the window. `probe`: null where nothing is seen yet.
+    // Surroundings of the camera in the window. `probe`: null while there is no picture.
     struct Around {
         PictureArea area;
         Grid::Bounds bounds;  // of the data
         const PointProbe* probe = nullptr;
     };
 
-    // Returns whether the event meant the camera. Does nothing while that is still to be chosen
-    // from the data.
+    // Returns true if the event was for the camera. Does nothing while the camera is still to be
+    // chosen from the data.
     bool handle(const InputEvent& event, const Around& around, Document& document);
-    // Whether the camera is being moved: while it is dragged, and a moment after steps.
+    // Returns true while the camera is dragged, and for a moment after steps.
     bool moving(double seconds) const { return dragging_ || seconds < steps_until_; }
     std::optional<double> rest_at() const;  // when steps are over
 
     void set_projection(Document& document, Projection projection) const;
     void fit(const Around& around, Document& document) const;
-    // From the positive (`sign` 1) or negative end of an axis.
+    // Looks from the positive (`sign` 1) or negative end of an axis.
     void see_axis(int axis, double sign, const Around& around, Document& document) const;
 
   private:

@@ -13,13 +13,12 @@
 
 namespace lamina::view {
 
-// What is beside the picture that is edited (B): the one that was pinned, or what the tracer has
-// put in the place of B so far.
+// The picture A beside the edited picture B: a pinned picture, or as much of B as the tracer has
+// drawn so far.
 enum class CompareWith { pinned, truth };
 enum class CompareBy { nothing, flip, wipe, side_by_side, difference };
 
-// Two pictures held against each other. Both are full ones: while B moves there is nothing to
-// compare.
+// A comparison of two pictures, both of them full: while B moves there is nothing to compare.
 class Comparison {
   public:
     CompareWith with = CompareWith::pinned;
@@ -29,28 +28,29 @@ class Comparison {
     std::optional<double> range;  // of the difference's colours, in 1/255; none: what fits
     float strength = 1;           // of these colours over the picture, 0 to 1
 
-    // The full picture that is shown, of this scene, is A from now on.
+    // Makes the full picture that is shown, which is of this scene, A.
     void pin(const Scene& scene, const Shown& shown);
     void unpin();
-    // The other picture is seen where this one was, and the other way round.
+    // Exchanges the places of the two pictures.
     void flip();
     void next_way();  // of CompareBy, but for flip
     void next_with();
     const std::shared_ptr<const PinnedPicture>& pinned() const { return pinned_; }
 
-    // Takes what there is to see: A, where it was drawn again, and B.
+    // Takes the pictures to show: A, if it was drawn again, and B.
     void follow(const Shown& shown);
-    // Why there is nothing to be seen beside B; empty where there is.
+    // Reason why there is nothing to be seen beside B; empty if there is.
     const std::string& missing() const { return missing_; }
     bool active() const { return by != CompareBy::nothing && missing_.empty(); }
 
-    // Of the pictures that follow() found. Null where there are none.
+    // Pictures and difference that follow() found; null if there are none.
     const std::shared_ptr<const ScreenPicture>& other() const { return other_; }
     const std::shared_ptr<const ScreenPicture>& edited() const { return edited_; }
     const std::shared_ptr<const PictureDifference>& difference() const { return difference_; }
     ErrorNorms norms() const { return norms_; }  // of the difference: B less the other one
     double shown_range() const;                  // `range`, or what fits
-    // The difference in false colours (lamina::difference_codes), where it is known; elsewhere B.
+    // The difference in false colours (lamina::difference_codes), as far as it is known; elsewhere
+    // B.
     std::shared_ptr<const ScreenPicture> colors();
 
   private:
@@ -65,7 +65,7 @@ class Comparison {
     std::shared_ptr<const PictureDifference> difference_;
     ErrorNorms norms_;
     double fitting_ = smallest_range;
-    // What was measured and coloured last.
+    // Inputs of the last measurement and colouring.
     std::shared_ptr<const Image> measured_a_, measured_b_;
     std::shared_ptr<const PictureDifference> colored_;
     double colored_range_ = 0;

@@ -9,9 +9,9 @@ namespace lamina::view {
 
 // Simple curves of extinction over values from lo to hi > lo, up to `densest`.
 std::vector<DensityPoint> ramp_shape(double lo, double hi, double densest);
-// Nothing but a hat a twentieth of the range wide, around a value that is kept inside.
+// A hat a twentieth of the range wide, around a value that is kept inside, and 0 elsewhere.
 std::vector<DensityPoint> peak_shape(double lo, double hi, double at, double densest);
-// Nothing up to a value, `densest` from there on.
+// 0 up to a value, `densest` from there on.
 std::vector<DensityPoint> step_shape(double lo, double hi, double at, double densest);
 
 }  // namespace lamina::view

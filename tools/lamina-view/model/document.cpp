@@ -60,7 +60,7 @@ void Document::transfer_edited(const std::string& name) {
     if (transfer_.curves() == curves_ && scene_.transfer_function.is_given()) return;
     record(name);
     curves_ = transfer_.curves();
-    // The same function may have other points.
+    // The function may be unchanged although its points are others.
     if (scene_.transfer_function == transfer_.function()) return;
     scene_.transfer_function = transfer_.function();
     ++revisions_.transfer_function;

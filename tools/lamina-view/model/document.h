@@ -12,9 +12,9 @@
 
 namespace lamina::view {
 
-// The scene as it is edited, its transfer function as curves, and how to get back. Each change is a
-// step that can be undone; changes of one name that follow each other without end_step() are one,
-// as those of a drag are. Where the camera goes by navigation is no step.
+// The scene that is edited, its transfer function as curves, and its earlier states. Each change is
+// a step that can be undone. Changes of one name that follow each other without end_step() are one
+// step, such as those of a drag. Moving the camera by navigation is no step.
 class Document {
   public:
     Document();
@@ -29,17 +29,17 @@ class Document {
     void set_transfer_function(const TransferFunction& transfer_function);
     void set_clip(const Clip& clip);
     void set_size(int width, int height);
-    // Any other change of the scene of the same data.
+    // Takes any other change of a scene of the same data.
     void edit(const std::function<void(Scene&)>& change, const std::string& name = "settings");
     void mark_saved() { dirty_ = false; }
 
-    // A key of the scene file (scene_edit.h). Throws Error, and changes nothing, where the file
+    // Sets a key of the scene file (scene_edit.h). Throws Error, and changes nothing, if the file
     // would be refused.
     void set_setting(const std::string& path, const nlohmann::ordered_json& value);
-    // Another scene of the same or other data, as a step.
+    // Takes another scene, of the same or other data, as a step.
     void replace(Scene scene, const std::string& name);
 
-    // Edits of it count once transfer_edited() says so.
+    // The transfer function's editor. Edits count once transfer_edited() is called.
     TransferEditor& transfer() { return transfer_; }
     const TransferEditor& transfer() const { return transfer_; }
     void transfer_edited(const std::string& name);
@@ -55,11 +55,11 @@ class Document {
     void undo();
     void redo();
 
-    // What was chosen from the data where the scene has something automatic: what is seen is edited
-    // from there on. No change.
+    // Takes over what was chosen from the data for the scene's automatic keys, so that editing
+    // starts from the picture that is seen. This counts as no change.
     void take_chosen(const Scene& chosen);
 
-    // Whether pictures have the size of their place in the window, or that of the scene.
+    // True: pictures have the size of their place in the window; false: the scene's size.
     bool size_follows_window = true;
 
   private:

@@ -7,7 +7,8 @@
 
 namespace lamina::view {
 
-// What a picture took. The stages are those that were done for it, and add up to the whole.
+// Time and memory of a picture. The stages are those that were done for it, and add up to the
+// whole.
 struct FrameCost {
     double ms = 0;
     bool moving = false;

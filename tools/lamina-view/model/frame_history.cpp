@@ -12,8 +12,8 @@ const std::vector<std::string>& FrameHistory::stage_names() {
     return names;
 }
 
-// A stage has the time of when it was last done: it was done for this picture where that differs
-// from what it was before. Tables and upload are a part of setting up.
+// A stage keeps the time of its last run: it ran for this picture if that differs from the time
+// before. Tables and upload are a part of setting up.
 void FrameHistory::add(const FrameStatistics& statistics, bool moving) {
     std::map<std::string, double> done;
     for (const auto& [stage, ms] : statistics.stages_ms) {

@@ -20,9 +20,9 @@ class FrameHistory {
     void add(const FrameStatistics& statistics, bool moving);
     const std::deque<FrameCost>& frames() const { return frames_; }  // the oldest first
     double longest_ms() const;                                       // of frames()
-    double median_ms(bool moving) const;                             // 0 where there are none
+    double median_ms(bool moving) const;                             // 0 if there are none
 
-    // All stages there are, in the order in which they are done.
+    // Returns the names of all stages, in the order in which they run.
     static const std::vector<std::string>& stage_names();
 
   private:

@@ -16,7 +16,7 @@ constexpr int escape = 256, enter = 257, tab = 258, right = 262, left = 263, dow
               home = 268;
 }
 
-// Something that a user does.
+// An input of a user.
 struct InputEvent {
     enum class Kind { pointer, press, release, wheel, key, character, drop };
     Kind kind = Kind::pointer;

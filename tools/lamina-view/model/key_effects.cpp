@@ -35,7 +35,9 @@ std::string for_tree(const TreeSettings* tree, const Auto<Target>& target, std::
     return {};
 }
 
-// Where slabs are rounded to codes (docs/scene.md, "How it is drawn").
+// Returns the scenes in which dithering of slabs has an effect, for a scene in which it has none:
+// only slabs that are rounded to codes are dithered (docs/scene.md, "How it is drawn"). Empty if it
+// has an effect.
 std::string for_slice_dither(const Scene& scene) {
     const TreeSettings* const tree = given_tree(scene.slice.tree);
     if (scene.target.is_given() && !is_fixed_point(*scene.target))

@@ -8,8 +8,8 @@
 
 namespace lamina::view {
 
-// Why a key changes nothing in this scene ("counts with the target emulated"); empty where it may.
-// `path` is that of a SettingNode.
+// Returns why a key changes nothing in this scene ("counts with the target emulated"); empty if it
+// may change something. `path` is that of a SettingNode.
 std::string why_without_effect(const Scene& scene, std::string_view path);
 
 }  // namespace lamina::view

@@ -17,7 +17,7 @@ double half_height_per_distance(const Camera& camera) {
     return std::tan(glm::radians(camera.fov_y) / 2);
 }
 
-// By an angle about a unit vector (Rodrigues).
+// Turns a vector by an angle about a unit vector (Rodrigues).
 glm::dvec3 turned_about(const glm::dvec3& axis, const glm::dvec3& v, double angle) {
     return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
            axis * glm::dot(axis, v) * (1 - std::cos(angle));
@@ -96,7 +96,7 @@ Camera looking_at(const Camera& camera, const glm::dvec3& point) {
         next.eye = point - (camera.center - camera.eye);
         return next;
     }
-    // Where `up` would be looked along, the picture's own up serves.
+    // If the view direction is parallel to `up`, the picture's own up direction replaces it.
     const glm::dvec3 forward = point - camera.eye;
     const double across =
         glm::length(glm::cross(glm::normalize(forward), glm::normalize(camera.up)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the camera goes about: each function takes a camera and gives the next one. Places in the
+// Motions of the camera: each function takes a camera and returns the next one. Places in the
 // picture are in shares of its height from its middle, to the right and up, so that nothing depends
 // on pixels.
 #pragma once
@@ -21,28 +21,28 @@ ViewAxes axes_of(const Camera& camera);
 // World units for one height of the picture, at the distance of the camera's centre.
 double height_at_center(const Camera& camera);
 
-// Goes around the centre, whose distance stays: half a turn for one height of the picture. What is
-// dragged follows. Never closer than a degree to looking along `up`.
+// Turns the camera around the centre, whose distance stays: half a turn for one height of the
+// picture. The scene follows the drag. The view never comes closer than a degree to `up`.
 Camera orbited(const Camera& camera, const glm::dvec2& drag);
-// Eye and centre go, so that what is at the centre's distance follows the drag.
+// Moves eye and centre so that objects at the centre's distance follow the drag.
 Camera panned(const Camera& camera, const glm::dvec2& drag);
-// What is at the centre's distance gets 1 / `factor` times as large. The point of it at `place`
-// stays where it is in the picture.
+// Zooms: objects at the centre's distance become 1 / `factor` times as large. The one at `place`
+// keeps its position in the picture.
 Camera zoomed(const Camera& camera, double factor, const glm::dvec2& place = glm::dvec2(0));
-// Eye and centre go by `step` world units to the right, up and forward. Orthographic views are
-// enlarged instead of going forward, where that changes nothing.
+// Moves eye and centre by `step` world units to the right, up and forward. Orthographic views are
+// enlarged instead of moved forward, which would change nothing.
 Camera flown(const Camera& camera, const glm::dvec3& step);
-// The point comes to the middle of the picture, and is what is gone around. A perspective view
-// turns, an orthographic one is shifted.
+// Brings the point to the middle of the picture and makes it the centre of turns. A perspective
+// view turns, an orthographic one is shifted.
 Camera looking_at(const Camera& camera, const glm::dvec3& point);
-// All of the box is seen, from the same direction and as large as that allows. `aspect`: width of
-// the picture by its height.
+// Shows all of the box, from the same direction and as large as that allows. `aspect`: width of the
+// picture by its height.
 Camera fitted(const Camera& camera, const Grid::Bounds& box, double aspect);
-// Looks from the direction `from` at the middle of the box, fitted. z is up, or y where that is
-// looked along.
+// Looks from the direction `from` at the middle of the box, fitted. z is up, or y if the view is
+// along z.
 Camera seen_from(const Camera& camera, const glm::dvec3& from, const Grid::Bounds& box,
                  double aspect);
-// The other projection; what is at the centre's distance keeps its size.
+// Returns the other projection; objects at the centre's distance keep their size.
 Camera with_projection(const Camera& camera, Projection projection);
 
 }  // namespace lamina::view

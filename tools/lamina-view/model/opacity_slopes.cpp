@@ -81,7 +81,7 @@ DensityPoint point_of(const ExtinctionKnot& knot, double length) {
     return {knot.value, knot.extinction, knot.smooth, length, {}};
 }
 
-// Whether the knots between two are those of a slope over a length, up to rounding.
+// Returns true if the knots between two knots are those of a slope over a length, up to rounding.
 bool is_slope(std::span<const ExtinctionKnot> knots, std::size_t a, std::size_t b, double length) {
     constexpr double near = 1e-9;
     const auto wanted = inside_slope(point_of(knots[a], length), point_of(knots[b], length));

@@ -5,7 +5,7 @@
 
 namespace lamina::view {
 
-// Whether the full picture is that of the document as it is.
+// Returns true if the full picture shows the current document.
 bool PrecisionInSight::is_of(const Document& document, const Shown& shown) {
     return shown.full && shown.resolved && shown.failure.empty() &&
            shown.full_revisions == document.revisions();

@@ -10,19 +10,19 @@
 
 namespace lamina::view {
 
-// What is known of how wrong pictures are and what they took: of this one, of those before it, and
-// of one beside it.
+// Known errors and times of pictures: of the current one, of earlier ones, and of the one beside
+// it.
 class PrecisionInSight {
   public:
     Attempts attempts;
     FrameHistory frames;
     Comparison comparison;
 
-    // Takes what there is to see.
+    // Takes the pictures that are shown.
     void follow(const Document& document, const Shown& shown);
-    // The picture that is shown is A from now on. Nothing where it is not that of the document.
+    // Makes the picture that is shown A. Does nothing if it is not that of the document.
     void pin(const Document& document, const Shown& shown);
-    // Goes on with other settings, in the view as it is or that of the scene.
+    // Continues with other settings, in the current view or in that of the scene.
     static void go_on_with(Document& document, Scene scene, bool keep_view);
 
   private:

@@ -5,7 +5,8 @@
 
 namespace lamina::view {
 
-// How often each part of a scene has changed, by what a change makes necessary (lamina/session.h).
+// Numbers of changes of each part of a scene, divided by what a change makes necessary
+// (lamina/session.h).
 struct Revisions {
     std::uint64_t data = 0;      // other data: all of it
     std::uint64_t settings = 0;  // and all that is not named here

@@ -11,20 +11,20 @@
 
 namespace lamina::view {
 
-// What the scene's file has, every key written out. The transfer function, which is edited by
-// itself, stands there as "auto".
+// The contents of the scene's file, with every key written out. The transfer function, which is
+// edited by itself, is "auto" in it.
 nlohmann::ordered_json settings_of(const Scene& scene);
 
-// The scene with a key at another value, of those that settings_of() has. `path` has the numbers of
-// elements: "clip.planes.0.normal". null takes the key away. It is checked as scene files are:
-// throws Error.
+// Returns the scene with another value of a key, one of those that settings_of() has. `path` has
+// the indices of list elements: "clip.planes.0.normal". null removes the key. The scene is checked
+// like scene files: throws Error.
 Scene with_setting(const Scene& scene, const std::string& path,
                    const nlohmann::ordered_json& value);
 
-// The value at a path of settings_of(); null where nothing stands there.
+// Returns the value at a path of settings_of(); null if there is none.
 nlohmann::ordered_json setting_at(const nlohmann::ordered_json& settings, const std::string& path);
 
-// The same colour in the numbers of another space. Components above 1 stay what they are.
+// Converts a colour to the numbers of another space. Components above 1 are kept.
 glm::dvec3 converted_color(const glm::dvec3& color, ImageColorSpace from, ImageColorSpace to);
 
 }  // namespace lamina::view

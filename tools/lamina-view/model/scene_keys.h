@@ -12,14 +12,13 @@ namespace lamina::view {
 // The text of docs/scene.schema.json.
 std::string_view scene_schema();
 
-// All keys of scene files, read from the schema: what has a key there has a node here. The group of
-// the whole scene.
+// The group of all keys of scene files, read from the schema: each key has a node.
 const SettingNode& scene_keys();
 
-// The paths below a node, its own left out.
+// Returns the paths below a node, without its own.
 std::vector<std::string> paths_below(const SettingNode& node);
 
-// The node of a path without numbers, "clip.planes[].point"; it must be there.
+// Returns the node of a path without numbers, "clip.planes[].point"; it must exist.
 const SettingNode& scene_key(std::string_view path);
 
 }  // namespace lamina::view

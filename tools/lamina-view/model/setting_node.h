@@ -9,7 +9,7 @@
 
 namespace lamina::view {
 
-// What a key of the scene file is set by.
+// The control that sets a key of the scene file.
 enum class SettingKind {
     fixed,   // one value alone
     flag,    // true or false

@@ -18,7 +18,7 @@ Json json_of(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-// Half of what the camera sees around its centre, where nothing is known of the data.
+// A size for data of unknown bounds: half of the camera's view around its centre.
 Grid::Bounds around_center(const Camera& camera) {
     const double reach = glm::distance(camera.eye, camera.center) / 4;
     return {camera.center - reach, camera.center + reach};

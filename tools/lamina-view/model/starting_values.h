@@ -11,12 +11,12 @@
 
 namespace lamina::view {
 
-// Whether a scene may be without this group of keys, so that it is switched on and off.
+// Returns true if a scene may lack this group of keys, so that it can be switched on and off.
 bool may_be_absent(const SettingNode& node);
 
-// What a key begins with when it is switched on, or no longer automatic: what was chosen for it
-// (`resolved`, may be null), else its default, else something that can be drawn. `bounds`: of the
-// data, where they are known. `path` has the numbers of elements.
+// Returns a key's value when it is switched on, or no longer automatic: the value that was chosen
+// for it (`resolved`, may be null), else its default, else a value that can be drawn. `bounds`: the
+// data's, if they are known. `path` contains the indices of list elements.
 nlohmann::ordered_json starting_value(const SettingNode& node, const std::string& path,
                                       const Scene& scene, const Scene* resolved,
                                       const std::optional<Grid::Bounds>& bounds);

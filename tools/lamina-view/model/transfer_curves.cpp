@@ -69,9 +69,9 @@ bool near(const glm::dvec3& found, const glm::dvec3& wanted) {
     return near(found.x, wanted.x) && near(found.y, wanted.y) && near(found.z, wanted.z);
 }
 
-// Which sites a curve needs: the others lie on the lines between those, bit for bit or, where not
-// `exact`, up to rounding. `get` reads the curve's number from a knot, `may_go` says whether a site
-// is of no other use.
+// Returns the sites that a curve needs: the others lie on the lines between those, bit for bit or,
+// if not `exact`, up to rounding. `get` reads the curve's number from a knot, `may_go` says whether
+// a site is of no other use.
 template <typename Get, typename MayGo>
 std::vector<char> needed_sites(const std::vector<Site>& sites, bool exact, const Get& get,
                                const MayGo& may_go) {
@@ -208,7 +208,7 @@ ColorSides color_with_kept(const TransferCurves& curves, double value) {
     return color_at(curves.colors, value);
 }
 
-// What interpolation between stops would round otherwise.
+// Returns the colours at sites that interpolation between stops would round to other numbers.
 std::vector<KeptColor> colors_to_keep(const std::vector<Site>& sites,
                                       const std::vector<ColorPoint>& colors) {
     std::vector<KeptColor> kept;

@@ -8,7 +8,7 @@
 
 namespace lamina::view {
 
-// Where straight pieces of the curve of extinction meet.
+// A point where straight pieces of the extinction curve meet.
 struct ExtinctionKnot {
     double value = 0;
     double extinction = 0;  // per world unit, >= 0
@@ -50,22 +50,23 @@ struct TransferCurves {
     // The function steps halfway between neighbouring values of both curves (a palette).
     bool palette = false;
 
-    // Has the points' own numbers, and those between where only one curve has a point. Throws Error
-    // where the curves are no transfer function, or one with too many points for a scene file.
+    // Returns the function of the curves. It has the points' own numbers, and interpolated ones at
+    // values at which only one curve has a point. Throws Error if the curves are no transfer
+    // function, or one with too many points for a scene file.
     TransferFunction function() const;
 
     bool operator==(const TransferCurves& other) const;
 };
 
-// Splits a function into curves: function() gives back the same, bit for bit. Points that only one
-// of the two needs are only there. Runs of smooth points that follow an opacity become slopes, over
-// `unit_length` world units where that fits.
+// Splits a function into curves: function() gives back the same, bit for bit. Each curve gets only
+// the points that it needs. Successive smooth points that follow an opacity become slopes, over
+// `unit_length` world units if that fits.
 TransferCurves curves_of(const TransferFunction& function, double unit_length);
 
 // All knots of the curve of extinction, in order.
 std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points);
 
-// What a curve is below and above a value: they differ at steps.
+// Limits of a curve from below and from above at a value: they differ at steps.
 struct DensitySides {
     double below = 0, above = 0;
     bool smooth_below = false, smooth_above = false;  // of knots at the value

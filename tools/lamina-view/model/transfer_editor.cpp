@@ -12,7 +12,7 @@
 namespace lamina::view {
 namespace {
 
-// The number of a new point behind those of its value; none where two are there.
+// The number of a new point behind those of its value; none if two are there.
 template <typename Point>
 std::optional<std::size_t> room_at(const std::vector<Point>& points, double value) {
     const auto [first, end] = std::ranges::equal_range(points, value, {}, &Point::value);

@@ -33,8 +33,8 @@ class TransferEditor {
     double unit_length() const { return unit_length_; }
     void set_unit_length(double length);
 
-    // Another function, or an earlier state of this one; the selection is lost where its points
-    // are.
+    // Takes another function, or an earlier state of this one. A selection is lost if its points
+    // are gone or moved.
     void take(const TransferFunction& function);
     void restore(const TransferCurves& curves);
 
@@ -44,13 +44,13 @@ class TransferEditor {
     void toggle(const TransferHandle& point);
     void clear_selection() { selection_.clear(); }
     void select_all(Curve curve);
-    // The points of extinction in a rectangle, on top of what was selected before.
+    // Selects the points of extinction in a rectangle, in addition to the points selected before.
     void select_within(double value_lo, double value_hi, double extinction_lo,
                        double extinction_hi);
 
-    // Whether colours move along with a selected point of extinction that has their value.
+    // True: colours move with a selected point of extinction at the same value.
     bool colors_move_along = true;
-    // A move starts from where begin_move() found everything; its steps do not add up.
+    // A move starts from the state at begin_move(); its steps do not add up.
     void begin_move();
     bool is_moving() const { return start_.has_value(); }
     bool move(const TransferShift& shift, const SymlogAxis& axis);
@@ -59,10 +59,11 @@ class TransferEditor {
     void end_move() { start_.reset(); }
     void cancel_move();
 
-    // New points are selected. A colour is taken from the curve where it is put.
+    // Add points, which are then selected. A new point of colour has the colour of the curve at its
+    // value.
     bool add_density(double value, double extinction);
     bool add_color(double value);
-    // A second point at the same value.
+    // Adds a second point at the same value.
     bool make_step(const TransferHandle& point);
     bool remove_selected();  // but never the last one of a curve
 
@@ -71,19 +72,19 @@ class TransferEditor {
     bool set_opacity(std::size_t index, double opacity);  // over unit_length()
     bool set_smooth(std::size_t index, bool smooth);
     bool set_color(std::size_t index, const glm::dvec3& color);
-    // The colour at a value: that of the point there, or of a new one.
+    // Sets the colour at a value: that of the point there, or of a new one.
     bool paint(double value, const glm::dvec3& color);
 
-    // Between the selected points and their next ones, or everywhere where none is selected:
-    // opacity over unit_length() is linear, or extinction.
+    // Interpolates opacity over unit_length(), or extinction, linearly between the selected points
+    // and the next ones, or everywhere if none is selected.
     bool set_opacity_linear(bool opacity);
     bool set_palette(bool palette);
     bool set_density(const std::vector<DensityPoint>& points);  // another curve of extinction
-    // The map's colours, stretched over [lo, hi] unless it has a range of its own; with its
-    // opacities where `opacities` and it has any.
+    // Takes the map's colours, stretched over [lo, hi] unless it has a range of its own; with its
+    // opacities if `opacities` is set and it has any.
     bool recolor(Colormap map, double lo, double hi, bool opacities);
 
-    // All colours in the numbers of another space (scene_edit.h).
+    // Converts all colours to the numbers of another space (scene_edit.h).
     bool convert_colors(ImageColorSpace from, ImageColorSpace to);
 
   private:

@@ -22,7 +22,7 @@ class MovedValues {
         for (const Point& point : points) values_.push_back(point.value);
     }
 
-    // How far they can go, in the direction of `wanted`.
+    // Returns how far they can go, in the direction of `wanted`.
     double limited(double wanted) const {
         for (std::size_t i = 0; i < values_.size(); ++i) {
             if (moves_[i] == 0) continue;
@@ -53,7 +53,7 @@ class MovedValues {
     bool equal(std::size_t a, std::size_t b) const {
         return b < values_.size() && values_[a] == values_[b];
     }
-    // The next point that stays; a third point may not come to where two are.
+    // The next point that stays. No third point may come to the value of two others.
     double wall_above(std::size_t i) const {
         if (i + 1 >= values_.size() || moves_[i + 1] != 0) return infinity;
         const bool crowded =
@@ -83,7 +83,7 @@ std::vector<char> marked(const std::set<TransferHandle>& points, TransferHandle:
 
 double moved_extinction(double extinction, double places, const SymlogAxis& axis) {
     if (places == 0) return extinction;
-    // What is denser than the axis shows stands at its end.
+    // An extinction beyond the axis is drawn at its end.
     const double from = axis.place(extinction);
     if (from > 1 && places > 0) return extinction;
     const double place = std::clamp(std::min(from, 1.) + places, axis.place(0), 1.);

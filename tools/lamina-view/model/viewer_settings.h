@@ -6,7 +6,7 @@
 
 namespace lamina::view {
 
-// What the viewer keeps from one run to the next.
+// Settings that the viewer keeps from one run to the next.
 struct ViewerSettings {
     std::vector<std::filesystem::path> recent;  // files, the last one first
     bool coarse = true;                         // pictures while something moves
@@ -15,11 +15,12 @@ struct ViewerSettings {
 
     void add_recent(const std::filesystem::path& file);  // 10 at most
 
-    // viewer.json in the folder lamina of the XDG base directories; empty where there is no home.
+    // Returns the path of viewer.json in the folder lamina of the XDG base directories; empty if
+    // there is no home.
     static std::filesystem::path file();
-    // Defaults where there is no such file. Throws Error for one that cannot be understood.
+    // Returns defaults if there is no such file. Throws Error for a file that cannot be understood.
     static ViewerSettings load(const std::filesystem::path& file);
-    // The file appears when it is complete. Throws Error.
+    // Writes the file, which appears when it is complete. Throws Error.
     void save(const std::filesystem::path& file) const;
 };
 

@@ -7,7 +7,7 @@
 
 namespace lamina::view {
 
-// What has been tried. A click on a row goes back to it.
+// Shows the settings that have been tried. A click on a row goes back to it.
 class AttemptsPanel : public Panel {
   public:
     const char* title() const override { return "Tried"; }

@@ -13,12 +13,6 @@
 namespace lamina::view {
 namespace {
 
-void wrapped(const ImVec4& color, const std::string& text) {
-    ImGui::PushTextWrapPos();
-    ImGui::TextColored(color, "%s", text.c_str());
-    ImGui::PopTextWrapPos();
-}
-
 void draw_pin(PanelContext& context) {
     Comparison& comparison = context.precision->comparison;
     const bool drawn = context.shown.full && context.shown.kind != PictureKind::moving;
@@ -113,7 +107,7 @@ void ComparisonPanel::draw(PanelContext& context) {
     wrapped(ImGui::GetStyleColorVec4(ImGuiCol_Text),
             fmt::format("B - {}: Linf {:.4g}, L2 {:.4g}, mean {:+.4g} / 255",
                         comparison.with == CompareWith::truth ? "truth" : "A", norms.linf, norms.l2,
-                        norms.l1));
+                        norms.mean));
 }
 
 }  // namespace lamina::view

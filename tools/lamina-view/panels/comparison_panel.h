@@ -5,7 +5,7 @@
 
 namespace lamina::view {
 
-// What the picture is held against, and how.
+// Chooses the picture to compare with, and how both are shown.
 class ComparisonPanel : public Panel {
   public:
     const char* title() const override { return "Compare"; }

@@ -39,7 +39,7 @@ void draw_measured(const Shown& shown, double wanted) {
     line("Linf", fmt::format("{:.4g} / 255", shown.error.linf),
          kept ? text_color() : theme::warning);
     line("L2", fmt::format("{:.4g} / 255", shown.error.l2), text_color());
-    line("mean", fmt::format("{:+.4g} / 255", shown.error.l1), text_color());
+    line("mean", fmt::format("{:+.4g} / 255", shown.error.mean), text_color());
     const auto share = static_cast<float>(shown.share_traced);
     const std::string text = shown.share_traced < 1
                                  ? fmt::format("{:.1f} % traced", 100 * shown.share_traced)

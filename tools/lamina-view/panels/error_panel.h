@@ -7,7 +7,8 @@
 
 namespace lamina::view {
 
-// What was expected of the picture, what the tracer has found so far, and how much is wanted.
+// Shows the predicted error of the picture, the error that the tracer has measured so far, and the
+// largest error wanted.
 class ErrorPanel : public Panel {
   public:
     const char* title() const override { return "Error"; }

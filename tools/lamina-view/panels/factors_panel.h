@@ -7,8 +7,8 @@
 
 namespace lamina::view {
 
-// The bifurcation factors of the compositing tree, as text, and what came of those tried with these
-// settings in this view.
+// Edits the bifurcation factors of the compositing tree, as text, and lists the errors and times of
+// those tried with these settings in this view.
 class FactorsPanel : public Panel {
   public:
     const char* title() const override { return "Bifurcation factors"; }

@@ -16,7 +16,7 @@
 namespace lamina::view {
 namespace {
 
-// Of FrameHistory::stage_names(), told apart by lightness as well.
+// Colours of FrameHistory::stage_names(), which differ in lightness as well.
 constexpr ImU32 stage_colors[] = {IM_COL32(120, 94, 240, 255),  IM_COL32(220, 38, 127, 255),
                                   IM_COL32(178, 102, 210, 255), IM_COL32(254, 97, 0, 255),
                                   IM_COL32(255, 176, 0, 255),   IM_COL32(255, 226, 120, 255),
@@ -30,7 +30,7 @@ ImU32 color_of(const std::string& stage) {
                                               std::size(stage_colors) - 1)];
 }
 
-// Where the graph is on the screen: times from 0 below to `most_ms` on top.
+// Rectangle of the graph on the screen: times from 0 at the bottom to `most_ms` at the top.
 struct GraphFrame {
     ImVec2 min, max;
     double most_ms = 1;

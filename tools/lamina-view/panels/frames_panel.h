@@ -5,7 +5,7 @@
 
 namespace lamina::view {
 
-// A graph of what the last pictures took, by stages.
+// A graph of the times of the last pictures, by stages.
 class FramesPanel : public Panel {
   public:
     const char* title() const override { return "Frame times"; }

@@ -3,7 +3,8 @@
 
 namespace lamina::view {
 
-// What pointer and keys do, over everything else. `open` is cleared when it is closed.
+// Shows what pointer and keys do, in a window over everything else. `open` is cleared when it is
+// closed.
 void help_window(bool& open);
 
 }  // namespace lamina::view

@@ -12,10 +12,10 @@ namespace lamina::view {
 
 class PrecisionInSight;
 
-// Where a panel is: in the column on the right, or in the strip below the picture.
+// Places of panels: in the column on the right, or in the strip below the picture.
 enum class PanelPlace { side, bottom };
 
-// What panels read and change.
+// Objects that panels read and change.
 struct PanelContext {
     Document& document;
     const Shown& shown;

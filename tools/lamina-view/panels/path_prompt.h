@@ -9,8 +9,8 @@ namespace lamina::view {
 // Asks for the name of a file, over everything else.
 class PathPrompt {
   public:
-    // `take` gets the name; what it returns is wrong with it: then it is asked for again. Empty:
-    // nothing.
+    // `take` gets the name and returns what is wrong with it, for which it is asked for again, or
+    // an empty text.
     using Take = std::function<std::string(const std::string&)>;
     void ask(std::string title, std::string path, Take take);
     void draw();  // once a frame

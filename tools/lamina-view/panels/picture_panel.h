@@ -5,7 +5,7 @@
 
 namespace lamina::view {
 
-// What the picture is: its size, who drew it, its error, and what is noteworthy.
+// Shows the picture's size, who drew it, its error, and its warnings.
 class PicturePanel : public Panel {
   public:
     const char* title() const override { return "Picture"; }

@@ -18,12 +18,6 @@ void fact(const char* name, const std::string& value) {
     ImGui::PopTextWrapPos();
 }
 
-void wrapped(const ImVec4& color, const std::string& text) {
-    ImGui::PushTextWrapPos();
-    ImGui::TextColored(color, "%s", text.c_str());
-    ImGui::PopTextWrapPos();
-}
-
 std::string in_255ths(double error) {
     char text[48];
     std::snprintf(text, sizeof text, "%.3g / 255", error);

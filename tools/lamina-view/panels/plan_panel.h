@@ -5,8 +5,8 @@
 
 namespace lamina::view {
 
-// What runs for the picture, what is left out and why, the error that was predicted, and why the
-// last change has no picture.
+// Shows what runs for the picture, what is left out and why, the predicted error, and why the last
+// change has no picture.
 class PlanPanel : public Panel {
   public:
     const char* title() const override { return "Plan"; }

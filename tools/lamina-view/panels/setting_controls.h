@@ -10,8 +10,7 @@
 namespace lamina::view {
 
 // The control of a value that is no group: shows `value` (of the scene's file) at the cursor, as
-// wide as the line. Returns another value where the user gave one; whether it may stand is for the
-// scene's reader to say.
+// wide as the line. Returns another value if the user gave one; the scene's reader judges it.
 std::optional<nlohmann::ordered_json> setting_control(const SettingNode& node,
                                                       const nlohmann::ordered_json& value,
                                                       ImageColorSpace space);

@@ -16,7 +16,7 @@
 namespace lamina::view {
 namespace {
 
-// What one changes while one looks; the rest says what is looked at.
+// Groups that are shown first, because one changes them while looking at the picture.
 constexpr std::array<std::string_view, 6> first_groups{"render", "camera", "lighting",
                                                        "clip",   "image",  "transfer_function"};
 
@@ -26,7 +26,7 @@ bool is_first(const SettingNode& node) {
     return std::ranges::find(first_groups, node.key) != first_groups.end();
 }
 
-// What is open at first: how the picture is drawn.
+// Returns true for groups that are open at first: how the picture is drawn.
 bool is_used(const SettingNode& node, const Scene& scene) {
     return node.path == "render" || node.path == std::string("render.") + name_of(scene.method);
 }
@@ -53,12 +53,6 @@ std::optional<Grid::Bounds> data_bounds(const PanelContext& context) {
     return context.shown.bounds;
 }
 
-void wrapped(const ImVec4& color, const std::string& text) {
-    ImGui::PushTextWrapPos();
-    ImGui::TextColored(color, "%s", text.c_str());
-    ImGui::PopTextWrapPos();
-}
-
 }  // namespace
 
 void SettingsPanel::draw(PanelContext& context) {
@@ -80,7 +74,7 @@ void SettingsPanel::draw(PanelContext& context) {
     ImGui::TreePop();
 }
 
-// A node is shown where its path has what is looked for, or one below it has.
+// A node is shown if its path, or one below it, contains the text that is searched for.
 bool SettingsPanel::passes(const SettingNode& node) const {
     return filter_.PassFilter(node.path.c_str()) ||
            std::ranges::any_of(node.parts, [&](const SettingNode& part) { return passes(part); });
@@ -245,7 +239,7 @@ void SettingsPanel::draw_list(const SettingNode& node, const std::string& path,
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::TextDisabled("%zu", size);
-    // Without an element its keys are shown all the same where everything is.
+    // A list without elements shows their keys all the same if everything is shown.
     const std::size_t shown = all_open && size == 0 ? 1 : size;
     for (std::size_t i = 0; i < shown; ++i) {
         const std::string at = below(path, std::to_string(i));

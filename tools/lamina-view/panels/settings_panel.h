@@ -13,8 +13,8 @@
 
 namespace lamina::view {
 
-// A control for every key of the scene file (model/scene_keys.h), grouped as there. What changes
-// nothing in the scene as it is stands there in grey, with the reason.
+// A control for every key of the scene file (model/scene_keys.h), grouped as there. Keys that
+// change nothing in the current scene are grey, with the reason.
 class SettingsPanel : public Panel {
   public:
     const char* title() const override { return "Settings"; }

@@ -9,8 +9,7 @@ namespace {
 
 constexpr float font_size = 15;
 
-// ImGui's own font has no other size than 13 pixels that is sharp. Where none of these is
-// installed it serves all the same.
+// ImGui's own font is sharp at 13 pixels only. It serves if none of these is installed.
 constexpr const char* fonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                  "/usr/share/fonts/TTF/DejaVuSans.ttf",
                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
@@ -90,6 +89,12 @@ void set_theme(float scale) {
     style.WindowBorderSize = 0;
     style.PopupBorderSize = 1;
     style.ScaleAllSizes(scale);
+}
+
+void wrapped(const ImVec4& color, const std::string& text) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextColored(color, "%s", text.c_str());
+    ImGui::PopTextWrapPos();
 }
 
 }  // namespace lamina::view

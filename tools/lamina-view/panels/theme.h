@@ -3,14 +3,19 @@
 
 #include <imgui.h>
 
+#include <string>
+
 namespace lamina::view {
 
-// Colours, spaces and a font of the interface, before the first frame. `scale`: of a screen with
-// finer pixels than usual, 1 or more.
+// Sets colours, spaces and a font of the interface, before the first frame. `scale`: 1, or more for
+// a screen with finer pixels than usual.
 void set_theme(float scale);
 
-// Lengths that grow with the font.
+// Returns a length that grows with the font. `lengths`: in units of the font's height.
 float em(float lengths);
+
+// Writes a text at the cursor, wrapped at the end of the line.
+void wrapped(const ImVec4& color, const std::string& text);
 
 namespace theme {
 inline constexpr ImU32 plot_back = IM_COL32(22, 23, 25, 255);

@@ -10,13 +10,13 @@
 
 namespace lamina::view {
 
-// A colour of a scene as the screen shows it.
+// Returns a colour of a scene as the screen shows it.
 ImU32 screen_color(const glm::dvec3& color, ImageColorSpace space, float opacity = 1);
 
-// Pictures of parts of the plot, in ImGui's current window.
+// Draw parts of the plot, in ImGui's current window.
 void draw_histogram(const TransferFrame& frame, const ValueHistogram& histogram);
 void draw_extinction_axis(const TransferFrame& frame);  // on the left
-// On the right, of opacities over `unit_length`.
+// The axis on the right, of opacities over `unit_length`.
 void draw_opacity_axis(const TransferFrame& frame, double unit_length);
 void draw_value_axis(const TransferFrame& frame);  // below
 // The curve of extinction, over the colours of its values.
@@ -29,13 +29,13 @@ void draw_marker(const TransferFrame& frame, const TransferFunction& function, d
 void draw_color_strip(const TransferFrame& frame, const ImVec2& min, const ImVec2& max,
                       const TransferFunction& function, ImageColorSpace space);
 
-// How a number is written on an axis: few digits, and an exponent only where it is shorter.
+// Writes a number for an axis: with few digits, and with an exponent only if that is shorter.
 struct AxisText {
     char text[24];
 };
 AxisText axis_text(double number);
 
-// Numbers of 1, 2 or 5 times a power of 10 between two others, `most` at most.
+// Returns numbers of 1, 2 or 5 times a power of 10 between two others, `most` at most.
 std::vector<double> even_ticks(double lo, double hi, int most);
 
 }  // namespace lamina::view

@@ -9,7 +9,7 @@
 
 namespace lamina::view {
 
-// Where values and extinctions are on the screen: values from `value_lo` to `value_hi` along x,
+// Maps values and extinctions to the screen: values from `value_lo` to `value_hi` along x,
 // extinctions along a symmetric-log axis up y.
 struct TransferFrame {
     ImVec2 min, max;  // the corners of the curves' part
@@ -21,7 +21,7 @@ struct TransferFrame {
     float x(double value) const {
         return min.x + width() * static_cast<float>((value - value_lo) / (value_hi - value_lo));
     }
-    // What is denser than the axis shows stands at its end.
+    // Extinctions beyond the axis are at its end.
     float y(double extinction) const {
         return max.y - height() * static_cast<float>(std::min(axis.place(extinction), 1.));
     }

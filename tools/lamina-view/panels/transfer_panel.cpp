@@ -227,7 +227,7 @@ void TransferPanel::draw_density_slider(Document& document) {
 void TransferPanel::draw_between(Document& document) {
     TransferEditor& editor = document.transfer();
     const TransferCurves& curves = editor.curves();
-    // Where both ends are as dense, or at one value, there is no difference.
+    // Pieces of constant extinction, and steps, are the same in all interpolations.
     const auto count = [&](bool opacity) {
         std::size_t found = 0;
         for (std::size_t i = 0; i + 1 < curves.density.size(); ++i) {
@@ -270,7 +270,7 @@ void TransferPanel::draw_maps(PanelContext& context) {
     }
 }
 
-// What maps and shapes are stretched over: the data, or the points.
+// Returns the range that maps and shapes are stretched over: the data's, or that of the points.
 ValueSpan TransferPanel::span_of(const PanelContext& context) const {
     const auto& points = context.document.transfer().curves().density;
     const ValueHistogram* const histogram = context.shown.histogram.get();

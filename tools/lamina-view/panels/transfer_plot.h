@@ -11,7 +11,7 @@
 
 namespace lamina::view {
 
-// What the plot shows beside the curves.
+// Marks that the plot shows beside the curves.
 struct TransferSurroundings {
     const ValueHistogram* histogram = nullptr;
     std::optional<double> value_under_pointer;

@@ -7,8 +7,8 @@
 namespace lamina::view {
 namespace {
 
-// What is typed is kept here while its field is active: when Tab ends the input, ImGui has given
-// the field up before it is drawn again. One field is active at a time.
+// Text of the active input field. ImGui gives a field up before it is drawn again when Tab ends the
+// input, so the text is kept here. One field is active at a time.
 template <typename Value>
 struct Typed {
     ImGuiID field = 0;

@@ -6,19 +6,19 @@
 
 namespace lamina::view {
 
-// How small a picture has to be to arrive in time while the camera moves. It keeps what pictures
-// of each size took. A new time scales the others along, as views differ in what they take. Between
-// two sizes that are known, time is linear in the number of pixels; beyond them, larger pictures
-// are expected to take as much longer as they have more pixels, and smaller ones the square root of
-// that shorter, as part of the work (order of tets) is the same for all.
+// Chooses how small a picture has to be to arrive in time while the camera moves. It keeps the
+// times of pictures of each size. A new time scales the others, because views differ in cost.
+// Between two sizes with known times, time is linear in the number of pixels. Beyond them, larger
+// pictures are expected to take longer in proportion to their pixels, and smaller ones to be faster
+// by the square root of that, because part of the work (order of tets) does not depend on size.
 class CoarseSize {
   public:
     explicit CoarseSize(double target_ms) : target_ms_(target_ms) {}
 
-    // What a picture took whose edges were divided by this one of `divisors`.
+    // Records the time of a picture whose edges were divided by this one of `divisors`.
     void add(double divisor, double ms);
-    // The least one of `divisors` by which a picture is in time, as far as is known. Where none is,
-    // the least one that takes at most a quarter longer than the quickest.
+    // The least one of `divisors` with which pictures are in time, as far as is known. If there is
+    // none, the least one that takes at most a quarter longer than the quickest.
     double divisor() const;
 
     static constexpr std::array<double, 9> divisors{1, 1.5, 2, 3, 4, 6, 8, 12, 16};

@@ -11,7 +11,7 @@
 
 namespace lamina::view {
 
-// A picture that is wanted.
+// A request for a picture.
 struct DrawRequest {
     Scene scene;
     Revisions revisions;  // which parts of the scene differ from the request before

@@ -20,10 +20,10 @@ namespace lamina::view {
 
 class SessionSteps;
 
-// Draws in a thread of its own, which owns the session. Only the newest request counts: it ends
-// what is being done for another one at once. Pictures of something that moves are the exception
-// while the next one moves, too: they are finished unless they take long, or there would be none
-// as long as it moves. And data are loaded to the end while nobody wants others.
+// Draws in a thread of its own, which owns the session. Only the newest request counts: it stops
+// the work for an older one at once. There are two exceptions. While the scene moves, a picture is
+// finished although a newer request moves, too, unless it takes long: otherwise there would be no
+// picture as long as it moves. And data are loaded to the end unless others are wanted.
 class DrawWorker {
   public:
     // `wake` is called, in the worker's thread or those of its session, whenever shown() has
@@ -33,7 +33,7 @@ class DrawWorker {
 
     void request(DrawRequest request);
     std::shared_ptr<const Shown> shown() const;  // never null
-    // Whether something may still be published for what was requested.
+    // Returns true if pictures of the last request may still be published.
     bool busy() const { return busy_; }
 
   private:

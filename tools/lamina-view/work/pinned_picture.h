@@ -13,8 +13,8 @@ namespace lamina::view {
 
 struct ScreenPicture;
 
-// A picture that is kept while its settings are changed: A, beside which the one that is edited is
-// B. When B's view changes, A is drawn again in that view.
+// Picture A, which is kept while its settings are changed; the edited picture beside it is B. When
+// B's view changes, A is drawn again in that view.
 struct PinnedPicture {
     std::uint64_t number = 0;  // of pins: a picture drawn again keeps it
     std::uint64_t data = 0;    // Revisions::data

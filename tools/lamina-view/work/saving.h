@@ -13,10 +13,12 @@
 
 namespace lamina::view {
 
-// Whether a file of this name can be saved: .json (the scene), .exr, .png, .npy (the picture).
+// Returns true if a file of this name can be saved: .json (the scene), .exr, .png, .npy (the
+// picture).
 bool can_save(const std::filesystem::path& file);
 
-// Writes files of what is shown, each in a thread of its own, so that the window goes on.
+// Writes files of the picture that is shown, each in a thread of its own, so that the window does
+// not wait.
 class Saving {
   public:
     struct Result {

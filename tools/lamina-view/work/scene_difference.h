@@ -8,8 +8,8 @@
 
 namespace lamina::view {
 
-// The keys that `asked` leaves to be chosen ("auto") and that two choices disagree about, one line
-// each: "render.slice.samples: 300 -> 320".
+// Returns the keys that `asked` leaves to be chosen ("auto") and that differ in two choices, one
+// line each: "render.slice.samples: 300 -> 320".
 std::vector<std::string> automatic_differences(const Scene& before, const Scene& after,
                                                const Scene& asked);
 

@@ -18,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of the 50 ms from input to picture, the window needs the rest.
+// Time for drawing: the window needs the rest of the 50 ms from input to picture.
 constexpr double moving_target_ms = 35;
 constexpr double tile_publish_ms = 100;
 constexpr int histogram_bins = 512;
@@ -76,7 +76,7 @@ SessionSteps::Next SessionSteps::step_after_full() const {
     return request_.trace && !shown_.truth ? Next::trace : Next::nothing;
 }
 
-// As it was drawn last.
+// Returns the pinned picture as it was drawn last.
 std::shared_ptr<const PinnedPicture> SessionSteps::pinned() const {
     const auto& asked = request_.pinned;
     if (!asked || asked->data != request_.revisions.data) return {};
@@ -121,7 +121,7 @@ ProgressCallback SessionSteps::progress() {
     };
 }
 
-// The session before is kept until the next one is there: its picture stays where that fails.
+// The old session is kept until the next one is there: its picture stays if that fails.
 void SessionSteps::load(const std::stop_token& stop) {
     shown_.activity = "loading";
     shown_.share_done = 0;
@@ -200,7 +200,7 @@ void SessionSteps::draw_moving(const std::stop_token& stop) {
     publish_(shown_);
 }
 
-// What is automatic is chosen again once anything has changed.
+// Chooses automatic keys again if anything has changed.
 void SessionSteps::choose() {
     if (chosen_ == request_.revisions && full_size_ && !holds_pinned_) return;
     applied_ = {.data = request_.revisions.data};

@@ -14,9 +14,9 @@ namespace lamina::view {
 
 class TracedPicture;
 
-// The work for a request, step by step: the data, then a picture. Of something that moves it is a
-// quick one; at rest, what is automatic is chosen again, the full picture is drawn, and the tracer
-// replaces it. Of one thread.
+// The work for a request, step by step: the data, then a picture. While the scene moves it is a
+// quick one; at rest, automatic keys are chosen again, the full picture is drawn, and the tracer
+// replaces it. Used by one thread.
 class SessionSteps {
   public:
     SessionSteps(const SessionOptions& options, std::function<void(const Shown&)> publish);
@@ -26,7 +26,7 @@ class SessionSteps {
     bool unfinished() const { return next_ != Next::nothing; }
     bool moves() const { return next_ == Next::moving; }
     bool loads() const { return next_ == Next::load; }
-    // Does the next step. What goes wrong is published; a step that was stopped is left to do.
+    // Does the next step. An error is published; a step that was stopped stays to be done.
     void step(const std::stop_token& stop);
 
   private:

@@ -22,8 +22,9 @@
 
 namespace lamina::view {
 
-// moving: while something is dragged, with what was automatic kept, and mostly of fewer pixels;
-// full: as `lamina render` draws it; traced: full, and the tracer has replaced some or all of it.
+// moving: drawn while something is dragged, with the automatic values kept, and mostly of fewer
+// pixels; full: as `lamina render` draws it; traced: full, and the tracer has replaced some or all
+// of it.
 enum class PictureKind { none, moving, full, traced };
 
 // Pixels as a screen shows them: 8-bit codes of sRGB, three a pixel, row 0 on top.
@@ -32,7 +33,7 @@ struct ScreenPicture {
     std::vector<std::uint8_t> rgb;
 };
 
-// What there is to see. Immutable once it is published, and cheap to copy.
+// The pictures to show. Immutable once published, and cheap to copy.
 struct Shown {
     PictureKind kind = PictureKind::none;
     Revisions revisions;                                  // of the request that the picture is of
@@ -43,7 +44,7 @@ struct Shown {
     std::shared_ptr<const Image> full;  // the last full picture, of `full_revisions`
     std::shared_ptr<const ScreenPicture> full_screen;
     Revisions full_revisions;
-    // Of that picture. `resolved` has everything automatic written out.
+    // Plan and statistics of that picture. `resolved` has the values of all automatic keys.
     std::shared_ptr<const Scene> resolved;
     FrameStatistics statistics;
     PlanSummary plan;
@@ -58,7 +59,7 @@ struct Shown {
     std::shared_ptr<const PictureDifference> missed;
     double trace_error = 0;  // of that, in 1/255, as the tracer estimates it
 
-    // The one of the last request that had one, as it was drawn last.
+    // The pinned picture of the last request that had one, as it was drawn last.
     std::shared_ptr<const PinnedPicture> pinned;
 
     std::uint64_t frame = 0;           // counts pictures that were drawn, moving and full ones
@@ -68,15 +69,15 @@ struct Shown {
     std::uint64_t loaded = 0;
     Grid::Bounds bounds;                              // of the data, world
     std::shared_ptr<const ValueHistogram> histogram;  // null: not counted yet
-    // The scene of the request `chosen_of`, with transfer function and camera as they were chosen
-    // where it leaves them open.
+    // The scene of the request `chosen_of`, with the transfer function and camera that were chosen
+    // if it leaves them open.
     std::shared_ptr<const Scene> chosen;
     Revisions chosen_of;
 
     std::string activity;  // what is being done; empty: nothing
     double share_done = 0;
     std::vector<std::string> warnings;
-    // Why a request has no picture; empty where the last one has.
+    // Reason why a request has no picture; empty if the last one has.
     std::string failure;
     std::uint64_t failed_request = 0;  // DrawRequest::number
 };

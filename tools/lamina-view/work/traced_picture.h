@@ -16,7 +16,7 @@ namespace lamina::view {
 // A full picture that the tracer replaces tile by tile, and the error that this finds.
 class TracedPicture {
   public:
-    // `full`: null where there is none to be measured.
+    // `full`: null if there is none to be measured.
     TracedPicture(std::shared_ptr<const Image> full, std::shared_ptr<const ScreenPicture> screen,
                   const Scene& scene);
 
@@ -25,7 +25,7 @@ class TracedPicture {
     double share() const;      // of the pixels that are traced
     ErrorNorms error() const;  // of these, as error_of() has it of a traced picture in float32
     const ScreenPicture& screen() const { return screen_; }
-    // The full picture less the truth, where that is traced. Empty where there is no full picture.
+    // The full picture less the truth, as far as that is traced. Empty if there is no full picture.
     const PictureDifference& missed() const { return missed_; }
 
   private:

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "facts/bricks.h"
+#include "facts/rays.h"
+#include "lamina/clip.h"
+#include "lamina/grid.h"
+#include "lamina/scene.h"
+#include "lamina/volume.h"
+#include "scene/camera.h"
+#include "volume/min_max_bricks.h"
+
+namespace lamina {
+
+// A plane of a clip in a grid's index space: points at distances >= 0 are kept.
+struct IndexPlane {
+    glm::dvec3 normal{0};  // of length 1
+    double offset = 0;
+
+    double distance(const glm::dvec3& index) const;
+    // Returns this plane in an index space that begins at sample `first` of its own.
+    IndexPlane seen_from(const glm::dvec3& first) const { return {normal, distance(first)}; }
+    // Return the least and the largest distance of a box's points.
+    double least_distance(const glm::dvec3& min, const glm::dvec3& max) const;
+    double largest_distance(const glm::dvec3& min, const glm::dvec3& max) const;
+
+    friend bool operator==(const IndexPlane&, const IndexPlane&) = default;
+};
+
+// Returns all planes of the clip, the box's six last.
+std::vector<IndexPlane> index_planes(const Clip& clip, const Grid& grid);
+// Returns those of `planes` that cut something off the grid's box.
+std::vector<IndexPlane> cutting_planes(std::vector<IndexPlane> planes, const Grid& grid);
+
+// A box in index space.
+struct IndexBox {
+    glm::dvec3 min{0}, max{0};
+    bool empty() const { return !(min.x < max.x && min.y < max.y && min.z < max.z); }
+
+    friend bool operator==(const IndexBox&, const IndexBox&) = default;
+};
+
+// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box. If far <= near,
+// the box lies behind the eye.
+struct DepthRange {
+    double near = 0;
+    double far = 0;
+};
+DepthRange depth_range(const Grid& grid, const View& view);
+DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view);
+
+// Properties of a volume and its view. They are measured, not taken from headers.
+struct Facts {
+    Grid grid;
+    SampleType type = SampleType::uint8;
+    ValueRange range;             // range of the finite samples
+    std::int64_t non_finite = 0;  // number of NaN or infinite samples
+
+    std::vector<IndexPlane> clip;  // all planes of the scene's clip
+
+    double side_ratio = 1;  // longest side of the box over the shortest, in the world
+
+    // The following describe the transfer function over `range`.
+    bool constant = false;      // one colour, one extinction
+    bool single_color = false;  // one colour wherever extinction is > 0
+    double max_extinction = 0;  // per world unit
+    double max_color = 0;       // largest component of a colour
+    std::int64_t knots = 0;     // number strictly inside the range
+    std::int64_t pieces = 1;    // number of linear pieces over drawn_range()
+    std::int64_t curves = 1;    // as above, if curves follow smooth points (optics/pieces.h)
+
+    // The smallest box of whole min/max bricks outside which nothing is visible. Bricks that the
+    // clip cuts away as a whole count as invisible.
+    IndexBox occupied;
+    bool clipped_away = false;  // something is visible without the clip, and nothing with it
+    OccupiedBricks occupied_bricks;
+    double occupied_share = 0;  // share of the bricks that are visible
+    DepthRange occupied_depth;  // eye-space depths of `occupied`
+    ConstantBricks constant_bricks;
+    // Half, nine tenths and all of the bricks have at most these extinctions, per world unit.
+    std::array<double, 3> extinction_quantiles{};
+
+    // The following describe the view. near_depth and far_depth are the eye-space depths of the
+    // nearest and the farthest point of the box in front of the eye.
+    bool orthographic = false;
+    bool eye_inside = false;
+    double near_depth = 0;
+    double far_depth = 0;  // <= near_depth if the whole box lies behind the eye
+    // index-space length of the view axis between near_depth and far_depth
+    double voxels_along_view = 0;
+    // Longest |direction| of a pixel's ray (1 for orthographic views).
+    double max_length_per_depth = 1;
+
+    RayShares ray_shares;
+    ScalarRays scalar_rays;  // filled if segments are pre-integrated and a table may be needed
+};
+
+// Measures all facts. Throws Error if the volume has samples that are not finite and the scene does
+// not say how to treat them, or if no sample is finite.
+Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
+
+// These measure in three steps, each of which needs those before: facts of the volume and the
+// transfer function; facts of the view except for rays; facts of rays of the view.
+Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
+void measure_view(const Scene& scene, Facts& facts);
+void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);
+
+// Throws Error if no sample is finite, or if some are not and the scene does not draw them
+// transparent. `bricks`: those of the volume.
+void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks);
+
+}  // namespace lamina

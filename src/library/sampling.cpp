@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/sampling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "mesh/face_tree.h"
+#include "mesh/predicates.h"
+#include "mesh/ray_walk.h"
+#include "reference/cells.h"
+#include "reference/clip.h"
+#include "scene/scene_mesh.h"
+#include "volume/volume_store.h"
+
+namespace lamina {
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr FieldPoint no_value{no_number, glm::dvec3(no_number)};
+
+// Largest distance, as a share of the coordinates, by which rounding moves a place off a face: each
+// of three products and two sums loses half an ulp, and so do the differences before them.
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+
+// A cell, and a place in it in coordinates of the cell (0..1).
+struct CellPlace {
+    CellIndex cell;
+    glm::dvec3 place;
+};
+
+std::optional<CellPlace> place_in(const Grid& grid, const glm::dvec3& position) {
+    const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
+    const glm::dvec3 index = grid.to_index(position);
+    CellPlace found{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const double slack =
+            rounding * (norm1(position) + norm1(grid.origin)) / glm::length(grid.step[a]);
+        if (!(index[axis] >= lowest[axis] - slack && index[axis] <= highest[axis] + slack))
+            return {};
+        const double cell = std::clamp(std::floor(index[axis]), std::floor(lowest[axis]),
+                                       std::ceil(highest[axis]) - 1);
+        found.cell[a] = static_cast<std::int64_t>(cell);
+        found.place[axis] = std::clamp(index[axis] - cell, 0.0, 1.0);
+    }
+    return found;
+}
+
+template <typename Samples>
+FieldPoint point_at(const Grid& grid, const Samples& samples, const CellPlace& at) {
+    const CellCorners corners = CellSamples<Samples>(grid, samples).corners(at.cell);
+    if (!std::ranges::all_of(corners.v, [](double v) { return std::isfinite(v); })) return no_value;
+    const glm::dvec3 still(0);
+    const GradientAlong gradient =
+        GradientSamples<Samples>(grid, samples).along(at.cell, at.place, still);
+    return {corners.along(at.place, still)(0),
+            glm::dvec3(gradient[0](0), gradient[1](0), gradient[2](0))};
+}
+
+struct MeshField {
+    SceneMesh mesh;
+    FaceTree open_faces;
+    std::array<std::vector<double>, 3> gradients;  // at points, by component
+
+    explicit MeshField(SceneMesh taken)
+        : mesh(std::move(taken)), open_faces(mesh.mesh, mesh.mesh.open_faces()) {
+        for (const glm::dvec3& gradient : gradients_of(mesh))
+            for (int c = 0; c < 3; ++c)
+                gradients[static_cast<std::size_t>(c)].push_back(gradient[c]);
+    }
+
+    std::optional<FieldPoint> at(const glm::dvec3& position) const;
+
+  private:
+    FieldPoint in_tet(const TetSegment& segment) const;
+};
+
+// Returns the field at parameter 0 of the line, which lies in the segment.
+FieldPoint MeshField::in_tet(const TetSegment& segment) const {
+    for (const std::int32_t corner : mesh.mesh.tets()[static_cast<std::size_t>(segment.tet)])
+        if (!std::isfinite(mesh.scalar.values[static_cast<std::size_t>(corner)])) return no_value;
+    constexpr double all = std::numeric_limits<double>::infinity();
+    const auto value_of = [&](std::span<const double> values) {
+        const SeenSegment seen = seen_segment(segment, {-all, all}, values);
+        if (!(seen.from < seen.to)) return seen.front;
+        const double share = std::clamp(-seen.from / (seen.to - seen.from), 0.0, 1.0);
+        return seen.front + share * (seen.back - seen.front);
+    };
+    return {value_of(mesh.scalar.values),
+            glm::dvec3(value_of(gradients[0]), value_of(gradients[1]), value_of(gradients[2]))};
+}
+
+std::optional<FieldPoint> MeshField::at(const glm::dvec3& position) const {
+    const auto& [lowest, highest] = mesh.mesh.bounds();
+    const double slack = rounding * (norm1(position) + norm1(lowest) + norm1(highest));
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(position[axis] >= lowest[axis] - slack && position[axis] <= highest[axis] + slack))
+            return {};
+    }
+    // A line to the middle of the mesh crosses the boundary, and does not run in one of its faces,
+    // if the mesh is convex.
+    const glm::dvec3 inward = lowest + 0.5 * (highest - lowest) - position;
+    const double distance = glm::length(inward);
+    RayWalk walk(mesh.mesh, open_faces);
+    walk.aim(position, distance > slack ? inward / distance : glm::dvec3(1, 0, 0));
+    std::vector<TetSegment> segments;
+    walk.list(segments);
+    const TetSegment* nearest = nullptr;
+    double least = slack;
+    for (const TetSegment& segment : segments) {
+        const double away = std::max({segment.in.at, -segment.out.at, 0.0});
+        if (!(away <= least) || (nearest && away == least)) continue;
+        nearest = &segment;
+        least = away;
+    }
+    if (!nearest) return {};
+    return in_tet(*nearest);
+}
+
+SceneMesh mesh_of(MeshData data, const std::string& scalar) {
+    Scene scene;
+    scene.scalar = scalar;
+    return scene_mesh(scene, std::move(data));
+}
+
+}  // namespace
+
+struct FieldSampler::Parts {
+    std::variant<Volume, MeshField> field;
+};
+
+FieldSampler::FieldSampler(Volume volume)
+    : parts_(std::make_shared<Parts>(Parts{std::move(volume)})) {}
+
+FieldSampler::FieldSampler(MeshData mesh, const std::string& scalar)
+    : parts_(std::make_shared<Parts>(Parts{MeshField(mesh_of(std::move(mesh), scalar))})) {}
+
+std::optional<FieldPoint> FieldSampler::at(const glm::dvec3& position) const {
+    if (const auto* const mesh = std::get_if<MeshField>(&parts_->field)) return mesh->at(position);
+    const Volume& volume = std::get<Volume>(parts_->field);
+    const auto place = place_in(volume.grid(), position);
+    if (!place) return {};
+    return visit_samples(
+        volume, [&](const auto& samples) { return point_at(volume.grid(), samples, *place); });
+}
+
+}  // namespace lamina

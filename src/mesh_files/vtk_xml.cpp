@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh_files/vtk_xml.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "base/client.h"
+#include "base/error.h"
+#include "mesh_files/text_reader.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::string_view appended_tag = "<AppendedData", appended_end = "</AppendedData",
+                           last_tag = "</VTKFile";
+constexpr std::size_t no_place = std::string_view::npos;
+
+// `tag`: from its "<" to its ">".
+bool says_raw(std::string_view tag) {
+    pugi::xml_document document;
+    const std::string element = std::string(tag.substr(0, tag.size() - 1)) + "/>";
+    document.load_buffer(element.data(), element.size(), pugi::parse_escapes);
+    return std::string_view(document.first_child().attribute("encoding").value()) == "raw";
+}
+
+// Returns the place of the underscore before appended data; `after`: the end of their tag.
+std::size_t underscore(std::string_view text, std::size_t after) {
+    const std::size_t mark = text.find_first_not_of(" \t\r\n", after);
+    return mark != no_place && text[mark] == '_' ? mark : no_place;
+}
+
+void warn_behind_end(const std::string& name, std::string_view text) {
+    constexpr std::string_view end = "</VTKFile>";
+    const std::size_t place = text.rfind(end);
+    if (place != no_place) warn_of_surplus(name, text.substr(place + end.size()), end.data());
+}
+
+// Most tags and attributes, which take some 100 bytes of memory each.
+constexpr std::ptrdiff_t most_marks = 1'000'000;
+
+std::optional<ValueType> type_named(std::string_view name) {
+    for (int i = 0; i <= static_cast<int>(ValueType::float64); ++i) {
+        if (name == vtk_name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
+    }
+    return std::nullopt;
+}
+
+// Sets `text` to the text in an element. VTK's writer may put information keys before or after it;
+// parts are then joined into the string that is returned.
+std::string text_of(pugi::xml_node node, std::string_view& text) {
+    std::string joined;
+    int parts = 0;
+    for (const pugi::xml_node child : node.children()) {
+        if (child.type() != pugi::node_pcdata && child.type() != pugi::node_cdata) continue;
+        if (parts++ > 0) joined.append(text).append(" ");
+        text = child.value();
+    }
+    if (parts > 1) joined.append(text);
+    return parts > 1 ? joined : std::string();
+}
+
+std::string said(const char* value) {
+    return *value == '\0' ? "''" : next_word(TextReader(value));
+}
+
+void swap_words(ValueType type, ByteBuffer& bytes) {
+    const std::size_t word = bytes_of(type);
+    for (std::size_t i = 0; i < bytes.size(); i += word)
+        std::reverse(bytes.data() + i, bytes.data() + i + word);
+}
+
+}  // namespace
+
+VtkXmlText::VtkXmlText(const std::filesystem::path& path)
+    : name_(path.string()), file_(path), bytes_(file_.size()) {
+    read_beginning();
+    const std::size_t tag = text().find(appended_tag);
+    if (tag != no_place)
+        cut_off_appended(tag);
+    else
+        warn_behind_end(name_, text());
+}
+
+// Reads up to the beginning of appended data, or to the end.
+void VtkXmlText::read_beginning() {
+    constexpr std::size_t first_step = std::size_t{1} << 16, largest_step = std::size_t{1} << 26;
+    std::size_t tag = no_place, searched = 0;
+    while (read_ < bytes_.size()) {
+        const std::size_t wanted =
+            std::min({bytes_.size() - read_, std::max(read_, first_step), largest_step});
+        const std::size_t got = file_.read_some(read_, bytes_.data() + read_, wanted);
+        read_ += got;
+        if (got < wanted) return;  // another process has shortened the file meanwhile
+        if (tag == no_place) tag = text().find(appended_tag, searched);
+        searched = read_ - std::min(read_, appended_tag.size());
+        if (tag == no_place) continue;
+        const std::size_t end = text().find('>', tag);
+        if (end != no_place && underscore(text(), end + 1) != no_place) return;
+    }
+}
+
+std::span<char> VtkXmlText::xml() {
+    return has_appended_ ? std::span<char>(xml_) : bytes_.span().first(read_);
+}
+
+void VtkXmlText::cut_off_appended(std::size_t tag) {
+    const std::size_t tag_end = text().find('>', tag);
+    const std::size_t mark = tag_end == no_place ? tag_end : underscore(text(), tag_end + 1);
+    if (mark == no_place) fail("{}: AppendedData: no underscore before its data", name_);
+    has_appended_ = true;
+    xml_ = std::string(text().substr(0, tag_end + 1)) + "</AppendedData></VTKFile>";
+    appended_.base64 = !says_raw(text().substr(tag, tag_end + 1 - tag));
+    find_end(mark);
+}
+
+// Finds the end of the appended data, which is near the file's end.
+void VtkXmlText::find_end(std::uint64_t mark) {
+    constexpr std::uint64_t usual_end = 1 << 12;
+    const std::uint64_t most = file_.size() - mark - 1;
+    for (std::uint64_t length = std::min(usual_end, most);; length = most) {
+        ByteBuffer bytes(length);
+        const std::uint64_t begin = file_.size() - length;
+        bytes.shorten(file_.read_some(begin, bytes.data(), length));
+        const std::size_t end = bytes.text().rfind(appended_end);
+        if (end != no_place && bytes.text().find(last_tag, end) != no_place) {
+            warn_behind_end(name_, bytes.text());
+            appended_.file = &file_;
+            appended_.begin = mark + 1;
+            appended_.end = begin + end;
+            return;
+        }
+        if (length == most) break;
+    }
+    fail("{}: truncated: no </AppendedData> and </VTKFile> after its {} bytes of appended data",
+         name_, most);
+}
+
+VtkXmlFile::VtkXmlFile(const std::filesystem::path& path, const char* grid_type)
+    : name_(path.string()), text_(path) {
+    parse(text_.xml(), grid_type);
+}
+
+void VtkXmlFile::parse(std::span<char> xml, const char* grid_type) {
+    const std::ptrdiff_t marks =
+        std::count_if(xml.begin(), xml.end(), [](char c) { return c == '<' || c == '='; });
+    if (marks > most_marks) {
+        fail("{}: found {} tags and attributes, expected at most {}", name_, marks, most_marks);
+    }
+    if (std::string_view(xml.data(), xml.size()).find("<VTKFile") == std::string::npos) {
+        fail("{}: not a VTK XML file: no <VTKFile> in it", name_);
+    }
+    const pugi::xml_parse_result result = document_.load_buffer_inplace(
+        xml.data(), xml.size(), pugi::parse_escapes | pugi::parse_cdata, pugi::encoding_utf8);
+    if (!result) {
+        fail("{}: truncated or damaged XML at byte {} of {}: {}", name_, result.offset, xml.size(),
+             result.description());
+    }
+    read_root(document_.child("VTKFile"), grid_type);
+}
+
+void VtkXmlFile::read_root(pugi::xml_node root, const char* grid_type) {
+    const std::string type = root.attribute("type").value();
+    if (type != grid_type) {
+        fail("{}: VTKFile type: found {}, expected '{}'", name_, said(type.c_str()), grid_type);
+    }
+    grid_ = root.child(grid_type);
+    if (!grid_) fail("{}: no <{}> in it", name_, grid_type);
+    const std::string order = root.attribute("byte_order").as_string("LittleEndian");
+    if (order != "LittleEndian" && order != "BigEndian") {
+        fail("{}: byte_order: found {}, expected 'LittleEndian' or 'BigEndian'", name_,
+             said(order.c_str()));
+    }
+    encoding_.swap_bytes = (order == "BigEndian") != (std::endian::native == std::endian::big);
+    const std::string header = root.attribute("header_type").as_string("UInt32");
+    if (header != "UInt32" && header != "UInt64") {
+        fail("{}: header_type: found {}, expected 'UInt32' or 'UInt64'", name_,
+             said(header.c_str()));
+    }
+    encoding_.header_type = header == "UInt32" ? ValueType::uint32 : ValueType::uint64;
+    encoding_.compressor = root.attribute("compressor").value();
+    if (!text_.has_appended()) return;
+    const std::string appended = root.child("AppendedData").attribute("encoding").value();
+    if (appended != "raw" && appended != "base64") {
+        fail("{}: AppendedData encoding: found {}, expected 'raw' or 'base64'", name_,
+             said(appended.c_str()));
+    }
+}
+
+std::int64_t VtkXmlFile::count_in(pugi::xml_node node, const char* attribute,
+                                  const std::string& what) const {
+    const char* const text = node.attribute(attribute).value();
+    TextReader reader(text);
+    std::int64_t count = 0;
+    if (!reader.read(count) || !reader.at_end() || count < 0) {
+        fail("{}: {}: found {}, expected a whole number >= 0", what, attribute,
+             node.attribute(attribute) ? said(text) : "none");
+    }
+    return count;
+}
+
+std::int64_t VtkXmlFile::components_of(pugi::xml_node array, const std::string& what) const {
+    if (!array.attribute("NumberOfComponents")) return 1;
+    const std::int64_t count = count_in(array, "NumberOfComponents", what);
+    return count == 0 ? 1 : count;  // VTK takes 0 for 1
+}
+
+ValueType VtkXmlFile::type_of(pugi::xml_node array, const std::string& what) const {
+    const char* const text = array.attribute("type").value();
+    if (const auto type = type_named(text)) return *type;
+    fail("{}: type: found {}, expected Int8 ... UInt64, Float32 or Float64", what, said(text));
+}
+
+VtkXmlSource VtkXmlFile::appended_at(pugi::xml_node array, const std::string& what) const {
+    if (!text_.has_appended())
+        fail("{}: format 'appended', but the file has no AppendedData", what);
+    const std::int64_t offset = count_in(array, "offset", what);
+    VtkXmlSource source = text_.appended();
+    if (static_cast<std::uint64_t>(offset) > source.left()) {
+        fail("{}: offset: found {}, the file has {} bytes of appended data", what, offset,
+             source.left());
+    }
+    source.skip(static_cast<std::uint64_t>(offset));
+    return source;
+}
+
+// Counts the bytes of appended data that arrays take: arrays that share their bytes would let a
+// small file fill all memory.
+void VtkXmlFile::count_appended(std::uint64_t bytes, const std::string& what) const {
+    appended_used_ += bytes;
+    if (appended_used_ > text_.appended().left()) {
+        fail(
+            "{}: offset: the arrays up to this one take {} bytes of appended data, the file has {}",
+            what, appended_used_, text_.appended().left());
+    }
+}
+
+// Counts the values that arrays hold. zlib makes a thousand equal bytes into one, and each may
+// become a value of 8 bytes, so that a small file could fill all memory; points and corners of real
+// meshes are far from that.
+void VtkXmlFile::count_kept(std::int64_t count, const std::string& what) const {
+    constexpr std::uint64_t most_expansion = 256;
+    values_kept_ += static_cast<std::uint64_t>(count);
+    if (values_kept_ / most_expansion > text_.byte_count() / sizeof(double) + 1) {
+        fail(
+            "{}: the arrays up to this one promise {} values, {} bytes each, more than {} times "
+            "the file's {} bytes",
+            what, values_kept_, sizeof(double), most_expansion, text_.byte_count());
+    }
+}
+
+std::int64_t VtkXmlFile::value_count(std::int64_t tuples, std::int64_t components,
+                                     const std::string& what) const {
+    std::int64_t count = 0;
+    if (__builtin_mul_overflow(tuples, components, &count)) {
+        fail("{}: the file promises {} tuples of {} values, more than any file holds", what, tuples,
+             components);
+    }
+    return count;
+}
+
+template <typename Binary, typename Text>
+auto VtkXmlFile::decoded(pugi::xml_node array, std::int64_t count, const std::string& what,
+                         const Binary& binary, const Text& in_text) const {
+    const std::string format = array.attribute("format").as_string("ascii");
+    if (format == "appended") {
+        VtkXmlSource source = appended_at(array, what);
+        const std::uint64_t from = source.left();
+        auto values = binary(source);
+        count_appended(from - source.left(), what);
+        return values;
+    }
+    std::string_view text;
+    const std::string joined = text_of(array, text);
+    if (!joined.empty()) text = joined;
+    if (format == "binary") {
+        VtkXmlSource source{.text = text};
+        auto values = binary(source);
+        warn_of_surplus(what, source.text, "its base64 data");
+        return values;
+    }
+    if (format != "ascii") {
+        fail("{}: format: found {}, expected 'ascii', 'binary' or 'appended'", what,
+             said(format.c_str()));
+    }
+    TextReader reader(text);
+    auto values = in_text(reader);
+    if (!reader.at_end()) {
+        fail("{}: found more than the {} values expected: {}", what, count, next_word(reader));
+    }
+    return values;
+}
+
+template <typename To>
+std::vector<To> VtkXmlFile::values(pugi::xml_node array, std::int64_t tuples,
+                                   std::int64_t components, const std::string& what) const {
+    const std::int64_t count = value_count(tuples, components, what);
+    count_kept(count, what);
+    const ValueType type = type_of(array, what);
+    if (std::is_same_v<To, std::int64_t> && !is_integer(type)) {
+        fail("{}: type: found {}, expected an integer type", what, vtk_name_of(type));
+    }
+    return decoded(
+        array, count, what,
+        [&](VtkXmlSource& source) {
+            return read_vtk_xml_values<To>(source, encoding_, type, count, what);
+        },
+        [&](TextReader& reader) { return read_text_values<To>(reader, type, count, what); });
+}
+
+VtkXmlValues VtkXmlFile::stored_values(pugi::xml_node array, std::int64_t tuples,
+                                       std::int64_t components, const std::string& what) const {
+    const std::int64_t count = value_count(tuples, components, what);
+    const ValueType type = type_of(array, what);
+    const auto words = static_cast<std::size_t>(count);
+    return decoded(
+        array, count, what,
+        [&](VtkXmlSource& source) {
+            VtkXmlValues values{type, read_vtk_xml_bytes(source, encoding_, type, count, what)};
+            if (encoding_.swap_bytes) swap_words(type, values.bytes);
+            return values;
+        },
+        [&](TextReader& reader) {
+            VtkXmlValues values{type, {}};
+            const auto store = [&](const auto& numbers) {
+                values.bytes = ByteBuffer(words * bytes_of(type));
+                with_type(type, [&](auto zero) {
+                    for (std::size_t i = 0; i < words; ++i) {
+                        const auto value = static_cast<decltype(zero)>(numbers[i]);
+                        std::memcpy(values.bytes.data() + i * sizeof value, &value, sizeof value);
+                    }
+                });
+            };
+            if (type == ValueType::uint64)
+                store(read_text_values<std::uint64_t>(reader, type, count, what));
+            else if (is_integer(type))
+                store(read_text_values<std::int64_t>(reader, type, count, what));
+            else
+                store(read_text_values<double>(reader, type, count, what));
+            return values;
+        });
+}
+
+template std::vector<double> VtkXmlFile::values(pugi::xml_node, std::int64_t, std::int64_t,
+                                                const std::string&) const;
+template std::vector<std::int64_t> VtkXmlFile::values(pugi::xml_node, std::int64_t, std::int64_t,
+                                                      const std::string&) const;
+
+}  // namespace lamina

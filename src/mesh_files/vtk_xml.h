@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <pugixml.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/input_file.h"
+#include "base/value_type.h"
+#include "mesh_files/vtk_xml_data.h"
+
+namespace lamina {
+
+// The text of a VTK XML file without its appended data. These are no XML if they are raw, and stay
+// in the file until an array is read. Throws Error if the file does not end as it should.
+class VtkXmlText {
+  public:
+    explicit VtkXmlText(const std::filesystem::path& path);
+
+    std::uint64_t byte_count() const { return file_.size(); }
+    std::span<char> xml();  // to be parsed in place
+    bool has_appended() const { return has_appended_; }
+    VtkXmlSource appended() const { return appended_; }  // all of them, after the underscore
+
+  private:
+    void read_beginning();
+    std::string_view text() const { return bytes_.text().substr(0, read_); }
+    void cut_off_appended(std::size_t tag);
+    void find_end(std::uint64_t mark);
+
+    std::string name_;
+    RandomAccessFile file_;
+    ByteBuffer bytes_;      // as long as the file
+    std::size_t read_ = 0;  // bytes in it that were read
+    std::string xml_;       // instead of bytes_, if there are appended data
+    bool has_appended_ = false;
+    VtkXmlSource appended_;
+};
+
+// A VTK XML file of one kind of grid: its elements, and the numbers of its DataArrays in any
+// encoding. Throws Error for anything invalid.
+class VtkXmlFile {
+  public:
+    explicit VtkXmlFile(const std::filesystem::path& path,
+                        const char* grid_type = "UnstructuredGrid");
+
+    const std::string& name() const { return name_; }
+    std::uint64_t byte_count() const { return text_.byte_count(); }
+    pugi::xml_node grid() const { return grid_; }
+
+    // Returns a whole number >= 0 in an attribute.
+    std::int64_t count_in(pugi::xml_node node, const char* attribute,
+                          const std::string& what) const;
+    std::int64_t components_of(pugi::xml_node array, const std::string& what) const;
+
+    // Returns the values (tuples times components) of a DataArray as To: double or int64. `what`:
+    // names the file and the array in messages.
+    template <typename To>
+    std::vector<To> values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
+                           const std::string& what) const;
+    // Returns the values in their own type and native byte order.
+    VtkXmlValues stored_values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
+                               const std::string& what) const;
+
+  private:
+    // Calls binary(source) or text(reader), depending on how the array is stored, for `count`
+    // values.
+    template <typename Binary, typename Text>
+    auto decoded(pugi::xml_node array, std::int64_t count, const std::string& what,
+                 const Binary& binary, const Text& text) const;
+    std::int64_t value_count(std::int64_t tuples, std::int64_t components,
+                             const std::string& what) const;
+    void parse(std::span<char> xml, const char* grid_type);
+    void read_root(pugi::xml_node root, const char* grid_type);
+    ValueType type_of(pugi::xml_node array, const std::string& what) const;
+    VtkXmlSource appended_at(pugi::xml_node array, const std::string& what) const;
+    void count_appended(std::uint64_t bytes, const std::string& what) const;
+    void count_kept(std::int64_t count, const std::string& what) const;
+
+    std::string name_;
+    VtkXmlText text_;                          // xml_nodes point into it
+    mutable std::uint64_t appended_used_ = 0;  // bytes of all arrays that were read
+    mutable std::uint64_t values_kept_ = 0;    // number of values of all arrays that were read
+    pugi::xml_document document_;
+    pugi::xml_node grid_;
+    VtkXmlEncoding encoding_;
+};
+
+}  // namespace lamina

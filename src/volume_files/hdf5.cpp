@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/hdf5.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "base/client.h"
+#include "base/content_hash.h"
+#include "base/error.h"
+#include "base/input_file.h"
+#include "volume_files/hdf5_volume.h"
+#include "volume_files/isolated_process.h"
+#include "volume_files/sample_sources.h"
+#include "volume_files/stored_samples.h"
+
+namespace lamina {
+namespace {
+
+// A volume in an HDF5 file; `array`: as Hdf5Volume takes it.
+struct Hdf5Place {
+    std::string file, array;
+    VolumeRequest request;
+};
+
+// A process that reads an HDF5 file with libhdf5 (volume_files/isolated_process.h). One thread at a
+// time asks it.
+class Hdf5Process {
+  public:
+    explicit Hdf5Process(const Hdf5Place& place);  // throws Error
+
+    const Hdf5Head& head() const { return head_; }
+    // Returns all samples, in memory that read() would overwrite: one of the two may be called.
+    std::shared_ptr<void> read_all();
+    // Reads a box of samples.
+    void read(const SampleBox& box, void* to);
+
+  private:
+    // Memory that both processes see. Both renew it in step, by the sizes that are asked for.
+    struct Shared {
+        std::shared_ptr<void> memory;
+        std::size_t bytes = 0;
+
+        template <typename Taker>
+        void* room(std::size_t wanted, Taker& taker) {
+            if (wanted > bytes) {
+                memory = taker.shared_memory(wanted);
+                bytes = wanted;
+            }
+            return memory.get();
+        }
+    };
+
+    static void serve(IsolatedLine& line, const Hdf5Place& place);
+    void* read_shared(const SampleBox& box, bool is_all);
+
+    IsolatedProcess process_;
+    Hdf5Head head_;
+    Shared shared_;
+};
+
+struct Question {
+    SampleBox box;
+    bool is_all;
+};
+
+std::size_t bytes_in(const SampleBox& box, ValueType type) {
+    return static_cast<std::size_t>(box.count()) * bytes_of(type);
+}
+
+Hdf5Process::Hdf5Process(const Hdf5Place& place)
+    : process_(place.file, "libhdf5", [&](IsolatedLine& line) { serve(line, place); }) {
+    process_.receive(&head_, sizeof head_);
+}
+
+void Hdf5Process::serve(IsolatedLine& line, const Hdf5Place& place) {
+    const Hdf5Volume volume(place.file, place.array, place.request);
+    line.answer(&volume.head(), sizeof(Hdf5Head));
+    Shared shared;
+    for (Question question; line.next(&question, sizeof question);) {
+        const std::size_t bytes = bytes_in(question.box, volume.head().type);
+        line.allow_bytes(std::max(bytes, volume.chunk_bytes()));
+        volume.read(question.box, question.is_all, shared.room(bytes, line));
+        line.answer(nullptr, 0);
+    }
+}
+
+void* Hdf5Process::read_shared(const SampleBox& box, bool is_all) {
+    void* const samples = shared_.room(bytes_in(box, head_.type), process_);
+    const Question question{box, is_all};
+    process_.ask(&question, sizeof question);
+    process_.receive(nullptr, 0);
+    return samples;
+}
+
+std::shared_ptr<void> Hdf5Process::read_all() {
+    read_shared({{0, 0, 0}, head_.grid.size}, true);
+    return shared_.memory;
+}
+
+void Hdf5Process::read(const SampleBox& box, void* to) {
+    std::memcpy(to, read_shared(box, false), bytes_in(box, head_.type));
+}
+
+// Samples in the chunks of an HDF5 file, which processes of their own decode: one for each core, up
+// to most_processes. They are started first of all, because this process has few threads then.
+class Hdf5Source : public ChunkedSource {
+  public:
+    Hdf5Source(const Hdf5Place& place, std::unique_ptr<Hdf5Process> first);
+
+    void check_unchanged() const override { file_.check_unchanged(); }
+    std::filesystem::path main_file() const override;
+    std::string name() const override;
+    std::string identity() const override;
+
+  private:
+    void decode(std::int64_t chunk, const SampleBox& box, void* to) const override;
+    std::unique_ptr<Hdf5Process> started() const;
+    std::unique_ptr<Hdf5Process> take_process() const;
+    void give_back(std::unique_ptr<Hdf5Process> process) const;
+
+    static constexpr unsigned most_processes = 16;
+
+    Hdf5Place place_;
+    FileState file_;
+    Hdf5Head head_;
+    mutable std::mutex access_;
+    mutable std::condition_variable given_back_;
+    mutable std::vector<std::unique_ptr<Hdf5Process>> idle_;
+    mutable unsigned lost_ = 0;  // processes that have to be started anew
+};
+
+// Edge of the boxes in which arrays without chunks are read, and to which smaller chunks are
+// joined: less is not worth a question to the process.
+constexpr std::int64_t least_edge = 64;
+
+std::array<std::int64_t, 3> edge_of(const Hdf5Head& head) {
+    std::array<std::int64_t, 3> edge{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int64_t chunk = std::max<std::int64_t>(head.chunk[axis], 1);
+        edge[axis] = std::min((least_edge + chunk - 1) / chunk * chunk, head.grid.size[axis]);
+    }
+    return edge;
+}
+
+Hdf5Source::Hdf5Source(const Hdf5Place& place, std::unique_ptr<Hdf5Process> first)
+    : ChunkedSource(first->head().grid.size, edge_of(first->head()), bytes_of(first->head().type)),
+      place_(place),
+      file_(FileState::of(place.file)),
+      head_(first->head()) {
+    idle_.push_back(std::move(first));
+    const unsigned count = std::min(most_processes, std::thread::hardware_concurrency());
+    while (idle_.size() < count) idle_.push_back(started());
+}
+
+// Starts one more process, without its warnings: the first one has given them.
+std::unique_ptr<Hdf5Process> Hdf5Source::started() const {
+    const WarningTaker nobody = [](const std::string&) {};
+    Client client = ClientScope::current();
+    client.warnings = &nobody;
+    const ClientScope scope(client);
+    auto process = std::make_unique<Hdf5Process>(place_);
+    const Hdf5Head& head = process->head();
+    file_.check_unchanged();
+    if (head.grid.size != head_.grid.size || head.type != head_.type || head.taken != head_.taken)
+        fail("{}: the file was changed while it was read", place_.file);
+    return process;
+}
+
+std::unique_ptr<Hdf5Process> Hdf5Source::take_process() const {
+    std::unique_lock lock(access_);
+    given_back_.wait(lock, [&] { return !idle_.empty() || lost_ > 0; });
+    if (idle_.empty()) {
+        --lost_;
+        lock.unlock();
+        return started();
+    }
+    std::unique_ptr<Hdf5Process> process = std::move(idle_.back());
+    idle_.pop_back();
+    return process;
+}
+
+void Hdf5Source::give_back(std::unique_ptr<Hdf5Process> process) const {
+    const std::lock_guard lock(access_);
+    if (process)
+        idle_.push_back(std::move(process));
+    else
+        ++lost_;
+    given_back_.notify_one();
+}
+
+void Hdf5Source::decode(std::int64_t /*chunk*/, const SampleBox& box, void* to) const {
+    std::unique_ptr<Hdf5Process> process;
+    try {
+        process = take_process();
+        process->read(box, to);
+    } catch (...) {
+        give_back({});  // it may have an answer under way, or have ended
+        throw;
+    }
+    give_back(std::move(process));
+}
+
+// Returns the file with the array's name behind it, because each array of a file counts as a file.
+std::filesystem::path Hdf5Source::main_file() const {
+    std::string array = place_.array;
+    std::ranges::replace(array, '/', '.');
+    return place_.file + array;
+}
+
+std::string Hdf5Source::name() const {
+    return fmt::format("{} {} {} {}", std::filesystem::absolute(place_.file).string(), place_.array,
+                       fmt::join(head_.taken, " "), fmt::join(head_.grid.size, " "));
+}
+
+std::string Hdf5Source::identity() const {
+    ContentHash hash;
+    hash.add(name());
+    hash.add(file_.text());
+    hash.add(file_.bytes_hash());
+    return hash.hex();
+}
+
+// The two parts of "FILE.h5:/PATH"; the second is empty if the path is a file's.
+struct ArrayPath {
+    std::filesystem::path file;
+    std::string array;
+};
+
+ArrayPath array_path(const std::filesystem::path& path) {
+    std::error_code unreadable;
+    if (std::filesystem::exists(path, unreadable)) return {path, ""};
+    const std::string text = path.string();
+    for (std::size_t at = text.find(":/"); at != std::string::npos; at = text.find(":/", at + 1)) {
+        const std::filesystem::path file = text.substr(0, at);
+        if (std::filesystem::is_regular_file(file, unreadable)) return {file, text.substr(at + 1)};
+    }
+    return {path, ""};
+}
+
+// Describes where the samples of an array lie, if its file holds them as they are.
+StoredData raw_data(const std::filesystem::path& file, const Hdf5Head& head) {
+    StoredData data;
+    data.path = file;
+    data.teller = "the array";
+    data.type = head.type;
+    for (const std::int64_t size : head.grid.size) data.axes.emplace_back(size);
+    for (std::size_t i = 0; i < 2; ++i)
+        if (head.outer[i] > 1) data.axes.emplace_back(head.outer[i], head.taken[i], "", true);
+    set_byte_order(data, head.raw.big_endian);
+    data.files = {file};
+    data.offset = head.raw.offset;
+    return data;
+}
+
+}  // namespace
+
+bool is_hdf5(const std::filesystem::path& path) {
+    constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
+    const std::filesystem::path file = array_path(path).file;
+    std::error_code unreadable;
+    if (std::filesystem::is_directory(file, unreadable)) return false;
+    const std::string beginning = file_beginning(file, 2048 + signature.size());
+    for (const std::size_t at : {0, 512, 1024, 2048}) {
+        if (beginning.size() > at && std::string_view(beginning).substr(at).starts_with(signature))
+            return true;
+    }
+    return false;
+}
+
+Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request,
+                 const VolumeUse& use) {
+    const ArrayPath named = array_path(path);
+    expect_regular_file(named.file);
+    const Hdf5Place place{named.file.string(), named.array.empty() ? request.array : named.array,
+                          request};
+    auto process = std::make_unique<Hdf5Process>(place);
+    const Hdf5Head& head = process->head();
+    const auto type = drawn_type(head.type);
+    const bool is_scaled = head.scale != 1 || head.offset != 0;
+    if (!type || is_scaled || head.elsewhere) {
+        std::string why = fmt::format("its samples are of type {}", name_of(head.type));
+        if (is_scaled) why = "its samples are scaled";
+        if (head.elsewhere) why = "its samples lie in another file";
+        expect_room(path.string(),
+                    static_cast<std::uint64_t>(head.grid.sample_count()) * bytes_of(head.type), use,
+                    why);
+    } else if (stays_in_files(head.grid, *type, use)) {
+        if (head.raw.offset < 0 || head.has_missing)
+            return stored_volume(head.grid, *type,
+                                 std::make_unique<Hdf5Source>(place, std::move(process)));
+        return stored_volume(
+            head.grid, *type,
+            std::make_unique<FileSource>(raw_data(named.file, head), head.grid.size));
+    }
+    return drawn_volume(head.grid,
+                        {path.string(), head.type, process->read_all(), head.scale, head.offset});
+}
+
+std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path) {
+    return {array_path(path).file};
+}
+
+}  // namespace lamina

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lamina {
+
+// Returns the number if the word is a whole number and nothing else.
+inline std::optional<std::int64_t> whole_number(std::string_view word) {
+    std::int64_t number = 0;
+    const char* const end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, number);
+    if (error != std::errc{} || stop != end) return {};
+    return number;
+}
+
+// A file name with a number in it, as "slice%03d.raw" says.
+struct FilePattern {
+    std::string before, after;
+    int width = 0;  // digits at least, filled up with zeros
+};
+
+// Returns nothing unless there is exactly one %d, %3d or %03d, and no other '%'.
+std::optional<FilePattern> file_pattern(std::string_view text);
+
+constexpr std::int64_t most_pattern_files = 100000;
+
+// Returns the names with the numbers from `first` to `last`. Returns nothing if the step does not
+// lead there, or if there are more than most_pattern_files.
+std::optional<std::vector<std::string>> names_of(const FilePattern& pattern, std::int64_t first,
+                                                 std::int64_t last, std::int64_t step);
+
+// Returns the regular files in a folder, but for hidden ones, in the order of the numbers in their
+// names: a2 before a10. Returns none if the folder cannot be read.
+std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& folder);
+
+}  // namespace lamina

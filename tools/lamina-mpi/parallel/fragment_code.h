@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of ranks as bytes for other ranks: pixels that show nothing are not sent.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lamina/image.h"
+
+namespace lamina {
+
+// Formats in which pixels travel between ranks.
+enum class Wire {
+    float32,  // 16 bytes a pixel: nothing is lost
+    half,     // 8 bytes: four halves, associated
+    coded,    // 5 bytes, then 8: docs/cluster.md
+};
+
+const char* name_of(Wire wire);
+Wire wire_of(const std::string& word);  // throws UsageError if it is none of these
+
+struct RowSpan {
+    int first = 0, end = 0;
+
+    friend bool operator==(const RowSpan&, const RowSpan&) = default;
+};
+
+// Divides rows into `count` consecutive spans of about equal weight. `weights`: one for each row of
+// the picture, 0 or more.
+std::vector<RowSpan> divide_rows(const std::vector<std::int64_t>& weights, const RowSpan& rows,
+                                 int count);
+
+// Runs of neighbouring pixels that show something, in some rows of a picture.
+class ActiveRuns {
+  public:
+    struct Run {
+        int first, end;  // columns
+    };
+
+    ActiveRuns(const Image& picture, const RowSpan& rows);
+
+    // The runs of a row, from left to right.
+    const Run* begin(int row) const { return runs_.data() + starts_[place(row)]; }
+    const Run* end(int row) const { return runs_.data() + starts_[place(row) + 1]; }
+
+    std::int64_t pixels(int row) const;
+
+  private:
+    std::size_t place(int row) const { return static_cast<std::size_t>(row - first_row_); }
+
+    int first_row_;
+    std::vector<Run> runs_;
+    std::vector<std::size_t> starts_;  // index of each row's first run, and the number of runs
+};
+
+enum class FragmentFormat {
+    float32,  // associated RGBA, 16 bytes
+    half,     // associated RGBA rounded to half, 8 bytes
+    fixed16,  // associated RGBA as codes of 16 bits, 8 bytes
+    // RGB, not associated, as codes of 8 bits, and opacity as a code of 16 bits: 5 bytes. The
+    // weights of fragments in a pixel add up to 1 at most, so the pixel is off by at most half a
+    // code of 8 bits, however many fragments there are.
+    fixed8,
+};
+
+// Writes rows as bytes: first the largest colour, of which codes are shares; then each row's runs,
+// each as its length, the number of pixels left out before it, and its pixels. `runs`: runs of at
+// least these rows.
+void encode_rows(const Image& picture, const ActiveRuns& runs, const RowSpan& rows,
+                 FragmentFormat format, std::vector<std::byte>& bytes);
+
+// Composites rows behind the picture that `front` already has there.
+void put_rows_behind(const std::vector<std::byte>& bytes, const RowSpan& rows,
+                     FragmentFormat format, Image& front);
+void put_rows_behind(const Image& picture, const ActiveRuns& runs, const RowSpan& rows,
+                     Image& front);
+
+}  // namespace lamina

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "papers/compared_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/progress.h"
+#include "image/difference_picture.h"
+#include "papers/paper_item.h"
+#include "study/report_figures.h"
+#include "study/result_files.h"
+
+namespace lamina::papers {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int magnification = 12;
+constexpr double least_range = 16.0 / 255;  // an inset's contrast shows at least this range
+constexpr double inset_mean = 0.35;         // an inset's mean goes to this, in linear light
+// Differences are darkest at the value that this share of the first variant's components does not
+// exceed.
+constexpr double shown_share = 0.995;
+
+struct Inset {
+    int column = 0, row = 0, width = 1, height = 1;
+};
+
+using Rgb = std::array<double, 3>;
+
+// Returns the factor by which an inset's contrast is enlarged, so that the exact picture there
+// fills two thirds of the range.
+double gain_of(const Image& exact, const Inset& inset) {
+    double range = least_range;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        double low = INFINITY, high = -INFINITY;
+        for (int y = inset.row; y < inset.row + inset.height; ++y) {
+            for (int x = inset.column; x < inset.column + inset.width; ++x) {
+                low = std::min<double>(low, exact.pixel(x, y)[channel]);
+                high = std::max<double>(high, exact.pixel(x, y)[channel]);
+            }
+        }
+        range = std::max(range, 1.5 * (high - low));
+    }
+    return 1 / range;
+}
+
+// Returns whether the mesh covers the window. Silhouettes are not artifacts.
+bool covered(const Image& exact, const Inset& inset) {
+    for (int y = inset.row; y < inset.row + inset.height; ++y) {
+        for (int x = inset.column; x < inset.column + inset.width; ++x) {
+            if (exact.pixel(x, y)[3] <= 0) return false;
+        }
+    }
+    return true;
+}
+
+Rgb mean_within(const Image& image, const Inset& inset) {
+    Rgb mean{};
+    for (int y = inset.row; y < inset.row + inset.height; ++y) {
+        for (int x = inset.column; x < inset.column + inset.width; ++x) {
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                mean[channel] += image.pixel(x, y)[channel];
+        }
+    }
+    for (double& value : mean) value /= inset.width * inset.height;
+    return mean;
+}
+
+// Returns the variance of the error in the window, with the window's gain.
+double structure_within(const Image& image, const Image& exact, const Inset& inset) {
+    const Rgb mean = mean_within(image, inset), exact_mean = mean_within(exact, inset);
+    double sum = 0;
+    for (int y = inset.row; y < inset.row + inset.height; ++y) {
+        for (int x = inset.column; x < inset.column + inset.width; ++x) {
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                const double e = image.pixel(x, y)[channel] - mean[channel] -
+                                 (exact.pixel(x, y)[channel] - exact_mean[channel]);
+                sum += e * e;
+            }
+        }
+    }
+    const double gain = gain_of(exact, inset);
+    return sum * gain * gain;
+}
+
+Inset worst_inset(const Image& image, const Image& exact) {
+    Inset inset, worst;
+    inset.width = std::max(1, image.width / magnification);
+    inset.height = std::max(1, image.height / magnification);
+    double most = -1;
+    const int step_x = std::max(1, inset.width / 4), step_y = std::max(1, inset.height / 4);
+    for (inset.row = 0; inset.row + inset.height <= image.height; inset.row += step_y) {
+        for (inset.column = 0; inset.column + inset.width <= image.width; inset.column += step_x) {
+            const double sum = covered(exact, inset) ? structure_within(image, exact, inset) : 0;
+            if (sum > most) {
+                most = sum;
+                worst = inset;
+            }
+        }
+    }
+    return worst;
+}
+
+// Magnifies the window to the size of the picture, with nearest pixels, and its contrast about the
+// window's mean.
+CodedImage magnified(const Image& image, const Inset& inset, double gain) {
+    const Rgb mean = mean_within(image, inset);
+    Image large(image.width, image.height);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const float* const from =
+                image.pixel(inset.column + std::min(x / magnification, inset.width - 1),
+                            inset.row + std::min(y / magnification, inset.height - 1));
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                large.pixel(x, y)[channel] =
+                    static_cast<float>(inset_mean + gain * (from[channel] - mean[channel]));
+            }
+        }
+    }
+    return study::shown(large);
+}
+
+CodedImage framed(CodedImage picture, const Inset& inset) {
+    const auto mark = [&](int x, int y) {
+        if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return;
+        std::fill_n(picture.codes.begin() + 3 * (y * picture.width + x), 3, std::uint16_t{255});
+    };
+    for (int x = inset.column - 1; x <= inset.column + inset.width; ++x) {
+        mark(x, inset.row - 1);
+        mark(x, inset.row + inset.height);
+    }
+    for (int y = inset.row - 1; y <= inset.row + inset.height; ++y) {
+        mark(inset.column - 1, y);
+        mark(inset.column + inset.width, y);
+    }
+    return picture;
+}
+
+double shown_scale(const Difference& difference) {
+    std::vector<double> sizes;
+    for (const double e : difference.e) {
+        if (e != 0) sizes.push_back(std::abs(e));
+    }
+    if (sizes.empty()) return 1;
+    const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(
+                                        shown_share * static_cast<double>(sizes.size() - 1));
+    std::nth_element(sizes.begin(), at, sizes.end());
+    return *at;
+}
+
+// The pictures in the manner of the paper's figures; the exact one last.
+Json panels_of(const std::string& name, const std::vector<Variant>& variants,
+               const std::vector<Image>& pictures, const Image& exact,
+               const std::vector<Difference>& differences, const Inset& inset, double scale) {
+    const double gain = gain_of(exact, inset);
+    Panels panels;
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        panels.add(name, variants[i].name, framed(study::shown(pictures[i]), inset));
+    panels.add(name, "exact", framed(study::shown(exact), inset));
+    const std::string insets = fmt::format(
+        "{}: the frame {} times as large, with {:.3g} times the "
+        "contrast about its mean",
+        name, magnification, gain);
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        panels.add(insets, variants[i].name, magnified(pictures[i], inset, gain));
+    panels.add(insets, "exact", magnified(exact, inset, gain));
+    const std::string group = name + ": difference from the exact picture";
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        panels.add_difference(group, variants[i].name, differences[i], scale,
+                              framed(false_color(differences[i], scale), inset));
+    }
+    return panels.json();
+}
+
+}  // namespace
+
+VariantErrors errors_of(const std::string& variant, const Difference& difference) {
+    const ImageError error = measure(difference);
+    return {variant, error.all, error.of_channel[3]};
+}
+
+Json error_row(const KrausSubject& subject, const VariantErrors& errors) {
+    return {{"mesh", subject.name},
+            {"tets", subject.mesh.tets().tets().size()},
+            {"picture", errors.name},
+            {"linf", errors.all.linf},
+            {"l1", errors.all.mean},
+            {"l2", errors.all.l2},
+            {"opacity_l1", errors.opacity.mean},
+            {"opacity_l2", errors.opacity.l2}};
+}
+
+std::vector<VariantErrors> variant_errors(const std::string& label, KrausSubject& subject,
+                                          const std::vector<Variant>& variants,
+                                          const Capabilities& capabilities) {
+    Progress progress(label, static_cast<std::int64_t>(variants.size()));
+    std::vector<VariantErrors> errors;
+    for (const Variant& variant : variants) {
+        const Image picture =
+            plain_picture(variant.scene, subject.mesh.data(), capabilities, subject.tables);
+        errors.push_back(
+            errors_of(variant.name, difference(picture, subject.mesh.exact(variant.scene))));
+        progress.advance();
+    }
+    return errors;
+}
+
+std::vector<std::string> compared_picture_files(const std::string& name) {
+    return {name + ".csv"};
+}
+
+ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
+                                         const std::string& name, KrausSubject& subject,
+                                         const std::vector<Variant>& variants,
+                                         const Capabilities& capabilities) {
+    const Scene& scene = variants.front().scene;
+    const PreciseImage& exact = subject.mesh.exact(scene);
+    Progress progress(name, static_cast<std::int64_t>(variants.size()));
+    std::vector<Image> pictures;
+    std::vector<Difference> differences;
+    ComparedPictures made;
+    Json rows = Json::array();
+    for (const Variant& variant : variants) {
+        pictures.push_back(
+            plain_picture(variant.scene, subject.mesh.data(), capabilities, subject.tables));
+        differences.push_back(difference(pictures.back(), exact));
+        made.errors.push_back(errors_of(variant.name, differences.back()));
+        rows.push_back(error_row(subject, made.errors.back()));
+        progress.advance();
+    }
+    const Image exact_picture = to_float(exact);
+    const Inset inset = worst_inset(pictures.front(), exact_picture);
+    const double scale = shown_scale(differences.front());
+    study::write_text(folder / (name + ".csv"), study::csv_of_rows(rows));
+    made.values = {
+        {"files", compared_picture_files(name)},
+        {"mesh", subject.name},
+        {"pixels", {scene.width, scene.height}},
+        {"inset", {inset.column, inset.row, inset.width, inset.height}},
+        {"difference_scale", scale},
+        {"rows", rows},
+        {"panels", panels_of(name, variants, pictures, exact_picture, differences, inset, scale)}};
+    return made;
+}
+
+}  // namespace lamina::papers

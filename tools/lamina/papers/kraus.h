@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reproduces tables and figures of Kraus, Qiao, Ebert, "Projecting Tetrahedra without Rendering
+// Artifacts", 2004.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lamina/scene.h"
+#include "papers/paper_item.h"
+#include "plan/capabilities.h"
+#include "preintegration/table_cache.h"
+#include "render/pipeline.h"
+#include "study/data_store.h"
+#include "study/frame_times.h"
+
+namespace lamina::papers {
+
+// A mesh with the scenes in which the reproduction of Kraus 2004 shows it: method `project`, target
+// float32, and the paper's table (256 x 256 x 16, opacity, 16 bits, exact entries, octaves).
+struct KrausSubject {
+    std::string name;
+    bool measured_data;  // read from a file, not generated
+    study::TracedMesh mesh;
+    Scene smooth;      // opacity of a ray up to .5
+    Scene faint;       // the same with opacity up to .1
+    Scene dense;       // the same with opacity up to .95
+    Scene isosurface;  // a sharp peak, nearly opaque; its camera may be another one
+    // Pre-integration tables of its pictures. Subjects of one stage share the stage's.
+    std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
+};
+
+// The views and transfer functions of a subject. The extinctions are relative: they are scaled so
+// that the picture's largest opacity is the intended one.
+struct KrausView {
+    std::string name;
+    Camera camera, isosurface_camera;
+    std::vector<TransferKnot> smooth, isosurface;
+    double isosurface_opacity = 0.98;
+};
+// The view of one of the meshes "bluntfin", "combustor", "torso", "graded", "plate" and "box"
+// (papers/grid_mesh.h).
+KrausView kraus_view(const std::string& name);
+
+KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, bool measured_data,
+                                int width, int height);
+
+TableSettings paper_table();
+
+// The remedies of Kraus 2004, one switched off at a time in a scene that has them all.
+
+// Changes only scenes that have a table of their own.
+inline Scene with_table_format(Scene scene, TableFormat format) {
+    scene.project.table->format = format;
+    return scene;
+}
+inline Scene with_mapping(Scene scene, LengthMapping mapping) {
+    scene.project.table->mapping = mapping;
+    return scene;
+}
+inline Scene with_default_integration(Scene scene) {
+    scene.project.table = automatic;
+    return scene;
+}
+
+inline Scene with_linear_interpolation(Scene scene) {
+    scene.project.interpolation = Interpolation::linear;
+    return scene;
+}
+inline Scene with_depth_as_thickness(Scene scene) {
+    scene.project.thickness = Thickness::dz;
+    return scene;
+}
+inline Scene with_coloring(Scene scene, Coloring coloring) {
+    scene.project.coloring = coloring;
+    return scene;
+}
+inline Scene with_target(Scene scene, Target target, ProjectDither dither = ProjectDither::none) {
+    scene.target = target;
+    scene.project.dither = dither;
+    return scene;
+}
+inline Scene with_geometry(Scene scene, const Auto<ProjectGeometry>& geometry) {
+    scene.project.geometry = geometry;
+    return scene;
+}
+inline Scene with_order(Scene scene, ProjectOrder order) {
+    scene.project.order = order;
+    return scene;
+}
+
+class KrausStage;
+using KrausItem = PaperItem<KrausStage>;
+
+// The items in the order of the paper, followed by items on questions that it leaves open. Data
+// sets come from LAMINA_DATA. Without it generated meshes are used instead, and nothing that the
+// paper says can be tested.
+const std::vector<KrausItem>& kraus_items();
+
+// Pairs of pictures with insets and signed differences, and their errors against the tracer.
+nlohmann::ordered_json draw_kraus_figure7(const std::filesystem::path& folder, KrausStage& stage);
+nlohmann::ordered_json draw_kraus_figure8(const std::filesystem::path& folder, KrausStage& stage);
+nlohmann::ordered_json draw_kraus_figure9(const std::filesystem::path& folder, KrausStage& stage);
+nlohmann::ordered_json draw_kraus_figure10(const std::filesystem::path& folder, KrausStage& stage);
+
+// Times of the enhancements, one after the other, and of several mesh sizes.
+nlohmann::ordered_json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage);
+nlohmann::ordered_json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage);
+
+// Every remedy switched off in turn, on all meshes.
+nlohmann::ordered_json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage);
+
+// The paper's future work (section 6): compares numerical with analytic pre-integration, and shows
+// wrong orders.
+nlohmann::ordered_json draw_kraus_preintegration(const std::filesystem::path& folder,
+                                                 KrausStage& stage);
+nlohmann::ordered_json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage);
+
+// Sizes of pictures and generated meshes; tests use smaller ones.
+struct KrausSizes {
+    int width = 640, height = 480;              // of pictures and of measurements in them
+    int timed_width = 800, timed_height = 600;  // as in the paper
+    std::int32_t graded_cells = 24, graded_layers = 40;
+    std::int32_t box_cells = 31;  // along an edge of the box that replaces data sets: 178,746 tets
+    // Meshes for Table 2: 20,250 tets, then as many as the paper's heat sink, cylinder and X38
+    // have.
+    std::vector<std::int32_t> timed_box_cells{15, 27, 47, 69};
+    int rounds = 3;
+};
+
+// The context that is current, meshes with their traced pictures, and pre-integration tables, for
+// all items of the paper.
+class KrausStage {
+  public:
+    // Meshes of data sets are read from `data`, unless it is empty or lacks them.
+    explicit KrausStage(const Capabilities& capabilities, KrausSizes sizes = {},
+                        std::filesystem::path data = data_folder());
+
+    const Capabilities& capabilities() const { return capabilities_; }
+    const KrausSizes& sizes() const { return sizes_; }
+    const std::shared_ptr<TableCache>& tables() const { return tables_; }
+
+    bool has(const std::string& data_set) const;
+    // A subject of kraus_view(), made when it is first needed. If a data set is missing, "box"
+    // replaces it. "graded" has a bump and "plate" has none; the edge ratio of both is 1e4.
+    KrausSubject& subject(const std::string& name);
+    // All subjects whose data exist, or "box" if no data set does.
+    std::vector<KrausSubject*> subjects();
+
+    static std::filesystem::path data_folder();  // LAMINA_DATA, or empty
+
+  private:
+    KrausSubject make(const std::string& name) const;
+    Capabilities capabilities_;
+    KrausSizes sizes_;
+    std::filesystem::path data_;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
+    std::map<std::string, std::unique_ptr<KrausSubject>> subjects_;
+};
+
+// Data sets that an item needs, and what replaces those that are missing, in words.
+struct DataNeeds {
+    std::vector<std::string> data_sets;
+    std::string instead;
+};
+
+// Returns Findings::result(values, printed, more). If a data set is missing, the note says so
+// first, and nothing that the paper says can be tested.
+nlohmann::ordered_json result_with_data(Findings findings, nlohmann::ordered_json values,
+                                        nlohmann::ordered_json printed, const std::string& more,
+                                        const KrausStage& stage, const DataNeeds& needs);
+
+// A scene of a mesh, prepared to be drawn again and again. The context must outlive it.
+class MeshFrame {
+  public:
+    MeshFrame(std::string name, const study::TracedMesh& mesh, const Scene& scene,
+              const Capabilities& capabilities, std::shared_ptr<TableCache> tables)
+        : name_(std::move(name)),
+          pipeline_(std::make_unique<Pipeline>(
+              scene, mesh.data(),
+              PipelineOptions{.capabilities = capabilities, .tables = std::move(tables)})) {
+        pipeline_->set_up();
+    }
+
+    const std::string& name() const { return name_; }
+    // Durations of the last frame's stages.
+    std::map<std::string, double> stages_ms() const {
+        return pipeline_->renderer().renderer().stages_ms();
+    }
+    std::int64_t tets_drawn() const { return pipeline_->statistics().tets_drawn; }
+    Image picture() const { return pipeline_->renderer().picture(); }
+    // Draws a whole frame: order, geometry and fragments.
+    void draw() {
+        pipeline_->draw_frame();
+        drawn_ = true;
+    }
+    void warm_up() {
+        if (!drawn_) draw();
+    }
+
+  private:
+    std::string name_;
+    std::unique_ptr<Pipeline> pipeline_;
+    bool drawn_ = false;
+};
+
+// Whole frames for time_interleaved(). `frames` must not move in memory.
+inline std::vector<study::TimedFrame> timed(std::vector<MeshFrame>& frames) {
+    std::vector<study::TimedFrame> all;
+    for (MeshFrame& frame : frames) {
+        all.push_back({frame.name(), [&frame] { frame.warm_up(); }, [&frame] { frame.draw(); }});
+    }
+    return all;
+}
+
+}  // namespace lamina::papers

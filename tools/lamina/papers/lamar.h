@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reproduces tables and figures of LaMar, "On Issues of Precision for Hardware Texture-based Volume
+// Visualization", 2004.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "image/difference.h"
+#include "lamina/image.h"
+#include "lamina/scene.h"
+#include "lamina/volume.h"
+#include "papers/paper_item.h"
+#include "render/pipeline.h"
+
+namespace lamina::papers {
+
+class LamarStage;
+
+using LamarItem = PaperItem<LamarStage>;
+
+// The items in the order of the paper, followed by items on questions that it leaves open.
+const std::vector<LamarItem>& lamar_items();
+
+nlohmann::ordered_json reproduce_table1(const std::filesystem::path& folder);
+nlohmann::ordered_json reproduce_table2(const std::filesystem::path& folder);
+nlohmann::ordered_json reproduce_table3(const std::filesystem::path& folder);
+nlohmann::ordered_json reproduce_figure2(const std::filesystem::path& folder);
+nlohmann::ordered_json reproduce_figure3(const std::filesystem::path& folder);
+nlohmann::ordered_json reproduce_figure4(const std::filesystem::path& folder);
+nlohmann::ordered_json reproduce_figure5(const std::filesystem::path& folder);
+nlohmann::ordered_json reproduce_figure9(const std::filesystem::path& folder);
+
+// Compares front to back with back to front (section 4.2): random rays of small to large optical
+// depth, and equal fragments.
+nlohmann::ordered_json reproduce_order(const std::filesystem::path& folder);
+
+// Section 5: the period and the smallest opacity, increments, colour, thin structures, boundaries.
+nlohmann::ordered_json reproduce_dithering(const std::filesystem::path& folder);
+
+// The paper's pictures. Figure 1 needs the bonsai of LAMINA_DATA; without it nothing can be tested.
+// The Richtmyer-Meshkov data are not available, so mixing_volume() replaces them.
+nlohmann::ordered_json draw_figure1(const std::filesystem::path& folder, LamarStage& stage);
+nlohmann::ordered_json draw_table4(const std::filesystem::path& folder, LamarStage& stage);
+nlohmann::ordered_json draw_figure6(const std::filesystem::path& folder, LamarStage& stage);
+nlohmann::ordered_json draw_figure10(const std::filesystem::path& folder, LamarStage& stage);
+
+// Compares both compositing orders on the mixing liquids.
+nlohmann::ordered_json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage);
+
+// Run times, which the paper does not give.
+nlohmann::ordered_json draw_times(const std::filesystem::path& folder, LamarStage& stage);
+
+// The scene with target `emulated` of 8 bits, as LaMar's hardware composites (2004, section 4).
+Scene with_paper_hardware(Scene scene);
+
+// Norms of one channel (0..3: R, G, B, A) of `image` - `exact`, in units of 1/255.
+ErrorNorms channel_error(const Image& image, const Image& exact, std::size_t channel);
+
+// The generated volume `mixing`, which replaces LaMar's Richtmyer-Meshkov data (2004, section 5.2).
+// Heavy liquid, at large x, flows into light liquid.
+
+// Heavy liquid, at large x, runs into light liquid.
+Volume mixing_volume();
+
+// A square orthographic picture of 1024 slabs along z, with x to the right. Density is .023 in the
+// light liquid, which then shows 4 of 255 as in the paper, and 1 in the heavy liquid. Colour goes
+// from green at density 0 to red at 1. The intended opacity of a ray is .765 times its density.
+// Then the largest red is 195, and green cannot exceed 48.8, as in the paper (Table 4, period 1:
+// nothing is drawn, so that the largest errors, 195 and 47, are the largest values).
+Scene mixing_scene(int pixels);
+Scene white_mixing_scene(int pixels);  // for techniques that carry no colour
+
+// The mixing liquids, exact (float32) and as the paper's hardware dithers them.
+struct DitheredMixing {
+    Scene scene;  // scene of the exact picture
+    Image exact;
+    std::vector<int> periods;  // 1 stands for no dithering
+    std::vector<Image> dithered;
+};
+
+// A stage has the current context, the pre-integration tables and the pictures that several of the
+// items share.
+class LamarStage {
+  public:
+    // Pictures of the mixing liquids have `pixels` x `pixels` pixels.
+    explicit LamarStage(const Capabilities& capabilities, int pixels = 160)
+        : capabilities_(capabilities), pixels_(pixels) {}
+
+    const Capabilities& capabilities() const { return capabilities_; }
+    int pixels() const { return pixels_; }
+    const std::shared_ptr<TableCache>& tables() const { return tables_; }
+    Image draw_mixing(const Scene& scene);    // the volume is made when first needed
+    const DitheredMixing& dithered_mixing();  // for Table 4 and Figure 6; made when first needed
+
+  private:
+    Capabilities capabilities_;
+    int pixels_;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
+    std::shared_ptr<const VolumeData> mixing_;
+    std::optional<DitheredMixing> dithered_mixing_;
+};
+
+}  // namespace lamina::papers

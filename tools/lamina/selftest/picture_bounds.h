@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "lamina/image.h"
+#include "lamina/transfer_function.h"
+#include "scene/camera.h"
+#include "scene/scene_mesh.h"
+#include "selftest/drawing_way.h"
+#include "selftest/layered_box.h"
+#include "selftest/pixel_bounds.h"
+
+namespace lamina::selftest {
+
+// Chords of rays in the tets of a mesh. Every tet is intersected by itself, in double precision,
+// without use of its neighbours. This is right for every mesh, also for one that overlaps itself.
+
+class MeshChords {
+  public:
+    // `face_error`: error of the position of faces, as a share of a tet's longest edge.
+    MeshChords(const SceneMesh& mesh, const View& view, double face_error);
+
+    struct Along {
+        double depth = 0;         // optical depth
+        Interval possible_depth;  // range of the optical depth that the errors of faces allow
+        double length_error = 0;  // sum over the chords of all tets, world units
+        int crossed = 0;          // number of tets that the ray may meet
+    };
+    Along along(const View::Ray& ray, const TransferFunction& transfer_function) const;
+
+  private:
+    struct Solid {
+        std::array<glm::dvec3, 4> normals;  // unit, outwards
+        std::array<double, 4> offsets;      // distances of the faces from the eye
+        double error = 0;                   // world
+        glm::dvec3 gradient{0};             // gradient of the scalar
+        double scalar_at_eye = 0;
+        Interval scalars;
+    };
+    static Interval parameters_inside(const Solid& solid, const View::Ray& ray,
+                                      const glm::dvec3& from_eye, double outwards);
+
+    glm::dvec3 eye_;
+    std::vector<Solid> solids_;
+};
+
+// The exact value of every pixel, and the bounds between which a way to draw may put it.
+struct PictureBounds {
+    int width = 0, height = 0;
+    std::vector<std::array<double, 4>> exact;
+    std::vector<PixelBounds> possible;
+};
+
+// The bounds for a layered box; `mesh` is for ways that draw a mesh.
+PictureBounds layered_picture(const SelftestScene& scene, const DrawingWay& way,
+                              const SceneMesh* mesh);
+
+// The bounds for any mesh in one colour. Opacity follows from the sum of the optical depths of its
+// tets, in whatever order they are drawn.
+PictureBounds one_color_picture(const Scene& scene, const DrawingWay& way, const SceneMesh& mesh);
+
+// The fit of a picture to its bounds.
+struct Fit {
+    bool fits = true;
+    double error = 0, bound = 0;  // in 1/255, in the pixel and channel that fits worst
+    double largest_error = 0;     // in 1/255
+    std::string where;            // where it does not fit: "pixel 3, 4, channel R"
+};
+Fit fit_of(const PreciseImage& picture, const PictureBounds& bounds);
+
+// Returns the fit of two pictures of the same thing: they may differ by no more than both bounds
+// allow.
+Fit fit_of(const PreciseImage& a, const PictureBounds& bounds_a, const PreciseImage& b,
+           const PictureBounds& bounds_b);
+
+}  // namespace lamina::selftest
