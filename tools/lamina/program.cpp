@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <set>
@@ -40,6 +42,16 @@ int report(const std::string& message, int exit_code) {
 void print_warning(const std::string& text, std::set<std::string>& printed) {
     if (Progress::is_quiet() || !printed.insert(text).second) return;
     print_message("lamina: warning: {}\n", of_bounded_length(text));
+}
+
+// Memory that stays free until an allocation fails. Destructors of nested JSON values allocate, and
+// an exception that leaves a destructor ends the process: they find this memory while they unwind.
+constexpr std::size_t reserve_bytes = 256 << 10;  // malloc maps it alone, so free() returns it all
+std::atomic<void*> reserve = nullptr;
+
+void release_reserve() {
+    std::free(reserve.exchange(nullptr));
+    throw std::bad_alloc();
 }
 
 // Names an unknown verb. CLI11 would only say that a subcommand is missing.
@@ -105,6 +117,8 @@ int run_and_report(const Program& program, int argc, char** argv, const SignalSt
 
 int run_command_line(const Program& program, int argc, char** argv) {
     make_streams_safe();
+    reserve = std::malloc(reserve_bytes);
+    std::set_new_handler(release_reserve);
     set_command_line(argc, argv);
     try {
         const SignalStop signals;
