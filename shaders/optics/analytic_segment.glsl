@@ -12,7 +12,7 @@ uniform vec3 single_color;
 // outside. It integrates exactly, interval by interval of the transfer function (docs/numerics.md,
 // section 5). LIT: including light_on_piece(). This is the twin of integrate_segment
 // (optics/segment_integral.h) in float32. Optical depth is a sum of terms >= 0. Extinction times
-// length is finite (executors/shader_intervals.h) for lengths up to 1e8.
+// length is finite (executors/transfer_tables.h) for lengths up to 1e8.
 vec4 integrate_segment(float front, float back, float world_length) {
     int interval = find_interval(clamp(front, 0.0, 1.0));
     int last = find_interval(clamp(back, 0.0, 1.0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The linear intervals of the transfer function over scalars normalised to [0, 1]. executors/shader_intervals.h
+// The linear intervals of the transfer function over scalars normalised to [0, 1]. executors/transfer_tables.h
 // describes the layout.
 uniform sampler2D intervals;
 uniform sampler2D interval_starts;

@@ -70,7 +70,7 @@ LightEffect light_effect(vec3 gradient, float smallest_square, vec3 to_eye) {
     return LightEffect(weight * effect.change, weight * effect.highlight);
 }
 
-// The cuts of light (executors/light_cuts.h): x is the largest effect of highlights, and y the
+// The cuts of light (executors/lights.h): x is the largest effect of highlights, and y the
 // square of the distance that the gradient may go, as a share of its length in the middle of a
 // piece, before highlights may hide; z and w are those of everything else.
 uniform vec4 hidden_limits;

@@ -4,7 +4,7 @@
 #include "optics/opacity.glsl"
 #include "optics/lighting.glsl"
 
-// The square of the smallest gradient, and the largest bend of light (executors/tile_light.h).
+// The square of the smallest gradient, and the largest bend of light (executors/lights.h).
 uniform vec2 light_limits;
 
 struct LitRun {

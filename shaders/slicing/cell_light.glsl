@@ -10,7 +10,7 @@ uniform float most_bend;  // bend of light along a part above which the part is 
 // Shortest piece for which light is computed, as a share of the part (plan/march_limit.cpp counts
 // the rounds).
 const float shortest_lit_piece = 1.0 / 256.0;
-// Half of the share on the engine `cpu` (executors/light_cuts.h): the number of rounds is bounded
+// Half of the share on the engine `cpu` (executors/lights.h): the number of rounds is bounded
 // anyway, and pieces grow more slowly.
 const float faint_share = 1.0 / 4.0;
 

@@ -30,7 +30,7 @@ uniform float pixel_size;       // at depth 1
 
 uniform vec3 box_min;  // the brick's part of the volume's box, index space
 uniform vec3 box_max;
-uniform vec3 last_face;  // box_max, or beyond all places (slicing/texture_bricks.h)
+uniform vec3 last_face;  // box_max, or beyond all places (slicing/slab_geometry.h)
 
 struct Ray {
     REAL3 origin;

@@ -1,6 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A corner of a slab's polygon (slicing/slab_polygons.h).
+// A corner of a slab's polygon (slicing/slab_geometry.h).
 layout(location = 0) in vec2 position;  // pixels from the image's left and top edge
 layout(location = 1) in float slab_number;
 

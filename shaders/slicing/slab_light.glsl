@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light on segments: at the sample in the middle, or at both ends and linear between them
-// (docs/numerics.md, section 10). The engine `cpu` computes it in slicing/tile_lit_slabs-inl.h.
+// (docs/numerics.md, section 10). The engine `cpu` computes it in slicing/cpu_slab_segments-inl.h.
 #include "optics/lighting.glsl"
 #include "volume/gradient.glsl"
 

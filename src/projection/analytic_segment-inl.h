@@ -8,8 +8,8 @@
 #define LAMINA_PROJECTION_ANALYTIC_SEGMENT_INL_H_
 #endif
 
-#include "executors/tile_optics-inl.h"
-#include "tiles/piece_weights-inl.h"
+#include "executors/cpu_transfer-inl.h"
+#include "tiles/segment_optics-inl.h"
 
 LAMINA_SIMD_BEGIN
 

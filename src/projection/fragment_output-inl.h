@@ -10,7 +10,6 @@
 
 #include "base/enum_words.h"
 #include "projection/tile_fragments.h"
-#include "tiles/lane_pixels-inl.h"
 #include "tiles/target_pixels-inl.h"
 
 LAMINA_SIMD_BEGIN

@@ -9,12 +9,12 @@
 #endif
 
 #include "base/enum_words.h"
-#include "executors/tile_knot_table-inl.h"
+#include "executors/cpu_transfer-inl.h"
 #include "projection/analytic_segment-inl.h"
 #include "projection/fragment_output-inl.h"
 #include "projection/tet_color-inl.h"
 #include "projection/tet_drawing-inl.h"
-#include "tiles/uniform_table-inl.h"
+#include "tiles/segment_optics-inl.h"
 
 LAMINA_SIMD_BEGIN
 

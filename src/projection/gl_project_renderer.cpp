@@ -13,7 +13,7 @@
 #include "base/parallel.h"
 #include "base/profile.h"
 #include "executors/gl_compositing.h"
-#include "executors/gl_lights.h"
+#include "executors/gl_optics.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
 #include "projection/fan_geometry.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "executors/gl_fixed_tree.h"
+#include "executors/gl_compositing.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "lamina/image.h"

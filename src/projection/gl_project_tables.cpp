@@ -8,7 +8,7 @@
 
 #include "base/enum_words.h"
 #include "base/profile.h"
-#include "executors/shader_intervals.h"
+#include "executors/transfer_tables.h"
 #include "optics/pieces.h"
 #include "optics/segment_integral.h"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "executors/gl_transfer_tables.h"
+#include "executors/gl_optics.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "lamina/transfer_function.h"

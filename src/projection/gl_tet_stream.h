@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "executors/tree_leaves.h"
+#include "executors/gl_compositing.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gl/timeline.h"

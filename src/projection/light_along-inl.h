@@ -8,8 +8,8 @@
 #define LAMINA_PROJECTION_LIGHT_ALONG_INL_H_
 #endif
 
-#include "executors/tile_light-inl.h"
-#include "tiles/opacity-inl.h"
+#include "executors/cpu_light-inl.h"
+#include "tiles/segment_optics-inl.h"
 
 LAMINA_SIMD_BEGIN
 

@@ -7,7 +7,7 @@
 
 #include "projection/tet_record.h"
 #include "scene/camera.h"
-#include "tiles/tile_grid.h"
+#include "tiles/tile_image.h"
 
 namespace lamina {
 

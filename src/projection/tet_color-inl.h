@@ -10,7 +10,7 @@
 
 #include "optics/segment_integral.h"
 #include "projection/tet_run-inl.h"
-#include "tiles/linear_segment-inl.h"
+#include "tiles/segment_optics-inl.h"
 #include "tiles/target_pixels-inl.h"
 
 LAMINA_SIMD_BEGIN

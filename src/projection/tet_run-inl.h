@@ -9,7 +9,7 @@
 #endif
 
 #include "projection/tile_fragments.h"
-#include "simd/float64-inl.h"
+#include "simd/vectors-inl.h"
 
 LAMINA_SIMD_BEGIN
 

@@ -11,7 +11,7 @@
 #include "projection/part_area.h"
 #include "projection/tet_record.h"
 #include "scene/camera.h"
-#include "simd/attributes.h"
+#include "simd/target.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

@@ -25,7 +25,7 @@
 
 #include "projection/tet_record.h"
 #include "scene/camera.h"
-#include "simd/scalar-inl.h"
+#include "simd/vectors-inl.h"
 
 LAMINA_SIMD_BEGIN
 

@@ -8,13 +8,11 @@
 #include <array>
 #include <cstdint>
 
-#include "executors/tile_light.h"
-#include "executors/tile_transfer.h"
+#include "executors/lights.h"
+#include "executors/transfer_tables.h"
 #include "plan/project_plan.h"
 #include "preintegration/preintegration_table.h"
 #include "projection/tile_batch.h"
-#include "tiles/target_blend.h"
-#include "tiles/tile_grid.h"
 #include "tiles/tile_image.h"
 
 namespace lamina {

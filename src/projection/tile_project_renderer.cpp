@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/profile.h"
-#include "executors/light_cuts.h"
+#include "executors/lights.h"
 #include "facts/world_unit.h"
 #include "scene/camera.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/profile.h"
-#include "executors/shader_intervals.h"
+#include "executors/transfer_tables.h"
 #include "optics/pieces.h"
 #include "optics/segment_integral.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "executors/tile_transfer.h"
+#include "executors/transfer_tables.h"
 #include "lamina/transfer_function.h"
 #include "plan/project_plan.h"
 #include "projection/tile_fragments.h"

@@ -8,7 +8,7 @@
 
 #include "base/progress.h"
 #include "compositing/tree_shape.h"
-#include "executors/tile_fixed_tree.h"
+#include "executors/fixed_tree.h"
 #include "tiles/tile_image.h"
 
 namespace lamina {
@@ -22,7 +22,7 @@ class TileTetTree {
         std::vector<TilePlane> opacity;
         std::vector<std::uint8_t> touched;
     };
-    // Composites samples onto a node that is 0, as TileLeaves::draw does, but for all tiles.
+    // Composites samples onto a node that is 0, as TileLeaves do, but for all tiles.
     using DrawLeaf = std::function<void(const SampleSpan&, double depth_scale, Node&)>;
 
     // `plan`: how the nodes composite. Leaves may be drawn in another way.

@@ -9,7 +9,7 @@
 #endif
 
 #include "projection/triangle_record.h"
-#include "simd/float64-inl.h"
+#include "simd/vectors-inl.h"
 
 LAMINA_SIMD_BEGIN
 

@@ -7,8 +7,6 @@
 #define LAMINA_SIMD_DOUBLE_DOUBLES_INL_H_
 #endif
 
-#include <cmath>
-
 #include "simd/lane_set.h"
 #include "simd/vectors-inl.h"
 

@@ -7,9 +7,6 @@
 #define LAMINA_SIMD_MEMBERS_INL_H_
 #endif
 
-#include <bit>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 
 #include "simd/lane_set.h"
@@ -19,7 +16,6 @@ LAMINA_SIMD_BEGIN
 
 static_assert(Double::lanes <= longest_vector);
 
-// Calls body(lane) for each lane of a set.
 template <class Body>
 LAMINA_INLINE void for_each_lane(LaneSet set, const Body& body) {
     for (; set != 0; set &= set - 1) body(static_cast<std::size_t>(std::countr_zero(set)));
@@ -105,6 +101,42 @@ class KeptLanes {
 
     Long kept_;
     std::size_t count_;
+};
+
+// Rows that vectors hold side by side, in memory as columns. `Row`: a struct of Floats and Ints
+// alone, each of which has a column. Lane i of the vectors that load(first) returns is row first +
+// i.
+template <class Row, std::size_t capacity>
+class Columns {
+    static_assert(std::is_trivially_copyable_v<Row> && sizeof(Row) % sizeof(Float) == 0);
+    static constexpr std::size_t count = sizeof(Row) / sizeof(Float);
+
+  public:
+    LAMINA_INLINE Row load(std::size_t first) const {
+        Row row;
+#pragma GCC unroll 64
+        for (std::size_t i = 0; i < count; ++i) {
+            const Float column = load_unaligned<Float>(columns_[i] + first);
+            std::memcpy(reinterpret_cast<std::byte*>(&row) + i * sizeof(Float), &column,
+                        sizeof(Float));
+        }
+        return row;
+    }
+
+    // Stores the members of a vector of rows one after the other from row `to` on. It writes whole
+    // vectors.
+    LAMINA_INLINE void store_members(const Row& row, FloatMask members, std::size_t to) {
+#pragma GCC unroll 64
+        for (std::size_t i = 0; i < count; ++i) {
+            Float column;
+            std::memcpy(&column, reinterpret_cast<const std::byte*>(&row) + i * sizeof(Float),
+                        sizeof(Float));
+            store_unaligned(members_first(column, members), columns_[i] + to);
+        }
+    }
+
+  private:
+    alignas(64) float columns_[count][capacity];
 };
 
 LAMINA_SIMD_END

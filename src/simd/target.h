@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <hwy/highway.h>
+#include <hwy/base.h>
 
-#include "simd/attributes.h"
+// Attributes of functions that compute with vectors. A lambda needs LAMINA_LAMBDA behind its
+// parameters: compilers give it no instruction set of its own.
+#define LAMINA_INLINE HWY_INLINE
+#define LAMINA_NOINLINE HWY_NOINLINE
+#define LAMINA_LAMBDA HWY_ATTR
 
 // Begins and ends the code that is compiled for one instruction set, in a namespace of its own.
 #define LAMINA_SIMD_BEGIN   \

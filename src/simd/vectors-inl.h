@@ -11,6 +11,10 @@
 #define LAMINA_SIMD_VECTORS_INL_H_
 #endif
 
+#include <hwy/highway.h>
+#include <algorithm>
+#include <cmath>
+
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -18,6 +22,7 @@
 #include "simd/target.h"
 
 LAMINA_SIMD_BEGIN
+
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Largest number of lanes of a Float. HWY_MAX_BYTES allows no more on any instruction set.
@@ -187,14 +192,12 @@ LAMINA_INLINE V iota(typename V::Scalar first) {
     return hn::Iota(typename V::Tag(), first);
 }
 
-// c[0] + x * (c[1] + x * (c[2] + ...))
 template <class V, std::size_t count>
 LAMINA_INLINE V polynomial(V x, const typename V::Scalar (&c)[count]) {
     V sum = c[count - 1];
     for (std::size_t i = count - 1; i-- > 0;) sum = sum * x + c[i];
     return sum;
 }
-// a + share * (b - a)
 template <class V>
 LAMINA_INLINE V mix(V a, V b, V share) {
     return a + share * (b - a);
@@ -274,7 +277,6 @@ LAMINA_INLINE Double to_double(Long a) {
 LAMINA_INLINE Long to_long(Double a) {
     return hn::ConvertTo(Long::Tag(), a.v);
 }
-// Rounds each double to the nearest float.
 LAMINA_INLINE Double rounded_to_float(Double a) {
     return hn::PromoteTo(Double::Tag(), hn::DemoteTo(hn::Rebind<float, Double::Tag>(), a.v));
 }
@@ -296,19 +298,16 @@ LAMINA_INLINE Word load_halves(const std::uint16_t* from) {
     return hn::PromoteTo(Word::Tag(), hn::LoadU(hn::Rebind<std::uint16_t, Word::Tag>(), from));
 }
 
-// Stores the lowest byte of each lane.
 LAMINA_INLINE void store_low_bytes(Word8 a, std::uint8_t* to) {
     const hn::Rebind<std::uint8_t, Word8::Tag> bytes;
     hn::StoreU(hn::TruncateTo(bytes, a.v), bytes, to);
 }
 
-// Returns the bits of `a` as another kind of number.
 template <class To, class D>
 LAMINA_INLINE To bits_as(Vector<D> a) {
     return hn::BitCast(typename To::Tag(), a.v);
 }
 
-// Returns from[place] in each lane.
 template <class T, class D>
 LAMINA_INLINE auto gather(const T* from, Vector<D> place) {
     using Tag = hn::Rebind<T, D>;
@@ -344,6 +343,136 @@ LAMINA_INLINE void transpose(Float4 (&rows)[4]) {
     rows[1] = hn::InterleaveUpper(d, low02, low13);
     rows[2] = hn::InterleaveLower(d, high02, high13);
     rows[3] = hn::InterleaveUpper(d, high02, high13);
+}
+
+struct Float64Mask {
+    DoubleMask low, high;
+
+    friend LAMINA_INLINE Float64Mask operator&(Float64Mask a, Float64Mask b) {
+        return {a.low & b.low, a.high & b.high};
+    }
+    friend LAMINA_INLINE Float64Mask operator|(Float64Mask a, Float64Mask b) {
+        return {a.low | b.low, a.high | b.high};
+    }
+    friend LAMINA_INLINE bool any_of(Float64Mask a) { return any_of(a.low) || any_of(a.high); }
+    friend LAMINA_INLINE bool none_of(Float64Mask a) { return none_of(a.low) && none_of(a.high); }
+    friend LAMINA_INLINE bool all_of(Float64Mask a) { return all_of(a.low) && all_of(a.high); }
+};
+
+// The lanes of a Float in double precision; `low` holds the first half of them.
+struct Float64 {
+    using Scalar = double;
+    using Mask = Float64Mask;
+
+    Double low, high;
+
+    Float64() = default;
+    LAMINA_INLINE Float64(Double first, Double last) : low(first), high(last) {}
+    LAMINA_INLINE Float64(double all) : low(all), high(all) {}
+    LAMINA_INLINE explicit Float64(Float a)
+        : low(hn::PromoteTo(Double::Tag(), hn::LowerHalf(hn::Half<Float::Tag>(), a.v))),
+          high(hn::PromoteTo(Double::Tag(), hn::UpperHalf(hn::Half<Float::Tag>(), a.v))) {}
+    LAMINA_INLINE explicit Float64(Int a)
+        : low(hn::PromoteTo(Double::Tag(), hn::LowerHalf(hn::Half<Int::Tag>(), a.v))),
+          high(hn::PromoteTo(Double::Tag(), hn::UpperHalf(hn::Half<Int::Tag>(), a.v))) {}
+    // Converts exactly, by way of signed numbers, for which there is an instruction.
+    LAMINA_INLINE explicit Float64(Word a)
+        : Float64(Float64(bits_as<Int>(a ^ Word(0x80000000u))) + Float64(0x1p31)) {}
+
+    friend LAMINA_INLINE Float64 operator-(Float64 a) { return {-a.low, -a.high}; }
+    friend LAMINA_INLINE Float64& operator+=(Float64& a, Float64 b) { return a = a + b; }
+    friend LAMINA_INLINE Float64& operator*=(Float64& a, Float64 b) { return a = a * b; }
+
+    friend LAMINA_INLINE Float64 min(Float64 a, Float64 b) {
+        return {min(a.low, b.low), min(a.high, b.high)};
+    }
+    friend LAMINA_INLINE Float64 max(Float64 a, Float64 b) {
+        return {max(a.low, b.low), max(a.high, b.high)};
+    }
+    friend LAMINA_INLINE Float64 clamp(Float64 a, Float64 least, Float64 most) {
+        return min(max(a, least), most);
+    }
+    friend LAMINA_INLINE Float64 abs(Float64 a) { return {abs(a.low), abs(a.high)}; }
+    friend LAMINA_INLINE Float64 sqrt(Float64 a) { return {sqrt(a.low), sqrt(a.high)}; }
+    friend LAMINA_INLINE Float64 floor(Float64 a) { return {floor(a.low), floor(a.high)}; }
+    friend LAMINA_INLINE Float64 ceil(Float64 a) { return {ceil(a.low), ceil(a.high)}; }
+
+    friend LAMINA_INLINE Float64 select(Float64Mask mask, Float64 yes, Float64 no) {
+        return {select(mask.low, yes.low, no.low), select(mask.high, yes.high, no.high)};
+    }
+    friend LAMINA_INLINE Float64 zero_unless(Float64Mask mask, Float64 a) {
+        return {zero_unless(mask.low, a.low), zero_unless(mask.high, a.high)};
+    }
+
+    friend LAMINA_INLINE void store(Float64 a, double* to) {
+        store(a.low, to);
+        store(a.high, to + Double::lanes);
+    }
+    friend LAMINA_INLINE double least_of(Float64 a) { return least_of(min(a.low, a.high)); }
+    friend LAMINA_INLINE double largest_of(Float64 a) { return largest_of(max(a.low, a.high)); }
+
+#define LAMINA_FLOAT64_OPERATOR(Result, op)                         \
+    friend LAMINA_INLINE Result operator op(Float64 a, Float64 b) { \
+        return {a.low op b.low, a.high op b.high};                  \
+    }
+    LAMINA_FLOAT64_OPERATOR(Float64, +)
+    LAMINA_FLOAT64_OPERATOR(Float64, -)
+    LAMINA_FLOAT64_OPERATOR(Float64, *)
+    LAMINA_FLOAT64_OPERATOR(Float64, /)
+    LAMINA_FLOAT64_OPERATOR(Float64Mask, <)
+    LAMINA_FLOAT64_OPERATOR(Float64Mask, >)
+    LAMINA_FLOAT64_OPERATOR(Float64Mask, <=)
+    LAMINA_FLOAT64_OPERATOR(Float64Mask, >=)
+    LAMINA_FLOAT64_OPERATOR(Float64Mask, ==)
+#undef LAMINA_FLOAT64_OPERATOR
+};
+
+// Rounds to the nearest float.
+LAMINA_INLINE Float to_float(const Float64& a) {
+    const hn::Half<Float::Tag> half;
+    return hn::Combine(Float::Tag(), hn::DemoteTo(half, a.high.v), hn::DemoteTo(half, a.low.v));
+}
+// Converts whole numbers within the range of int.
+LAMINA_INLINE Int to_int(const Float64& whole) {
+    const hn::Half<Int::Tag> half;
+    return hn::Combine(Int::Tag(), hn::DemoteTo(half, whole.high.v),
+                       hn::DemoteTo(half, whole.low.v));
+}
+LAMINA_INLINE Float64 load_float64(const double* from) {
+    return {load<Double>(from), load<Double>(from + Double::lanes)};
+}
+// Returns the mask of the same lanes of a Float.
+LAMINA_INLINE FloatMask to_float_mask(const Float64Mask& a) {
+    return to_float(zero_unless(a, Float64(1.0))) > Float(0);
+}
+LAMINA_INLINE FloatMask to_float_mask(FloatMask a) {
+    return a;
+}
+
+// The words of vectors for one double, for templates over the number type.
+LAMINA_INLINE double min(double a, double b) {
+    return std::min(a, b);
+}
+LAMINA_INLINE double max(double a, double b) {
+    return std::max(a, b);
+}
+LAMINA_INLINE double clamp(double a, double least, double most) {
+    return std::min(std::max(a, least), most);
+}
+LAMINA_INLINE double abs(double a) {
+    return std::abs(a);
+}
+LAMINA_INLINE double sqrt(double a) {
+    return std::sqrt(a);
+}
+LAMINA_INLINE double floor(double a) {
+    return std::floor(a);
+}
+LAMINA_INLINE double select(bool mask, double yes, double no) {
+    return mask ? yes : no;
+}
+LAMINA_INLINE double rounded_to_float(double a) {
+    return static_cast<double>(static_cast<float>(a));
 }
 
 LAMINA_SIMD_END

@@ -24,15 +24,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <type_traits>
 #include <variant>
 
 #include "slicing/cpu_cut-inl.h"
-#include "slicing/cpu_light-inl.h"
-#include "slicing/cpu_walk-inl.h"
-#include "slicing/tile_block-inl.h"
+#include "slicing/cpu_slab_segments-inl.h"
 
 LAMINA_SIMD_BEGIN
 
@@ -60,11 +55,11 @@ class CellIntegrator {
     static constexpr std::size_t most_packets = CellSegments::most_packets;
 
     // `colored`: colours are needed, too.
-    CellIntegrator(const TileSlabs& slabs, bool colored) : slabs_(slabs), colored_(colored) {}
+    CellIntegrator(const CpuSlabs& slabs, bool colored) : slabs_(slabs), colored_(colored) {}
 
     // Begins at the front of slab `slab`, or where the rays enter the drawn box, and ends where
     // they leave it. `packets`: up to most_packets of them.
-    void begin(const TileBrickView& view, const PacketRays* packets, std::size_t count, int slab) {
+    void begin(const CpuBrickView& view, const PacketRays* packets, std::size_t count, int slab) {
         view_ = &view;
         packets_ = count;
         for (std::size_t i = 0; i < count; ++i) {
@@ -119,7 +114,8 @@ class CellIntegrator {
     }
 
     void walk() {
-        segments_.clear();
+        segments_.steps = 0;
+        segments_.count = 0;
         for (std::size_t i = 0; i < packets_; ++i) walks_[i].begin_steps();
         for (bool some = true; some && segments_.steps < CellSegments::most_steps;) {
             some = false;
@@ -136,41 +132,31 @@ class CellIntegrator {
     }
 
     void set_cubics() {
-        const TileBrick& brick = view_->brick;
+        const CpuBrick& brick = view_->brick;
         // Samples have no neighbour along x; those of pages always have one.
         const bool flat = brick.last_sample[0] == 0 && brick.pages == nullptr;
-        switch (brick.layout) {
-            case TileLayout::bytes:
-                return flat ? set_cubics_by_gathers<TileLayout::bytes>(brick)
-                            : set_cubics_of<TileLayout::bytes>(brick);
-            case TileLayout::words:
-                return flat ? set_cubics_by_gathers<TileLayout::words>(brick)
-                            : set_cubics_of<TileLayout::words>(brick);
-            case TileLayout::floats:
-                return flat ? set_cubics_by_gathers<TileLayout::floats>(brick)
-                            : set_cubics_of<TileLayout::floats>(brick);
-        }
-        unreachable_enum();
+        with_layout(brick.layout, [&](auto of_samples) LAMINA_LAMBDA {
+            constexpr CpuLayout layout = decltype(of_samples)::value;
+            flat ? set_cubics_by_gathers<layout>(brick) : set_cubics_of<layout>(brick);
+        });
     }
 
     // Fetches pairs of neighbours along x one by one, which is faster than gathers, some vectors of
     // segments at a time.
-    template <TileLayout layout>
-    void set_cubics_of(const TileBrick& brick) {
-        using Pair = typename PairOf<layout>::Type;
-        Pair pairs[4][fetched_together];
+    template <CpuLayout layout>
+    void set_cubics_of(const CpuBrick& brick) {
+        PairOf<layout> pairs[4][fetched_together];
         for (std::size_t from = 0; from < segments_.count; from += fetched_together) {
             const std::size_t count = std::min(fetched_together, segments_.count - from);
             fetch_pairs(brick, segments_.index + from, count, pairs);
             for (std::size_t i = 0; i < count; i += Float::lanes) {
-                const Corners corners = unpack_pairs<layout>(brick, pairs, i);
-                set_cubic(brick, corners, from + i);
+                set_cubic(brick, unpack_pairs<layout>(brick, pairs, i), from + i);
             }
         }
     }
 
-    template <TileLayout layout>
-    void set_cubics_by_gathers(const TileBrick& brick) {
+    template <CpuLayout layout>
+    void set_cubics_by_gathers(const CpuBrick& brick) {
         for_each_vector([&](std::size_t i) LAMINA_LAMBDA {
             const Int index = load<Int>(segments_.index + i);
             const FloatMask stored = members_from(i);
@@ -178,13 +164,8 @@ class CellIntegrator {
         });
     }
 
-    LAMINA_INLINE void set_cubic(const TileBrick& brick, const Corners& corners, std::size_t i) {
-        const Float place[3] = {load<Float>(segments_.place[0] + i),
-                                load<Float>(segments_.place[1] + i),
-                                load<Float>(segments_.place[2] + i)};
-        const Float change[3] = {load<Float>(segments_.change[0] + i),
-                                 load<Float>(segments_.change[1] + i),
-                                 load<Float>(segments_.change[2] + i)};
+    LAMINA_INLINE void set_cubic(const CpuBrick& brick, const Corners& corners, std::size_t i) {
+        const auto [place, change] = segments_.ways_from(i);
         // Floats are normalised, with an offset of 0. The scale is a power of two (exact_range()).
         const Float base(-brick.offset / brick.scale);
         CubicLanes cubic = cubic_along(corners, base, place, change);
@@ -329,9 +310,9 @@ class CellIntegrator {
 
     static constexpr std::size_t fetched_together = 8 * most_lanes;
 
-    const TileSlabs& slabs_;
+    const CpuSlabs& slabs_;
     bool colored_;
-    const TileBrickView* view_ = nullptr;
+    const CpuBrickView* view_ = nullptr;
     std::size_t packets_ = 0;
     DepthSpan spans_[most_packets];
     CellWalk<lit> walks_[most_packets];
@@ -345,7 +326,7 @@ class CellIntegrator {
 // The integrator of a picture: lit, or not.
 using AnyCellIntegrator = std::variant<CellIntegrator<false>, CellIntegrator<true>>;
 
-LAMINA_INLINE AnyCellIntegrator cell_integrator(const TileSlabs& slabs, bool colored) {
+LAMINA_INLINE AnyCellIntegrator cell_integrator(const CpuSlabs& slabs, bool colored) {
     if (slabs.light != nullptr)
         return AnyCellIntegrator(std::in_place_type<CellIntegrator<true>>, slabs, colored);
     return AnyCellIntegrator(std::in_place_type<CellIntegrator<false>>, slabs, colored);
@@ -353,7 +334,7 @@ LAMINA_INLINE AnyCellIntegrator cell_integrator(const TileSlabs& slabs, bool col
 
 // Sets optical depths and colours of the slabs of a block that are wanted.
 template <bool lit>
-std::int64_t set_exact_segments(const TileBrickView& brick, const PacketRays& packet, bool colored,
+std::int64_t set_exact_segments(const CpuBrickView& brick, const PacketRays& packet, bool colored,
                                 CellIntegrator<lit>& cells, SlabBlock& block) {
     const std::int64_t before = cells.segments();
     for_each_run(block.wanted, [&](int first, int end) LAMINA_LAMBDA {

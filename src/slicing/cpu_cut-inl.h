@@ -22,14 +22,7 @@
 #define LAMINA_SLICING_CPU_CUT_INL_H_
 #endif
 
-#include <cstddef>
-#include <cstdint>
-#include <type_traits>
-
-#include "simd/columns-inl.h"
 #include "slicing/cpu_light-inl.h"
-#include "slicing/cpu_optics-inl.h"
-#include "slicing/cpu_walk-inl.h"
 
 LAMINA_SIMD_BEGIN
 

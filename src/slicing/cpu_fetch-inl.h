@@ -13,18 +13,16 @@
 #define LAMINA_SLICING_CPU_FETCH_INL_H_
 #endif
 
-#include <algorithm>
 #include <cstring>
 
-#include "base/enum_words.h"
 #include "slicing/cpu_rays-inl.h"
-#include "slicing/tile_volume.h"
+#include "slicing/cpu_volume.h"
 
 LAMINA_SIMD_BEGIN
 
-LAMINA_INLINE Int page_index(const TilePages& pages, Int x, Int y, Int z) {
-    constexpr int bits = TilePages::place_bits;
-    const Int within(TilePages::places);
+LAMINA_INLINE Int page_index(const CpuPages& pages, Int x, Int y, Int z) {
+    constexpr int bits = CpuPages::place_bits;
+    const Int within(CpuPages::places);
     x += pages.offset[0];
     y += pages.offset[1];
     z += pages.offset[2];
@@ -32,11 +30,11 @@ LAMINA_INLINE Int page_index(const TilePages& pages, Int x, Int y, Int z) {
                      (shift_right<bits>(y) * pages.row + shift_right<bits>(z) * pages.slice);
     const Int place =
         (x & within) | (shift_left<bits>(y & within) | shift_left<2 * bits>(z & within));
-    return shift_left<TilePages::page_bits>(page) | place;
+    return shift_left<CpuPages::page_bits>(page) | place;
 }
 
 // Returns the index by which a cell's samples are fetched; x, y, z: its lowest corner.
-LAMINA_INLINE Int cell_index(const TileBrick& brick, Int x, Int y, Int z) {
+LAMINA_INLINE Int cell_index(const CpuBrick& brick, Int x, Int y, Int z) {
     if (brick.pages != nullptr) [[unlikely]]
         return page_index(*brick.pages, x, y, z);
     return x + (y * brick.row + z * brick.slice);
@@ -45,36 +43,42 @@ LAMINA_INLINE Int cell_index(const TileBrick& brick, Int x, Int y, Int z) {
 // Calls visit(i, begin of the page, place in it) for cells 0 .. count - 1, with their pages in
 // memory.
 template <class Visit>
-LAMINA_INLINE void visit_pages(const TilePages& pages, const std::int32_t* indices,
+LAMINA_INLINE void visit_pages(const CpuPages& pages, const std::int32_t* indices,
                                std::size_t count, const Visit& visit) {
     for (std::size_t from = 0; from < count; from += BrickCache::most_held) {
         const std::size_t end = std::min(count, from + BrickCache::most_held);
         const auto held = pages.cache->hold(
             end - from, [&](std::size_t i) { return pages.number_of(indices[from + i]); });
         for (std::size_t i = from; i < end; ++i)
-            visit(i, pages.cache->at(pages.number_of(indices[i])), TilePages::place_of(indices[i]));
+            visit(i, pages.cache->at(pages.number_of(indices[i])), CpuPages::place_of(indices[i]));
     }
+}
+
+// Copies the four pairs of a cell, which begins at `from`; `row` and `slice` in bytes.
+template <class Pair, std::size_t size>
+LAMINA_INLINE void copy_pairs(const std::byte* from, std::size_t row, std::size_t slice,
+                              std::size_t i, Pair (&pairs)[4][size]) {
+    std::memcpy(&pairs[0][i], from, sizeof(Pair));
+    std::memcpy(&pairs[1][i], from + row, sizeof(Pair));
+    std::memcpy(&pairs[2][i], from + slice, sizeof(Pair));
+    std::memcpy(&pairs[3][i], from + slice + row, sizeof(Pair));
 }
 
 // Fetches the four pairs of neighbours along x of each cell from pages, as fetch_pairs() does.
 template <class Pair, std::size_t size>
-inline LAMINA_NOINLINE void fetch_paged_pairs(const TilePages& pages, const std::int32_t* indices,
+inline LAMINA_NOINLINE void fetch_paged_pairs(const CpuPages& pages, const std::int32_t* indices,
                                               std::size_t count, Pair (&pairs)[4][size]) {
     constexpr std::size_t bytes = sizeof(Pair) / 2;
     constexpr std::size_t row = bytes * static_cast<std::size_t>(BrickCache::row);
     constexpr std::size_t slice = bytes * static_cast<std::size_t>(BrickCache::slice);
     visit_pages(pages, indices, count,
                 [&](std::size_t i, const std::byte* page, std::size_t place) {
-                    const std::byte* const at = page + bytes * place;
-                    std::memcpy(&pairs[0][i], at, sizeof(Pair));
-                    std::memcpy(&pairs[1][i], at + row, sizeof(Pair));
-                    std::memcpy(&pairs[2][i], at + slice, sizeof(Pair));
-                    std::memcpy(&pairs[3][i], at + slice + row, sizeof(Pair));
+                    copy_pairs(page + bytes * place, row, slice, i, pairs);
                 });
 }
 
 struct Points {
-    Float x, y, z;
+    Float at[3];
 };
 
 // The samples at the corners of a cell, at its lower and its upper x. In each array the order is
@@ -92,27 +96,24 @@ LAMINA_INLINE Float to_float(Word v) {
 }
 
 // Fetches the corners by gathers; it also works if samples have no neighbour along x.
-template <TileLayout layout>
-LAMINA_INLINE Corners fetch_corners(const TileBrick& brick, Int index) {
+template <CpuLayout layout>
+LAMINA_INLINE Corners fetch_corners(const CpuBrick& brick, Int index) {
     Corners corners;
-    if constexpr (layout == TileLayout::floats) {
-        const auto* const floats = static_cast<const float*>(brick.samples);
+    const std::int32_t steps[4] = {0, brick.row, brick.slice, brick.row + brick.slice};
+    if constexpr (layout == CpuLayout::floats) {
         const std::int32_t next = brick.last_sample[0] > 0 ? 1 : 0;
         for (int i = 0; i < 4; ++i) {
-            const float* const from =
-                floats + ((i & 1) != 0 ? brick.row : 0) + ((i & 2) != 0 ? brick.slice : 0);
+            const float* const from = static_cast<const float*>(brick.samples) + steps[i];
             corners.lower[i] = gather(from, index);
             corners.upper[i] = gather(from + next, index);
         }
     } else {
         // A word of 32 bits holds a sample and the next one along x. Words that would reach beyond
         // the memory's end are read a little earlier and shifted.
-        constexpr int size = layout == TileLayout::bytes ? 1 : 2;
+        constexpr int size = layout == CpuLayout::bytes ? 1 : 2;
         const auto* const words = static_cast<const std::uint32_t*>(brick.samples);
         for (int i = 0; i < 4; ++i) {
-            const std::int32_t step =
-                ((i & 1) != 0 ? brick.row : 0) + ((i & 2) != 0 ? brick.slice : 0);
-            Int offset = index + step;
+            Int offset = index + steps[i];
             if constexpr (size == 2) offset = shift_left<1>(offset);
             const Int inside = min(offset, brick.last_word);
             const Word shift = bits_as<Word>(shift_left<3>(offset - inside));
@@ -131,23 +132,29 @@ LAMINA_INLINE Corners fetch_corners(const TileBrick& brick, Int index) {
 }
 
 // A sample and the next one along x.
-template <TileLayout layout>
-struct PairOf {
-    using Type = std::uint64_t;  // floats
-};
-template <>
-struct PairOf<TileLayout::bytes> {
-    using Type = std::uint16_t;
-};
-template <>
-struct PairOf<TileLayout::words> {
-    using Type = std::uint32_t;
-};
+template <CpuLayout layout>
+using PairOf = std::conditional_t<
+    layout == CpuLayout::bytes, std::uint16_t,
+    std::conditional_t<layout == CpuLayout::words, std::uint32_t, std::uint64_t>>;
+
+// Calls body(std::integral_constant<CpuLayout, ...>).
+template <class Body>
+LAMINA_INLINE void with_layout(CpuLayout layout, const Body& body) {
+    switch (layout) {
+        case CpuLayout::bytes:
+            return body(std::integral_constant<CpuLayout, CpuLayout::bytes>());
+        case CpuLayout::words:
+            return body(std::integral_constant<CpuLayout, CpuLayout::words>());
+        case CpuLayout::floats:
+            return body(std::integral_constant<CpuLayout, CpuLayout::floats>());
+    }
+    unreachable_enum();
+}
 
 // Fetches the four pairs of each cell, in the order of Corners, one by one: that is faster than
 // gathers of the instruction set. The volume must have a second sample along x.
 template <class Pair, std::size_t size>
-inline LAMINA_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32_t* indices,
+inline LAMINA_NOINLINE void fetch_pairs(const CpuBrick& brick, const std::int32_t* indices,
                                         std::size_t count, Pair (&pairs)[4][size]) {
     if (brick.pages != nullptr) return fetch_paged_pairs(*brick.pages, indices, count, pairs);
     const auto* const samples = static_cast<const std::byte*>(brick.samples);
@@ -155,25 +162,21 @@ inline LAMINA_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32
     const std::size_t row = bytes * static_cast<std::size_t>(brick.row);
     const std::size_t slice = bytes * static_cast<std::size_t>(brick.slice);
     for (std::size_t i = 0; i < count; ++i) {
-        const std::byte* const at = samples + bytes * static_cast<std::size_t>(indices[i]);
-        std::memcpy(&pairs[0][i], at, sizeof(Pair));
-        std::memcpy(&pairs[1][i], at + row, sizeof(Pair));
-        std::memcpy(&pairs[2][i], at + slice, sizeof(Pair));
-        std::memcpy(&pairs[3][i], at + slice + row, sizeof(Pair));
+        copy_pairs(samples + bytes * static_cast<std::size_t>(indices[i]), row, slice, i, pairs);
     }
 }
 
 // Returns the corners of a vector of cells from the i-th on.
-template <TileLayout layout, class Pair, std::size_t size>
-LAMINA_INLINE Corners unpack_pairs(const TileBrick& brick, const Pair (&pairs)[4][size],
+template <CpuLayout layout, class Pair, std::size_t size>
+LAMINA_INLINE Corners unpack_pairs(const CpuBrick& brick, const Pair (&pairs)[4][size],
                                    std::size_t i) {
     Corners corners;
     for (int corner = 0; corner < 4; ++corner) {
         const Pair* const from = pairs[corner] + i;
-        if constexpr (layout == TileLayout::floats) {
+        if constexpr (layout == CpuLayout::floats) {
             load_interleaved(reinterpret_cast<const float*>(from), corners.lower[corner],
                              corners.upper[corner]);
-        } else if constexpr (layout == TileLayout::words) {
+        } else if constexpr (layout == CpuLayout::words) {
             const Word pair = load_unaligned<Word>(from) ^ brick.flip;
             corners.lower[corner] = to_float(pair & 0xffffu);
             corners.upper[corner] = to_float(shift_right<16>(pair));
@@ -208,7 +211,7 @@ struct Cell {
 };
 
 template <PointKind kind>
-LAMINA_INLINE Cell cell_at(const TileBrick& brick, const Points& points) {
+LAMINA_INLINE Cell cell_at(const CpuBrick& brick, const Points& points) {
     Cell cell;
     const auto lower_along = [&](std::size_t axis, Float p) LAMINA_LAMBDA {
         Float least = p;
@@ -221,16 +224,16 @@ LAMINA_INLINE Cell cell_at(const TileBrick& brick, const Points& points) {
         cell.share[axis] = p - to_float(lower);
         return lower;
     };
-    const Int x = lower_along(0, points.x), y = lower_along(1, points.y),
-              z = lower_along(2, points.z);
+    const Int x = lower_along(0, points.at[0]), y = lower_along(1, points.at[1]),
+              z = lower_along(2, points.at[2]);
     cell.index = cell_index(brick, x, y, z);
     return cell;
 }
 
-template <TileLayout layout, PointKind kind>
-LAMINA_INLINE Float scalar_in(const TileBrick& brick, Corners corners, const Float* share) {
+template <CpuLayout layout, PointKind kind>
+LAMINA_INLINE Float scalar_in(const CpuBrick& brick, Corners corners, const Float* share) {
     float scale = brick.scale;
-    if constexpr (kind == PointKind::exact && layout != TileLayout::floats) {
+    if constexpr (kind == PointKind::exact && layout != CpuLayout::floats) {
         for (int i = 0; i < 4; ++i) {
             corners.lower[i] *= brick.unit;
             corners.upper[i] *= brick.unit;
@@ -238,41 +241,41 @@ LAMINA_INLINE Float scalar_in(const TileBrick& brick, Corners corners, const Flo
         scale = brick.unit_scale;
     }
     const Float raw = interpolate(corners, share[0], share[1], share[2]);
-    if constexpr (layout == TileLayout::floats) return raw;
+    if constexpr (layout == CpuLayout::floats) return raw;
     return raw * scale + brick.offset;
 }
 
 // Only one pixel in each row and column is fetched ahead; the samples of its neighbours mostly lie
 // beside its own.
-template <TileLayout layout>
-LAMINA_INLINE void prefetch_cells(const TileBrick& brick, const std::int32_t* indices) {
+template <std::size_t bytes>
+LAMINA_INLINE void prefetch_cells(const CpuBrick& brick, const void* samples,
+                                  const std::int32_t* indices) {
     if (brick.pages != nullptr) return;
-    constexpr std::size_t bytes = bytes_of_sample(layout);
-    const auto* const samples = static_cast<const std::byte*>(brick.samples);
     const std::size_t slice = bytes * static_cast<std::size_t>(brick.slice);
     for (std::size_t lane = 0; lane < Float::lanes; lane += TileGrid::block + 1) {
-        const std::byte* const at = samples + bytes * static_cast<std::size_t>(indices[lane]);
+        const std::byte* const at = static_cast<const std::byte*>(samples) +
+                                    bytes * static_cast<std::size_t>(indices[lane]);
         __builtin_prefetch(at);
         __builtin_prefetch(at + slice);
     }
 }
 
 // Samples in three stages of half a block: find cells, fetch their samples, interpolate.
-template <TileLayout layout, PointKind kind, class PointAt>
-LAMINA_INLINE void sample_in_stages(const TileBrick& brick, bool hardware, int first, int end,
+template <CpuLayout layout, PointKind kind, class PointAt>
+LAMINA_INLINE void sample_in_stages(const CpuBrick& brick, bool hardware, int first, int end,
                                     const PointAt& point_at, float* scalars) {
-    constexpr int stage = tile_block_slabs / 2 + 1;  // boundaries are one more than slabs
+    constexpr int stage = block_slabs / 2 + 1;  // boundaries are one more than slabs
     constexpr std::size_t lanes = Float::lanes;
     alignas(64) std::int32_t indices[stage * most_lanes];
     alignas(64) float shares[3][stage * most_lanes];
-    typename PairOf<layout>::Type pairs[4][stage * most_lanes];
+    PairOf<layout> pairs[4][stage * most_lanes];
     for (int begin = first; begin < end; begin += stage) {
         const auto count = static_cast<std::size_t>(std::min(stage, end - begin));
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t place = i * lanes;
             const Cell cell = cell_at<kind>(brick, point_at(begin + static_cast<int>(i)));
             store(cell.index, indices + place);
-            prefetch_cells<layout>(brick, indices + place);
+            prefetch_cells<bytes_of_sample(layout)>(brick, brick.samples, indices + place);
             for (std::size_t axis = 0; axis < 3; ++axis)
                 store(cell.share[axis], shares[axis] + place);
         }
@@ -295,8 +298,8 @@ LAMINA_INLINE void sample_in_stages(const TileBrick& brick, bool hardware, int f
 }
 
 // Samples a brick whose samples have no neighbour along x.
-template <TileLayout layout, PointKind kind, class PointAt>
-LAMINA_INLINE void sample_by_gathers(const TileBrick& brick, bool hardware, int first, int end,
+template <CpuLayout layout, PointKind kind, class PointAt>
+LAMINA_INLINE void sample_by_gathers(const CpuBrick& brick, bool hardware, int first, int end,
                                      const PointAt& point_at, float* scalars) {
     for (int i = first; i < end; ++i) {
         Cell cell = cell_at<kind>(brick, point_at(i));
@@ -311,23 +314,14 @@ LAMINA_INLINE void sample_by_gathers(const TileBrick& brick, bool hardware, int 
 
 // Computes the scalars at point_at(i) for i = first .. end - 1, a vector each.
 template <PointKind kind, class PointAt>
-LAMINA_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, int end,
+LAMINA_INLINE void sample_points(const CpuBrick& brick, bool hardware, int first, int end,
                                  const PointAt& point_at, float* scalars) {
-    const auto sample = [&](auto kind_of_layout) LAMINA_LAMBDA {
-        constexpr TileLayout layout = decltype(kind_of_layout)::value;
+    with_layout(brick.layout, [&](auto of_samples) LAMINA_LAMBDA {
+        constexpr CpuLayout layout = decltype(of_samples)::value;
         if (brick.last_sample[0] > 0 || brick.pages != nullptr)
             return sample_in_stages<layout, kind>(brick, hardware, first, end, point_at, scalars);
         sample_by_gathers<layout, kind>(brick, hardware, first, end, point_at, scalars);
-    };
-    switch (brick.layout) {
-        case TileLayout::bytes:
-            return sample(std::integral_constant<TileLayout, TileLayout::bytes>());
-        case TileLayout::words:
-            return sample(std::integral_constant<TileLayout, TileLayout::words>());
-        case TileLayout::floats:
-            return sample(std::integral_constant<TileLayout, TileLayout::floats>());
-    }
-    unreachable_enum();
+    });
 }
 
 LAMINA_SIMD_END

@@ -12,10 +12,7 @@
 #define LAMINA_SLICING_CPU_LIGHT_INL_H_
 #endif
 
-#include <cstring>
-
-#include "executors/tile_light-inl.h"
-#include "slicing/cpu_fetch-inl.h"
+#include "executors/cpu_light-inl.h"
 #include "slicing/cpu_optics-inl.h"
 #include "slicing/cpu_walk-inl.h"
 
@@ -27,7 +24,7 @@ using GradientRows = std::uint32_t[4][4 * most_lanes];
 
 // Fetches gradients of cells in pages, whose samples have a neighbour along x, as fetch_gradients()
 // does.
-inline LAMINA_NOINLINE void fetch_paged_gradients(const TilePages& pages, const std::int32_t* index,
+inline LAMINA_NOINLINE void fetch_paged_gradients(const CpuPages& pages, const std::int32_t* index,
                                                   std::uint32_t lanes, GradientRows& rows) {
     constexpr std::size_t steps[4] = {0, BrickCache::row, BrickCache::slice,
                                       BrickCache::slice + BrickCache::row};
@@ -46,8 +43,9 @@ inline LAMINA_NOINLINE void fetch_paged_gradients(const TilePages& pages, const 
 }
 
 // Loads pairs one by one, which is faster than gathers, for a set of lanes; the others keep their
-// values. A sample without a neighbour along x is its own neighbour.
-inline LAMINA_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int32_t* index,
+// values. `index`: of each cell's lowest corner. A sample without a neighbour along x is its own
+// neighbour.
+inline LAMINA_NOINLINE void fetch_gradients(const CpuBrick& brick, const std::int32_t* index,
                                             std::uint32_t lanes, GradientRows& rows) {
     const std::size_t steps[4] = {0, static_cast<std::size_t>(brick.row),
                                   static_cast<std::size_t>(brick.slice),
@@ -75,14 +73,6 @@ struct GradientWords {
     LAMINA_INLINE Int exponent() const { return shift_right<16>(z); }
 };
 
-// Returns 2^16 times a component.
-LAMINA_INLINE Float low_component(Int words) {
-    return to_float(shift_left<16>(words));
-}
-LAMINA_INLINE Float high_component(Int words) {
-    return to_float(without(words, Int(0xffff)));
-}
-
 // Exponent of the unit 2^(largest - unit_octaves) that the gradients of a cell's corners, `lower`
 // and `upper` on x, share; `largest` is their largest exponent. So the largest component is 2^46 up
 // to 2^47, and squares of gradients 1e31 times as small are numbers, too.
@@ -108,15 +98,17 @@ LAMINA_INLINE Float smallest_square_of(const TileLight& light, Int largest) {
 LAMINA_INLINE void set_corner(const GradientWords& words, Int unit, std::size_t row, bool upper,
                               Corners (&corners)[3]) {
     const Float scale = power_of_biased(words.exponent() + unit);
-    const Float components[3] = {low_component(words.xy), high_component(words.xy),
-                                 low_component(words.z)};
+    // 2^16 times each component.
+    const Float components[3] = {to_float(shift_left<16>(words.xy)),
+                                 to_float(without(words.xy, Int(0xffff))),
+                                 to_float(shift_left<16>(words.z))};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         Float& to = upper ? corners[axis].upper[row] : corners[axis].lower[row];
         to = components[axis] * scale;
     }
 }
 
-// Returns the largest exponent.
+// Sets the gradients at the corners of cells. Returns the largest exponent.
 LAMINA_INLINE Int unpack_gradients(const GradientRows& rows, Corners (&corners)[3]) {
     GradientWords lower[4], upper[4];
     Int largest(StoredGradient::no_exponent);
@@ -160,25 +152,18 @@ LAMINA_INLINE void leave_out_lower(const Float (&place)[3], const Float (&change
     }
 }
 
-// Sets the gradients at the corners of cells in a set of lanes; `index`: of each cell's lowest
-// corner. Returns the largest exponent. `rows`: memory, in which the other lanes keep their values.
-LAMINA_INLINE Int gradient_corners(const TileBrick& brick, const std::int32_t* index,
-                                   std::uint32_t lanes, GradientRows& rows, Corners (&corners)[3]) {
-    fetch_gradients(brick, index, lanes, rows);
-    return unpack_gradients(rows, corners);
-}
-
 // The gradient at a point of a cell, and the square of the smallest gradient in the same unit.
 struct PointGradient {
     Float along[3];
     Float smallest_square;
 };
-LAMINA_INLINE PointGradient gradient_at(const TileBrick& brick, const TileLight& light,
+LAMINA_INLINE PointGradient gradient_at(const CpuBrick& brick, const TileLight& light,
                                         const std::int32_t* index, const Float (&share)[3]) {
     Corners corners[3];
     alignas(64) GradientRows rows;
     const std::uint32_t all_lanes = (1u << Float::lanes) - 1;
-    const Int largest = gradient_corners(brick, index, all_lanes, rows, corners);
+    fetch_gradients(brick, index, all_lanes, rows);
+    const Int largest = unpack_gradients(rows, corners);
     leave_out_lower({share[0], share[1], share[2]}, {Float(0), Float(0), Float(0)}, corners);
     PointGradient gradient;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -197,17 +182,13 @@ struct GradientLanes {
 
 // Sets the gradients of the `members` of a vector of segments from segment i on. Those of the
 // others are undefined. `rows`: kept from vector to vector.
-LAMINA_INLINE GradientLanes set_gradients(const TileBrick& brick, FloatMask members, std::size_t i,
+LAMINA_INLINE GradientLanes set_gradients(const CpuBrick& brick, FloatMask members, std::size_t i,
                                           const TileLight& light, const CellSegments& segments,
                                           GradientRows& rows) {
     Corners corners[3];
-    const Int largest =
-        gradient_corners(brick, segments.index + i, bits_of(members), rows, corners);
-    const Float place[3] = {load<Float>(segments.place[0] + i), load<Float>(segments.place[1] + i),
-                            load<Float>(segments.place[2] + i)};
-    const Float change[3] = {load<Float>(segments.change[0] + i),
-                             load<Float>(segments.change[1] + i),
-                             load<Float>(segments.change[2] + i)};
+    fetch_gradients(brick, segments.index + i, bits_of(members), rows);
+    const Int largest = unpack_gradients(rows, corners);
+    const auto [place, change] = segments.ways_from(i);
     leave_out_lower(place, change, corners);
     GradientLanes lanes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -218,14 +199,10 @@ LAMINA_INLINE GradientLanes set_gradients(const TileBrick& brick, FloatMask memb
     return lanes;
 }
 
-// The gradient at the nodes of a piece.
-struct GradientNodes {
-    Float g[3][3];  // by node and axis
-};
-
 // Returns a bound on the light that the nodes of a piece of `extent` from `at` on miss, as a bend.
+// `middle_gradient`: the gradient at the middle one.
 LAMINA_INLINE Float hidden_bend(const TileLight& light, const GradientLanes& gradient,
-                                const GradientNodes& nodes, Float at, Float extent) {
+                                const Float (&middle_gradient)[3], Float at, Float extent) {
     const Float half = 0.5f * extent, middle = at + half;
     Float reach(0);
     for (const CubicLanes& along : gradient.along) {
@@ -235,7 +212,7 @@ LAMINA_INLINE Float hidden_bend(const TileLight& light, const GradientLanes& gra
         const Float most = half * (slope + half * rest);
         reach += most * most;
     }
-    const Float square = dot(nodes.g[1], nodes.g[1]);
+    const Float square = dot(middle_gradient, middle_gradient);
     return hidden_effect(light, square, reach, gradient.smallest_square);
 }
 
@@ -300,14 +277,14 @@ LAMINA_INLINE Float add_light_of(const TileLight& light, const GradientLanes& gr
     const PieceOptics<curved>& piece = lit.piece;
     const CubicLanes mean_depth = piece.mean_depth();
     const FloatMask deep = lit.depth > largest_piece_depth;
-    GradientNodes gradients;
+    Float gradients[3][3];  // by node and axis
     for (std::size_t i = 0; i < 3; ++i) {
         const Float place = lit.at + GaussRule<3>::nodes[i] * lit.extent;
         for (std::size_t axis = 0; axis < 3; ++axis)
-            gradients.g[i][axis] = gradient.along[axis].at(place);
+            gradients[i][axis] = gradient.along[axis].at(place);
     }
     EffectLanes<channels> effects[3];
-    set_effects(light, gradients.g, gradient.smallest_square, gradient.to_eye, effects);
+    set_effects(light, gradients, gradient.smallest_square, gradient.to_eye, effects);
     LitNodes<channels> nodes;
     for (std::size_t i = 0; i < 3; ++i) {
         const Float t(GaussRule<3>::nodes[i]);
@@ -321,7 +298,7 @@ LAMINA_INLINE Float add_light_of(const TileLight& light, const GradientLanes& gr
                                   lit.interval.change[c] * nodes.shared[k] + nodes.highlight[k];
         color[c] = max(color[c] + scale * light_there, 0);
     }
-    const Float hidden = max(hidden_bend(light, gradient, gradients, lit.at, lit.extent),
+    const Float hidden = max(hidden_bend(light, gradient, gradients[1], lit.at, lit.extent),
                              hidden_kinks(light, gradient, lit.at, lit.extent));
     return max(nodes.largest_bend(), hidden);
 }

@@ -11,14 +11,8 @@
 #define LAMINA_SLICING_CPU_RAYS_INL_H_
 #endif
 
-#include <algorithm>
-#include <cmath>
-
-#include "executors/tile_light.h"
-#include "simd/float64-inl.h"
-#include "slicing/slab_mask.h"
-#include "slicing/tile_bounds.h"
-#include "slicing/tile_slabs.h"
+#include "simd/vectors-inl.h"
+#include "slicing/cpu_slabs.h"
 
 LAMINA_SIMD_BEGIN
 
@@ -37,18 +31,12 @@ struct PacketRays {
     int first_slab, end_slab;  // slabs that may be visible; first >= end if there are none
 };
 
-// The unit vector to the eye along each ray, along the grid's axes.
-struct EyeLanes {
-    Float to_eye[3];
-};
-
-LAMINA_INLINE EyeLanes eye_of(const TileLight& light, const PacketRays& rays) {
-    EyeLanes eye;
+// Sets the unit vector to the eye along each ray, along the grid's axes.
+LAMINA_INLINE void set_eye(const TileLight& light, const PacketRays& rays, Float (&to_eye)[3]) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Float step = rays.direction_float[axis] * light.spacing[axis];
-        eye.to_eye[axis] = 0 - step / rays.length_float;
+        to_eye[axis] = 0 - step / rays.length_float;
     }
-    return eye;
 }
 
 // Directions, in voxels per depth, below which a ray runs along a plane and never crosses it.
@@ -60,12 +48,12 @@ LAMINA_INLINE Float64 crossing_direction(Float64 direction, Float64 along = leas
 }
 
 // Returns the depth of the boundary in front of a slab, clamped to a span.
-LAMINA_INLINE Float64 boundary(const TileRays& frame, const DepthSpan& span, int slab) {
+LAMINA_INLINE Float64 boundary(const CpuRays& frame, const DepthSpan& span, int slab) {
     return clamp(Float64(slab * frame.slab_thickness), span.enter, span.leave);
 }
 
 // Clips to a box. A ray that runs in the box's first face is inside; one in its last face is inside
-// if that is `last_face` (TileBrickView).
+// if that is `last_face` (CpuBrickView).
 LAMINA_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box,
                                const glm::dvec3& last_face, DepthSpan& span) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -94,25 +82,8 @@ LAMINA_INLINE void clip_to_plane(const PacketRays& rays, const IndexPlane& plane
     span.leave = select(enters, span.leave, min(span.leave, crossing));
 }
 
-// Sets the smallest enter and the largest leave of the lanes whose rays hit. Returns false if no
-// ray does.
-LAMINA_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last) {
-    const Float64 far = 1e300;
-    const Float64Mask hit = span.leave > span.enter;
-    first = least_of(select(hit, span.enter, far));
-    last = largest_of(select(hit, span.leave, -far));
-    return last > first;
-}
-
-// Returns the part of `span` that holds the segments whose middles lie in `share`.
-LAMINA_INLINE DepthSpan with_half_slabs(const TileRays& frame, const DepthSpan& share,
-                                        const DepthSpan& span) {
-    const double half = 0.5 * frame.slab_thickness;
-    return {max(span.enter, share.enter - half), min(span.leave, share.leave + half)};
-}
-
 // Returns the rays of the pixels from (column, row) on, in the order of a tile, through one brick.
-LAMINA_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& brick, int column,
+LAMINA_INLINE PacketRays packet_rays(const CpuRays& frame, const CpuBrickView& brick, int column,
                                      int row) {
     alignas(64) static constexpr double columns[most_lanes] = {0, 1, 2, 3, 0, 1, 2, 3,
                                                                0, 1, 2, 3, 0, 1, 2, 3};
@@ -144,14 +115,17 @@ LAMINA_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView&
     if (brick.share) {
         rays.share = {-1e30, 1e30};
         clip_to_box(rays, *brick.share, no_last_face, rays.share);
-        rays.drawn = with_half_slabs(frame, rays.share, rays.drawn);
+        // Segments with their middles in the share reach half a slab beyond it.
+        const double half = 0.5 * frame.slab_thickness;
+        rays.drawn = {max(rays.drawn.enter, rays.share.enter - half),
+                      min(rays.drawn.leave, rays.share.leave + half)};
     }
     return rays;
 }
 
 // Clips the rays to slabs first .. end - 1. Slabs that lie wholly outside the drawn box are not
 // needed.
-LAMINA_INLINE void set_span(const TileRays& frame, int first, int end, PacketRays& rays) {
+LAMINA_INLINE void set_span(const CpuRays& frame, int first, int end, PacketRays& rays) {
     const Float64 front = first * frame.slab_thickness, back = end * frame.slab_thickness;
     const DepthSpan seen{max(front, rays.drawn.enter), min(back, rays.drawn.leave)};
     const Float64 enter = max(front, rays.box.enter);
@@ -159,9 +133,12 @@ LAMINA_INLINE void set_span(const TileRays& frame, int first, int end, PacketRay
     const Float64Mask hit = leave > enter;
     rays.enter = zero_unless(hit, enter);
     rays.leave = zero_unless(hit, leave);
-    double nearest = 0, farthest = 0;
     rays.first_slab = rays.end_slab = first;
-    if (!depth_hull(seen, nearest, farthest)) return;
+    const Float64 far = 1e300;
+    const Float64Mask shown = seen.leave > seen.enter;
+    const double nearest = least_of(select(shown, seen.enter, far));
+    const double farthest = largest_of(select(shown, seen.leave, -far));
+    if (!(farthest > nearest)) return;
     rays.first_slab = std::max(first, static_cast<int>(nearest / frame.slab_thickness) - 1);
     rays.end_slab = std::min(end, static_cast<int>(farthest / frame.slab_thickness) + 2);
 }
@@ -188,14 +165,14 @@ constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
 // The rays of a group through one brick. Packets outside the image have no slabs.
 struct GroupRays {
     PacketRays packets[group_packets];
-    TileBounds bounds;
+    CpuBounds bounds;
     // Sets of slabs, counted from `origin`: those that may be visible, and those in which something
     // is not constant. Finding these sets block by block would make them smaller, but would take
     // longer than it saves.
     SlabMask shown, varied;
     int origin, first_slab, end_slab;  // slabs of all packets together
 
-    LAMINA_INLINE void set_pixels(const TileRays& frame, const TileBrickView& brick,
+    LAMINA_INLINE void set_pixels(const CpuRays& frame, const CpuBrickView& brick,
                                   const TileGrid::Tile& area, std::size_t group) {
         const TileGrid::Place first = TileGrid::pixel_at(static_cast<int>(packet_place(group, 0)));
         bounds = {frame, brick, area.column + first.column, area.row + first.row,
@@ -207,7 +184,7 @@ struct GroupRays {
     }
 
     // Finds the sets for slabs first .. end - 1.
-    LAMINA_INLINE void set_slabs(const TileSlabs& slabs, int first, int end) {
+    LAMINA_INLINE void set_slabs(const CpuSlabs& slabs, int first, int end) {
         origin = first;
         first_slab = end;
         end_slab = first;
@@ -221,7 +198,7 @@ struct GroupRays {
         if (slabs.constant != nullptr) find(slabs.constant->varied, slabs.rays, varied);
     }
 
-    void find(const OccupiedBricks& bricks, const TileRays& rays, SlabMask& mask) const {
+    void find(const OccupiedBricks& bricks, const CpuRays& rays, SlabMask& mask) const {
         mask.clear(end_slab - origin);
         bounds.for_each_shown(bricks, rays, first_slab, end_slab,
                               [&](int first, int end) { mask.set(first - origin, end - origin); });
@@ -229,23 +206,23 @@ struct GroupRays {
 
     // Returns the slabs of block `number`, counted from `origin`, that a packet crosses and that
     // may be visible.
-    BlockMask wanted(const TileSlabs& slabs, std::size_t packet, int number) const {
-        const int begin = origin + number * tile_block_slabs;
+    BlockMask wanted(const CpuSlabs& slabs, std::size_t packet, int number) const {
+        const int begin = origin + number * block_slabs;
         const PacketRays& rays = packets[packet];
         const BlockMask all = block_mask(std::max(rays.first_slab - begin, 0),
-                                         std::min(rays.end_slab - begin, tile_block_slabs));
+                                         std::min(rays.end_slab - begin, block_slabs));
         if (slabs.occupied == nullptr) return all;
         return all & shown.block(number);
     }
 
     // Returns those of the `wanted` slabs that are constant, which a packet crosses in one step
     // together with their neighbours.
-    BlockMask constant(const TileSlabs& slabs, int number, BlockMask wanted) const {
+    BlockMask constant(const CpuSlabs& slabs, int number, BlockMask wanted) const {
         return slabs.constant == nullptr ? 0 : wanted & ~varied.block(number);
     }
 
     // Returns the optical properties of a constant slab.
-    const OpticalProperties& constant_optics(const TileSlabs& slabs, int slab) const {
+    const OpticalProperties& constant_optics(const CpuSlabs& slabs, int slab) const {
         const double middle = (slab + 0.5) * slabs.rays.slab_thickness;
         const ConstantBricks& constant = *slabs.constant;
         return constant.kinds[constant.kind_at(bounds.middle_at(middle))];

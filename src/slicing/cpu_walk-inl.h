@@ -23,16 +23,16 @@
 #endif
 
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <type_traits>
 
 #include "simd/members-inl.h"
-#include "slicing/cell_map.h"
 #include "slicing/cpu_fetch-inl.h"
-#include "slicing/cpu_rays-inl.h"
 
 LAMINA_SIMD_BEGIN
+
+// The places at which rays enter cells, from 0 to 1, and their ways in the cells.
+struct CellWays {
+    Float place[3], change[3];
+};
 
 // The segments of some steps of the rays of a few packets, and the results for them. In each step a
 // ray crosses one cell, or several that show nothing or are constant.
@@ -43,8 +43,7 @@ struct CellSegments {
     static constexpr int most_steps = 32;
     static constexpr std::size_t capacity = (most_steps * most_packets + 1) * most_lanes;
 
-    // The place at which the ray enters the cell, from 0 to 1, and its way in the cell.
-    alignas(64) float place[3][capacity];
+    alignas(64) float place[3][capacity];  // CellWays
     alignas(64) float change[3][capacity];
     alignas(64) float length[capacity];        // world units
     alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner
@@ -61,9 +60,13 @@ struct CellSegments {
     int steps;
     std::size_t count;
 
-    void clear() {
-        steps = 0;
-        count = 0;
+    LAMINA_INLINE CellWays ways_from(std::size_t i) const {
+        CellWays ways;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            ways.place[axis] = load<Float>(place[axis] + i);
+            ways.change[axis] = load<Float>(change[axis] + i);
+        }
+        return ways;
     }
 };
 
@@ -74,7 +77,7 @@ class CellWalk {
 
     // Begins the rays between the depths of `span`, inside the box of a brick. `light`: for lit
     // rays alone.
-    void begin(const CellMap& map, const TileBrickView& view, const PacketRays& rays,
+    void begin(const CellMap& map, const CpuBrickView& view, const PacketRays& rays,
                const DepthSpan& span, const TileLight* light) {
         map_ = map.kinds.empty() ? nullptr : &map;
         view_ = &view;
@@ -91,7 +94,7 @@ class CellWalk {
             first_[i] = static_cast<std::int32_t>(view.first[axis]);
             cell_[i] = first_cell(axis);
         }
-        if constexpr (lit) eye_ = eye_of(*light, rays);
+        if constexpr (lit) set_eye(*light, rays, to_eye_);
     }
 
     // Sets the end of the walk, not in front of the present depth.
@@ -258,7 +261,7 @@ class CellWalk {
             const FloatMask moves = without(between, leaps.lanes);
             store_members(zero_unless(moves, thickness * slope_[axis]), shown,
                           segments.change[axis] + at);
-            if constexpr (lit) store_members(eye_.to_eye[axis], shown, segments.to_eye[axis] + at);
+            if constexpr (lit) store_members(to_eye_[axis], shown, segments.to_eye[axis] + at);
         }
         store_members(cell_index(view_->brick, samples[0], samples[1], samples[2]), shown,
                       segments.index + at);
@@ -270,7 +273,7 @@ class CellWalk {
 
     // Segments beside each other mostly lie in the same cache lines.
     LAMINA_INLINE void prefetch(const CellSegments& segments, std::size_t from) const {
-        const TileBrick& brick = view_->brick;
+        const CpuBrick& brick = view_->brick;
         if (brick.pages != nullptr) return;
         const auto* const samples = static_cast<const std::byte*>(brick.samples);
         const std::size_t bytes = bytes_of_sample(brick.layout);
@@ -317,7 +320,7 @@ class CellWalk {
     }
 
     const CellMap* map_ = nullptr;  // null if all rays go cell by cell
-    const TileBrickView* view_ = nullptr;
+    const CpuBrickView* view_ = nullptr;
     const PacketRays* rays_ = nullptr;
     std::int32_t last_[3], first_[3];  // the brick's last samples, and its place in the volume
     Float64 depth_, end_;
@@ -325,7 +328,7 @@ class CellWalk {
     Float slope_[3];  // direction_ in float
     Depth inverse_[3];
     FloatMask forward_[3];  // towards larger indices
-    EyeLanes eye_;          // for lit walks alone
+    Float to_eye_[3];       // for lit walks alone
     // At the beginning of the steps: the cell, and the place in it.
     Int cell_[3];
     Float64 start_[3];

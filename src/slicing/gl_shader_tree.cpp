@@ -9,9 +9,8 @@
 #include "base/error.h"
 #include "executors/gl_compositing.h"
 #include "gl/api.h"
-#include "gl/framebuffer.h"
-#include "slicing/gl_slab_pass.h"
-#include "slicing/texture_bricks.h"
+#include "slicing/gl_slice_renderer.h"
+#include "slicing/slab_geometry.h"
 
 namespace lamina {
 namespace {
@@ -133,18 +132,14 @@ gl::Program GlShaderTree::make_program(const char* fragment, const gl::Defines& 
 }
 
 void GlShaderTree::make_programs() {
-    const bool tree = !images_.empty();
     defines_ = leaf_defines(plan_, source_.defines(), leaf_place());
-    gl::Program& leaf =
-        (tree ? leaf_ : root_leaf_).emplace("slicing/slab.vert", "slicing/leaf.frag", defines_);
-    leaf.set("largest_color", static_cast<float>(plan_.tree->largest_color));
-    const auto make_encode = [&](NodePlace place) {
-        gl::Program program = make_program("slicing/encode.frag", node_defines(plan_, place));
-        program.set("sum", sum_unit);
-        return program;
-    };
-    if (sum_) (tree ? encode_ : root_encode_).emplace(make_encode(leaf_place()));
-    if (!tree) return;
+    leaf_.emplace("slicing/slab.vert", "slicing/leaf.frag", defines_);
+    leaf_->set("largest_color", static_cast<float>(plan_.tree->largest_color));
+    if (sum_) {
+        encode_.emplace(make_program("slicing/encode.frag", node_defines(plan_, leaf_place())));
+        encode_->set("sum", sum_unit);
+    }
+    if (images_.empty()) return;
     const auto make_node = [&](NodePlace place) {
         gl::Program program = make_program("slicing/node.frag", node_defines(plan_, place));
         program.set("children", children_unit);
@@ -168,7 +163,7 @@ void GlShaderTree::set_view(const View& view, const Slabs& slabs) {
     set_visibility_order(plan_.bricks, source_.grid(), view, Order::front_to_back, bricks_);
     add_leaves(0, shape_.root());
     upload_vertices(triangles_, vertices_, vertex_array_);
-    source_.set_view(images_.empty() ? *root_leaf_ : *leaf_, view, slabs);
+    source_.set_view(*leaf_, view, slabs);
 }
 
 void GlShaderTree::add_leaves(int level, const SampleSpan& node) {
@@ -216,11 +211,6 @@ void GlShaderTree::bind_output(int level, int layer) {
     layer_.clear();
 }
 
-gl::Program& GlShaderTree::program_for(int level, std::optional<gl::Program>& inner,
-                                       std::optional<gl::Program>& root) const {
-    return level == 0 ? *root : *inner;
-}
-
 void GlShaderTree::evaluate(int level, const SampleSpan& node, int layer) {
     if (shape_.is_marched(level, node)) {
         draw_leaf(node, level, layer);
@@ -232,7 +222,7 @@ void GlShaderTree::evaluate(int level, const SampleSpan& node, int layer) {
     const LevelImages& images = images_[static_cast<std::size_t>(level)];
     images.color.bind(children_unit);
     if (images.alpha) images.alpha->bind(children_alpha_unit);
-    gl::Program& program = program_for(level, node_, root_node_);
+    gl::Program& program = level == 0 ? *root_node_ : *node_;
     program.set("child_count", children);
     program.set("node_samples", node.count);
     if (level > 0) {
@@ -244,7 +234,7 @@ void GlShaderTree::evaluate(int level, const SampleSpan& node, int layer) {
 }
 
 void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int layer) {
-    gl::Program& program = program_for(level, leaf_, root_leaf_);
+    gl::Program& program = *leaf_;
     const float share = static_cast<float>(leaf.count) / static_cast<float>(shape_.samples());
     program.set("leaf_slabs", static_cast<float>(leaf.count));
     // A band has rows of its own in everything but the target.
@@ -269,10 +259,9 @@ void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int layer) {
         gl::api().Disable(GL_BLEND);
         bind_output(level, layer);
         sum_->color().bind(sum_unit);
-        gl::Program& encode = program_for(level, encode_, root_encode_);
-        if (level > 0) encode.set("node_share", share);
-        encode.set("first_row", level == 0 ? band_.first_row : 0);
-        gl::draw_full_screen(encode, no_attributes_);
+        if (level > 0) encode_->set("node_share", share);
+        encode_->set("first_row", level == 0 ? band_.first_row : 0);
+        gl::draw_full_screen(*encode_, no_attributes_);
     }
     if (progress_ != nullptr) {
         gl::api().Finish();

@@ -2,14 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <vector>
 
 #include "base/progress.h"
 #include "compositing/tree_shape.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
-#include "gl/program.h"
 #include "slicing/gl_slab_source.h"
 
 namespace lamina {
@@ -65,15 +62,13 @@ class GlShaderTree {
     void march(gl::Program& program, std::size_t leaf);
     // Binds the output of a node of a level and clears it. The root's picture is cleared only once.
     void bind_output(int level, int layer);
-    gl::Program& program_for(int level, std::optional<gl::Program>& inner,
-                             std::optional<gl::Program>& root) const;
 
     const GlSlabSource& source_;
     const SlicePlan& plan_;
     TreeShape shape_;
     int width_, height_, band_rows_ = 0, leaf_count_ = 0;
     gl::Defines defines_;  // of the leaves' program
-    std::optional<gl::Program> leaf_, root_leaf_, node_, root_node_, encode_, root_encode_;
+    std::optional<gl::Program> leaf_, node_, root_node_, encode_;
     std::vector<LevelImages> images_;     // images of the children of inner nodes, by level
     std::optional<gl::Framebuffer> sum_;  // result of a leaf that spans several bricks
     gl::LayerFramebuffer layer_;

@@ -1,21 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-
-#include "base/progress.h"
-#include "executors/gl_fixed_tree.h"
-#include "gl/framebuffer.h"
+#include "executors/gl_compositing.h"
 #include "gl/timeline.h"
-#include "lamina/image.h"
 #include "slicing/gl_shader_tree.h"
-#include "slicing/gl_slab_pass.h"
-#include "slicing/gl_slab_source.h"
 #include "slicing/slice_renderer.h"
 
 namespace lamina {
+
+// Returns the definitions that specialise slicing/slab.frag, added to those of its segments.
+gl::Defines slab_defines(const SlicePlan& plan, gl::Defines segments);
+
+// Composites slab after slab onto a target: a whole picture, or a leaf of a tree of fixed-point
+// nodes. For a leaf it composites opacity alone, in one channel.
+class GlSlabPass : public TreeLeaves {
+  public:
+    // `source` and `plan` must outlive the pass.
+    GlSlabPass(const GlSlabSource& source, const SlicePlan& plan, int image_height);
+
+    // Must be called after source and plan have changed in what belongs to one view alone. It makes
+    // another program if the plan needs one.
+    void take_plan();
+    void set_view(const View& view, const Slabs& slabs);
+    // Composites slabs onto the target, in the plan's order. `depth_scale`: for a leaf, the number
+    // of all samples of the ray over that of the leaf.
+    void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override;
+
+  private:
+    void set_up_program();
+    void draw_brick(std::size_t place, const SampleSpan& span);
+
+    const GlSlabSource& source_;
+    const SlicePlan& plan_;
+    int image_height_;
+    gl::Defines defines_;  // of the program
+    gl::Program program_;
+    gl::Texture ranks_;  // ranks of dithering
+    gl::VertexArray vertex_array_;
+    gl::Buffer vertices_;
+    // The following belong to the view and are kept from frame to frame.
+    std::optional<View> view_;
+    Slabs slabs_;
+    std::vector<SlabVertex> triangles_;
+    std::vector<std::size_t> bricks_;  // in drawing order
+    std::vector<std::size_t> starts_;  // slabs + 1 for each brick: see append_slab_polygons()
+};
+
+// Uploads vertices for the attributes 0 (position) and 1 (slab). If they do not fit, the buffer
+// grows.
+void upload_vertices(const std::vector<SlabVertex>& triangles, gl::Buffer& buffer,
+                     gl::VertexArray& vertex_array);
 
 // Draws a volume as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlSliceRenderer : public SliceRenderer {
@@ -41,11 +75,6 @@ class GlSliceRenderer : public SliceRenderer {
         return source_ ? source_->volume() : kept_;
     }
 
-    double upload_ms() const { return source_ ? source_->upload_ms() : 0; }
-    double table_ms() const { return source_ ? source_->table_ms() : 0; }
-    double geometry_ms() const { return geometry_ms_; }  // of the last frame
-    double draw_ms() const { return draw_ms_; }
-
   private:
     void draw_straight(Progress* progress);
 
@@ -59,9 +88,8 @@ class GlSliceRenderer : public SliceRenderer {
     std::optional<GlFixedTree> fixed_tree_;
     std::optional<GlShaderTree> shader_tree_;
     gl::Timeline timeline_;
-    std::shared_ptr<const VolumeTextures> kept_;  // kept for another renderer if this one needs
-                                                  // none
-    double geometry_ms_ = 0, draw_ms_ = 0;
+    std::shared_ptr<const VolumeTextures> kept_;  // for another renderer if this one needs none
+    double geometry_ms_ = 0, draw_ms_ = 0;        // of the last frame
 };
 
 }  // namespace lamina

@@ -66,16 +66,6 @@ class Differences {
     std::array<double, 3> per_step_{};
 };
 
-template <typename Sample>
-SampleWindow<Sample> whole_window(const Grid& grid, const Sample* samples) {
-    return {{{0, 0, 0}, grid.size}, samples};
-}
-
-double power_of_two(int exponent) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + exponent_bias)
-                                 << mantissa_bits);
-}
-
 }  // namespace
 
 StoredGradient store_gradient(const std::array<double, 3>& gradient) {
@@ -87,7 +77,8 @@ StoredGradient store_gradient(const std::array<double, 3>& gradient) {
         static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> mantissa_bits) - exponent_bias;
     // The largest component is 2^14 up to 2^15, which int16 cannot hold.
     const int exponent = octave - 14;
-    const double scale = power_of_two(-exponent);
+    const double scale = std::bit_cast<double>(static_cast<std::uint64_t>(exponent_bias - exponent)
+                                               << mantissa_bits);
     StoredGradient stored;
     stored.exponent = static_cast<std::int16_t>(exponent);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,7 +92,9 @@ void set_gradient_row(const Volume& volume, const TextureBrick& part, std::int64
                       std::int64_t z, std::span<StoredGradient> row) {
     assert(row.size() == static_cast<std::size_t>(part.size[0]));
     volume.visit([&](const auto* samples) {
-        const Differences differences(volume.grid(), whole_window(volume.grid(), samples));
+        using Sample = std::remove_cvref_t<decltype(*samples)>;
+        const Differences differences(
+            volume.grid(), SampleWindow<Sample>{{{0, 0, 0}, volume.grid().size}, samples});
         std::int64_t x = part.first[0];
         for (StoredGradient& stored : row)
             stored = store_gradient(differences.at({x++, part.first[1] + y, part.first[2] + z}));

@@ -15,9 +15,7 @@
 #include "plan/classification_choice.h"
 #include "plan/light_choice.h"
 #include "plan/planners.h"
-#include "plan/slab_choice.h"
-#include "slicing/point_cover.h"
-#include "slicing/tile_slice_renderer.h"
+#include "slicing/slice_renderer.h"
 #include "slicing/trial_truth.h"
 #include "tiles/tile_capabilities.h"
 
@@ -82,7 +80,7 @@ class SlabTrials {
   public:
     SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
                const Facts& facts, int most, double rays, bool last, TableCache& tables,
-               std::shared_ptr<const TileVolume> ready = nullptr)
+               std::shared_ptr<const CpuVolume> ready = nullptr)
         : asked_(scene),
           last_(last),
           scene_(trial_scene(scene, rays)),
@@ -101,34 +99,7 @@ class SlabTrials {
                   .lighting = scene.lighting,
                   .clip = half_spaces(scene.clip)}) {}
 
-    std::vector<SlabTrial> run(int first) { return run_from(first, Filter::exact); }
-
-    // Tries two slabs a voxel, if more do not help.
-    SlabTrial try_two_a_voxel() {
-        return try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact);
-    }
-
-    void try_fewer(int enough, std::vector<SlabTrial>& trials) {
-        for (const double share : TrialLimits::fewer) {
-            const int slabs = static_cast<int>(std::ceil(share * enough));
-            if (std::ranges::find(trials, slabs, &SlabTrial::slabs) != trials.end()) continue;
-            if (trials.emplace_back(try_slabs(slabs, Filter::exact)).keeps_goal()) return;
-        }
-    }
-
-    std::shared_ptr<const TileVolume> ready() const { return ready_; }
-
-    // Starts from the number of slabs that the exact filter needs.
-    std::vector<SlabTrial> run_filter(int first) { return run_from(first, Filter::hardware); }
-
-    // Returns the error of the weights alone.
-    SlabTrial try_filter(int slabs) {
-        const Image exact = draw(slabs, Filter::exact, {});
-        return trial_of(slabs, image_error(draw(slabs, Filter::hardware, {}), exact).all.linf);
-    }
-
-  private:
-    std::vector<SlabTrial> run_from(int slabs, Filter filter) {
+    std::vector<SlabTrial> run(int slabs, Filter filter) {
         const double near_aim =
             all_traced_ ? TrialLimits::near_aim_of_small : TrialLimits::near_aim_of_large;
         std::vector<SlabTrial> trials;
@@ -153,6 +124,28 @@ class SlabTrials {
         return trials;
     }
 
+    // Tries two slabs a voxel, if more do not help.
+    SlabTrial try_two_a_voxel() {
+        return try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact);
+    }
+
+    void try_fewer(int enough, std::vector<SlabTrial>& trials) {
+        for (const double share : TrialLimits::fewer) {
+            const int slabs = static_cast<int>(std::ceil(share * enough));
+            if (std::ranges::find(trials, slabs, &SlabTrial::slabs) != trials.end()) continue;
+            if (trials.emplace_back(try_slabs(slabs, Filter::exact)).keeps_goal()) return;
+        }
+    }
+
+    std::shared_ptr<const CpuVolume> ready() const { return ready_; }
+
+    // Returns the error of the weights alone.
+    SlabTrial try_filter(int slabs) {
+        const Image exact = draw(slabs, Filter::exact, {});
+        return trial_of(slabs, image_error(draw(slabs, Filter::hardware, {}), exact).all.linf);
+    }
+
+  private:
     // Tells whether rays that may cross a point of the transfer function have an error near 0: it
     // means that they met no point, not that fewer slabs are enough.
     bool shows_too_little(const SlabTrial& trial) const {
@@ -221,8 +214,8 @@ class SlabTrials {
         scene_.slice.filter = filter;
         Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions, {}, tables_);
         build_drawn_table(scene_, facts_, plan.slice, tables_);
-        TileSliceRenderer renderer(volume_, *scene_.transfer_function, facts_, plan.slice,
-                                   scene_.width, scene_.height, ready_);
+        CpuSliceRenderer renderer(volume_, *scene_.transfer_function, facts_, plan.slice,
+                                  scene_.width, scene_.height, ready_);
         ready_ = renderer.volume();
         const Stage trial("trial");
         Progress progress(fmt::format("trying {} slabs", slabs), renderer.step_count());
@@ -237,17 +230,13 @@ class SlabTrials {
     const MinMaxBricks& bricks_;
     Facts facts_;
     TableCache& tables_;
-    std::shared_ptr<const TileVolume> ready_;  // of the pictures before
+    std::shared_ptr<const CpuVolume> ready_;  // of the pictures before
     int most_;
     bool all_traced_;
     TrialTruth truth_;
     int fine_slabs_ = 0;
     std::optional<Image> fine_;
 };
-
-bool shows_something(const Facts& facts) {
-    return !facts.occupied.empty() && facts.far_depth > facts.near_depth;
-}
 
 bool some_keep_goal(const std::vector<SlabTrial>& trials) {
     return std::ranges::any_of(trials, &SlabTrial::keeps_goal);
@@ -261,7 +250,7 @@ std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
     const bool small = rays_of(scene) <= TrialLimits::all_traced_rays;
     SlabTrials first(scene, volume, bricks, facts, most,
                      small ? TrialLimits::all_traced_rays : TrialLimits::first_rays, small, tables);
-    SampleTrials trials{first.run(slabs_per_voxel(facts, 1)), {}};
+    SampleTrials trials{first.run(slabs_per_voxel(facts, 1), Filter::exact), {}};
     if (!some_keep_goal(trials.exact)) {
         trials.exact.push_back(first.try_two_a_voxel());
         if (!trials.exact.back().keeps_goal()) return trials.exact;
@@ -270,7 +259,7 @@ std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
     if (!small) {
         SlabTrials second(scene, volume, bricks, facts, most, TrialLimits::most_rays, true, tables,
                           first.ready());
-        std::vector<SlabTrial> all = second.run(found.slabs);
+        std::vector<SlabTrial> all = second.run(found.slabs, Filter::exact);
         if (!some_keep_goal(all)) all.push_back(second.try_two_a_voxel());
         return all;
     }
@@ -306,7 +295,8 @@ SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxB
                          const Facts& facts, const Capabilities& capabilities, bool many_frames,
                          TableCache& tables) {
     SampleTrials trials;
-    if (asked.method != Method::slice || !shows_something(facts)) return trials;
+    const bool shows = !facts.occupied.empty() && facts.far_depth > facts.near_depth;
+    if (asked.method != Method::slice || !shows) return trials;
     const Scene scene =
         with_classification(asked, choose_classification(asked, facts, capabilities));
     if (scene.slice.classification == Classification::exact) {
@@ -322,7 +312,7 @@ SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxB
     if (scene.slice.samples.is_given()) {
         trials.hardware = {filtered.try_filter(*scene.slice.samples)};
     } else if (const SlabTrial exact = chosen_slabs(facts, trials); exact.keeps_goal()) {
-        trials.hardware = filtered.run_filter(exact.slabs);
+        trials.hardware = filtered.run(exact.slabs, Filter::hardware);
     }
     return trials;
 }

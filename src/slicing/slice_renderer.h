@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <optional>
 
+#include "base/progress.h"
+#include "executors/fixed_tree.h"
+#include "lamina/image.h"
 #include "lamina/volume.h"
 #include "plan/frame_renderer.h"
-#include "plan/plan.h"
+#include "slicing/cpu_slabs.h"
 
 namespace lamina {
 
-class TileVolume;
+class CpuVolume;
 class VolumeTextures;
 
 // The volume as renderers need it: the next renderer takes it over if it serves.
 struct SliceParts {
-    std::shared_ptr<const TileVolume> tiles;         // of the engine `cpu`
+    std::shared_ptr<const CpuVolume> tiles;          // of the engine `cpu`
     std::shared_ptr<const VolumeTextures> textures;  // of OpenGL
 };
 
@@ -31,5 +36,70 @@ std::unique_ptr<SliceRenderer> make_slice_renderer(const Volume& volume,
                                                    const Facts& facts, const SlicePlan& plan,
                                                    const Capabilities& capabilities, int width,
                                                    int height, const SliceParts& ready = {});
+
+// Draws a volume as the plan says, on the CPU. GlSliceRenderer draws it with OpenGL.
+class CpuSliceRenderer : public SliceRenderer {
+  public:
+    // Prepares the volume and the tables. `ready`: volume() of another renderer, which is used if
+    // it has the right form.
+    CpuSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
+                     const Facts& facts, const SlicePlan& plan, int width, int height,
+                     std::shared_ptr<const CpuVolume> ready = nullptr);
+    CpuSliceRenderer(const CpuSliceRenderer&) = delete;  // its members refer to each other
+    CpuSliceRenderer& operator=(const CpuSliceRenderer&) = delete;
+
+    bool take(const Plan& plan) override;
+    // Draws a frame; its steps are tiles. It takes no memory after the first frame. Throws Error if
+    // the files of a volume that stays in them have changed.
+    void draw(const View& view, Progress* progress = nullptr) override;
+    int step_count() const override { return prepared_ ? target_.grid().count() : 0; }
+    using FrameRenderer::read;
+    void read(Image& image) const override;
+    std::map<std::string, double> stages_ms() const override;
+    std::int64_t fragments() const override { return samples_; }  // segments of rays
+
+    SliceParts parts() const override { return {volume_, nullptr}; }
+    const std::shared_ptr<const CpuVolume>& volume() const { return volume_; }
+    std::int64_t byte_count() const override;  // host memory that it takes, without the volume
+
+  private:
+    // Prepares what slabs are computed from: the volume, and the transfer function in the plan's
+    // units with its tables. Views are in the plan's units, too, facts in world units.
+    void prepare(const Volume& volume, const TransferFunction& transfer_function,
+                 const Facts& facts);
+    // Takes over what belongs to a view in the plan.
+    void set_cells();
+    void set_view(const View& view, const Slabs& slabs);
+    void set_rays(const View& view, const Slabs& slabs);
+    void add_brick(std::size_t number, const View& view, const Slabs& slabs);
+    void see(const CpuBrickView& brick, const View& view);
+    bool keep_to_share(const IndexBox& share, CpuBrickView& brick) const;
+    void load_pages(const View& view) const;
+    void clear_tile(int number);
+    std::int64_t draw_tile(int number);
+
+    SlicePlan plan_;
+    Grid grid_;
+    TileImage target_;
+    std::vector<char> blank_;  // for each tile: it shows nothing
+    TargetBlend blend_;
+    bool prepared_ = false;                    // false if nothing is visible
+    std::shared_ptr<const CpuVolume> volume_;  // if it is not needed: for another renderer
+    OccupiedBricks occupied_;
+    ConstantBricks constant_;
+    CellMap cells_;
+    bool cells_leave_out_empty_ = false;  // differs between views
+    std::optional<TileTransfer> transfer_;
+    std::vector<std::uint32_t> shown_pages_;  // that hold something visible, of a paged volume
+    std::optional<TileLight> light_;
+    CpuSlabs slabs_;
+    PixelBox seen_;                   // pixels in which the view may show something
+    std::vector<std::size_t> order_;  // of the bricks
+    std::optional<TreeShape> shape_;
+    std::optional<TileFixedTree> fixed_tree_;
+    std::atomic<std::int64_t> samples_{0};
+    double upload_ms_ = 0, table_ms_ = 0;
+    double geometry_ms_ = 0, draw_ms_ = 0;  // of the last frame
+};
 
 }  // namespace lamina

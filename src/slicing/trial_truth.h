@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference tracer's colours of some pixels, with which trial pictures are compared.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +11,18 @@
 #include "lamina/volume.h"
 #include "reference/volume_tracer.h"
 #include "scene/camera.h"
+#include "volume/min_max_bricks.h"
 
 namespace lamina {
 
+// Counts for each pixel the bricks that its ray may cross and in which the scalar passes a point of
+// the transfer function. A feature that is narrower than a slab lies in such a brick. A brick
+// counts in all pixels of its bounding rectangle in the picture. If there are very many such
+// bricks, only one of several is counted.
+std::vector<float> cover_of_points(const MinMaxBricks& bricks, const Grid& grid,
+                                   const TransferFunction& transfer_function, const View& view);
+
+// The reference tracer's colours of some pixels, with which trial pictures are compared.
 class TrialTruth {
   public:
     TrialTruth(const Volume& volume, const TransferFunction& transfer_function, const View& view,
@@ -24,9 +32,9 @@ class TrialTruth {
     // Traces at most `count` pixels of a picture that is too large for trace_all(). One quarter
     // lies all over the picture, one pixel at its own place in each of equal cells. One quarter has
     // the largest differences between `picture` and `finer`. One quarter has the smallest counts of
-    // `cover` (slicing/point_cover.h; may be empty) above zero, because both pictures may miss what
-    // is rare. The rest has the largest differences between a pixel of `finer` and a neighbour:
-    // there rays graze what their neighbours hit, and segments miss most.
+    // `cover` (cover_of_points(), or empty) above zero, because both pictures may miss what is
+    // rare. The rest has the largest differences between a pixel of `finer` and a neighbour: there
+    // rays graze what their neighbours hit, and segments miss most.
     void trace_some(std::size_t count, const Image& picture, const Image& finer,
                     const std::vector<float>& cover);
 

@@ -14,7 +14,7 @@
 #include "base/enum_words.h"
 #include "compositing/node_code.h"
 #include "simd/math-inl.h"
-#include "tiles/opacity-inl.h"
+#include "tiles/segment_optics-inl.h"
 
 LAMINA_SIMD_BEGIN
 

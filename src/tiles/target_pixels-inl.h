@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a target composites fragments. Functions take and return vectors of a tile's planes
-// (tiles/tile_image.h).
+// (tiles/tile_image.h). Vector forms of compositing/over.h and compositing/codes.h, bit for bit.
 #if defined(LAMINA_TILES_TARGET_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_TARGET_PIXELS_INL_H_
 #undef LAMINA_TILES_TARGET_PIXELS_INL_H_
@@ -8,23 +8,133 @@
 #define LAMINA_TILES_TARGET_PIXELS_INL_H_
 #endif
 
-#include "simd/float64-inl.h"
-#include "tiles/codes-inl.h"
-#include "tiles/dither-inl.h"
-#include "tiles/over-inl.h"
-#include "tiles/stochastic_over-inl.h"
-#include "tiles/target_blend.h"
+#include "base/enum_words.h"
+#include "compositing/over.h"
+#include "simd/vectors-inl.h"
+#include "tiles/tile_image.h"
 
 LAMINA_SIMD_BEGIN
 
+// Bits up to which OVER and UNDER may compute in floats. The rounded sum, up to M^2 + M / 2, is
+// exact in the 24 bits of a float for M < 2^12. Its quotient by M is below 2^12 and so rounded by
+// less than 2^-12. It cannot reach the next whole number, which is at least 1 / M away. For fused
+// UNDER the numbers are M^3 + M^2 / 2 and 1 / M^2, so M < 2^8. Doubles hold the 49 bits of M < 2^16
+// and round quotients by less than 2^-37.
+inline constexpr int max_float_over_bits = 12;
+inline constexpr int max_float_under_bits = 8;
+
+// Rounds x / n to the nearest whole number; n is odd.
+template <class V>
+LAMINA_INLINE V divide_nearest(V x, typename V::Scalar n) {
+    return floor((x + (n - 1) / 2) / n);
+}
+
+template <class V>
+LAMINA_INLINE V over(OverRounding rounding, V color, V alpha, V below, typename V::Scalar largest) {
+    const V source = color * alpha;
+    const V kept = below * (largest - alpha);
+    return rounding == OverRounding::fused
+               ? divide_nearest(source + kept, largest)
+               : divide_nearest(source, largest) + divide_nearest(kept, largest);
+}
+
+template <class V>
+LAMINA_INLINE V under(OverRounding rounding, V color, V alpha, V above, V above_alpha,
+                      typename V::Scalar largest) {
+    const V left = largest - above_alpha;
+    const V product = color * alpha;
+    if (rounding == OverRounding::separate) {
+        const V source = divide_nearest(product, largest);
+        return above + divide_nearest(source * left, largest);
+    }
+    return above + divide_nearest(product * left, largest * largest);
+}
+
+template <class V>
+struct ScaledValues {
+    V whole, rest;
+};
+
+template <class V>
+LAMINA_INLINE ScaledValues<V> split_scaled(V scaled) {
+    const V whole = floor(scaled + code_noise);
+    return {whole, max(scaled - whole, 0)};
+}
+
+template <class V>
+LAMINA_INLINE V code_nearest(V scaled) {
+    return floor(scaled + 0.5);
+}
+
+// Returns `code`, or the next code if `up`.
+template <class V>
+LAMINA_INLINE V step_up(V code, typename V::Mask up) {
+    return code + zero_unless(up, V(1.0));
+}
+
+// `random`: 32 random bits as a number, for stochastic rounding only.
+template <class V>
+LAMINA_INLINE V round_alpha(AlphaRounding rounding, const ScaledValues<V>& scaled, V random) {
+    switch (rounding) {
+        case AlphaRounding::truncate:
+            return scaled.whole;
+        case AlphaRounding::nearest:
+            return step_up(scaled.whole, scaled.rest + code_noise >= 0.5);
+        case AlphaRounding::stochastic:
+            return step_up(scaled.whole, random < scaled.rest * 0x1p32);
+    }
+    unreachable_enum();
+}
+
+template <class V>
+LAMINA_INLINE V dither_code(V scaled, double rank, int period, int increment, double largest) {
+    const double step = increment;
+    const ScaledValues<V> value = split_scaled(scaled / step);
+    const V terms = floor(static_cast<double>(period) * value.rest + code_noise);
+    const V steps = step_up(value.whole, rank < terms);
+    return select(scaled >= largest - code_noise, largest, min(steps * step, largest));
+}
+
+template <class V>
+LAMINA_INLINE V over_stochastic(V source, V alpha, V below, V random, double largest) {
+    const ScaledValues<V> value = split_scaled(largest * source + below * (1.0 - alpha));
+    return min(step_up(value.whole, random < value.rest * 0x1p32), largest);
+}
+
+LAMINA_INLINE Word random_bits(Word column, Word row, Word sample, Word seed) {
+    const auto spread = [](Word v) LAMINA_LAMBDA { return v * 1664525u + 1013904223u; };
+    Word x = spread(column), y = spread(row), z = spread(sample), w = spread(seed);
+    const auto mix_all = [&] LAMINA_LAMBDA {
+        x += y * w;
+        y += z * x;
+        z += x * y;
+        w += y * z;
+    };
+    mix_all();
+    x = x ^ shift_right<16>(x);
+    y = y ^ shift_right<16>(y);
+    z = z ^ shift_right<16>(z);
+    w = w ^ shift_right<16>(w);
+    mix_all();
+    return w;
+}
+
+static_assert(TileGrid::block == 4);
+
+// Returns random bits for the pixels of a vector, 4 x 1, 4 x 2 or 4 x 4 of a tile. Its first pixel
+// is (column, row) of the picture, rows from the top.
+LAMINA_INLINE Word random_of_pixels(int column, int row, std::uint32_t sample, std::uint32_t seed) {
+    const Word lanes = iota<Word>(0);
+    return random_bits(static_cast<std::uint32_t>(column) + (lanes & 3u),
+                       static_cast<std::uint32_t>(row) + shift_right<2>(lanes), Word(sample),
+                       Word(seed));
+}
+
+// The associated colour and the opacity of a vector of pixels, or of fragments.
 struct Pixels {
     Float red, green, blue, alpha;
 };
-
-// The associated colour and the opacity of a vector of fragments or pixels.
-struct Fragment {
-    Float red, green, blue, alpha;
-};
+using Fragment = Pixels;
 
 // Rounds towards zero to half precision, as llvmpipe stores floats. Below 2^-14 the last place is
 // 2^-24.
@@ -49,7 +159,6 @@ LAMINA_INLINE Float multiply_codes(int bits, Float a, Float b) {
     return to_float(bits_as<Int>(code));
 }
 
-// The code nearest to a colour or opacity.
 LAMINA_INLINE Float native_code(float largest, Float value) {
     return round(clamp01(value) * largest);
 }
@@ -89,7 +198,6 @@ LAMINA_INLINE void blend(const TargetBlend& target, const Fragment& fragment, Pi
     blend_channel(target, source.alpha, kept, there.alpha);
 }
 
-// Blends opacity alone.
 LAMINA_INLINE void blend_opacity(const TargetBlend& target, Float opacity, Float& there) {
     const Float source =
         is_fixed_point(target.target) ? native_code(target.largest, opacity) : opacity;
@@ -143,7 +251,6 @@ LAMINA_INLINE Float dithered_code(const TargetBlend& target, const Float64& valu
     return to_float(dither_code(largest * value, rank, dither.period, dither.increment, largest));
 }
 
-// Returns the nearest codes of colours.
 LAMINA_INLINE Float color_code(const TargetBlend& target, Float color) {
     const double largest = target.largest;
     return to_float(code_nearest(largest * Float64(clamp01(color))));

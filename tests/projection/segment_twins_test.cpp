@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "executors/shader_intervals.h"
+#include "executors/transfer_tables.h"
 #include "gl/framebuffer.h"
 #include "gl/gl_fixture.h"
 #include "gl/texture.h"
@@ -273,7 +273,8 @@ IntervalTextures upload(const ShaderIntervals& from) {
 
 // Largest difference from integrate_segment of any pixel and channel, or infinity for a NaN.
 double worst_analytic(const TransferFunction& transfer_function, bool colored, float length) {
-    const IntervalTextures textures = upload(make_intervals(transfer_function, {0, 1}, {}, 0));
+    const IntervalTextures textures =
+        upload(make_intervals(pieces_between(transfer_function, 0, 1, false), {0, 1}, {}, 0));
     gl::Defines defines;
     defines.set("INTERVALS", textures.count);
     if (colored) defines.set("TABLE_COLORED", "");

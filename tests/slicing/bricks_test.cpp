@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Volumes that are cut into several textures.
 #include "reference/chord.h"
-#include "slicing/texture_bricks.h"
+#include "slicing/slab_geometry.h"
 #include "slicing_fixture.h"
 #include "volume/generate.h"
 

@@ -3,16 +3,16 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "executors/gl_lights.h"
-#include "executors/smallest_gradient.h"
+#include "executors/gl_optics.h"
+#include "executors/lights.h"
 #include "gl/framebuffer.h"
 #include "optics/ray_lights.h"
 #include "plan/brick_cuts.h"
 #include "reference/cells.h"
 #include "reference/lit_fixtures.h"
-#include "slicing/gl_volume_textures.h"
+#include "slicing/gl_slab_source.h"
 #include "slicing/gradient_map.h"
-#include "slicing/texture_bricks.h"
+#include "slicing/slab_geometry.h"
 #include "slicing_fixture.h"
 #include "support/volume_of.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slicing/pixel_box.h"
+#include "slicing/slab_geometry.h"
 
 #include <gtest/gtest.h>
 

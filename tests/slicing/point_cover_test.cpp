@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slicing/point_cover.h"
+#include "slicing/trial_truth.h"
 
 #include <algorithm>
 

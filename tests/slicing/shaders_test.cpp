@@ -8,9 +8,9 @@
 #include <set>
 #include <sstream>
 
-#include "executors/gl_fixed_tree.h"
+#include "executors/gl_compositing.h"
 #include "slicing/gl_shader_tree.h"
-#include "slicing/gl_slab_pass.h"
+#include "slicing/gl_slice_renderer.h"
 #include "slicing_fixture.h"
 #include "support/temporary_folder.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The polygons cover every pixel whose ray meets the slab inside the box, and none twice.
-#include "slicing/slab_polygons.h"
+#include "slicing/slab_geometry.h"
 
 #include <gtest/gtest.h>
 

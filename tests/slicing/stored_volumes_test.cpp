@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "exact_fixture.h"
-#include "slicing/shown_pages.h"
+#include "slicing/cpu_volume.h"
 #include "support/expect_error.h"
 #include "support/stored_volume.h"
 #include "tile_fixture.h"
@@ -15,16 +15,16 @@ namespace lamina {
 namespace {
 
 // Bricks come from the volume in memory; rays look at `drawn`.
-std::unique_ptr<TileSliceRenderer> renderer_of(const Volume& drawn, const Volume& in_memory,
-                                               const Scene& scene,
-                                               const Capabilities& capabilities) {
+std::unique_ptr<CpuSliceRenderer> renderer_of(const Volume& drawn, const Volume& in_memory,
+                                              const Scene& scene,
+                                              const Capabilities& capabilities) {
     const Facts facts = measure(scene, drawn, measure_bricks(in_memory));
     const Plan plan = make_plan(scene, facts, capabilities, {});
-    return std::make_unique<TileSliceRenderer>(drawn, *scene.transfer_function, facts, plan.slice,
-                                               scene.width, scene.height);
+    return std::make_unique<CpuSliceRenderer>(drawn, *scene.transfer_function, facts, plan.slice,
+                                              scene.width, scene.height);
 }
 
-Image draw(TileSliceRenderer& renderer, const Scene& scene) {
+Image draw(CpuSliceRenderer& renderer, const Scene& scene) {
     renderer.draw(View(*scene.camera, scene.width, scene.height));
     return renderer.read();
 }

@@ -2,19 +2,19 @@
 // The way from a scene to its image with the native engine.
 #pragma once
 
-#include "slicing/tile_slice_renderer.h"
+#include "slicing/slice_renderer.h"
 #include "slicing_fixture.h"
 #include "tiles/tile_capabilities.h"
 
 namespace lamina {
 
-inline std::unique_ptr<TileSliceRenderer> tile_renderer(
+inline std::unique_ptr<CpuSliceRenderer> tile_renderer(
     const Volume& volume, const Scene& scene, const OmissionSwitch& omissions = {},
     const Capabilities& capabilities = tile_capabilities()) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     const Plan plan = make_plan(scene, facts, capabilities, omissions);
-    return std::make_unique<TileSliceRenderer>(volume, *scene.transfer_function, facts, plan.slice,
-                                               scene.width, scene.height);
+    return std::make_unique<CpuSliceRenderer>(volume, *scene.transfer_function, facts, plan.slice,
+                                              scene.width, scene.height);
 }
 
 inline Image render_tiles(const Volume& volume, const Scene& scene,

@@ -24,8 +24,8 @@ double tolerance(const Scene& scene, int shares) {
 }
 
 Image draw(const Volume& volume, const Scene& scene, const Facts& facts, const SlicePlan& plan) {
-    TileSliceRenderer renderer(volume, *scene.transfer_function, facts, plan, scene.width,
-                               scene.height);
+    CpuSliceRenderer renderer(volume, *scene.transfer_function, facts, plan, scene.width,
+                              scene.height);
     renderer.draw(View(*scene.camera, scene.width, scene.height));
     return renderer.read();
 }

@@ -6,7 +6,6 @@
 #include "simd/foreach_target.h"
 
 #include "tiles/node_code-inl.h"
-#include "tiles/random_bits-inl.h"
 #include "tiles/target_pixels-inl.h"
 
 LAMINA_SIMD_BEGIN

@@ -8,7 +8,7 @@
 
 #include "compositing/codes.h"
 #include "compositing/node_code.h"
-#include "tiles/target_blend.h"
+#include "tiles/tile_image.h"
 
 namespace lamina {
 

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <vector>
+
+#include "compositing/tree_shape.h"
+#include "facts/volume_facts.h"
+#include "lamina/grid.h"
+#include "lamina/scene.h"
+#include "plan/plan.h"
+#include "scene/camera.h"
+#include "tiles/tile_image.h"
+
+namespace lamina {
+
+// Returns the box of index space that a brick draws: that of its samples and, at the volume's
+// border, everything beyond them.
+IndexBox box_of(const TextureBrick& brick, const Grid& grid);
+
+// A place beyond all others, as a float, which shaders get.
+inline constexpr glm::dvec3 no_last_face{double{std::numeric_limits<float>::max()}};
+
+// Returns the last face of a part of the volume on each axis, in the part's own index space, if the
+// volume ends there; else no_last_face. `end`: the part's largest coordinates. The volume's box is
+// closed: rays that run in its faces are inside, as in the reference tracer. Rays in a face between
+// two parts belong to the part that begins there.
+glm::dvec3 last_face_of(const glm::dvec3& end, const glm::dvec3& first, const Grid& grid);
+
+// A row of a brick along x. Places begin .. end - 1 hold the volume's own samples, from number
+// `first` on. Other places repeat the nearest of these.
+struct BrickRow {
+    std::size_t first;
+    std::int64_t begin, end;
+
+    template <typename Texel>
+    void repeat_ends(Texel* row, std::int64_t size) const {
+        std::fill(row, row + begin, row[begin]);
+        std::fill(row + end, row + size, row[end - 1]);
+    }
+};
+BrickRow row_of(const TextureBrick& brick, const Grid& grid, std::int64_t y, std::int64_t z);
+
+// Sorts the indices of `bricks` so that along every ray the bricks come in the plan's order. It
+// takes memory only if `numbers` is not yet large enough.
+void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
+                          const View& view, Order order, std::vector<std::size_t>& numbers);
+
+// Pixels of a picture.
+struct PixelBox {
+    int first_column = 0, end_column = 0, first_row = 0, end_row = 0;
+
+    bool meets(const TileGrid::Tile& tile) const {
+        return tile.column < end_column && tile.column + TileGrid::edge > first_column &&
+               tile.row < end_row && tile.row + TileGrid::edge > first_row;
+    }
+    PixelBox joined(const PixelBox& other) const;
+    PixelBox common(const PixelBox& other) const;
+};
+
+// Returns the pixels whose rays meet a box of the grid's index space, and some around them.
+PixelBox pixels_of(const IndexBox& box, const Grid& grid, const View& view);
+
+// N slabs of equal thickness perpendicular to the view direction. Slab 0 is the nearest to the eye.
+// Depths are eye-space z.
+struct Slabs {
+    double near = 0;
+    double far = 0;
+    int count = 1;
+
+    double depth(int boundary) const {
+        return boundary == count ? far : near + (far - near) * boundary / count;
+    }
+};
+
+// A corner of a triangle: pixel coordinates (column to the right, row downwards from the image's
+// top, pixel centres at half integers) and the number of its slab.
+struct SlabVertex {
+    float column, row;
+    float slab;
+};
+
+// Appends triangles for each slab. They cover every pixel whose ray meets `box` (index space)
+// inside the slab, and each pixel centre lies in at most one triangle of a slab. They may cover a
+// little more, because the fragment's own ray decides. `starts`, if given, gets the number of
+// vertices before each slab, in drawing order, and after the last one.
+void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& box,
+                          const Slabs& slabs, Order order, std::vector<SlabVertex>& triangles,
+                          std::vector<std::size_t>* starts = nullptr);
+
+// Appends one polygon around several slabs together. Its corners carry the number of the first
+// slab.
+void append_span_polygon(const View& view, const Grid& grid, const IndexBox& box,
+                         const Slabs& slabs, const SampleSpan& span,
+                         std::vector<SlabVertex>& triangles);
+
+}  // namespace lamina
