@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// Twin of compositing/node_code.h, for the code NODE_CODE. A share is a node's share of its ray's samples.
+// Twin of compositing/codes.h, for the code NODE_CODE. A share is a node's share of its ray's samples.
 #define CODE_MINIMAX 0
 #define CODE_PHI 1
 #define CODE_ALPHA 2

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compositing/codes.glsl"
 
-// Twin of compositing/over.h. OVER_FUSED: it is rounded once instead of once a product.
+// Twin of compositing/codes.h. OVER_FUSED: it is rounded once instead of once a product.
 uint divide_nearest(uint x) { return (x + (LARGEST_CODE - 1u) / 2u) / LARGEST_CODE; }
 
 uint over(uint color, uint alpha, uint below) {

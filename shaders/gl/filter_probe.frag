@@ -2,7 +2,7 @@
 #version 450 core
 
 // Filters a 4x4x4 texture linearly at positions that float32 represents exactly, so that every difference from the
-// exact trilinear value is the filter's own. src/gl/filter_probe.cpp computes the same positions.
+// exact trilinear value is the filter's own. src/gl/framebuffer.cpp computes the same positions.
 uniform sampler3D probe;
 layout(location = 0) out vec4 filtered;
 

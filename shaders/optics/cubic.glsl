@@ -55,7 +55,7 @@ void approach_root(vec4 c, float value, bool rising, inout RootBracket bracket) 
 // Returns the place at which a cubic, which is monotone from one place to another, has a value
 // between its values there. Even t^3 = 1e-4 takes no more than six steps. They are not a loop,
 // because software rasterisers have a limit for the rounds of all loops together
-// (plan/march_limit.h).
+// (plan/choices.h).
 float cubic_root(vec4 c, float value, vec2 places, vec2 values) {
     bool rising = values.y >= values.x;
     float share = clamp((value - values.x) / (values.y - values.x), 0.0, 1.0);

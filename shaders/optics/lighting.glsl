@@ -21,7 +21,7 @@ struct LightEffect {
 };
 
 // Writes DO(number) for each light. Lights are no loop, because software rasterisers have a limit for the rounds of all
-// loops together (plan/march_limit.h).
+// loops together (plan/choices.h).
 #if LIGHTS == 1
 #define FOR_EACH_LIGHT(DO) DO(0)
 #elif LIGHTS == 2

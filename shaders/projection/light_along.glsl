@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light along a segment on which extinction and gradient are linear: twin of
-// projection/light_along-inl.h.
+// projection/tile_lit_fragments.cpp.
 #include "optics/opacity.glsl"
 #include "optics/lighting.glsl"
 

@@ -7,7 +7,7 @@
 
 uniform float most_bend;  // bend of light along a part above which the part is cut
 
-// Shortest piece for which light is computed, as a share of the part (plan/march_limit.cpp counts
+// Shortest piece for which light is computed, as a share of the part (plan/classification_choice.cpp counts
 // the rounds).
 const float shortest_lit_piece = 1.0 / 256.0;
 // Half of the share on the engine `cpu` (executors/lights.h): the number of rounds is bounded

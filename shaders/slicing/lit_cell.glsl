@@ -11,7 +11,7 @@ struct LitStep {
 
 // Lengths of the pieces of a part. The length doubles after two of that length: so pieces whose
 // light bends too much overlap only if one is at least twice as long as the other, which bounds
-// their number (plan/march_limit.cpp).
+// their number (plan/classification_choice.cpp).
 struct PieceLength {
     float first;    // beginning of the stretch
     float longest;  // now

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures, their colour bars, and how a picture is enlarged.
 
-// image/difference_picture.cpp's colours from -scale to scale, at equal steps.
+// image/difference.cpp's colours from -scale to scale, at equal steps.
 const falseColors = ["rgb(5,48,97)", "rgb(33,102,172)", "rgb(67,147,195)", "rgb(146,197,222)", "rgb(209,229,240)",
                      "rgb(255,255,255)", "rgb(253,219,199)", "rgb(244,165,130)", "rgb(214,96,77)", "rgb(178,24,43)",
                      "rgb(103,0,31)"];

@@ -22,11 +22,9 @@ class CompensatedSum {
     double rest_ = 0;
 };
 
-// The unevaluated sum hi + lo with
-// lo
-// <= ulp(hi)/2, which has about 31 digits (Dekker 1971; Hida, Li and Bailey 2001). It serves the
-// few operations of a ray whose rounding would decide whether, and over what length, the ray meets
-// the box.
+// The unevaluated sum hi + lo, |lo| <= ulp(hi)/2, of 31 digits (Dekker 1971; Hida, Li and Bailey
+// 2001), for the operations of a ray whose rounding would decide whether, and how far, it meets the
+// box.
 struct DoubleDouble {
     double hi = 0;
     double lo = 0;
@@ -78,8 +76,7 @@ inline bool operator<(DoubleDouble a, DoubleDouble b) {
     return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
 }
 
-// Returns the median of one value or more; of an even number of values, the mean of the two in the
-// middle.
+// Returns the median of one value or more: if they are even, the mean of the two in the middle.
 inline double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;

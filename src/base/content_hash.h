@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -45,9 +44,5 @@ class ContentHash {
 
     std::uint64_t state_ = 0xcbf29ce484222325u;
 };
-
-// Returns the ContentHash of a file's bytes, which are read in pieces. Throws Error if it is no
-// regular file or cannot be read.
-std::string hash_of_file(const std::filesystem::path& path);
 
 }  // namespace lamina

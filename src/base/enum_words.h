@@ -11,8 +11,7 @@
 
 namespace lamina {
 
-// Tells whether an enum class has an enumerator of this value. Compilers write other values as
-// (Enum)number.
+// Tells whether an enum has an enumerator of this value: compilers write others as (Enum)number.
 template <auto value>
 constexpr bool is_enumerator() {
     return std::string_view(__PRETTY_FUNCTION__).find("value = (") == std::string_view::npos;
@@ -28,8 +27,7 @@ const char* word_of(Enum value, const char* const (&words)[count]) {
     return number < count ? words[number] : nullptr;
 }
 
-// Lists an enum's words, as files and messages use them, with their values, in the order of the
-// enum. The enum's name_of() must be made with word_of().
+// Lists an enum's words, made by word_of() in its name_of(), with their values, in its order.
 template <typename Enum>
 std::vector<std::pair<const char*, Enum>> enum_words() {
     std::vector<std::pair<const char*, Enum>> words;
@@ -63,8 +61,7 @@ std::string alternatives() {
 }
 
 // Marks the end of a `switch` over an enum class that returns in a case for every value. Such a
-// switch has no `default:`, so that the compiler (-Wswitch) warns of a new value without a case;
-// but without this mark it warns, too, that numbers outside of the enum would return nothing.
+// switch has no `default:`, so that the compiler (-Wswitch) warns of a value without a case.
 [[noreturn]] inline void unreachable_enum() {
     assert(false);
     __builtin_unreachable();

@@ -6,12 +6,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <system_error>
+#include <vector>
 
 #include "base/client.h"
+#include "base/content_hash.h"
 #include "base/error.h"
 
 namespace lamina {
@@ -76,9 +77,8 @@ void expect_regular_file(const std::filesystem::path& path) {
     std::error_code ignored;
     const auto status = std::filesystem::status(path, ignored);
     if (!std::filesystem::exists(status)) fail("{}: cannot read: no such file", path.string());
-    if (!std::filesystem::is_regular_file(status)) {
+    if (!std::filesystem::is_regular_file(status))
         fail("{}: cannot read: not a regular file", path.string());
-    }
 }
 
 ByteBuffer read_large_file(const std::filesystem::path& path) {
@@ -97,6 +97,18 @@ std::string read_file_bytes(const std::filesystem::path& path) {
     std::string bytes(file.size(), '\0');
     bytes.resize(file.read_some(0, bytes.data(), bytes.size()));
     return bytes;
+}
+
+std::string hash_of_file(const std::filesystem::path& path) {
+    const RandomAccessFile file(path);
+    ContentHash hash;
+    std::vector<char> bytes(std::size_t{1} << 20);
+    std::uint64_t begin = 0;
+    for (std::size_t count = bytes.size(); count == bytes.size(); begin += count) {
+        count = file.read_some(begin, bytes.data(), bytes.size());
+        hash.add(bytes.data(), count);
+    }
+    return hash.hex();
 }
 
 std::string file_beginning(const std::filesystem::path& path, std::size_t most) {

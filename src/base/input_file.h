@@ -38,14 +38,12 @@ class RandomAccessFile {
     ~RandomAccessFile();
 
     std::uint64_t size() const { return size_; }  // in bytes, when it was opened
-    // Reads up to `count` bytes from `begin` on, and returns how many there were: fewer at the
-    // file's end.
+    // Reads up to `count` bytes from `begin` on; returns how many there were: fewer at the end.
     std::size_t read_some(std::uint64_t begin, char* to, std::size_t count) const;
     void read(std::uint64_t begin, char* to, std::size_t count) const;  // all of them
     // Tells the system that reads go from the first byte to the last: it then reads further ahead.
     void expect_in_order() const;
-    // Tells the system that reads are of single places: it then reads nothing but what is asked
-    // for.
+    // Tells the system that reads are of single places: it then reads nothing else.
     void expect_single_reads() const;
 
   private:
@@ -68,9 +66,11 @@ void expect_regular_file(const std::filesystem::path& path);
 ByteBuffer read_large_file(const std::filesystem::path& path);
 std::string read_file_bytes(const std::filesystem::path& path);  // of at most 1 GiB
 
-// Returns the first `most` bytes of a file, or fewer if it is shorter; none if it is not a regular
-// file or cannot be read.
+// Returns the first `most` bytes of a file, or all; none if it is no regular, readable file.
 std::string file_beginning(const std::filesystem::path& path, std::size_t most);
+
+// Returns a regular file's ContentHash (base/content_hash.h). Throws Error if it cannot.
+std::string hash_of_file(const std::filesystem::path& path);
 
 // A file of the source tree that the build embeds into the program (cmake/EmbedFiles.cmake).
 struct EmbeddedFile {

@@ -10,13 +10,11 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "base/client.h"
-#include "base/text.h"
 
 namespace lamina {
 
@@ -24,8 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// An iterator over a text that checks for a requested stop. Parsers copy their iterators, so it
-// reports to the outside how far it has come.
+// An iterator that checks for a stop. Parsers copy it, so it reports its place to the outside.
 class Cursor {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -151,23 +148,6 @@ std::string bytes_of(const std::filesystem::path& file) {
     return text;
 }
 
-}  // namespace
-
-nlohmann::json parse_json(std::string_view text) {
-    check_interrupt();
-    return Builder(text).build();
-}
-
-nlohmann::json load_json(const std::filesystem::path& file) {
-    try {
-        return parse_json(bytes_of(file));
-    } catch (const Error& problem) {
-        fail("{}: {}", file.string(), problem.what());
-    }
-}
-
-namespace {
-
 constexpr int milliseconds_between_checks = 100;
 
 // Waits until something can be read, or the other end is closed.
@@ -196,6 +176,19 @@ std::string text_of_stdin() {
 }
 
 }  // namespace
+
+nlohmann::json parse_json(std::string_view text) {
+    check_interrupt();
+    return Builder(text).build();
+}
+
+nlohmann::json load_json(const std::filesystem::path& file) {
+    try {
+        return parse_json(bytes_of(file));
+    } catch (const Error& problem) {
+        fail("{}: {}", file.string(), problem.what());
+    }
+}
 
 nlohmann::json load_json_from_stdin() {
     try {

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 #include "base/error.h"
 
 namespace lamina {
@@ -23,10 +22,9 @@ class JsonSyntaxError : public Error {
     using Error::Error;
 };
 
-// Parses a JSON text. All JSON that a user can write is parsed here: time and memory are
-// proportional to the text's length, and a requested stop is noticed (throws Interrupted). Throws
-// JsonSyntaxError, and Error if a key occurs twice in one object or a limit is exceeded. Both
-// give line and column.
+// Parses a JSON text that a user can write, in time and memory proportional to its length, until a
+// stop is requested (throws Interrupted). Throws JsonSyntaxError, and Error if a key occurs twice
+// in an object or a limit is exceeded, with line and column.
 nlohmann::json parse_json(std::string_view text);
 
 // Parses a JSON file. Error messages begin with its name.

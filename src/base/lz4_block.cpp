@@ -2,7 +2,6 @@
 #include "base/lz4_block.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace lamina {
 namespace {

@@ -4,9 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <new>
@@ -19,20 +17,18 @@ namespace {
 
 std::atomic<std::uint64_t> told_limit{0}, default_limit{0};  // 0: none
 
-std::uint64_t measure_machine_memory() {
-    const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    std::uint64_t bytes = page * static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES));
-    // The file has "max", or does not exist, if the control group has no limit.
-    std::uint64_t group = 0;
-    if (std::ifstream("/sys/fs/cgroup/memory.max") >> group) bytes = std::min(bytes, group);
-    return bytes;
-}
-
 }  // namespace
 
 std::uint64_t machine_memory() {
-    static const std::uint64_t bytes = measure_machine_memory();
-    return bytes;
+    static const std::uint64_t measured = [] {
+        const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+        std::uint64_t bytes = page * static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES));
+        // The file has "max", or does not exist, if the control group has no limit.
+        std::uint64_t group = 0;
+        if (std::ifstream("/sys/fs/cgroup/memory.max") >> group) bytes = std::min(bytes, group);
+        return bytes;
+    }();
+    return measured;
 }
 
 std::uint64_t memory_limit() {
@@ -80,8 +76,7 @@ std::shared_ptr<void> filled_memory(std::size_t bytes) {
 }
 
 void prefer_huge_pages(void* memory, std::size_t bytes) {
-    // Bytes. Smaller blocks may lie in the heap of malloc(), and advice for them would outlive
-    // them.
+    // Bytes. Smaller blocks may lie in malloc()'s heap, and advice for them would outlive them.
     constexpr std::size_t least = (std::size_t{1} << 25) + 1;
     if (bytes < least) return;
     // Advice is for whole pages. A system without huge pages refuses it, and nothing is lost.

@@ -13,10 +13,8 @@
 #include <cstring>
 #include <sstream>
 #include <system_error>
-#include <utility>
 
 #include "base/client.h"
-#include "base/error.h"
 #include "base/input_file.h"
 #include "base/process.h"
 
@@ -34,8 +32,7 @@ namespace {
 
 constexpr int most_links = 40;  // Linux follows as many
 
-// Returns the file that symbolic links lead to, which need not exist yet: that file is written, and
-// the links stay.
+// Returns the file that links lead to, which need not exist: it is written, the links stay.
 std::filesystem::path without_links(std::filesystem::path path) {
     std::error_code failure;
     for (int links = 0; std::filesystem::is_symlink(path, failure); ++links) {
@@ -66,8 +63,7 @@ bool is_at(int descriptor, const std::filesystem::path& path) {
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-// Removes the file of this name if a killed process left it, which nobody has locked. Returns false
-// if the file is in use or is not one of ours.
+// Removes a file that a killed process left, unlocked. Returns false if it is in use or foreign.
 bool remove_abandoned(const std::filesystem::path& path) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return errno == ENOENT;
@@ -79,6 +75,27 @@ bool remove_abandoned(const std::filesystem::path& path) {
 
 std::string descriptor_path(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+[[noreturn]] void fail_temporary(int error) {
+    fail("{}: cannot write temporary files: {}: set TMPDIR to a folder with room for them",
+         temporary_folder(), std::strerror(error));
+}
+
+int open_nameless(const std::string& folder) {
+    const int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (descriptor >= 0) return descriptor;
+    std::string name = folder + "/lamina-XXXXXX";  // some file systems have no O_TMPFILE
+    const int named = mkostemp(name.data(), O_CLOEXEC);
+    if (named >= 0) unlink(name.c_str());
+    return named;
+}
+
+constexpr const char* first_line = "Written by lamina, which replaces nothing else here:";
+
+bool is_there(const std::filesystem::path& path) {
+    std::error_code ignored;  // a link that leads nowhere is there, too
+    return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
 }
 
 }  // namespace
@@ -160,8 +177,7 @@ void AtomicFile::close_stream() {
     if (broken) give_up(EIO);
 }
 
-// linkat() cannot replace a file, so the new file gets a temporary name first; rename() then
-// replaces the old file.
+// linkat() cannot replace a file, so the new file gets a temporary name; rename() then replaces.
 void AtomicFile::give_name() {
     const std::string unnamed = descriptor_path(descriptor_);
     for (int number = 0; temporary_.empty();) {
@@ -188,55 +204,24 @@ void AtomicFile::commit() {
     temporary_.clear();
 }
 
-namespace {
-
-[[noreturn]] void give_up(int error) {
-    fail("{}: cannot write temporary files: {}: set TMPDIR to a folder with room for them",
-         temporary_folder(), std::strerror(error));
-}
-
-int open_nameless(const std::string& folder) {
-    const int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-    if (descriptor >= 0) return descriptor;
-    std::string name = folder + "/lamina-XXXXXX";  // some file systems have no O_TMPFILE
-    const int named = mkostemp(name.data(), O_CLOEXEC);
-    if (named >= 0) unlink(name.c_str());
-    return named;
-}
-
-}  // namespace
-
 std::string temporary_folder() {
     const char* const named = std::getenv("TMPDIR");
     return named != nullptr && *named != '\0' ? named : "/tmp";
 }
 
-TemporaryFile::TemporaryFile() {
+PipedFile::PipedFile() : OutputFile("stdout") {
     const int descriptor = open_nameless(temporary_folder());
-    if (descriptor < 0) give_up(errno);
-    stream_ = fdopen(descriptor, "w+b");
+    if (descriptor >= 0) stream_ = fdopen(descriptor, "w+b");
     if (stream_ != nullptr) return;
     const int error = errno;
-    close(descriptor);
-    give_up(error);
-}
-
-void TemporaryFile::write(const void* bytes, std::size_t count) {
-    if (std::fwrite(bytes, 1, count, stream_) != count) give_up(errno);
-}
-
-void TemporaryFile::rewind() {
-    if (std::fflush(stream_) != 0 || std::fseek(stream_, 0, SEEK_SET) != 0) give_up(errno);
-}
-
-PipedFile::PipedFile() : OutputFile("stdout") {
-    stream_ = file_.stream();
+    if (descriptor >= 0) close(descriptor);
+    fail_temporary(error);
 }
 
 void PipedFile::commit() {
     // Some libraries write in their destructors and pass over errors there, so the stream is asked.
     if (std::ferror(stream_) != 0) give_up(EIO);
-    file_.rewind();
+    if (std::fflush(stream_) != 0 || std::fseek(stream_, 0, SEEK_SET) != 0) fail_temporary(errno);
     std::array<char, 1 << 16> bytes{};
     for (std::size_t count = bytes.size(); count == bytes.size();) {
         count = std::fread(bytes.data(), 1, bytes.size(), stream_);
@@ -251,17 +236,6 @@ void make_folder(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder, error);
     if (error) fail("{}: cannot make this folder: {}", folder.string(), error.message());
 }
-
-namespace {
-
-constexpr const char* first_line = "Written by lamina, which replaces nothing else here:";
-
-bool is_there(const std::filesystem::path& path) {
-    std::error_code ignored;  // a link that leads nowhere is there, too
-    return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
-}
-
-}  // namespace
 
 OwnFiles::OwnFiles(std::filesystem::path folder, std::string verb)
     : folder_(std::move(folder)), verb_(std::move(verb)) {}

@@ -13,15 +13,13 @@
 
 namespace lamina {
 
-// A file cannot be written: the disk is full, the folder is gone, and so on. Other files cannot be
-// written then, either.
+// A file cannot be written (disk full, folder gone), and then others cannot be, either.
 class WriteError : public Error {
   public:
     using Error::Error;
 };
 
-// A stream that can seek, for a result. Nothing reaches its destination before commit(), and
-// nothing at all without commit().
+// A stream that can seek, for a result. Nothing reaches its destination before commit().
 class OutputFile {
   public:
     virtual ~OutputFile() = default;
@@ -44,19 +42,18 @@ class OutputFile {
 };
 
 // An output file that appears under its name only when it is complete. It is opened before long
-// work begins, so that a path that cannot be written fails at once. Without commit() nothing is
-// left behind, not even if the process is killed: on file systems that allow it, the file has no
-// name until then. On others (NFS), and during commit(), it lies beside its destination as
-// NAME.lamina-N.part and is locked. If a killed process leaves such a file there, the next one of
-// this name removes it. A file that is replaced keeps its mode.
+// work begins, so that a bad path fails at once. Without commit() nothing is left behind, even if
+// the process is killed: the file has no name until then or, on file systems that do not allow it
+// (NFS), lies beside its destination as NAME.lamina-N.part, locked; the next file of this name
+// removes what a killed process left. A file that is replaced keeps its mode.
 class AtomicFile : public OutputFile {
   public:
     explicit AtomicFile(
         std::filesystem::path path);  // throws WriteError when the folder cannot be written
     ~AtomicFile() override;
 
-    // Writes the whole file to disk under a temporary name beside its destination. commit() is then
-    // only a renaming, so that files that belong together appear together. Throws WriteError.
+    // Writes the whole file to disk under a temporary name. commit() is then only a renaming, so
+    // that files that belong together appear together. Throws WriteError.
     void complete();
     void commit() override;  // throws WriteError
 
@@ -75,33 +72,12 @@ class AtomicFile : public OutputFile {
 // Returns the folder of temporary files: TMPDIR, or /tmp if it is not set.
 std::string temporary_folder();
 
-// A temporary file without a name. It disappears with this object, and with the process, however
-// that ends.
-class TemporaryFile {
-  public:
-    TemporaryFile();  // throws Error
-    ~TemporaryFile() { std::fclose(stream_); }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-    std::FILE* stream() const { return stream_; }
-    void write(const void* bytes, std::size_t count);  // throws Error
-    // Writes out what is buffered and goes to the first byte, for any reader. Throws Error.
-    void rewind();
-
-  private:
-    std::FILE* stream_ = nullptr;
-};
-
-// An output that goes to stdout, which need not be able to seek: it is kept in a temporary file
-// until commit() copies it, so that a reader gets all of it or nothing.
+// An output to stdout, kept in a temporary file until commit(): a reader gets all or nothing.
 class PipedFile : public OutputFile {
   public:
-    PipedFile();             // throws Error
+    PipedFile();  // throws Error
+    ~PipedFile() override { std::fclose(stream_); }
     void commit() override;  // throws Error
-
-  private:
-    TemporaryFile file_;
 };
 
 // Makes a folder and its parent folders if they do not exist yet. Throws Error.
@@ -117,9 +93,8 @@ class OwnFiles {
 
     // Throws Error if a file or folder of these names exists that the verb did not write.
     void expect_own(const std::vector<std::string>& names) const;
-    // Adds names to the list, and makes the folder if it does not exist. Call it before the files
-    // are written: then a file that is not on the list belongs to somebody else, even after a run
-    // was stopped.
+    // Adds names to the list, and makes the folder if needed. Call it before the files are written:
+    // then a file that is not on the list belongs to somebody else, even after a run was stopped.
     void add(const std::vector<std::string>& names) const;
 
   private:

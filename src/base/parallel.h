@@ -27,10 +27,9 @@
 
 namespace lamina {
 
-// Tells the thread sanitizer what oneTBB guarantees, which it cannot see in a library that was
-// built without it: a task runs after what its caller did before the loop, and the caller goes on
-// after all tasks. No order between tasks is claimed, so that races among them are found. In every
-// other build it does nothing.
+// Tells the thread sanitizer what oneTBB, built without it, guarantees: a task runs after what its
+// caller did before the loop, and the caller goes on after all tasks. No order between tasks is
+// claimed. In every other build it does nothing.
 class HandOver {
   public:
     HandOver() { release(&given_); }
@@ -87,8 +86,7 @@ void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
                       });
 }
 
-// Calls both functions, on two cores if possible. An exception of one is rethrown after both have
-// ended.
+// Calls both functions, on two cores if possible. Rethrows an exception after both have ended.
 template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second) {
     HandOver hand_over;
@@ -103,9 +101,8 @@ void parallel_invoke(const First& first, const Second& second) {
                          [&]() LAMINA_UNSEEN_BY_THREAD_SANITIZER { task(second); });
 }
 
-// Sorts on all cores. Elements that `less` does not distinguish come in any order. Under the thread
-// sanitizer it sorts on one core, because oneTBB passes data between tasks inside its sort, out of
-// HandOver's reach.
+// Sorts on all cores; elements that `less` does not distinguish come in any order. Under the thread
+// sanitizer on one: oneTBB's sort passes data between tasks out of HandOver's reach.
 template <typename Iterator, typename Less>
 void parallel_sort(Iterator begin, Iterator end, const Less& less) {
 #ifdef LAMINA_THREAD_SANITIZER

@@ -17,7 +17,6 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "base/text.h"
 
 namespace lamina {
 
@@ -26,6 +25,39 @@ namespace {
 void write_to_stderr(const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
+}
+
+// Global, because a handler has no argument but the signal. The semaphore is never destroyed,
+// because a handler may still run in another thread when a SignalStop ends.
+struct Wake {
+    Wake() { sem_init(&semaphore, 0, 0); }
+    sem_t semaphore{};
+} wake;
+
+std::atomic<int> caught = 0;  // the signal; 0: none
+static_assert(std::atomic<int>::is_always_lock_free,
+              "a signal handler may only touch lock-free atomics");
+std::atomic<bool> exists = false;
+
+// POSIX names sem_post() among the functions that a signal handler may call.
+void on_signal(int signal) {
+    const int error_of_interrupted_code = errno;
+    caught = signal;
+    sem_post(&wake.semaphore);
+    errno = error_of_interrupted_code;
+}
+
+bool is_program(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
+}
+
+// Returns the folder of programs installed with the library, for other programs that load it.
+std::filesystem::path programs_of_library() {
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&is_program), &info) == 0 || !info.dli_fname)
+        return {};
+    return std::filesystem::path(info.dli_fname).parent_path() / LAMINA_PROGRAMS_FROM_LIBRARY;
 }
 
 }  // namespace
@@ -61,30 +93,6 @@ void replace_line(const std::string& line) {
     write_to_stderr("\r\033[K" + printable(line));
 }
 
-namespace {
-
-// Global, because a handler has no argument but the signal. The semaphore is never destroyed,
-// because a handler may still run in another thread when a SignalStop ends.
-struct Wake {
-    Wake() { sem_init(&semaphore, 0, 0); }
-    sem_t semaphore{};
-} wake;
-
-std::atomic<int> caught = 0;  // the signal; 0: none
-static_assert(std::atomic<int>::is_always_lock_free,
-              "a signal handler may only touch lock-free atomics");
-std::atomic<bool> exists = false;
-
-// POSIX names sem_post() among the functions that a signal handler may call.
-void on_signal(int signal) {
-    const int error_of_interrupted_code = errno;
-    caught = signal;
-    sem_post(&wake.semaphore);
-    errno = error_of_interrupted_code;
-}
-
-}  // namespace
-
 SignalStop::SignalStop() {
     [[maybe_unused]] const bool existed = exists.exchange(true);
     assert(!existed);
@@ -115,24 +123,6 @@ int SignalStop::exit_code() const {
     return 128 + caught;
 }
 
-namespace {
-
-bool is_program(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
-}
-
-// Returns the folder of the programs that are installed with the library, for other programs that
-// load it.
-std::filesystem::path programs_of_library() {
-    Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&is_program), &info) == 0 || !info.dli_fname)
-        return {};
-    return std::filesystem::path(info.dli_fname).parent_path() / LAMINA_PROGRAMS_FROM_LIBRARY;
-}
-
-}  // namespace
-
 std::optional<std::filesystem::path> find_program(const std::string& name) {
     std::error_code failure;
     const auto self = std::filesystem::read_symlink("/proc/self/exe", failure);
@@ -142,8 +132,7 @@ std::optional<std::filesystem::path> find_program(const std::string& name) {
     const char* const folders = std::getenv("PATH");
     std::istringstream list(folders ? folders : "");
     for (std::string folder; std::getline(list, folder, ':');) {
-        // Shells take an empty entry for the current folder. A program that lies there by chance
-        // must not be started.
+        // Shells take an empty entry for the current folder: a program there must not be started.
         if (folder.empty()) continue;
         if (is_program(std::filesystem::path(folder) / name))
             return std::filesystem::path(folder) / name;

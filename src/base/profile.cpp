@@ -2,7 +2,6 @@
 #include "base/profile.h"
 
 #include <atomic>
-#include <cassert>
 
 namespace lamina {
 

@@ -28,10 +28,9 @@ class Stopwatch {
     std::int64_t start_ns_ = now();
 };
 
-// A record of what this process did when, as spans of time on rows: one row for each thread that
-// has a Stage, and one for OpenGL. A Profile records while it exists, and only one may exist at a
-// time; without one, a Stage is only a stopwatch. It keeps the first most_spans spans and only
-// counts the others, so that its memory is bounded for any number of frames.
+// A record of what this process did when, as spans of time on rows: one for each thread that has a
+// Stage, and one for OpenGL. Only one may exist at a time; without one, a Stage is only a
+// stopwatch. It keeps the first most_spans spans and counts the others, so that memory is bounded.
 class Profile {
   public:
     struct Count {
@@ -76,8 +75,7 @@ class Profile {
     std::map<std::thread::id, int> rows_;
 };
 
-// A stage of the work, which is timed, and recorded if a Profile exists. It must end in the thread
-// that began it, and stages of one thread must end in reverse order.
+// A timed stage, recorded if a Profile exists. Stages of a thread end in it, in reverse order.
 class Stage {
   public:
     explicit Stage(const char* name) : name_(name) {}  // a literal

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -44,10 +45,7 @@ auto with_type(ValueType type, const Action& action) {
     return action(double{});
 }
 
-constexpr ValueType value_types[] = {
-    ValueType::int8,   ValueType::uint8, ValueType::int16,  ValueType::uint16,  ValueType::int32,
-    ValueType::uint32, ValueType::int64, ValueType::uint64, ValueType::float32, ValueType::float64};
-// The names of the types, in the order of value_types.
+// The names of the types, in their order.
 constexpr const char* value_type_words[] = {"int8",   "uint8", "int16",  "uint16", "int32",
                                             "uint32", "int64", "uint64", "float",  "double"};
 
@@ -56,9 +54,9 @@ inline const char* name_of(ValueType type) {
 }
 
 inline std::optional<ValueType> value_type_of(std::string_view word) {
-    for (const ValueType type : value_types)
-        if (word == name_of(type)) return type;
-    return {};
+    const auto* const found = std::ranges::find(value_type_words, word);
+    if (found == std::end(value_type_words)) return {};
+    return static_cast<ValueType>(found - value_type_words);
 }
 
 // Returns all names, for messages.
@@ -77,8 +75,7 @@ inline bool is_integer(ValueType type) {
     return type != ValueType::float32 && type != ValueType::float64;
 }
 
-// Converts a stored value to To (double or int64). Integers beyond int64 become its largest value,
-// which no count or index reaches.
+// Converts a stored value to double or int64, whose largest value stands for integers beyond it.
 template <typename To, typename From>
 To value_as(From value) {
     if constexpr (std::is_same_v<From, std::uint64_t> && std::is_same_v<To, std::int64_t>) {

@@ -15,8 +15,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/text.h"
-#include "choice/value_distribution.h"
 
 namespace lamina {
 
@@ -38,9 +36,8 @@ glm::dvec3 color_at(std::span<const glm::dvec3> colors, double place) {
     return glm::mix(colors[first], colors[first + 1], scaled - static_cast<double>(first));
 }
 
-// Rare values show more: if a share s of all values beyond the common ones is farther out than a
-// value, the extinction of that value is about s^-rarity, up to most_contrast times the least
-// extinction.
+// Rare values show more: if a share s of all uncommon values is farther out than a value, its
+// extinction is about s^-rarity, with s at least least_rest.
 constexpr double rarity = .8;
 constexpr double least_rest = .004;
 // Share of a side over which extinction rises from 0 at the border of the common values.
@@ -48,42 +45,38 @@ constexpr double rise = .1;
 constexpr int steps = 8;
 // Share of a side's values up to which its colours change; the outermost have the last colour.
 constexpr double far_share = .998;
-// A side with less than this share of all uncommon values shows nothing: it is noise, or the foot
-// of a peak, and would take half of the hues.
+// Share of uncommon values below which a side shows nothing: it is noise, or the foot of a peak.
 constexpr double least_side = .05;
 // Extinction of common values that are no background, as a share of that next to them.
 constexpr double faint = .25;
 
 // The values on one side of the common ones: place 0 at their border, 1 at the end of the colours.
-class Side {
-  public:
-    Side(ValueDistribution values, double border, double end)
-        : values_(std::move(values)), border_(border), end_(end) {}
+struct Side {
+    ValueDistribution values;
+    double border, end;
+
     static Side above(const ValueDistribution& all, double border) {
-        const auto values = all.between(std::nextafter(border, INFINITY), all.highest());
-        return {values, border, values.empty() ? border : values.quantile(far_share)};
+        const auto part = all.between(std::nextafter(border, INFINITY), all.highest());
+        return {part, border, part.empty() ? border : part.quantile(far_share)};
     }
     static Side below(const ValueDistribution& all, double border) {
-        const auto values = all.between(all.lowest(), std::nextafter(border, -INFINITY));
-        return {values, border, values.empty() ? border : values.quantile(1 - far_share)};
+        const auto part = all.between(all.lowest(), std::nextafter(border, -INFINITY));
+        return {part, border, part.empty() ? border : part.quantile(1 - far_share)};
     }
 
-    bool empty() const { return values_.empty() || end_ == border_; }
-    double border() const { return border_; }
-    double end() const { return end_; }
+    bool empty() const { return values.empty() || end == border; }
 
     // Returns the share of the side's values that lie beyond.
     double rest(double value) const {
-        return end_ > border_ ? 1 - values_.share_up_to(value) : values_.share_below(value);
+        return end > border ? 1 - values.share_up_to(value) : values.share_below(value);
     }
-    // Mixes the place by value and the place by rank: colours change faster where many values lie,
-    // and change everywhere.
+    // Mixes the places by value and by rank: colours change everywhere, faster among many values.
     double place(double value) const {
-        const double by_value = std::clamp((value - border_) / (end_ - border_), 0.0, 1.0);
+        const double by_value = std::clamp((value - border) / (end - border), 0.0, 1.0);
         return (by_value + (1 - rest(value))) / 2;
     }
     double value_at(double place_wanted) const {
-        double near = border_, far = end_;
+        double near = border, far = end;
         for (int i = 0; i < 60; ++i) {
             const double middle = near + (far - near) / 2;
             (place(middle) < place_wanted ? near : far) = middle;
@@ -93,17 +86,12 @@ class Side {
     double extinction(double value) const {
         return std::pow(std::max(rest(value), least_rest), -rarity);
     }
-
-  private:
-    ValueDistribution values_;
-    double border_, end_;
 };
 
-// Returns the points from the border to the side's end, in that order. `start`: the extinction at
-// the border.
+// Returns the points from the border to the end. `start`: the extinction at the border.
 std::vector<TransferKnot> points_of(const Side& side, std::span<const glm::dvec3> colors,
                                     double start) {
-    std::vector<TransferKnot> points{{side.border(), {colors.front(), start}}};
+    std::vector<TransferKnot> points{{side.border, {colors.front(), start}}};
     const auto add = [&](double value, double place) {
         if (value != points.back().value)
             points.push_back({value, {color_at(colors, place), side.extinction(value)}});
@@ -113,7 +101,7 @@ std::vector<TransferKnot> points_of(const Side& side, std::span<const glm::dvec3
         const double place = rise + (1 - rise) * i / steps;
         add(side.value_at(place), static_cast<double>(i) / steps);
     }
-    add(side.end(), 1);
+    add(side.end, 1);
     return points;
 }
 
@@ -145,7 +133,7 @@ AutomaticTransfer one_value(double value) {
 }
 
 AutomaticTransfer within(const ValueDistribution& values, const ValueRange& range) {
-    const Side side(values.between(range.lo, range.hi), range.lo, range.hi);
+    const Side side{values.between(range.lo, range.hi), range.lo, range.hi};
     std::vector<TransferKnot> points{{range.lo, {upwards.front(), 0}},
                                      {range.hi, {upwards.back(), 1}}};
     if (!side.empty()) points = points_of(side, upwards, 0);
@@ -153,20 +141,19 @@ AutomaticTransfer within(const ValueDistribution& values, const ValueRange& rang
             fmt::format("values from {} to {} show, as wished", range.lo, range.hi)};
 }
 
-// Returns a transfer function that shows values beyond the common ones, on one or both sides. A
-// side whose values would form a shell around the measured data shows nothing if the other side
-// does.
+// Shows values beyond the common ones, on one or both sides. A side that would form a shell around
+// the measured data shows nothing if the other side does.
 AutomaticTransfer beyond_common(const Padding& padding, const CommonValues& common) {
     const ValueDistribution& values = padding.rest;
     Side down = Side::below(values, common.lo), up = Side::above(values, common.hi);
     const double below = values.share_below(common.lo), above = 1 - values.share_up_to(common.hi);
-    if (below < least_side * (below + above)) down = Side({}, common.lo, common.lo);
-    if (above < least_side * (below + above)) up = Side({}, common.hi, common.hi);
+    if (below < least_side * (below + above)) down = Side{{}, common.lo, common.lo};
+    if (above < least_side * (below + above)) up = Side{{}, common.hi, common.hi};
     if (common.background && !down.empty() && !up.empty()) {
         if (padding.shell_below(common.lo)) {
-            down = Side({}, common.lo, common.lo);
+            down = Side{{}, common.lo, common.lo};
         } else if (padding.shell_above(common.hi)) {
-            up = Side({}, common.hi, common.hi);
+            up = Side{{}, common.hi, common.hi};
         }
     }
     const auto points = joined(down, up, common.background ? 0 : faint);
@@ -175,8 +162,8 @@ AutomaticTransfer beyond_common(const Padding& padding, const CommonValues& comm
         return number_text(value, fineness_of(values.lowest(), values.highest()));
     };
     std::string shown;
-    if (!down.empty()) shown = "down to " + text(down.end());
-    if (!up.empty()) shown += (shown.empty() ? "up to " : " and up to ") + text(up.end());
+    if (!down.empty()) shown = "down to " + text(down.end);
+    if (!up.empty()) shown += (shown.empty() ? "up to " : " and up to ") + text(up.end);
     return {
         normalized(points),
         fmt::format("values from {} to {}, {:.3g} % of the field, {}; beyond, {}, the rarer "
@@ -218,43 +205,6 @@ std::string padding_text(const Padding& padding) {
         text, 100 * padding.share, several ? "are" : "is");
 }
 
-AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {
-    const ValueDistribution& values = padding.rest;
-    if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
-    if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2)
-        return label_transfer(values);
-    return beyond_common(padding, find_common_values(values, whole_numbers));
-}
-
-TransferFunction in_colors_of(const TransferFunction& function,
-                              const std::optional<Colormap>& colormap) {
-    return colormap ? recolored(function, *colormap) : function;
-}
-
-}  // namespace
-
-AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
-                                           const TransferWishes& wishes,
-                                           double least_padding_share) {
-    const Padding padding = find_padding(values, whole_numbers, least_padding_share);
-    AutomaticTransfer chosen =
-        wishes.range ? within(values, *wishes.range) : in_own_colors(padding, whole_numbers);
-    TransferFunction& function = chosen.transfer_function;
-    function = in_colors_of(function, wishes.colormap);
-    if (wishes.range) {
-        // Values below the range show nothing. Padding inside the range was asked for.
-        if (!padding.above || *padding.above <= wishes.range->hi) return chosen;
-        function = shown_below(function, std::max(padding.edge_above(), wishes.range->hi));
-    } else {
-        if (padding.below) function = shown_above(function, padding.edge_below());
-        if (padding.above) function = shown_below(function, padding.edge_above());
-    }
-    chosen.padding = padding_text(padding);
-    return chosen;
-}
-
-namespace {
-
 // Linear light; neighbours differ in hue.
 constexpr std::array<glm::dvec3, 8> label_colors{{{.75, .20, .05},
                                                   {.06, .30, .65},
@@ -270,8 +220,8 @@ double extinction_of(double share) {
     return std::pow(std::max(share, .01), -.5);
 }
 
-}  // namespace
-
+// Returns a transfer function for labels (few whole numbers, two or more): the most frequent one is
+// transparent, each other has a colour of its own, which ends halfway to its neighbours.
 AutomaticTransfer label_transfer(const ValueDistribution& values) {
     std::size_t common = 0;
     double most = 0;
@@ -299,24 +249,35 @@ AutomaticTransfer label_transfer(const ValueDistribution& values) {
                         values.distinct(), values.value(common), 100 * most)};
 }
 
-namespace {
-
-// A linear map that keeps the order of values and hits both ends exactly.
-class Stretch {
-  public:
-    Stretch(double from_lo, double from_hi, const ValueRange& to)
-        : lo_(from_lo), width_(from_hi - from_lo), to_(to) {}
-    double operator()(double value) const {
-        const double place = (value - lo_) / width_;
-        return place == 1 ? to_.hi : std::min(to_.lo + (to_.hi - to_.lo) * place, to_.hi);
-    }
-
-  private:
-    double lo_, width_;
-    ValueRange to_;
-};
+AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {
+    const ValueDistribution& values = padding.rest;
+    if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
+    if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2)
+        return label_transfer(values);
+    return beyond_common(padding, find_common_values(values, whole_numbers));
+}
 
 }  // namespace
+
+AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
+                                           const TransferWishes& wishes,
+                                           double least_padding_share) {
+    const Padding padding = find_padding(values, whole_numbers, least_padding_share);
+    AutomaticTransfer chosen =
+        wishes.range ? within(values, *wishes.range) : in_own_colors(padding, whole_numbers);
+    TransferFunction& function = chosen.transfer_function;
+    if (wishes.colormap) function = recolored(function, *wishes.colormap);
+    if (wishes.range) {
+        // Values below the range show nothing. Padding inside the range was asked for.
+        if (!padding.above || *padding.above <= wishes.range->hi) return chosen;
+        function = shown_below(function, std::max(padding.edge_above(), wishes.range->hi));
+    } else {
+        if (padding.below) function = shown_above(function, padding.edge_below());
+        if (padding.above) function = shown_below(function, padding.edge_above());
+    }
+    chosen.padding = padding_text(padding);
+    return chosen;
+}
 
 TransferFunction stretched(const TransferFunction& transfer_function, const ValueRange& range) {
     std::vector<TransferKnot> knots(transfer_function.knots().begin(),
@@ -326,8 +287,13 @@ TransferFunction stretched(const TransferFunction& transfer_function, const Valu
             "transfer function: has a single value, {}, expected two that a range could lie "
             "between",
             knots.front().value);
-    const Stretch stretch(knots.front().value, knots.back().value, range);
-    for (TransferKnot& knot : knots) knot.value = stretch(knot.value);
+    // Keeps the order of values, and hits both ends exactly.
+    const double lo = knots.front().value, width = knots.back().value - lo;
+    for (TransferKnot& knot : knots) {
+        const double place = (knot.value - lo) / width;
+        knot.value =
+            place == 1 ? range.hi : std::min(range.lo + (range.hi - range.lo) * place, range.hi);
+    }
     for (std::size_t i = 2; i < knots.size(); ++i) {
         if (knots[i].value == knots[i - 2].value) {
             fail("range from {} to {}: is too narrow for the {} points of the transfer function",

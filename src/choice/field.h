@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -10,9 +12,8 @@
 #include "lamina/scene.h"
 #include "lamina/volume.h"
 #include "mesh/tet_mesh.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 #include "volume/min_max_bricks.h"
-#include "volume/value_counts.h"
 #include "volume/volume_data.h"
 
 namespace lamina {
@@ -29,28 +30,23 @@ class Field {
     virtual double spacing() const = 0;
     // Tells whether all values are whole, as labels are.
     virtual bool whole_numbers() const = 0;
-    // Returns the share of the field that a value must have to be padding
-    // (choice/value_distribution.h).
+    // Returns the share of the field that a value must have to be padding (find_padding()).
     virtual double least_padding_share() const = 0;
-    // Returns the distribution of the finite values, by volume; large data are sampled evenly.
-    // Empty if none is finite.
+    // Returns the distribution of the finite values by volume, of large data sampled evenly.
     virtual ValueDistribution distribution() const = 0;
 
-    // Returns points whose hull contains everything with more than `least` >= 0 extinction: corners
-    // of parts of the data. Empty if there is nothing.
+    // Returns points whose hull, if any, contains all of more than `least` >= 0 extinction.
     virtual std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                                  double least) const = 0;
     // The corners of the data's bounding box.
     virtual std::array<glm::dvec3, 8> corners() const = 0;
 
-    // Returns the optical depths of about 1000 rays of the scene's view, spread over the picture;
-    // rays that miss the data may be left out. Only transfer function, camera and size of the scene
-    // matter.
+    // Returns the optical depths of about 1000 rays all over the scene's view, of which only
+    // transfer function, camera and size matter; rays that miss the data may be left out.
     virtual std::vector<double> optical_depths(const Scene& scene) const = 0;
 };
 
-// A volume with its bricks, and with its values if these are counted already. All must outlive this
-// object.
+// A volume with its bricks, and its values if these are counted. All must outlive this object.
 class VolumeField : public Field {
   public:
     VolumeField(const Volume& volume, const MinMaxBricks& bricks)
@@ -66,11 +62,9 @@ class VolumeField : public Field {
     bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;
-    // Returns corners of cells.
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                          double least) const override;
     std::array<glm::dvec3, 8> corners() const override;
-    // Integrates by a few steps a voxel.
     std::vector<double> optical_depths(const Scene& scene) const override;
 
   private:
@@ -93,15 +87,23 @@ class MeshField : public Field {
     // Tets count by their volume. A tet with a corner far from all other values (find_markers())
     // counts by its corners: values interpolated inside it were not measured.
     ValueDistribution distribution() const override;
-    // Returns corners of tets.
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                          double least) const override;
     std::array<glm::dvec3, 8> corners() const override;
-    // Integrates from tet to tet, in closed form.
     std::vector<double> optical_depths(const Scene& scene) const override;
 
   private:
     const SceneMesh& mesh_;
 };
+
+// Returns world points whose hull is that of all cells, with their outer half voxels, for which
+// `shows` holds: for the range of finite samples at the corners, then for every wider one. Bricks
+// take the place of cells in large volumes. Parallel; empty if nothing shows.
+std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBricks& bricks,
+                                            const std::function<bool(const ValueRange&)>& shows);
+
+// Number of samples above which a volume may lie on disk, so that fewer samples are used to choose
+// a camera and extinctions. Volumes in memory use just as many, so that the picture is the same.
+constexpr std::int64_t large_volume = std::int64_t{1} << 28;
 
 }  // namespace lamina

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <tuple>
-#include <vector>
 
 #include "base/parallel.h"
 
 namespace lamina {
 
-// Weights of equal values are added in ascending order, so that the sum does not depend on the
-// order of the input.
+// Adds weights of equal values in ascending order: the sum does not depend on the input's.
 ValueDistribution::ValueDistribution(std::vector<WeightedValue> values) {
     std::erase_if(values, [](const WeightedValue& one) { return !(one.weight > 0); });
     parallel_sort(values.begin(), values.end(), [](const WeightedValue& a, const WeightedValue& b) {
@@ -82,7 +80,7 @@ constexpr double common_share = 1.0 / 3;
 class Bins {
   public:
     Bins(const ValueDistribution& values, bool whole_numbers) {
-        const UsualRange range = usual_range(values);
+        const ValueRange range = usual_range(values);
         lo_ = range.lo;
         width_ = (range.hi - range.lo) / most_bins;
         // Bins of whole numbers all hold equally many.
@@ -137,68 +135,6 @@ CommonValues densest(const ValueDistribution& values, double share) {
     return best;
 }
 
-}  // namespace
-
-UsualRange usual_range(const ValueDistribution& values) {
-    const UsualRange all{values.lowest(), values.highest()};
-    const UsualRange inner{values.quantile(outer_share), values.quantile(1 - outer_share)};
-    const bool outliers =
-        inner.lo < inner.hi && inner.hi - inner.lo < outer_width * (all.hi - all.lo);
-    return outliers ? inner : all;
-}
-
-CommonValues find_common_values(const ValueDistribution& values, bool whole_numbers) {
-    // Two values are a mask: the more frequent one is background.
-    if (values.distinct() == 2) {
-        const bool low = values.share_up_to(values.lowest()) >= 0.5;
-        const double more = low ? values.lowest() : values.highest();
-        return {more, more, true};
-    }
-    // A range too narrow to be divided in double precision has no bins.
-    const UsualRange range = usual_range(values);
-    const double width = range.hi - range.lo;
-    if (!(width / most_bins > 0) || !std::isfinite(width)) return densest(values, common_share);
-    const Bins bins(values, whole_numbers);
-    const std::size_t peak = bins.highest();
-    const std::size_t first = bins.end_of_peak(peak, -1), last = bins.end_of_peak(peak, 1);
-    CommonValues found{bins.edge(first), bins.edge(last + 1), true};
-    if (first == 0) found.lo = values.lowest();
-    if (last + 1 == bins.count()) found.hi = values.highest();
-    const double share = static_cast<double>(last - first + 1) / static_cast<double>(bins.count());
-    const bool background = share <= most_width && values.share(found.lo, found.hi) >= least_share;
-    return background ? found : densest(values, common_share);
-}
-
-ValueHistogram binned(const ValueDistribution& values, const ValueRange& range, bool whole_numbers,
-                      int bins) {
-    ValueHistogram histogram;
-    if (values.empty()) return histogram;
-    histogram.lo = histogram.least = range.lo;
-    histogram.hi = histogram.most = range.hi;
-    double count = range.lo < range.hi ? bins : 1;
-    if (whole_numbers) {
-        const double numbers = range.hi - range.lo + 1;
-        const double width = std::ceil(numbers / bins);
-        count = std::ceil(numbers / width);
-        histogram.lo = range.lo - .5;
-        histogram.hi = histogram.lo + count * width;
-    }
-    // A value on the edge of two intervals counts for the upper one; the last interval holds both
-    // of its edges.
-    double before = 0;
-    for (double i = 1; i < count; ++i) {
-        const double share = i / count;
-        // This form does not overflow even if hi - lo does.
-        const double below = values.share_below((1 - share) * histogram.lo + share * histogram.hi);
-        histogram.shares.push_back(below - before);
-        before = below;
-    }
-    histogram.shares.push_back(1 - before);
-    return histogram;
-}
-
-namespace {
-
 constexpr std::size_t most_values = 4;
 // Number of different values that measured data exceed.
 constexpr std::size_t few_values = 24;
@@ -206,8 +142,7 @@ constexpr std::size_t few_values = 24;
 // Least distance of padding from the rest, in widths of the rest's range. It is larger above: a
 // high value may be a real object of a single value, such as metal in tissue.
 constexpr double far_below = 1, far_above = 4;
-// Least distance of the lowest value to be padding if the rest has a background of its own that is
-// more frequent.
+// Least distance of the lowest value to be padding if the rest's own background is more frequent.
 constexpr double near_below = 1.0 / 8;
 
 constexpr double edge_share = 1.0 / 64;  // share of the way to the padding, or of the range
@@ -264,6 +199,63 @@ Padding take_from_ends(const ValueDistribution& all, const IsOne& is_one) {
 }
 
 }  // namespace
+
+ValueRange usual_range(const ValueDistribution& values) {
+    const ValueRange all{values.lowest(), values.highest()};
+    const ValueRange inner{values.quantile(outer_share), values.quantile(1 - outer_share)};
+    const bool outliers =
+        inner.lo < inner.hi && inner.hi - inner.lo < outer_width * (all.hi - all.lo);
+    return outliers ? inner : all;
+}
+
+CommonValues find_common_values(const ValueDistribution& values, bool whole_numbers) {
+    // Two values are a mask: the more frequent one is background.
+    if (values.distinct() == 2) {
+        const bool low = values.share_up_to(values.lowest()) >= 0.5;
+        const double more = low ? values.lowest() : values.highest();
+        return {more, more, true};
+    }
+    // A range too narrow to be divided in double precision has no bins.
+    const ValueRange range = usual_range(values);
+    const double width = range.hi - range.lo;
+    if (!(width / most_bins > 0) || !std::isfinite(width)) return densest(values, common_share);
+    const Bins bins(values, whole_numbers);
+    const std::size_t peak = bins.highest();
+    const std::size_t first = bins.end_of_peak(peak, -1), last = bins.end_of_peak(peak, 1);
+    CommonValues found{bins.edge(first), bins.edge(last + 1), true};
+    if (first == 0) found.lo = values.lowest();
+    if (last + 1 == bins.count()) found.hi = values.highest();
+    const double share = static_cast<double>(last - first + 1) / static_cast<double>(bins.count());
+    const bool background = share <= most_width && values.share(found.lo, found.hi) >= least_share;
+    return background ? found : densest(values, common_share);
+}
+
+ValueHistogram binned(const ValueDistribution& values, const ValueRange& range, bool whole_numbers,
+                      int bins) {
+    ValueHistogram histogram;
+    if (values.empty()) return histogram;
+    histogram.lo = histogram.least = range.lo;
+    histogram.hi = histogram.most = range.hi;
+    double count = range.lo < range.hi ? bins : 1;
+    if (whole_numbers) {
+        const double numbers = range.hi - range.lo + 1;
+        const double width = std::ceil(numbers / bins);
+        count = std::ceil(numbers / width);
+        histogram.lo = range.lo - .5;
+        histogram.hi = histogram.lo + count * width;
+    }
+    // A value on an edge counts for the upper interval; the last one holds both of its edges.
+    double before = 0;
+    for (double i = 1; i < count; ++i) {
+        const double share = i / count;
+        // This form does not overflow even if hi - lo does.
+        const double below = values.share_below((1 - share) * histogram.lo + share * histogram.hi);
+        histogram.shares.push_back(below - before);
+        before = below;
+    }
+    histogram.shares.push_back(1 - before);
+    return histogram;
+}
 
 std::vector<double> find_markers(const ValueDistribution& all) {
     return take_from_ends(all, [](double value, double,

@@ -14,8 +14,7 @@ struct WeightedValue {
     double weight = 0;  // >= 0
 };
 
-// The values of a field, each with its share of the field. It depends on the values and their
-// weights alone, not on threads.
+// The values of a field, each with its share of it, whatever the threads.
 class ValueDistribution {
   public:
     ValueDistribution() = default;  // an empty distribution
@@ -35,8 +34,7 @@ class ValueDistribution {
     // Returns the least value up to which at least this share lies.
     double quantile(double share) const;
 
-    // Returns the part of the field with values from lo to hi, whose shares add up to 1 again;
-    // empty if there is none.
+    // Returns the part with values from lo to hi, whose shares add up to 1; may be empty.
     ValueDistribution between(double lo, double hi) const;
 
   private:
@@ -44,46 +42,37 @@ class ValueDistribution {
     std::vector<double> up_to_;   // share of all values up to each; the last is 1
 };
 
-// The values that most of a field has, from lo to hi: air around a scanned object, the undisturbed
-// flow, the vacuum between molecules.
+// The values that most of a field has, from lo to hi: air around an object, undisturbed flow.
 struct CommonValues {
     double lo = 0, hi = 0;
-    // True: they stand out as a narrow peak, beyond which values are rare. False: values gather
-    // nowhere, and these are just the closest together.
+    // True: a narrow peak, beyond which values are rare. False: just the values closest together.
     bool background = false;
 };
 
-// Finds the common values of a distribution of two or more values. `whole_numbers`: all values are
-// whole.
+// Finds the common values of two or more. `whole_numbers`: all values are whole.
 CommonValues find_common_values(const ValueDistribution& values, bool whole_numbers);
 
-// The range without the outermost thousandth of values at each end, if these take up most of the
-// range: a few extreme values would leave no room for all others.
-struct UsualRange {
-    double lo = 0, hi = 0;
-};
-UsualRange usual_range(const ValueDistribution& values);
+// Returns the range without the outermost thousandth of values at each end, if these take up most
+// of the range: a few extreme values would leave no room for all others.
+ValueRange usual_range(const ValueDistribution& values);
 
-// Counts the values in at most `bins` >= 1 intervals over `range`, which holds them all. Intervals
-// of whole numbers hold equally many of them, so that none looks rarer than it is; the first is
-// centred so that the lowest is in the middle of its first unit. `values` may be empty.
+// Counts the values, if any, in at most `bins` >= 1 intervals over `range`, which holds all. Those
+// of whole numbers hold equally many, the lowest in the middle of its own unit.
 ValueHistogram binned(const ValueDistribution& values, const ValueRange& range, bool whole_numbers,
                       int bins);
 
-// Values that mean "nothing was measured here", such as -3024 around the round picture of a CT, or
-// -9999 on land in a model of the sea.
+// Values that mean "nothing was measured here": -3024 around a round CT, -9999 on land in a sea.
 struct Padding {
     std::vector<double> values;
     double share = 0;                    // of the field
     ValueDistribution rest;              // all other values
     std::optional<double> below, above;  // the padding values next to the rest, if there are any
 
-    // Returns a value between the padding and the rest, close to the rest. Values interpolated
-    // between padding and rest are visible only on the rest's side of it.
+    // Returns a value between padding and rest, from which on interpolated values show.
     double edge_below() const;
     double edge_above() const;
-    // Tells whether cells between padding and rest would show the rest's values up to `lo`, or from
-    // `hi` on, as a thick shell around the rest.
+    // Tells whether cells between padding and rest would show values up to `lo`, or from `hi` on,
+    // as a thick shell.
     bool shell_below(double lo) const;
     bool shell_above(double hi) const;
 };
@@ -91,15 +80,12 @@ struct Padding {
 // Share of a volume that a value must have to be padding: fewer samples may be noise.
 inline constexpr double least_padding = 1e-3;
 
-// Finds single values that are far from all others, at both ends (docs/first-picture.md).
-// `whole_numbers`: all values are whole. `least_share`: a value with less of the field is no
-// padding. Values with less than `least_padding` must be farther away than the whole range of the
-// rest.
+// Finds single values far from all others, at both ends (docs/first-picture.md). Those with less
+// than `least_share` are none; with less than `least_padding` they must be a whole range away.
 Padding find_padding(const ValueDistribution& all, bool whole_numbers,
                      double least_share = least_padding);
 
-// Returns the values, however rare, that are farther from all others than these are from each
-// other, by the distance that padding requires.
+// Returns the values, however rare, that lie as far from all others as padding must.
 std::vector<double> find_markers(const ValueDistribution& all);
 
 }  // namespace lamina

@@ -3,9 +3,6 @@
 
 #include <vector>
 
-#include "compositing/codes.h"
-#include "compositing/over.h"
-
 namespace lamina {
 namespace {
 
@@ -53,22 +50,20 @@ class Coder {
     std::vector<std::uint32_t> alpha_ranks_, color_ranks_;
 };
 
-class TreeCompositor {
-  public:
-    TreeCompositor(std::span<const double> unit_opacities, const TreeShape& tree,
-                   const Emulation& emulation, Order order, const Coder& coder)
-        : unit_opacities_(unit_opacities),
-          tree_(tree),
-          emulation_(emulation),
-          order_(order),
-          coder_(coder) {}
+struct TreeCompositor {
+    std::span<const double> unit_opacities;
+    const TreeShape& tree;
+    const Emulation& emulation;
+    Order order;
+    const Coder& coder;
+    int swizzled = 0;
 
     std::uint32_t evaluate(int level, const SampleSpan& node) {
-        const bool leaf = tree_.is_leaf(level, node);
-        const int children = leaf ? node.count : tree_.factor(level);
+        const bool leaf = tree.is_leaf(level, node);
+        const int children = leaf ? node.count : tree.factor(level);
         std::uint32_t composited = 0;
         for (int i = 0; i < children; ++i) {
-            const int child = order_ == Order::back_to_front ? children - 1 - i : i;
+            const int child = order == Order::back_to_front ? children - 1 - i : i;
             const SampleSpan span =
                 leaf ? SampleSpan{node.first + child, 1} : child_span(node, child, children);
             if (span.count == 0) continue;
@@ -76,34 +71,26 @@ class TreeCompositor {
             const std::uint32_t alpha =
                 leaf ? leaf_alpha(span.first, share) : swizzle(evaluate(level + 1, span), share);
             composited =
-                order_ == Order::back_to_front
-                    ? over(emulation_.over, coder_.largest(), alpha, composited, coder_.largest())
-                    : under(emulation_.over, coder_.largest(), alpha, composited, composited,
-                            coder_.largest());
+                order == Order::back_to_front
+                    ? over(emulation.over, coder.largest(), alpha, composited, coder.largest())
+                    : under(emulation.over, coder.largest(), alpha, composited, composited,
+                            coder.largest());
         }
         return composited;
     }
 
-  private:
     std::uint32_t leaf_alpha(int slab, double share) const {
-        return coder_.sample_alpha(
-            opacity_over(unit_opacities_[static_cast<std::size_t>(slab)], share), slab);
+        return coder.sample_alpha(
+            opacity_over(unit_opacities[static_cast<std::size_t>(slab)], share), slab);
     }
 
     // The paper's exponent-swizzle, from a node's image into its parent's input. Nodes are numbered
     // as they are evaluated, after the samples.
     std::uint32_t swizzle(std::uint32_t code, double share) {
-        const double phi = static_cast<double>(code) / coder_.largest();
-        const auto stage = static_cast<std::uint32_t>(tree_.samples() + swizzled_++);
-        return coder_.round(opacity_over(phi, share), stage);
+        const double phi = static_cast<double>(code) / coder.largest();
+        const auto stage = static_cast<std::uint32_t>(tree.samples() + swizzled++);
+        return coder.round(opacity_over(phi, share), stage);
     }
-
-    std::span<const double> unit_opacities_;
-    const TreeShape& tree_;
-    const Emulation& emulation_;
-    Order order_;
-    const Coder& coder_;
-    int swizzled_ = 0;
 };
 
 }  // namespace
@@ -135,7 +122,7 @@ std::uint32_t composite_tree(std::span<const double> unit_opacities, const TreeS
                              const Emulation& emulation, const std::optional<Dither>& dither,
                              Order order, std::uint32_t column, std::uint32_t row) {
     const Coder coder(emulation, dither, column, row);
-    return TreeCompositor(unit_opacities, tree, emulation, order, coder).evaluate(0, tree.root());
+    return TreeCompositor{unit_opacities, tree, emulation, order, coder}.evaluate(0, tree.root());
 }
 
 }  // namespace lamina

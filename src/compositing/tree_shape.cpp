@@ -39,22 +39,14 @@ TreeShape::TreeShape(const std::vector<int>& factors, int samples)
     }
 }
 
-std::int64_t TreeShape::node_count() const {
-    return count_nodes(0, samples_, false);
-}
-
-std::int64_t TreeShape::leaf_count() const {
-    return count_nodes(0, samples_, true);
-}
-
 // The children of a node have one of two sizes.
-std::int64_t TreeShape::count_nodes(int level, int count, bool leaves_only) const {
+std::int64_t TreeShape::count_leaves(int level, int count) const {
     if (is_leaf(level, {0, count})) return 1;
     const int k = factor(level), larger = count % k, size = count / k;
-    std::int64_t nodes = leaves_only ? 0 : 1;
-    if (size > 0) nodes += (k - larger) * count_nodes(level + 1, size, leaves_only);
-    if (larger > 0) nodes += larger * count_nodes(level + 1, size + 1, leaves_only);
-    return nodes;
+    std::int64_t leaves = 0;
+    if (size > 0) leaves += (k - larger) * count_leaves(level + 1, size);
+    if (larger > 0) leaves += larger * count_leaves(level + 1, size + 1);
+    return leaves;
 }
 
 std::vector<int> parse_factors(const std::string& text) {

@@ -42,12 +42,11 @@ class TreeShape {
     bool is_marched(int level, const SampleSpan& node) const {
         return is_leaf(level, node) || factor(level) >= node.count;
     }
-    // Returns the number of nodes that hold samples.
-    std::int64_t node_count() const;
-    std::int64_t leaf_count() const;
+    // Returns the number of leaves that hold samples.
+    std::int64_t leaf_count() const { return count_leaves(0, samples_); }
 
   private:
-    std::int64_t count_nodes(int level, int count, bool leaves_only) const;
+    std::int64_t count_leaves(int level, int count) const;
 
     std::vector<int> factors_;
     int samples_;

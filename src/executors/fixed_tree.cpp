@@ -7,7 +7,6 @@
 
 #include "base/client.h"
 #include "compositing/codes.h"
-#include "compositing/over.h"
 #include "tiles/target_pixels-inl.h"
 
 LAMINA_SIMD_BEGIN

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/client.h"
 #include "compositing/tree_shape.h"
-#include "gl/buffer.h"
+#include "gl/api.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "lamina/image.h"

@@ -6,23 +6,20 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "base/sparse_bytes.h"
+#include "base/memory.h"
 #include "lamina/transfer_function.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
 
-// The bricks of MinMaxBricks that are visible under the transfer function, and the distance of each
-// brick to them.
+// The bricks that the transfer function makes visible, and the distance of each brick to them.
 struct OccupiedBricks {
-    // Distance from which on bricks take no memory (base/sparse_bytes.h): large volumes are mostly
-    // empty.
+    // Distance from which on bricks take no memory: large volumes are mostly empty.
     static constexpr int farthest = 63;
 
     std::array<std::int64_t, 3> count{0, 0, 0};
-    // Distance from each brick to the nearest visible one; 0 for visible bricks. It is counted in
-    // bricks along the axis on which the two are farthest apart, and is at most `farthest`, also if
-    // no brick is visible. x fastest.
+    // Distance to the nearest visible brick, 0 for visible ones, in bricks along the axis on which
+    // the two are farthest apart, at most `farthest`, also if none is visible. x fastest.
     SparseBytes distance;
 
     // Computes the distances from an input of 0 (visible) and `farthest` (invisible).
@@ -38,23 +35,19 @@ struct OccupiedBricks {
         return distance[place(x, y, z)];
     }
 
-    // Tells whether one of the bricks from `first` to `last` is visible. Needs the distances, as do
-    // all functions below.
+    // Tells whether a brick from `first` to `last` is visible. Needs distances, as all below.
     bool any_of(const std::array<std::int64_t, 3>& first,
                 const std::array<std::int64_t, 3>& last) const;
-    // Tells whether a visible brick touches the box between two points of index space. The
-    // outermost bricks also stand for everything beyond the volume.
+    // Tells whether a visible brick, the outermost endless, touches a box of index space.
     bool any_in(const glm::dvec3& min, const glm::dvec3& max) const;
 
-    // Finds a box of index space around a point's brick. Returns true if the box is the largest
-    // known one without anything visible; false if that brick is visible, and the box is the brick
-    // alone. Boxes that reach the volume's border are endless beyond it.
+    // Finds a box of index space around a point's brick: returns true if nothing in it is visible;
+    // false if the brick is, and the box is the brick. Boxes at the border are endless beyond it.
     bool empty_around(const glm::dvec3& point, glm::dvec3& min, glm::dvec3& max) const;
 };
 
-// The bricks over which the transfer function has one colour and one extinction; empty if they are
-// less than `least_share` of the visible bricks. Neighbouring bricks share their border samples, so
-// constant bricks that touch have the same optical properties.
+// The bricks over which the transfer function has one colour and extinction; empty if they are less
+// than `least_share` of the visible ones. Those that touch share samples, so have the same optics.
 struct ConstantBricks {
     static constexpr double least_share = 0.05;
     // Number of kinds that are kept, the most frequent ones; other bricks count as varied.
@@ -68,8 +61,7 @@ struct ConstantBricks {
     std::uint8_t kind_at(const glm::dvec3& point) const { return kind[varied.place_of(point)]; }
 };
 
-// `occupied` must come from the same bricks and transfer function. `margin`: the largest error of a
-// scalar.
+// `occupied`: of the same bricks and transfer function. `margin`: the largest error of a scalar.
 ConstantBricks find_constant_bricks(const TransferFunction& transfer_function,
                                     const MinMaxBricks& bricks, const OccupiedBricks& occupied,
                                     double margin);

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "facts/drawn_range.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
-#include <vector>
 
 #include "mesh/tet_mesh.h"
 
@@ -35,16 +32,14 @@ ValueRange changing_range(const TransferFunction& transfer_function) {
     return found;
 }
 
-// Share of a window's inner width that is added on each side, so that no value that matters lies at
-// an end, where rounding may move it outside.
+// Share of a window's width on each side, so that rounding moves no value that matters outside.
 constexpr double window_margin = 1.0 / 16;
 
 // Share of the values that lies in the window of a single step. A smaller one costs time, because
 // more tets then run far outside the window; a larger one costs digits.
 constexpr double share_near_step = 0.1;
 
-// Returns the distance from `step` within which share_near_step of the values lies, not counting
-// those equal to it; 0 if there are no others.
+// Returns the distance from `step` of the nearest share_near_step of other values; 0 without any.
 double distance_near(double step, std::span<const double> values) {
     std::vector<double> distances;
     distances.reserve(values.size());
@@ -75,8 +70,7 @@ ValueRange half_around(const ValueRange& range, const ValueRange& inner, const V
 }  // namespace
 
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range) {
-    // Dividing whole numbers by a power of two does not round: all samples become exactly 0, the
-    // value whose optics are drawn.
+    // Dividing by a power of two does not round: all samples become 0, whose optics are drawn.
     if (range.lo == range.hi) {
         const double width = std::max(1.0, std::exp2(std::ceil(std::log2(std::abs(range.lo)))));
         return {range.lo, range.lo + width};
@@ -87,8 +81,7 @@ ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRan
     return {range.lo, range.hi + std::max(1e-6 * (range.hi - range.lo), rounding)};
 }
 
-// Colour is linear between knots: its extremes are at knots, both sides of steps, and at the ends
-// of the range.
+// Colour is linear between knots: its extremes are there, on both sides of steps, or at the ends.
 double largest_color(const TransferFunction& transfer_function, const ValueRange& range) {
     double largest = 0;
     const auto include = [&](const glm::dvec3& color) {

@@ -14,68 +14,58 @@
 
 namespace lamina {
 
-// Returns the range of a scalar as it is drawn, lo < hi. It is widened if all values are equal, and
-// a little if the transfer function has a step at its end, because the later side of the step
-// counts there.
+// Returns the range of a scalar as it is drawn, lo < hi: widened if all values are equal, and a
+// little if there is a step at its end, because the later side of the step counts there.
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range);
 
-// Returns the range that exact segments normalise to [0, 1]. It holds all values at which something
-// visible changes, with a margin; beyond it the transfer function is constant or shows nothing.
-// Samples may lie far outside it: a few odd values must not take the digits of the visible ones.
-// Its width is a power of two, and its lower end is whole if the samples are, so that samples stay
-// exact in float32: cells whose value is a step lie on the side of that value.
+// Returns the range that exact segments normalise to [0, 1]: all values at which something visible
+// changes, with a margin. Samples may lie far outside: a few odd values must not take the digits of
+// the visible ones. Its width is a power of two, and its lower end is whole if the samples are:
+// then they stay exact in float32, and cells whose value is a step lie on the side of that value.
 ValueRange exact_range(const TransferFunction& transfer_function, const ValueRange& range,
                        SampleType type);
 
 // Returns the range that whole tets normalise to [0, 1]: all values at which something visible
-// changes, with a margin, cut to the drawn range. Beyond it the transfer function is constant, or
-// there are no values. If nothing visible changes it is the drawn range. `values`: at the mesh's
-// points; they decide how wide the window of a single step is. `range`: of the finite ones.
+// changes, with a margin, cut to the drawn range; that range if nothing changes. `values`: at the
+// mesh's points, for the window of a single step. `range`: of the finite ones.
 ValueRange mesh_window(const TransferFunction& transfer_function, std::span<const double> values,
                        const ValueRange& range);
 
 // Returns the largest component of a colour in a range.
 double largest_color(const TransferFunction& transfer_function, const ValueRange& range);
 
-// Maps a sample from `range` to [0, 1], as textures of floats hold it. NaN if it is not finite;
-// clamped far outside the range.
+// Maps a sample from `range` to [0, 1], clamped far outside; NaN if it is not finite.
 float normalised_sample(double value, const ValueRange& range);
 
 // Tets whose scalar runs far outside the window that is drawn, such as those around a value that
 // marks missing data (docs/precision.md, "Exact segments").
 
 // Distance in widths of the window: scalars of a tet that runs farther outside are computed in
-// double precision at each fragment. A scalar within the window is a difference of numbers up to
-// this large, so float32 would lose as many digits.
+// double precision at each fragment, because float32 would lose as many digits.
 inline constexpr double far_for_floats = 16;
 
-// Distance in widths of the window up to which a tet keeps its digits if it is cut at the transfer
-// function's points and normalised piece by piece. A piece may be a tenth of the window; float32
-// then has 1e-4 of it.
+// Distance in widths of the window up to which a tet keeps its digits if it is cut at the points
+// and normalised piece by piece: of a tenth of the window, float32 has 1e-4.
 inline constexpr double far_for_parts = 128;
 
-// Distance in widths of the window up to which normalised scalars are numbers that float32 can
-// square. A tet that runs farther outside is drawn as if the window were wider: in either case less
-// than 1e-18 of it lies in the window, less than opaque points (optics/opacity.h) need to show.
+// Distance in widths of the window up to which float32 can square normalised scalars. A tet that
+// runs farther outside is drawn as if the window were wider: less than 1e-18 of it lies there.
 inline constexpr double farthest_normalised = 0x1p60;
 
-// Tells whether a range of scalars meets the window and also reaches more than `far` widths beyond
-// it.
+// Tells whether scalars meet the window and also reach more than `far` widths beyond it.
 inline bool runs_beyond(const ValueRange& scalars, const ValueRange& window, double far) {
     const double most = far * (window.hi - window.lo);
     return scalars.lo < window.hi && scalars.hi > window.lo &&
            (window.lo - scalars.lo > most || scalars.hi - window.hi > most);
 }
 
-// Returns the factor on a tet's normalised scalars that keeps all within `farthest_normalised` of
-// 0.
+// Returns the factor that keeps a tet's normalised scalars within `farthest_normalised` of 0.
 inline double far_scale(double least, double largest) {
     const double most = std::max(-least, largest);
     return most > farthest_normalised ? farthest_normalised / most : 1.0;
 }
 
-// The first piece that begins above lo lies behind the one that has it. If the scalar varies, so
-// does the first that does not end below hi.
+// The linear pieces of a transfer function over a range, as tets meet them.
 class TetPieces {
   public:
     // range: finite, lo < hi.
@@ -93,8 +83,7 @@ class TetPieces {
 
         bool empty() const { return last < first; }
     };
-    // Returns the pieces in which some point of the tet lies; empty if a corner's value is not
-    // finite.
+    // Returns the pieces that the tet meets; empty if a corner's value is not finite.
     Span met(std::span<const double> scalar, const Tet& tet) const;
     // Returns met() without the transparent pieces at both ends.
     Span visible(std::span<const double> scalar, const Tet& tet) const;

@@ -7,25 +7,14 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "facts/drawn_range.h"
 #include "facts/volume_facts.h"
 #include "mesh/face_tree.h"
-#include "mesh/mesh_shape.h"
 #include "mesh/ray_walk.h"
-#include "mesh/tet_mesh.h"
 #include "scene/camera.h"
-#include "scene/coloring.h"
 
 namespace lamina {
 
 namespace {
-
-void measure_edges(const TetMesh& mesh, MeshFacts& facts) {
-    const EdgeLengths lengths = edge_lengths(mesh);
-    facts.shortest_edge = lengths.shortest;
-    facts.longest_edge = lengths.longest;
-    facts.diagonal = glm::distance(mesh.bounds().min, mesh.bounds().max);
-}
 
 void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const TetPieces& pieces,
                                MeshFacts& facts) {
@@ -48,75 +37,7 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
     }
 }
 
-}  // namespace
-
-MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
-    MeshFacts facts = measure_data(scene, mesh);
-    if (is_right_order(scene.project.order))
-        facts.overlapping_tets = measure_overlap(mesh, facts.convexity);
-    measure_view(scene, mesh, facts);
-    measure_rays(scene, mesh, facts);
-    return facts;
-}
-
-MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
-    MeshFacts facts;
-    facts.points = static_cast<std::int64_t>(mesh.mesh.points().size());
-    facts.tets = static_cast<std::int64_t>(mesh.mesh.tets().size());
-    facts.scalar = mesh.scalar.name;
-    facts.findings = mesh.mesh.findings();
-    const ScalarRange found = measure_range(mesh.scalar.values);
-    facts.range = found.range;
-    facts.non_finite = found.non_finite;
-    check_finite(scene, mesh, found);
-    facts.convexity = convexity(mesh.mesh);
-    measure_edges(mesh.mesh, facts);
-    const TetPieces pieces(*scene.transfer_function,
-                           drawn_range(*scene.transfer_function, facts.range));
-    measure_transfer_function(scene, mesh, pieces, facts);
-    return facts;
-}
-
-std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity) {
-    return convexity == Convexity::none ? count_overlapping_tets(mesh.mesh) : 0;
-}
-
-void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
-    const View view(*scene.camera, scene.width, scene.height);
-    facts.orthographic = view.projection == Projection::orthographic;
-    facts.in_front = std::ranges::any_of(mesh.mesh.points(), [&](const glm::dvec3& point) {
-        return glm::dot(point - view.eye, view.forward) > 0;
-    });
-}
-
-void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
-    facts.trial_rays.clear();
-    const bool integrated =
-        scene.method == Method::project && facts.parts > 0 && !mixes_colors(scene.project.coloring);
-    if (!integrated) return;
-    const TetPieces pieces(*scene.transfer_function,
-                           drawn_range(*scene.transfer_function, facts.range));
-    facts.trial_rays = find_trial_rays(scene, mesh, pieces);
-}
-
-void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& found) {
-    const std::string name = name_of_mesh(scene);
-    if (found.range.empty()) {
-        fail("{}: all {} values of \"{}\" are NaN or infinite", name, mesh.mesh.points().size(),
-             mesh.scalar.name);
-    }
-    if (found.non_finite > 0 && scene.nan == NanPolicy::error) {
-        fail(
-            "{}: found {} NaN or infinite values of \"{}\", expected none; \"nan\": "
-            "\"transparent\" in the scene draws their tets as transparent",
-            name, found.non_finite, mesh.scalar.name);
-    }
-}
-
-namespace {
-
-// Number of rays along each side of the picture: enough to meet what fills a thousandth of it. A
-// picture with fewer pixels has a ray for each.
+// Rays along each side of the picture, enough to meet a thousandth of it; at most one a pixel.
 constexpr int trial_rays_along_side = 32, most_rays = trial_rays_along_side * trial_rays_along_side;
 
 double longest_edge(const TetMesh& mesh, std::int32_t number) {
@@ -144,8 +65,7 @@ std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column,
     for (const TetSegment& segment : segments) {
         const double in = std::max(segment.in.at, 0.0), length = segment.out.at - in;
         if (!(length > 0)) continue;
-        // Tets around the eye begin at the near plane, whose distance is a share of the mesh's
-        // size.
+        // Tets around the eye begin at the near plane, a share of the mesh's size away.
         const bool around_eye = segment.in.at < in;
         const double share = length / (segment.out.at - segment.in.at);
         const double back = segment.out.interpolate(scalar);
@@ -184,6 +104,73 @@ void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
 
 }  // namespace
 
+MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
+    MeshFacts facts = measure_data(scene, mesh);
+    if (is_right_order(scene.project.order))
+        facts.overlapping_tets = measure_overlap(mesh, facts.convexity);
+    measure_view(scene, mesh, facts);
+    measure_rays(scene, mesh, facts);
+    return facts;
+}
+
+MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
+    MeshFacts facts;
+    facts.points = static_cast<std::int64_t>(mesh.mesh.points().size());
+    facts.tets = static_cast<std::int64_t>(mesh.mesh.tets().size());
+    facts.scalar = mesh.scalar.name;
+    facts.findings = mesh.mesh.findings();
+    const ScalarRange found = measure_range(mesh.scalar.values);
+    facts.range = found.range;
+    facts.non_finite = found.non_finite;
+    check_finite(scene, mesh, found);
+    facts.convexity = convexity(mesh.mesh);
+    const EdgeLengths lengths = edge_lengths(mesh.mesh);
+    facts.shortest_edge = lengths.shortest;
+    facts.longest_edge = lengths.longest;
+    facts.diagonal = glm::distance(mesh.mesh.bounds().min, mesh.mesh.bounds().max);
+    const TetPieces pieces(*scene.transfer_function,
+                           drawn_range(*scene.transfer_function, facts.range));
+    measure_transfer_function(scene, mesh, pieces, facts);
+    return facts;
+}
+
+std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity) {
+    return convexity == Convexity::none ? count_overlapping_tets(mesh.mesh) : 0;
+}
+
+void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
+    const View view(*scene.camera, scene.width, scene.height);
+    facts.orthographic = view.projection == Projection::orthographic;
+    facts.in_front = std::ranges::any_of(mesh.mesh.points(), [&](const glm::dvec3& point) {
+        return glm::dot(point - view.eye, view.forward) > 0;
+    });
+}
+
+void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
+    facts.trial_rays.clear();
+    const bool integrated =
+        scene.method == Method::project && facts.parts > 0 && !mixes_colors(scene.project.coloring);
+    if (!integrated) return;
+    const TetPieces pieces(*scene.transfer_function,
+                           drawn_range(*scene.transfer_function, facts.range));
+    facts.trial_rays = find_view_rays(scene, mesh);
+    append_tets(mesh, pieces, facts.trial_rays);
+}
+
+void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& found) {
+    const std::string name = name_of_mesh(scene);
+    if (found.range.empty()) {
+        fail("{}: all {} values of \"{}\" are NaN or infinite", name, mesh.mesh.points().size(),
+             mesh.scalar.name);
+    }
+    if (found.non_finite > 0 && scene.nan == NanPolicy::error) {
+        fail(
+            "{}: found {} NaN or infinite values of \"{}\", expected none; \"nan\": "
+            "\"transparent\" in the scene draws their tets as transparent",
+            name, found.non_finite, mesh.scalar.name);
+    }
+}
+
 std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh) {
     const View view(*scene.camera, scene.width, scene.height);
     const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
@@ -201,13 +188,6 @@ std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, cons
         }
     });
     std::erase_if(rays, [](const auto& ray) { return ray.empty(); });
-    return rays;
-}
-
-std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
-                                                         const TetPieces& pieces) {
-    std::vector<std::vector<MeshFacts::Run>> rays = find_view_rays(scene, mesh);
-    append_tets(mesh, pieces, rays);
     return rays;
 }
 

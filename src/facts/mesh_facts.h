@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "facts/drawn_range.h"
 #include "mesh/mesh_shape.h"
 #include "mesh/tet_mesh.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -32,15 +31,13 @@ struct MeshFacts {
 
     // The following describe the transfer function over `range`.
     bool constant = false;  // one colour, one extinction
-    // One colour wherever extinction is > 0; if colours are interpolated between vertices: one
-    // colour everywhere.
+    // One colour wherever extinction is > 0 or, if vertices interpolate colours, everywhere.
     bool single_color = false;
     double max_extinction = 0;  // per world unit
     double max_color = 0;       // largest component of a colour
     // number of tets that show nothing, including those with a value that is not finite
     std::int64_t transparent_tets = 0;
-    // The window that whole tets are normalised to (facts/drawn_range.h), and the number of visible
-    // tets that run far outside it (facts/drawn_range.h).
+    // The window of whole tets, and the number of visible ones far outside (facts/drawn_range.h).
     ValueRange window;
     std::int64_t far_tets = 0;
     // Number of visible cell fragments if the other tets are cut at the transfer function's points.
@@ -50,9 +47,8 @@ struct MeshFacts {
     bool orthographic = false;
     bool in_front = true;  // some point lies in front of the eye's plane
 
-    // Rays on which methods to integrate segments are tried: rays through pixels all over the
-    // picture, each as its segments in tets, nearest first; and single visible tets. Empty if the
-    // scene leaves no choice.
+    // Rays on which methods to integrate segments are tried: all over the picture, as segments in
+    // tets, nearest first; and single visible tets. Empty if the scene leaves no choice.
     struct Run {
         double front, back;  // scalars
         double length;       // world units
@@ -70,31 +66,22 @@ struct MeshFacts {
     TrialError last_error;  // as found on the rays of an earlier view, if this one has none
 };
 
-// Tells whether an order is right on every ray. Other orders exist to be studied, with their
-// mistakes.
+// Tells whether an order is right on every ray; others exist to be studied, mistakes and all.
 inline bool is_right_order(const Auto<ProjectOrder>& order) {
     return order.is_automatic() || order == ProjectOrder::exact;
 }
 
-// Finds MeshFacts::trial_rays: rays of the view, and single tets of the mesh.
-std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
-                                                         const TetPieces& pieces);
-
-// Measures all facts. Throws Error if the scalar has values that are not finite and the scene does
-// not say how to treat them, or if no value is finite.
+// Measures all facts. Throws Error as check_finite() does.
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh);
 
-// These measure in steps: facts of the mesh and the transfer function; facts of the view except for
-// rays; trial_rays.
+// These measure in steps: mesh and transfer function; view without rays; trial_rays.
 MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh);
-// Returns MeshFacts::overlapping_tets. measure_data() leaves it out because it takes longer and
-// depends on the mesh alone.
+// Returns MeshFacts::overlapping_tets, which takes longer and depends on the mesh alone.
 std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity);
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 
-// Throws Error if no value is finite, or if some are not and the scene does not draw them
-// transparent. `found`: the range of the mesh's scalar.
+// Throws Error if no value of `found` is finite, or if some are not and `nan` is "error".
 void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& found);
 
 // Returns rays of the scene's view, all over the picture, as segments in tets, nearest first. Rays

@@ -7,28 +7,24 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
-#include <limits>
 #include <span>
-#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
-#include "facts/world_unit.h"
 #include "optics/pieces.h"
 #include "optics/segment_integral.h"
-#include "scene/half_space.h"
+#include "scene/clip.h"
 #include "volume/range_answers.h"
-#include "volume/value_counts.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 
 namespace {
 
-// Margin on both sides of a brick's range, as a share of the range, when asking whether the brick
-// is visible: interpolated and rescaled values may leave the range by roundings of float32.
-// Integers are rescaled after interpolation, codes counted from the type's least value, so their
-// margin is also this share of the largest code.
+// Share of the range that a brick's range is widened by on both sides when asking whether it is
+// visible: interpolated values may leave it by roundings of float32. Integers are rescaled, as
+// codes from the type's least value, so their margin is also this share of the largest code.
 constexpr double range_margin = 1e-6;
 
 double margin_of(const Facts& facts) {
@@ -52,8 +48,7 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
     const SparseBytes& distance = facts.occupied_bricks.distance;
     const std::size_t count = bricks.ranges.size();
     const double unit = world_unit(box_diagonal(facts.grid));
-    // Counts by the leading bits of floats, whose order is that of the floats themselves if these
-    // are >= 0.
+    // Counts by the leading bits of floats >= 0, whose order is that of the floats.
     constexpr int rest_bits = 12;
     const auto leading = [&](double extinction) {
         return std::bit_cast<std::uint32_t>(static_cast<float>(extinction / unit)) >> rest_bits;
@@ -81,9 +76,8 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
     facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
 }
 
-// Optical depth on a ray through the whole box that may come from transparent bricks: .026 / 255.
-// If the transfer function rises from 0 at a brick's own least or largest value, roundings that
-// leave its range may show something there.
+// Optical depth that a ray through the whole box may get from transparent bricks (.026 / 255): if
+// the function rises from 0 at a brick's own extreme, roundings may show something there.
 constexpr double faint_depth = 1e-4;
 
 double faint_extinction(const Facts& facts) {
@@ -161,9 +155,7 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
 // The visible bricks of some planes of bricks.
 struct SeenBricks {
     std::int64_t count = 0;
-    std::array<std::int64_t, 3> first{std::numeric_limits<std::int64_t>::max(),
-                                      std::numeric_limits<std::int64_t>::max(),
-                                      std::numeric_limits<std::int64_t>::max()};
+    std::array<std::int64_t, 3> first{INT64_MAX, INT64_MAX, INT64_MAX};
     std::array<std::int64_t, 3> last{-1, -1, -1};
 
     void add(const std::array<std::int64_t, 3>& brick) {
@@ -212,8 +204,7 @@ void measure_occupied(const TransferFunction& transfer_function, const MinMaxBri
         facts.occupied = box_of_bricks(facts.grid, bricks.count, seen.first, seen.last);
 }
 
-// The planner needs no table for one linear piece if segments are short; the longest possible
-// segment is the whole view.
+// One piece needs no table if segments are short; the longest possible one is the whole view.
 bool may_need_table(const Scene& scene, const Facts& facts) {
     const double depth =
         facts.max_extinction * (facts.far_depth - facts.near_depth) * facts.max_length_per_depth;

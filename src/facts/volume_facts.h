@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "facts/bricks.h"
-#include "facts/rays.h"
 #include "lamina/clip.h"
 #include "lamina/grid.h"
 #include "lamina/scene.h"
@@ -45,14 +44,33 @@ struct IndexBox {
     friend bool operator==(const IndexBox&, const IndexBox&) = default;
 };
 
-// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box. If far <= near,
-// the box lies behind the eye.
+// Eye-space depths of a box's nearest (>= 0) and farthest point; far <= near behind the eye.
 struct DepthRange {
     double near = 0;
     double far = 0;
 };
 DepthRange depth_range(const Grid& grid, const View& view);
 DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view);
+
+// Shares of the slabs along rays all over the picture, by which a plan predicts its work: in the
+// clipped box, in visible bricks, and in the constant ones of these (Facts::constant_bricks).
+// Members *_before_opaque count only slabs before the ray is almost opaque.
+struct RayShares {
+    double box = 0, occupied = 0, constant = 0;
+    double box_before_opaque = 0, occupied_before_opaque = 0, constant_before_opaque = 0;
+};
+
+// Scalars along rays of the view, on which tables of segments are tried.
+struct ScalarRays {
+    struct Ray {
+        double length_per_depth = 1;  // world length per unit of eye-space depth
+        double near = 0, far = 0;     // eye-space depths where it enters and leaves the clipped box
+        // The scalar, and the optical depth in front of it, at evenly spaced depths.
+        std::vector<float> scalars;
+        std::vector<float> optical_depths;
+    };
+    std::vector<Ray> rays;  // all over the picture, each through the box
+};
 
 // Properties of a volume and its view. They are measured, not taken from headers.
 struct Facts {
@@ -74,8 +92,7 @@ struct Facts {
     std::int64_t pieces = 1;    // number of linear pieces over drawn_range()
     std::int64_t curves = 1;    // as above, if curves follow smooth points (optics/pieces.h)
 
-    // The smallest box of whole min/max bricks outside which nothing is visible. Bricks that the
-    // clip cuts away as a whole count as invisible.
+    // The smallest box of whole bricks that holds all that the clip leaves visible.
     IndexBox occupied;
     bool clipped_away = false;  // something is visible without the clip, and nothing with it
     OccupiedBricks occupied_bricks;
@@ -100,18 +117,36 @@ struct Facts {
     ScalarRays scalar_rays;  // filled if segments are pre-integrated and a table may be needed
 };
 
-// Measures all facts. Throws Error if the volume has samples that are not finite and the scene does
-// not say how to treat them, or if no sample is finite.
+// Measures all facts. Throws Error as check_finite() does.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
-// These measure in three steps, each of which needs those before: facts of the volume and the
-// transfer function; facts of the view except for rays; facts of rays of the view.
+// These measure in three steps, in this order: facts of the volume and the transfer function; of
+// the view except for rays; of rays of the view.
 Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 void measure_view(const Scene& scene, Facts& facts);
 void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);
 
-// Throws Error if no sample is finite, or if some are not and the scene does not draw them
-// transparent. `bricks`: those of the volume.
+// Throws Error if no sample is finite, or if some are not and `nan` is "error".
 void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks);
+
+// Share of max_error: a ray ends if nothing behind can change a channel by more than this. It is
+// less than the errors of tables and roundings, so that measurements may end rays, too.
+inline constexpr double hidden_share = 1.0 / 1024;
+
+// Returns the optical depth behind which a channel changes by at most hidden_share of max_error.
+double opaque_depth(double max_error, double max_color);
+
+// Measures the shares; grid, view and bricks come from the facts.
+RayShares measure_ray_shares(const Scene& scene, const Volume& volume, const Facts& facts);
+
+// Largest numbers of rays, and of scalars on a ray.
+struct RaySampling {
+    std::size_t rays = 1024;
+    double scalars = 1024;
+};
+
+// Samples rays in the facts' grid and view. `bricks`: the volume's, or null; they save reading.
+ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& facts,
+                       const MinMaxBricks* bricks = nullptr, const RaySampling& sampling = {});
 
 }  // namespace lamina

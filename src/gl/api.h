@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-struct GladGLContext;  // of <glad/gl.h>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+
+struct GladGLContext;  // of <glad/gl.h>
 
 namespace lamina::gl {
 
@@ -15,8 +21,12 @@ const GladGLContext& api();
 // while ", as "drawing the slabs" does. Does not wait for the GPU.
 void check(std::string_view where);
 
-enum class ObjectKind { buffer, texture, vertex_array, framebuffer, query, shader, program };
+// Returns one of OpenGL's numbers, such as GL_MAX_TEXTURE_SIZE.
+int integer(unsigned name);
 
+enum class ObjectKind { buffer, vertex_array, framebuffer, texture, query, shader, program };
+
+unsigned new_object(ObjectKind kind);  // a buffer, vertex array or framebuffer
 void delete_object(ObjectKind kind, unsigned id);
 
 // Owns one OpenGL object and deletes it in the destructor. Move-only; 0 owns nothing.
@@ -41,8 +51,7 @@ class Handle {
     unsigned id_ = 0;
 };
 
-// Returns the bytes of buffers and textures that this thread's current context holds now: those
-// that were asked for, without the driver's padding. 0 if no context is current.
+// Returns the bytes of buffers and textures of the current context, without padding; 0 without one.
 std::int64_t bytes_allocated();
 
 // Throws Error if a limit on the process's memory (ulimit -v) leaves less than `bytes`. Mesa's
@@ -69,6 +78,94 @@ class AllocatedBytes {
 
   private:
     std::int64_t count_ = 0;
+};
+
+// A function that was found at run time, as a pointer of whatever type it is assigned to.
+struct AnyFunction {
+    void* address;
+
+    template <typename Function>
+    operator Function*() const {
+        return reinterpret_cast<Function*>(address);
+    }
+};
+
+// A library loaded at run time, and never unloaded: Mesa and LLVM leave threads and exit handlers.
+class SharedLibrary {
+  public:
+    // Loads the first of `names` that is found. Throws Error, which says why each was not.
+    explicit SharedLibrary(std::initializer_list<const char*> names);
+
+    // Tells whether this process has loaded the library already.
+    static bool is_loaded(const char* name);
+
+    // Returns the function `name`. Throws Error, which names the library, if it has none.
+    AnyFunction function(const char* name) const;
+
+  private:
+    std::string name_;
+    void* handle_ = nullptr;
+};
+
+// GPU memory of a fixed size for vertices, indices or blocks, undefined until written.
+class Buffer {
+  public:
+    Buffer() = default;
+    explicit Buffer(std::size_t byte_count);
+    // Makes a buffer that stays mapped: a draw sees what was written through mapped() before it.
+    // The writer must not change data that a draw still reads (see Fence).
+    static Buffer make_mapped(std::size_t byte_count);
+
+    template <typename T, std::size_t extent>
+    explicit Buffer(std::span<T, extent> elements) : Buffer(elements.size_bytes()) {
+        write(elements);
+    }
+
+    // Replaces the bytes from `byte_offset` on by `elements`, which must fit.
+    template <typename T, std::size_t extent>
+    void write(std::span<T, extent> elements, std::size_t byte_offset = 0) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        write_bytes(std::as_bytes(elements), byte_offset);
+    }
+
+    // Binds the buffer to block number `binding` of the shaders' storage blocks.
+    void bind_storage(unsigned binding) const;
+
+    // Returns the mapped memory, which is slow to read; null if the buffer is not mapped.
+    std::byte* mapped() const { return mapped_; }
+
+    unsigned id() const { return handle_.id(); }
+    std::size_t byte_count() const { return static_cast<std::size_t>(bytes_.count()); }
+
+  private:
+    Buffer(std::size_t byte_count, unsigned storage_flags);
+    void write_bytes(std::span<const std::byte> bytes, std::size_t byte_offset);
+
+    Handle<ObjectKind::buffer> handle_;
+    AllocatedBytes bytes_;
+    std::byte* mapped_ = nullptr;
+};
+
+// The sources of vertex attributes, if any, and indices. The buffers must outlive the draws.
+class VertexArray {
+  public:
+    VertexArray();
+
+    // Sets attribute `location` to `components` floats or ints at `byte_offset` of each stride.
+    void set_floats(unsigned location, const Buffer& buffer, int components,
+                    std::size_t byte_stride, std::size_t byte_offset);
+    void set_integers(unsigned location, const Buffer& buffer, int components,
+                      std::size_t byte_stride, std::size_t byte_offset);
+    void set_indices(const Buffer& buffer);  // 32-bit unsigned
+
+    void bind() const;
+    unsigned id() const { return handle_.id(); }
+
+  private:
+    void set_source(unsigned location, const Buffer& buffer, std::size_t byte_stride,
+                    std::size_t byte_offset);
+
+    Handle<ObjectKind::vertex_array> handle_;
 };
 
 }  // namespace lamina::gl

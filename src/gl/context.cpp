@@ -11,18 +11,11 @@
 #include <glad/gl.h>
 #include "base/enum_words.h"
 #include "base/error.h"
-#include "gl/api.h"
-#include "gl/filter_probe.h"
+#include "gl/framebuffer.h"
 
 namespace lamina::gl {
 
 namespace {
-
-int integer(unsigned name) {
-    GLint value = 0;
-    api().GetIntegerv(name, &value);
-    return value;
-}
 
 int largest_render_target() {
     GLint viewport[2] = {0, 0};
@@ -31,8 +24,7 @@ int largest_render_target() {
                      integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
 }
 
-// Recognises software renderers behind devices that claim to be hardware (kernel drivers without a
-// GPU).
+// Recognises software renderers behind devices that claim to be hardware.
 bool is_software_renderer(const std::string& renderer) {
     return renderer.find("llvmpipe") != std::string::npos ||
            renderer.find("softpipe") != std::string::npos;
@@ -52,6 +44,8 @@ const char* advice(ContextKind kind) {
     }
     unreachable_enum();
 }
+
+thread_local Context* current_of_thread = nullptr;
 
 }  // namespace
 
@@ -73,9 +67,8 @@ std::unique_ptr<Context> Context::create(ContextKind kind) {
             return attempt();
         } catch (const Error& error) {
             const std::string reason = error.what();
-            if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) {
+            if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end())
                 reasons.push_back(reason);
-            }
         }
     }
     fail("no OpenGL 4.5 core context ({}): {}", fmt::join(reasons, "; "), advice(kind));
@@ -92,9 +85,8 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     const int version = gladLoadGLContext(functions_.get(), load);
     const int major = GLAD_VERSION_MAJOR(version);
     const int minor = GLAD_VERSION_MINOR(version);
-    if (major < 4 || (major == 4 && minor < 5)) {
+    if (major < 4 || (major == 4 && minor < 5))
         fail("{}: the context has OpenGL {}.{}, 4.5 is needed", interface_name, major, minor);
-    }
     const std::string renderer = reinterpret_cast<const char*>(api().GetString(GL_RENDERER));
     capabilities_.renderer = std::string(interface_name) + ": " + renderer;
     capabilities_.software = software || is_software_renderer(renderer);
@@ -104,8 +96,7 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     capabilities_.framebuffer_fetch = functions_->EXT_shader_framebuffer_fetch != 0;
     capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);
 
-    // Only errors are logged, for check(). Dithering by the driver would change every fixed-point
-    // target.
+    // Only errors are logged, for check(). The driver's dithering would change fixed-point targets.
     api().Enable(GL_DEBUG_OUTPUT);
     api().DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
     api().DebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
@@ -122,12 +113,6 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
         measure_filter_error(TextureFormat::r16).as_good_as_eight_bits() &&
         measure_filter_error(TextureFormat::r8).as_good_as_eight_bits();
 }
-
-namespace {
-
-thread_local Context* current_of_thread = nullptr;
-
-}  // namespace
 
 Context* current_context() {
     return current_of_thread;

@@ -18,19 +18,16 @@ struct ContextCounts {
     std::int64_t bytes_uploaded = 0;   // those that textures got so far
 };
 
-// any: a GPU through EGL if there is one, else OSMesa, else EGL with a software renderer.
-// gpu: a GPU through EGL.
+// any: a GPU through EGL, else OSMesa, else EGL with a software renderer. gpu: a GPU through EGL.
 // egl: a GPU if there is one, else a software renderer.
 enum class ContextKind { any, gpu, osmesa, egl };
 
-// An OpenGL 4.5 core context without a window or a display server. There may be several; each is
-// current in one thread at a time (CurrentContext). Every object of this module belongs to the
-// context that was current when it was made. That context must be current, too, when the object is
-// used and when it is destroyed, and must outlive it.
+// An OpenGL 4.5 core context without a window or a display server, current in one thread at a time
+// (CurrentContext). Every object of this module belongs to the context that was current when it was
+// made; that context must outlive it, and be current when it is used and destroyed.
 class Context {
   public:
-    // Makes a context. Throws Error, which says what was tried, why each attempt failed, and what
-    // to install or to pass.
+    // Makes a context. Throws Error: why each attempt failed, and what to install or pass.
     static std::unique_ptr<Context> create(ContextKind kind);
 
     virtual ~Context();
@@ -47,16 +44,14 @@ class Context {
     Context();
 
     // Must be called once the context can be made current. Loads OpenGL's functions, fills the
-    // capabilities, and sets the state that the whole project relies on. `interface_name` goes in
-    // front of GL_RENDERER.
+    // capabilities, and sets the common state. `interface_name` goes in front of GL_RENDERER.
     void initialise(LoadFunction load, const char* interface_name, bool software);
 
   private:
     friend class CurrentContext;
     friend const GladGLContext& api();
 
-    // Make the context current in this thread, in which the library has no other current one, and
-    // end that. Throw Error on failure.
+    // Make the context current in this thread, which has no other, and end that. Throw Error.
     virtual void bind() = 0;
     virtual void release() = 0;
 
@@ -73,8 +68,7 @@ enum class EglDevices { hardware, any };
 std::unique_ptr<Context> create_osmesa_context();
 std::unique_ptr<Context> create_egl_context(EglDevices devices);
 
-// The context that EGL (OSMesa) has current in this thread, whoever made it; `context` is null if
-// there is none.
+// The context that EGL (OSMesa) has current in this thread; `context` is null if there is none.
 struct EglBinding {
     unsigned api = 0;  // the one that eglBindAPI() chose; 0 if EGL is not loaded
     void *display = nullptr, *draw = nullptr, *read = nullptr, *context = nullptr;
@@ -85,17 +79,15 @@ struct OsmesaBinding {
     int width = 0, height = 0;
 };
 
-// release_...() returns what was current and ends that; restore() makes it current again. Neither
-// loads a library.
+// release_...() ends and returns what was current; restore() brings it back. No library is loaded.
 EglBinding release_egl();
 void restore(const EglBinding& binding);
 OsmesaBinding release_osmesa();
 void restore(const OsmesaBinding& binding);
 
-// Makes a context current in this thread while it exists. Afterwards the context before it is
-// current again: one of this module, or one that the caller has made with EGL or OSMesa. Contexts
-// of GLX are unknown to it: a caller that has one takes another thread. Scopes of a thread must end
-// in the reverse order of their beginnings.
+// Makes a context current in this thread while it exists. Then the context before it is current
+// again, whether of this module or of the caller's EGL or OSMesa; a caller with a context of GLX
+// takes another thread. Scopes of a thread end in the reverse order of their beginnings.
 class CurrentContext {
   public:
     // Throws Error if the context is current in another thread.

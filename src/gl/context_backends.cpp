@@ -7,11 +7,10 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "gl/api.h"
 #include "gl/context.h"
-#include "gl/shared_library.h"
 
-// EGL is loaded by dlopen(). The declarations of its headers are used for their types only, and
-// nothing is linked.
+// EGL is loaded by dlopen() and not linked: its headers declare types only.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -43,26 +42,19 @@ constexpr std::initializer_list<const char*> library_names{"libOSMesa.so.8", "li
 
 struct Osmesa {
     SharedLibrary library{library_names};
-    OsmesaHandle (*create)(const int* attributes, OsmesaHandle share) =
-        library.function<decltype(create)>("OSMesaCreateContextAttribs");
-    void (*destroy)(OsmesaHandle context) =
-        library.function<decltype(destroy)>("OSMesaDestroyContext");
+    OsmesaHandle (*create)(const int* attributes,
+                           OsmesaHandle share) = library.function("OSMesaCreateContextAttribs");
+    void (*destroy)(OsmesaHandle context) = library.function("OSMesaDestroyContext");
     unsigned char (*make_current)(OsmesaHandle context, void* buffer, unsigned type, int width,
-                                  int height) =
-        library.function<decltype(make_current)>("OSMesaMakeCurrent");
-    OsmesaHandle (*current_context)() =
-        library.function<decltype(current_context)>("OSMesaGetCurrentContext");
+                                  int height) = library.function("OSMesaMakeCurrent");
+    OsmesaHandle (*current_context)() = library.function("OSMesaGetCurrentContext");
     unsigned char (*get_color_buffer)(OsmesaHandle context, int* width, int* height, int* format,
-                                      void** buffer) =
-        library.function<decltype(get_color_buffer)>("OSMesaGetColorBuffer");
-    void (*get_integer)(int name,
-                        int* value) = library.function<decltype(get_integer)>("OSMesaGetIntegerv");
-    void (*(*get_proc_address)(const char* name))() =
-        library.function<decltype(get_proc_address)>("OSMesaGetProcAddress");
+                                      void** buffer) = library.function("OSMesaGetColorBuffer");
+    void (*get_integer)(int name, int* value) = library.function("OSMesaGetIntegerv");
+    void (*(*get_proc_address)(const char* name))() = library.function("OSMesaGetProcAddress");
 };
 
-// Throws Error if the environment asks for a driver other than llvmpipe, the only one with OpenGL
-// 4.5: OSMesa crashes if it lacks the driver.
+// Throws Error if the environment asks for a driver but llvmpipe: OSMesa crashes if it lacks one.
 void check_driver_asked_for() {
     const char* const driver = std::getenv("GALLIUM_DRIVER");
     if (driver != nullptr && std::string_view(driver) != "llvmpipe")
@@ -107,46 +99,9 @@ class OsmesaContext : public Context {
     std::array<std::uint8_t, 4> pixel_{};  // the default framebuffer, into which nothing is drawn
 };
 
-}  // namespace
-
-std::unique_ptr<Context> create_osmesa_context() {
-    try {
-        check_driver_asked_for();
-        osmesa();
-        auto context = std::make_unique<OsmesaContext>();
-        context->open();
-        return context;
-    } catch (const Error& error) {
-        fail("OSMesa: {}", error.what());
-    }
-}
-
-OsmesaBinding release_osmesa() {
-    OsmesaBinding found;
-    if (std::ranges::none_of(library_names, SharedLibrary::is_loaded)) return found;
-    const OsmesaHandle context = osmesa().current_context();
-    if (context == nullptr) return found;
-    int format = 0, type = 0;
-    osmesa().get_color_buffer(context, &found.width, &found.height, &format, &found.buffer);
-    osmesa().get_integer(osmesa_type, &type);
-    osmesa().make_current(nullptr, nullptr, 0, 0, 0);
-    found.context = context;
-    found.type = static_cast<unsigned>(type);
-    return found;
-}
-
-void restore(const OsmesaBinding& binding) {
-    if (binding.context == nullptr) return;
-    osmesa().make_current(static_cast<OsmesaHandle>(binding.context), binding.buffer, binding.type,
-                          binding.width, binding.height);
-}
-
-namespace {
-
 constexpr const char* library_name = "libEGL.so.1";
 
-// Loads EGL so that Mesa's loader does not report every driver that it tries in vain on stderr.
-// Failures reach the user through Error.
+// Loads EGL so that Mesa's loader does not report on stderr: failures reach the user as Error.
 SharedLibrary load_quietly() {
     setenv("EGL_LOG_LEVEL", "fatal", 0);
     return SharedLibrary{library_name};
@@ -154,38 +109,25 @@ SharedLibrary load_quietly() {
 
 struct Egl {
     SharedLibrary library = load_quietly();
-    decltype(&eglGetProcAddress) get_proc_address =
-        library.function<decltype(&eglGetProcAddress)>("eglGetProcAddress");
-    decltype(&eglGetError) get_error = library.function<decltype(&eglGetError)>("eglGetError");
-    decltype(&eglQueryString) query_string =
-        library.function<decltype(&eglQueryString)>("eglQueryString");
-    decltype(&eglInitialize) initialise =
-        library.function<decltype(&eglInitialize)>("eglInitialize");
-    decltype(&eglBindAPI) bind_api = library.function<decltype(&eglBindAPI)>("eglBindAPI");
-    decltype(&eglCreateContext) create_context =
-        library.function<decltype(&eglCreateContext)>("eglCreateContext");
-    decltype(&eglDestroyContext) destroy_context =
-        library.function<decltype(&eglDestroyContext)>("eglDestroyContext");
-    decltype(&eglMakeCurrent) make_current =
-        library.function<decltype(&eglMakeCurrent)>("eglMakeCurrent");
-    decltype(&eglQueryAPI) query_api = library.function<decltype(&eglQueryAPI)>("eglQueryAPI");
-    decltype(&eglGetCurrentContext) current_context =
-        library.function<decltype(&eglGetCurrentContext)>("eglGetCurrentContext");
-    decltype(&eglGetCurrentDisplay) current_display =
-        library.function<decltype(&eglGetCurrentDisplay)>("eglGetCurrentDisplay");
-    decltype(&eglGetCurrentSurface) current_surface =
-        library.function<decltype(&eglGetCurrentSurface)>("eglGetCurrentSurface");
+    decltype(&eglGetProcAddress) get_proc_address = library.function("eglGetProcAddress");
+    decltype(&eglGetError) get_error = library.function("eglGetError");
+    decltype(&eglQueryString) query_string = library.function("eglQueryString");
+    decltype(&eglInitialize) initialise = library.function("eglInitialize");
+    decltype(&eglBindAPI) bind_api = library.function("eglBindAPI");
+    decltype(&eglCreateContext) create_context = library.function("eglCreateContext");
+    decltype(&eglDestroyContext) destroy_context = library.function("eglDestroyContext");
+    decltype(&eglMakeCurrent) make_current = library.function("eglMakeCurrent");
+    decltype(&eglQueryAPI) query_api = library.function("eglQueryAPI");
+    decltype(&eglGetCurrentContext) current_context = library.function("eglGetCurrentContext");
+    decltype(&eglGetCurrentDisplay) current_display = library.function("eglGetCurrentDisplay");
+    decltype(&eglGetCurrentSurface) current_surface = library.function("eglGetCurrentSurface");
     // Functions of extensions; null if EGL lacks them.
-    PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
-        extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-    PFNEGLQUERYDEVICESEXTPROC query_devices =
-        extension<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-    PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string =
-        extension<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+    PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display = extension("eglGetPlatformDisplayEXT");
+    PFNEGLQUERYDEVICESEXTPROC query_devices = extension("eglQueryDevicesEXT");
+    PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string = extension("eglQueryDeviceStringEXT");
 
-    template <typename Function>
-    Function extension(const char* name) const {
-        return reinterpret_cast<Function>(get_proc_address(name));
+    AnyFunction extension(const char* name) const {
+        return {reinterpret_cast<void*>(get_proc_address(name))};
     }
 };
 
@@ -251,9 +193,8 @@ std::vector<Route> all_routes() {
         egl().query_device_string) {
         routes = device_routes();
     }
-    if (has_word(extensions, "EGL_MESA_platform_surfaceless")) {
+    if (has_word(extensions, "EGL_MESA_platform_surfaceless"))
         routes.push_back({"surfaceless", EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, true});
-    }
     return routes;
 }
 
@@ -314,9 +255,8 @@ std::unique_ptr<Context> first_that_opens(EglDevices devices) {
         try {
             auto context = std::make_unique<EglContext>();
             context->open(route);
-            if (devices == EglDevices::hardware && context->capabilities().software) {
+            if (devices == EglDevices::hardware && context->capabilities().software)
                 fail("is a software renderer ({})", context->capabilities().renderer);
-            }
             return context;
         } catch (const Error& error) {
             reasons.push_back(route.name + ": " + error.what());
@@ -327,6 +267,38 @@ std::unique_ptr<Context> first_that_opens(EglDevices devices) {
 }
 
 }  // namespace
+
+std::unique_ptr<Context> create_osmesa_context() {
+    try {
+        check_driver_asked_for();
+        osmesa();
+        auto context = std::make_unique<OsmesaContext>();
+        context->open();
+        return context;
+    } catch (const Error& error) {
+        fail("OSMesa: {}", error.what());
+    }
+}
+
+OsmesaBinding release_osmesa() {
+    OsmesaBinding found;
+    if (std::ranges::none_of(library_names, SharedLibrary::is_loaded)) return found;
+    const OsmesaHandle context = osmesa().current_context();
+    if (context == nullptr) return found;
+    int format = 0, type = 0;
+    osmesa().get_color_buffer(context, &found.width, &found.height, &format, &found.buffer);
+    osmesa().get_integer(osmesa_type, &type);
+    osmesa().make_current(nullptr, nullptr, 0, 0, 0);
+    found.context = context;
+    found.type = static_cast<unsigned>(type);
+    return found;
+}
+
+void restore(const OsmesaBinding& binding) {
+    if (binding.context == nullptr) return;
+    osmesa().make_current(static_cast<OsmesaHandle>(binding.context), binding.buffer, binding.type,
+                          binding.width, binding.height);
+}
 
 std::unique_ptr<Context> create_egl_context(EglDevices devices) {
     try {

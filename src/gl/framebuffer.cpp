@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/framebuffer.h"
 
+#include <glad/gl.h>
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <span>
 #include <utility>
 
-#include <glad/gl.h>
 #include "base/error.h"
-#include "gl/api.h"
 
 namespace lamina::gl {
 
 namespace {
-
-unsigned new_framebuffer() {
-    GLuint id = 0;
-    api().CreateFramebuffers(1, &id);
-    return id;
-}
 
 std::vector<Texture> as_list(Texture color) {
     std::vector<Texture> colors;
@@ -25,12 +22,92 @@ std::vector<Texture> as_list(Texture color) {
     return colors;
 }
 
+constexpr int texels = 4;    // a side of the texture
+constexpr int samples = 16;  // a side of the image
+
+template <typename Value>
+using Values = std::array<Value, texels * texels * texels>;
+
+// Values in [least, least + range), which the texture gives back as value / scale. Codes have a
+// small range, so that rounding of results shows beside rounding of weights.
+struct Probe {
+    double scale, least, range;
+};
+
+// Returns values without an order: a linear ramp would hide errors of the weights that cancel.
+template <typename Value>
+Values<Value> scattered_values(const Probe& probe) {
+    Values<Value> values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double irrational = 0.6180339887498949 * static_cast<double>(i + 1);
+        values[i] =
+            static_cast<Value>(probe.least + probe.range * (irrational - std::floor(irrational)));
+    }
+    return values;
+}
+
+template <typename Value>
+double trilinear(const Values<Value>& values, const std::array<double, 3>& position,
+                 bool eight_bit_weights) {
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        double weight = 1;
+        int index = 0;
+        for (int axis = 2; axis >= 0; --axis) {
+            const double below = std::floor(position[axis]);
+            const double share = position[axis] - below;
+            const double fraction = eight_bit_weights ? std::round(256 * share) / 256 : share;
+            const int step = (corner >> axis) & 1;
+            weight *= step ? fraction : 1 - fraction;
+            index = index * texels + std::min(static_cast<int>(below) + step, texels - 1);
+        }
+        sum += weight * static_cast<double>(values[static_cast<std::size_t>(index)]);
+    }
+    return sum;
+}
+
+// Returns the place of a fragment in texels from the first one's centre, as filter_probe.frag does.
+std::array<double, 3> probe_position(int index) {
+    return {index * 467 % 12288 / 4096.0, index * 1283 % 12288 / 4096.0,
+            index * 2741 % 12288 / 4096.0};
+}
+
+template <typename Value>
+FilterError measure(TextureFormat format, const Probe& probe) {
+    const Values<Value> values = scattered_values<Value>(probe);
+    Texture texture = Texture::make_3d(format, texels, texels, texels);
+    texture.upload({.width = texels, .height = texels, .depth = texels},
+                   std::span<const Value>(values));
+    texture.set_filter(TextureFilter::linear);
+
+    const Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, samples, samples));
+    target.bind();
+    texture.bind(0);
+    Program program("gl/full_screen.vert", "gl/filter_probe.frag");
+    program.set("probe", 0);
+    draw_full_screen(program);
+
+    const std::vector<float> filtered = target.color().read_rgba();
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const double range = static_cast<double>(*most) - static_cast<double>(*least);
+    FilterError error;
+    for (int i = 0; i < samples * samples; ++i) {
+        const std::array<double, 3> place = probe_position(i);
+        const double exact = trilinear(values, place, false);
+        const double found = probe.scale * filtered[4 * static_cast<std::size_t>(i)];
+        error.found = std::max(error.found, std::abs(found - exact) / range);
+        error.eight_bit =
+            std::max(error.eight_bit, std::abs(trilinear(values, place, true) - exact) / range);
+    }
+    return error;
+}
+
 }  // namespace
 
 Framebuffer::Framebuffer(Texture color) : Framebuffer(as_list(std::move(color))) {}
 
 Framebuffer::Framebuffer(std::vector<Texture> colors)
-    : colors_(std::move(colors)), handle_(new_framebuffer()) {
+    : colors_(std::move(colors)), handle_(new_object(ObjectKind::framebuffer)) {
     assert(!colors_.empty());
     std::vector<GLenum> outputs;
     for (const Texture& color : colors_) {
@@ -72,7 +149,7 @@ void Framebuffer::read_back(Image& image, std::size_t target) const {
     }
 }
 
-LayerFramebuffer::LayerFramebuffer() : handle_(new_framebuffer()) {}
+LayerFramebuffer::LayerFramebuffer() : handle_(new_object(ObjectKind::framebuffer)) {}
 
 void LayerFramebuffer::bind(std::initializer_list<const Texture*> arrays, int layer) {
     const int count = static_cast<int>(arrays.size());
@@ -91,9 +168,8 @@ void LayerFramebuffer::bind(std::initializer_list<const Texture*> arrays, int la
 
 void LayerFramebuffer::clear() {
     const float zero[4] = {0, 0, 0, 0};
-    for (int target = 0; target < bound_; ++target) {
+    for (int target = 0; target < bound_; ++target)
         api().ClearNamedFramebufferfv(handle_.id(), GL_COLOR, target, zero);
-    }
 }
 
 void draw_full_screen(const Program& program) {
@@ -105,6 +181,18 @@ void draw_full_screen(const Program& program, const VertexArray& any) {
     program.use();
     api().DrawArrays(GL_TRIANGLES, 0, 3);
     check("drawing over the whole target");
+}
+
+FilterError measure_filter_error(TextureFormat format) {
+    switch (format) {
+        case TextureFormat::r8:
+            return measure<std::uint8_t>(format, {.scale = 255, .least = 96, .range = 8});
+        case TextureFormat::r16:
+            return measure<std::uint16_t>(format, {.scale = 65535, .least = 32768, .range = 256});
+        default:  // callers ask for these three formats only
+            assert(format == TextureFormat::r32f);
+            return measure<float>(TextureFormat::r32f, {.scale = 1, .least = 0, .range = 1});
+    }
 }
 
 }  // namespace lamina::gl

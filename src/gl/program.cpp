@@ -1,119 +1,184 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/program.h"
 
-#include <algorithm>
-#include <cctype>
-
+#include <fmt/ranges.h>
 #include <glad/gl.h>
-#include "base/enum_words.h"
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
+
 #include "base/error.h"
 #include "base/profile.h"
-#include "gl/api.h"
 #include "gl/context.h"
 
 namespace lamina::gl {
 
 namespace {
 
-std::size_t bytes_of(UniformKind kind) {
-    switch (kind) {
-        case UniformKind::float1:
-        case UniformKind::int1:
-            return 4;
-        case UniformKind::float2:
-        case UniformKind::int2:
-        case UniformKind::double1:
-            return 8;
-        case UniformKind::float3:
-        case UniformKind::int3:
-            return 12;
-        case UniformKind::float4:
-        case UniformKind::double2:
-            return 16;
-        case UniformKind::double3:
-            return 24;
-        case UniformKind::double4:
-            return 32;
-        case UniformKind::matrix4:
-            return 64;
+std::optional<std::string> find_in_override(const std::string& name) {
+    const char* directory = std::getenv("LAMINA_SHADER_DIR");
+    if (!directory || !*directory) return std::nullopt;
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(directory, ignored))
+        fail("{}: no such folder (LAMINA_SHADER_DIR)", directory);
+    const std::filesystem::path path = std::filesystem::path(directory) / name;
+    if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file) fail("{}: cannot be read (LAMINA_SHADER_DIR)", path.string());
+    return text;
+}
+
+// Returns the word after the line's '#', such as "include", or "" if it is no directive. A regular
+// expression for each line would take more time than all else that composes a shader.
+std::string directive_of(const std::string& line) {
+    constexpr const char* space = " \t\v\f\r\n";
+    const std::size_t sign = line.find_first_not_of(space);
+    if (sign == std::string::npos || line[sign] != '#') return {};
+    const std::size_t first = line.find_first_not_of(space, sign + 1);
+    if (first == std::string::npos) return {};
+    const auto is_of_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+    return {line.begin() + static_cast<std::ptrdiff_t>(first),
+            std::find_if_not(line.begin() + static_cast<std::ptrdiff_t>(first), line.end(),
+                             is_of_word)};
+}
+
+struct Composer {
+    const ShaderFinder& find;
+    ShaderSource& source;
+    std::vector<std::string> open = {};  // the chain of includes, the main file first
+    std::map<std::string, std::size_t> guards = {};
+    bool has_version = false;
+
+    void append_main() {
+        append_file(source.name, "shader");
+        if (!has_version) fail_without_version();
     }
-    unreachable_enum();
-}
 
-}  // namespace
+    // `wanted_by` begins the message if the file is missing.
+    void append_file(const std::string& name, const std::string& wanted_by) {
+        const std::optional<std::string> text = find(name);
+        if (!text) fail("{}: no such shader file: {}", wanted_by, name);
+        open.push_back(name);
+        std::istringstream lines(*text);
+        std::string line;
+        for (int number = 1; std::getline(lines, line); ++number) append_line(line, {name, number});
+        open.pop_back();
+    }
 
-void UniformValue::assign(UniformKind kind, int count, const void* data) {
-    kind_ = kind;
-    count_ = count;
-    const auto* const first = static_cast<const std::byte*>(data);
-    bytes_.assign(first, first + bytes_of(kind) * static_cast<std::size_t>(count));
-}
+    void append_line(const std::string& line, const ShaderLine& place) {
+        const std::string directive = directive_of(line);
+        if (!has_version && !directive.empty()) {
+            append_version(line, place);
+        } else if (directive == "include") {
+            append_include(line, place);
+        } else {
+            append_text(line, place);
+        }
+    }
 
-void UniformValue::clear() {
-    std::ranges::fill(bytes_, std::byte{0});
+    void append_text(const std::string& line, const ShaderLine& place) {
+        source.text += line + '\n';
+        source.lines.push_back(place);
+    }
+
+    void append_version(const std::string& line, const ShaderLine& place) {
+        static const std::regex pattern("^\\s*#\\s*version\\s+450\\s+core\\s*(//.*)?$");
+        if (!std::regex_match(line, pattern)) fail_without_version();
+        has_version = true;
+        append_text("#version 450 core", place);
+        // Without this pragma NVIDIA's compiler turns (1 - p) - q into 1 - (p + q), and small
+        // opacities lose their digits. Other compilers ignore it (GLSL 4.50, 3.3).
+        append_text("#pragma optionNV(fastmath off)", place);
+        for (const auto& [name, value] : source.defines.list)
+            append_text("#define " + name + ' ' + value, place);
+    }
+
+    [[noreturn]] void fail_without_version() const {
+        fail("shader {}: expected '#version 450 core' as the first directive", source.name);
+    }
+
+    void append_include(const std::string& line, const ShaderLine& place) {
+        static const std::regex pattern("^\\s*#\\s*include\\s*\"([^\"]+)\"\\s*(//.*)?$");
+        const std::string where = fmt::format("shader {}:{}", place.file, place.number);
+        std::smatch match;
+        if (!std::regex_match(line, match, pattern))
+            fail("{}: expected #include \"FILE\", found '{}'", where, one_line(line));
+        const std::string name = match[1];
+        if (std::find(open.begin(), open.end(), name) != open.end())
+            fail("{}: {} includes itself: {} -> {}", where, name, fmt::join(open, " -> "), name);
+        // The preprocessor drops repeated includes: only it knows which #if branches live.
+        const std::string guard = guard_of(name);
+        append_text("#ifndef " + guard, place);
+        append_text("#define " + guard, place);
+        append_file(name, where);
+        append_text("#endif", place);
+    }
+
+    std::string guard_of(const std::string& name) {
+        const auto number = guards.try_emplace(name, guards.size()).first->second;
+        return fmt::format("INCLUDED_FILE_{}", number);
+    }
+};
+
+// Tables of OpenGL's functions that set a uniform, by its number of components.
+using Gl = GladGLContext;
+constexpr std::array float_setters{&Gl::ProgramUniform1fv, &Gl::ProgramUniform2fv,
+                                   &Gl::ProgramUniform3fv, &Gl::ProgramUniform4fv};
+constexpr std::array double_setters{&Gl::ProgramUniform1dv, &Gl::ProgramUniform2dv,
+                                    &Gl::ProgramUniform3dv, &Gl::ProgramUniform4dv};
+constexpr std::array int_setters{&Gl::ProgramUniform1iv, &Gl::ProgramUniform2iv,
+                                 &Gl::ProgramUniform3iv};
+
+template <typename Number>
+constexpr const auto& setters_of() {
+    if constexpr (std::is_same_v<Number, float>)
+        return float_setters;
+    else if constexpr (std::is_same_v<Number, double>)
+        return double_setters;
+    else
+        return int_setters;
 }
 
 void upload(unsigned program, int location, const UniformValue& value) {
-    const void* const data = value.bytes_.data();
-    const auto* const floats = static_cast<const GLfloat*>(data);
-    const auto* const doubles = static_cast<const GLdouble*>(data);
-    const auto* const ints = static_cast<const GLint*>(data);
-    const GLsizei count = value.count_;
-    switch (value.kind_) {
-        case UniformKind::float1:
-            return api().ProgramUniform1fv(program, location, count, floats);
-        case UniformKind::float2:
-            return api().ProgramUniform2fv(program, location, count, floats);
-        case UniformKind::float3:
-            return api().ProgramUniform3fv(program, location, count, floats);
-        case UniformKind::float4:
-            return api().ProgramUniform4fv(program, location, count, floats);
-        case UniformKind::double1:
-            return api().ProgramUniform1dv(program, location, count, doubles);
-        case UniformKind::double2:
-            return api().ProgramUniform2dv(program, location, count, doubles);
-        case UniformKind::double3:
-            return api().ProgramUniform3dv(program, location, count, doubles);
-        case UniformKind::double4:
-            return api().ProgramUniform4dv(program, location, count, doubles);
-        case UniformKind::int1:
-            return api().ProgramUniform1iv(program, location, count, ints);
-        case UniformKind::int2:
-            return api().ProgramUniform2iv(program, location, count, ints);
-        case UniformKind::int3:
-            return api().ProgramUniform3iv(program, location, count, ints);
-        case UniformKind::matrix4:
-            return api().ProgramUniformMatrix4fv(program, location, count, GL_FALSE, floats);
-    }
-    unreachable_enum();
+    const auto set = [&]<typename Value>(const std::vector<Value>& values) {
+        const auto count = static_cast<GLsizei>(values.size());
+        const void* const data = values.data();
+        if constexpr (std::is_same_v<Value, glm::mat4>) {
+            const auto* const numbers = static_cast<const GLfloat*>(data);
+            api().ProgramUniformMatrix4fv(program, location, count, GL_FALSE, numbers);
+        } else if constexpr (std::is_arithmetic_v<Value>) {
+            (api().*setters_of<Value>()[0])(program, location, count, values.data());
+        } else {
+            using Number = typename Value::value_type;
+            const auto setter = setters_of<Number>()[std::size_t{Value::length()} - 1];
+            (api().*setter)(program, location, count, static_cast<const Number*>(data));
+        }
+    };
+    std::visit(set, value);
 }
-
-namespace {
 
 using Shader = Handle<ObjectKind::shader>;
 
 std::string describe(const Defines& defines) {
     std::string text;
-    for (const auto& [name, value] : defines.list) {
+    for (const auto& [name, value] : defines.list)
         text += (text.empty() ? "" : " ") + name + '=' + value;
-    }
     return text.empty() ? "no defines" : "defines " + text;
 }
 
-std::string compile_log(const Shader& shader) {
+// Returns the log of a compiler or linker, by OpenGL's functions for such objects.
+std::string log_of(unsigned object, PFNGLGETSHADERIVPROC get, PFNGLGETSHADERINFOLOGPROC get_log) {
     GLint length = 0;
-    api().GetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
+    get(object, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length), '\0');
-    api().GetShaderInfoLog(shader.id(), length, &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
-    return log;
-}
-
-std::string link_log(unsigned program) {
-    GLint length = 0;
-    api().GetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(length), '\0');
-    api().GetProgramInfoLog(program, length, &length, log.data());
+    get_log(object, length, &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     return log;
 }
@@ -127,7 +192,8 @@ Shader compile(GLenum stage, const ShaderSource& source) {
     api().GetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
     if (!compiled) {
         fail("shader {} does not compile: {} ({})", source.name,
-             readable_log(compile_log(shader), source), describe(source.defines));
+             readable_log(log_of(shader.id(), api().GetShaderiv, api().GetShaderInfoLog), source),
+             describe(source.defines));
     }
     return shader;
 }
@@ -152,6 +218,55 @@ std::string names_of(const ShaderSource& vertex, const ShaderSource& fragment) {
 
 }  // namespace
 
+std::optional<std::string> find_shader(const std::string& name) {
+    if (auto text = find_in_override(name)) return text;
+    for (const EmbeddedFile& shader : embedded_shaders()) {
+        if (shader.name == name) return std::string(shader.text);
+    }
+    return std::nullopt;
+}
+
+Defines& Defines::set(std::string name, std::string value) {
+    list.emplace_back(std::move(name), std::move(value));
+    return *this;
+}
+
+Defines& Defines::set(std::string name, int value) {
+    return set(std::move(name), std::to_string(value));
+}
+
+ShaderSource compose_shader(const std::string& name, const Defines& defines) {
+    return compose_shader(name, defines, find_shader);
+}
+
+ShaderSource compose_shader(const std::string& name, const Defines& defines,
+                            const ShaderFinder& find) {
+    ShaderSource source{name, {}, defines, {}};
+    Composer{find, source}.append_main();
+    return source;
+}
+
+std::string readable_log(const std::string& log, const ShaderSource& source) {
+    // Positions: "0:12(3): error: ..." (Mesa), "0(12) : error ..." (NVIDIA), "ERROR: 0:12: ..."
+    static const std::regex place(
+        "^(?:ERROR: |WARNING: )?\\d+[:(](\\d{1,8})(?:\\(\\d+\\)|\\))?\\s*:\\s*");
+    std::string text;
+    std::istringstream lines(log);
+    std::string line;
+    while (std::getline(lines, line)) {
+        std::smatch match;
+        if (std::regex_search(line, match, place)) {
+            const std::size_t number = std::stoul(match[1]);
+            if (number >= 1 && number <= source.lines.size()) {
+                const ShaderLine& origin = source.lines[number - 1];
+                line = fmt::format("{}:{}: {}", origin.file, origin.number, match.suffix().str());
+            }
+        }
+        text += line + ' ';
+    }
+    return one_line(text);
+}
+
 LinkedProgram::LinkedProgram(const ShaderSource& vertex, const ShaderSource& fragment)
     : handle_(api().CreateProgram()),
       names_(names_of(vertex, fragment)),
@@ -168,7 +283,8 @@ LinkedProgram::LinkedProgram(const ShaderSource& vertex, const ShaderSource& fra
     GLint linked = GL_FALSE;
     api().GetProgramiv(id(), GL_LINK_STATUS, &linked);
     if (!linked) {
-        fail("shaders {} do not link: {} ({})", names_, one_line(link_log(id())),
+        fail("shaders {} do not link: {} ({})", names_,
+             one_line(log_of(id(), api().GetProgramiv, api().GetProgramInfoLog)),
              describe(fragment.defines));
     }
     check("making the program " + names_);
@@ -200,7 +316,7 @@ void LinkedProgram::give_to(std::uint64_t user, const std::map<int, UniformValue
     user_ = user;
     for (auto& [location, value] : values_) {
         if (values.contains(location)) continue;
-        value.clear();
+        std::visit([](auto& kept) { kept.assign(kept.size(), {}); }, value);
         upload(id(), location, value);
     }
     for (const auto& [location, value] : values) set(location, value);
@@ -235,70 +351,6 @@ Program::Program(const ShaderSource& vertex, const ShaderSource& fragment)
 void Program::use() const {
     if (!linked_->belongs_to(user_)) linked_->give_to(user_, values_);
     api().UseProgram(id());
-}
-
-void Program::set(std::string_view name, UniformKind kind, std::size_t count, const void* data) {
-    const int location = linked_->location(name);
-    if (location < 0) return;
-    UniformValue& value = values_[location];
-    value.assign(kind, static_cast<int>(count), data);
-    if (linked_->belongs_to(user_)) linked_->set(location, value);
-}
-
-void Program::set(std::string_view name, float value) {
-    set(name, UniformKind::float1, 1, &value);
-}
-
-void Program::set(std::string_view name, double value) {
-    set(name, UniformKind::double1, 1, &value);
-}
-
-void Program::set(std::string_view name, int value) {
-    set(name, UniformKind::int1, 1, &value);
-}
-
-void Program::set(std::string_view name, const glm::vec2& value) {
-    set(name, UniformKind::float2, 1, &value.x);
-}
-
-void Program::set(std::string_view name, const glm::vec3& value) {
-    set(name, UniformKind::float3, 1, &value.x);
-}
-
-void Program::set(std::string_view name, const glm::dvec2& value) {
-    set(name, UniformKind::double2, 1, &value.x);
-}
-
-void Program::set(std::string_view name, const glm::dvec3& value) {
-    set(name, UniformKind::double3, 1, &value.x);
-}
-
-void Program::set(std::string_view name, const glm::vec4& value) {
-    set(name, UniformKind::float4, 1, &value.x);
-}
-
-void Program::set(std::string_view name, const glm::ivec2& value) {
-    set(name, UniformKind::int2, 1, &value.x);
-}
-
-void Program::set(std::string_view name, const glm::ivec3& value) {
-    set(name, UniformKind::int3, 1, &value.x);
-}
-
-void Program::set(std::string_view name, const glm::mat4& value) {
-    set(name, UniformKind::matrix4, 1, &value[0].x);
-}
-
-void Program::set(std::string_view name, std::span<const glm::vec2> values) {
-    set(name, UniformKind::float2, values.size(), values.data());
-}
-
-void Program::set(std::string_view name, std::span<const glm::vec4> values) {
-    set(name, UniformKind::float4, values.size(), values.data());
-}
-
-void Program::set(std::string_view name, std::span<const glm::dvec4> values) {
-    set(name, UniformKind::double4, values.size(), values.data());
 }
 
 }  // namespace lamina::gl

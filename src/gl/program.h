@@ -1,65 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <list>
-#include <map>
-#include <memory>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
+#include <functional>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/input_file.h"
 #include "gl/api.h"
-#include "gl/shader_source.h"
 
 namespace lamina::gl {
 
-enum class UniformKind {
-    float1,
-    float2,
-    float3,
-    float4,
-    double1,
-    double2,
-    double3,
-    double4,
-    int1,
-    int2,
-    int3,
-    matrix4
+// Lists the embedded files of shaders/, named from there, sorted by name (cmake/EmbedFiles.cmake).
+std::span<const EmbeddedFile> embedded_shaders();
+
+// Returns the text of shader file `name`, or nothing. A file in the folder that the environment
+// variable LAMINA_SHADER_DIR names goes first, so that shaders can be edited without a build.
+std::optional<std::string> find_shader(const std::string& name);
+
+// The definitions that specialise a shader: `#define NAME VALUE` lines, in this order.
+struct Defines {
+    std::vector<std::pair<std::string, std::string>> list;
+
+    Defines& set(std::string name, std::string value);
+    Defines& set(std::string name, int value);
+
+    friend bool operator==(const Defines&, const Defines&) = default;
 };
 
-// The value of a uniform, or the values of an array.
-class UniformValue {
-  public:
-    UniformValue() = default;
-    // Copies `count` values.
-    void assign(UniformKind kind, int count, const void* data);
-    void clear();  // to 0
+// A function that returns the text of a shader file, or nothing if there is none.
+using ShaderFinder = std::function<std::optional<std::string>(const std::string& name)>;
 
-    friend void upload(unsigned program, int location, const UniformValue& value);
-
-  private:
-    UniformKind kind_ = UniformKind::float1;
-    int count_ = 0;
-    std::vector<std::byte> bytes_;
+// The origin of a line of a composed shader.
+struct ShaderLine {
+    std::string file;
+    int number;
 };
 
-void upload(unsigned program, int location, const UniformValue& value);
+// A shader ready for the compiler.
+struct ShaderSource {
+    std::string name;
+    std::string text;
+    Defines defines;
+    // The origin of every line of `text`: Mesa loses the files of #line directives in messages.
+    std::vector<ShaderLine> lines;
+};
 
-// A vertex and a fragment shader, compiled and linked. All Programs of a context with the same text
-// share it. Each Program has uniforms of its own, and OpenGL holds those of one Program at a time,
-// its user.
+// Composes the shader `name`. Its first directive must be `#version 450 core`; a pragma and the
+// defines follow it. A line `#include "compositing/over.glsl"` is replaced by that file (named from
+// the root of shaders/) unless the compiler has seen it already. Throws Error, which names file and
+// line, if a file is missing, includes form a cycle, or an include is malformed.
+ShaderSource compose_shader(const std::string& name, const Defines& defines = {});
+ShaderSource compose_shader(const std::string& name, const Defines& defines,
+                            const ShaderFinder& find);
+
+// Returns a compiler's log on one line, with places in the files: "slicing/slab.frag:12: ...".
+std::string readable_log(const std::string& log, const ShaderSource& source);
+
+// The values of a uniform or of an array of them. An int is also a sampler's texture unit.
+using UniformValue =
+    std::variant<std::vector<float>, std::vector<glm::vec2>, std::vector<glm::vec3>,
+                 std::vector<glm::vec4>, std::vector<glm::mat4>, std::vector<double>,
+                 std::vector<glm::dvec2>, std::vector<glm::dvec3>, std::vector<glm::dvec4>,
+                 std::vector<int>, std::vector<glm::ivec2>, std::vector<glm::ivec3>>;
+
+// A vertex and a fragment shader, linked, which all Programs of a context with the same text share.
+// OpenGL holds the uniforms of one Program at a time, its user.
 class LinkedProgram {
   public:
-    // Throws Error with the shader's name, file and line, and the defines if it does not compile or
-    // link.
+    // Throws Error with the shader's name, file, line and defines if it does not compile or link.
     LinkedProgram(const ShaderSource& vertex, const ShaderSource& fragment);
 
     bool is_of(const ShaderSource& vertex, const ShaderSource& fragment) const;
@@ -84,8 +106,7 @@ class LinkedProgram {
     std::uint64_t user_ = 0;              // the user whose values these are; 0: none
 };
 
-// The linked programs that a context has used lately, so that a program that is made again is not
-// compiled again.
+// The linked programs that a context has used lately: none of them is compiled again.
 class ProgramCache {
   public:
     static constexpr std::size_t most_programs = 64;
@@ -96,8 +117,7 @@ class ProgramCache {
     ProgramCache(const ProgramCache&) = delete;
     ProgramCache& operator=(const ProgramCache&) = delete;
 
-    // Returns a program, compiling it if it is not there. If there are too many, the one used
-    // longest ago goes.
+    // Returns a program, compiled if it is not there. If there are too many, the oldest goes.
     std::shared_ptr<LinkedProgram> get(const ShaderSource& vertex, const ShaderSource& fragment);
     std::uint64_t new_user() { return ++last_user_; }
 
@@ -110,8 +130,7 @@ class ProgramCache {
 };
 
 // A linked vertex and fragment shader with uniforms of its own, 0 at first. Throws Error with the
-// shader's name, file and line, and the defines if it does not compile or link. Nothing is compiled
-// if the context has lately had a program with the same text (ProgramCache).
+// shader's name, file, line and defines if it does not compile or link.
 class Program {
   public:
     // `vertex_name`, `fragment_name`: files in shaders/. Both are specialised by the same defines.
@@ -122,29 +141,29 @@ class Program {
     // Makes this the program of the draws that follow, with its uniforms.
     void use() const;
 
-    // Set a uniform; the program need not be in use. A uniform that the source names but this
-    // specialisation does not use (optimised out, or under another #if) is ignored. Throw Error for
-    // a name that is nowhere in the source.
-    void set(std::string_view name, float value);
-    void set(std::string_view name, double value);  // for a uniform double
-    void set(std::string_view name, int value);     // also a sampler's texture unit
-    void set(std::string_view name, const glm::vec2& value);
-    void set(std::string_view name, const glm::vec3& value);
-    void set(std::string_view name, const glm::dvec2& value);
-    void set(std::string_view name, const glm::dvec3& value);
-    void set(std::string_view name, std::span<const glm::vec2> values);  // for an array
-    void set(std::string_view name, std::span<const glm::vec4> values);
-    void set(std::string_view name, std::span<const glm::dvec4> values);
-    void set(std::string_view name, const glm::vec4& value);
-    void set(std::string_view name, const glm::ivec2& value);
-    void set(std::string_view name, const glm::ivec3& value);
-    void set(std::string_view name, const glm::mat4& value);
+    // Set a uniform, or an array of them; the program need not be in use. A uniform that the source
+    // names but this specialisation does not use (optimised out, or under another #if) is ignored.
+    // Throw Error for a name that is nowhere in the source.
+    template <typename Value>
+    void set(std::string_view name, const Value& value) {
+        if constexpr (std::is_enum_v<Value>)
+            set(name, int{value});  // a texture unit
+        else
+            set(name, std::span<const Value>(&value, 1));
+    }
+    template <typename Value>
+    void set(std::string_view name, std::span<const Value> values) {
+        const int location = linked_->location(name);
+        if (location < 0) return;
+        UniformValue& value = values_[location];
+        if (!std::holds_alternative<std::vector<Value>>(value)) value.emplace<std::vector<Value>>();
+        std::get<std::vector<Value>>(value).assign(values.begin(), values.end());
+        if (linked_->belongs_to(user_)) linked_->set(location, value);
+    }
 
     unsigned id() const { return linked_->id(); }
 
   private:
-    void set(std::string_view name, UniformKind kind, std::size_t count, const void* data);
-
     std::shared_ptr<LinkedProgram> linked_;
     std::uint64_t user_;  // this one's number among the linked program's users
     std::map<int, UniformValue> values_;

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstddef>
+#include <utility>
 
 #include <glad/gl.h>
 #include "base/error.h"
-#include "gl/api.h"
 #include "gl/context.h"
 #include "plan/capabilities.h"
 
@@ -32,16 +31,9 @@ const TextureFormatInfo& info_of(TextureFormat format) {
 
 namespace {
 
-int limit(GLenum name) {
-    GLint value = 0;
-    api().GetIntegerv(name, &value);
-    return value;
-}
-
 void check_side(const char* side, int found, int most) {
-    if (found < 1 || found > most) {
+    if (found < 1 || found > most)
         fail("texture {} {}: this OpenGL allows 1 to {}", side, found, most);
-    }
 }
 
 // Sides are at most 2^15, so that the product cannot overflow.
@@ -56,15 +48,10 @@ std::int64_t texel_count(const TexelBox& box) {
 }
 
 // Returns the number of texels in memory from the box's first to its last one, both included.
-[[maybe_unused]] std::size_t texel_span(const TexelBox& box, PixelStore store) {
-    const std::size_t row =
-        static_cast<std::size_t>(store.row_length ? store.row_length : box.width);
-    const std::size_t rows =
-        static_cast<std::size_t>(store.slice_rows ? store.slice_rows : box.height);
-    return (static_cast<std::size_t>(box.depth - 1) * rows +
-            static_cast<std::size_t>(box.height - 1)) *
-               row +
-           static_cast<std::size_t>(box.width);
+[[maybe_unused]] std::int64_t texel_span(const TexelBox& box, PixelStore store) {
+    const std::int64_t row = store.row_length ? store.row_length : box.width;
+    const std::int64_t rows = store.slice_rows ? store.slice_rows : box.height;
+    return ((box.depth - 1) * rows + box.height - 1) * row + box.width;
 }
 
 }  // namespace
@@ -79,17 +66,18 @@ Texture Texture::make_2d(TextureFormat format, int width, int height) {
 
 Texture Texture::make_2d_array(TextureFormat format, int width, int height, int layers) {
     return Texture(GL_TEXTURE_2D_ARRAY, format, {.width = width, .height = height, .depth = layers},
-                   limit(GL_MAX_ARRAY_TEXTURE_LAYERS));
+                   integer(GL_MAX_ARRAY_TEXTURE_LAYERS));
 }
 
 Texture Texture::make_3d(TextureFormat format, int width, int height, int depth) {
     return Texture(GL_TEXTURE_3D, format, {.width = width, .height = height, .depth = depth},
-                   limit(GL_MAX_3D_TEXTURE_SIZE));
+                   integer(GL_MAX_3D_TEXTURE_SIZE));
 }
 
 Texture::Texture(unsigned target, TextureFormat format, const TexelBox& whole, int max_depth)
     : target_(target), format_(format), whole_(whole) {
-    const int most = limit(target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE);
+    const int most =
+        integer(target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE);
     check_side("width", whole.width, most);
     check_side("height", whole.height, most);
     check_side("depth", whole.depth, max_depth);
@@ -122,9 +110,8 @@ void Texture::allocate() {
             api().TextureStorage3D(id, 1, internal, width(), height(), depth());
             break;
     }
-    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         api().TextureParameteri(id, wrap, GL_CLAMP_TO_EDGE);
-    }
     set_filter(TextureFilter::nearest);
 }
 
@@ -162,7 +149,7 @@ void Texture::upload_components(const TexelBox& box, unsigned type, const void* 
     const TextureFormatInfo& info = info_of(format_);
     assert(type == info.component_type);
     assert(contains(whole_, box));
-    assert(count >= texel_span(box, store) * static_cast<std::size_t>(info.channels));
+    assert(std::cmp_greater_equal(count, texel_span(box, store) * info.channels));
     current_context()->counts().bytes_uploaded += texel_count(box) * info.bytes_per_texel;
     api().PixelStorei(GL_UNPACK_ROW_LENGTH, store.row_length);
     api().PixelStorei(GL_UNPACK_IMAGE_HEIGHT, store.slice_rows);

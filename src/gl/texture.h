@@ -10,8 +10,7 @@
 
 namespace lamina::gl {
 
-// r8, r16, rgba8, rgba16: codes that read as code/255 and code/65535. rgba16i: whole numbers, for
-// isamplers.
+// r8, r16, rgba8, rgba16: codes that read as code/255, code/65535. rgba16i: whole, for isamplers.
 enum class TextureFormat { r8, r16, r16f, r32f, rg32f, rgba8, rgba16, rgba16i, rgba16f, rgba32f };
 
 struct TextureFormatInfo {
@@ -34,18 +33,16 @@ struct TexelBox {
     int width = 1, height = 1, depth = 1;
 };
 
-// The layout of texels in host memory: the number of texels from one row to the next, and of rows
-// from one slice to the next, as for a box cut out of a larger grid. 0 means the box's own width or
-// height.
+// The layout of texels in memory: texels from row to row and rows from slice to slice, as for a box
+// cut out of a larger grid. 0 means the box's own width or height.
 struct PixelStore {
     int row_length = 0;
     int slice_rows = 0;
 };
 
-// A texture of fixed size with one level, clamped to its edge, and filtered `nearest` unless
-// set_filter() says otherwise. Its contents are undefined until uploaded or drawn. Throws Error for
-// sizes below 1 or over the context's limits, for more than Capabilities::max_texture_bytes, and if
-// the driver is out of memory.
+// A texture of fixed size and one level, clamped to its edge, filtered `nearest` at first;
+// undefined until uploaded or drawn. Throws Error for sizes below 1 or over the context's limits,
+// for more than Capabilities::max_texture_bytes, and if the driver is out of memory.
 class Texture {
   public:
     Texture() = default;
@@ -54,9 +51,8 @@ class Texture {
     static Texture make_2d_array(TextureFormat format, int width, int height, int layers);
     static Texture make_3d(TextureFormat format, int width, int height, int depth);
 
-    // Fills `box` from components in memory, x fastest. uint8 for r8 and rgba8, uint16 for r16 and
-    // rgba16, int16 for rgba16i, float for the rest. `components` must reach to the box's last
-    // texel (assert).
+    // Fills `box` from components, x fastest, up to its last texel (assert). uint8 for r8 and
+    // rgba8, uint16 for r16 and rgba16, int16 for rgba16i, float for the rest.
     void upload(const TexelBox& box, std::span<const std::uint8_t> components,
                 PixelStore store = {});
     void upload(const TexelBox& box, std::span<const std::uint16_t> components,
@@ -68,9 +64,8 @@ class Texture {
     void set_filter(TextureFilter filter);
     void bind(unsigned unit) const;
 
-    // Reads all texels as RGBA floats, x fastest, then y, then z: row 0 is OpenGL's, the bottom one
-    // of a drawn image. Absent channels read as 0, absent alpha as 1. Must not be called for
-    // rgba16i.
+    // Reads all texels but rgba16i as RGBA floats, x fastest, then y, then z: row 0 is OpenGL's,
+    // the bottom one. Absent channels read as 0, absent alpha as 1.
     std::vector<float> read_rgba() const;
     void read_rgba(std::span<float> rgba) const;  // 4 floats a texel, exactly
 

@@ -6,7 +6,6 @@
 
 #include <glad/gl.h>
 #include "base/profile.h"
-#include "gl/api.h"
 
 namespace lamina::gl {
 
@@ -41,6 +40,29 @@ unsigned new_query(Query::Kind kind) {
     return id;
 }
 
+bool is_recording() {
+    if (Profile::recording() == nullptr) return false;
+    GLint bits = 0;
+    api().GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+    return bits > 0;
+}
+
+// Returns the nanoseconds from OpenGL's clock to the host's, by the closest of several readings.
+std::int64_t clock_offset() {
+    constexpr int looks = 5;
+    std::int64_t shortest = std::numeric_limits<std::int64_t>::max(), offset = 0;
+    for (int i = 0; i < looks; ++i) {
+        GLint64 opengl = 0;
+        const std::int64_t before = Stopwatch::now();
+        api().GetInteger64v(GL_TIMESTAMP, &opengl);
+        const std::int64_t between = Stopwatch::now() - before;
+        if (between >= shortest) continue;
+        shortest = between;
+        offset = before + between / 2 - opengl;
+    }
+    return offset;
+}
+
 }  // namespace
 
 Query::Query(Kind kind) : kind_(kind), handle_(new_query(kind)) {
@@ -65,35 +87,6 @@ std::uint64_t Query::result() const {
     check("reading a query");
     return value;
 }
-
-namespace {
-
-bool is_recording() {
-    if (Profile::recording() == nullptr) return false;
-    GLint bits = 0;
-    api().GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
-    return bits > 0;
-}
-
-// Returns the nanoseconds to add to OpenGL's clock to get the host's. OpenGL's clock is read
-// between two readings of the host's, several times, and the pair with the shortest time between
-// them counts.
-std::int64_t clock_offset() {
-    constexpr int looks = 5;
-    std::int64_t shortest = std::numeric_limits<std::int64_t>::max(), offset = 0;
-    for (int i = 0; i < looks; ++i) {
-        GLint64 opengl = 0;
-        const std::int64_t before = Stopwatch::now();
-        api().GetInteger64v(GL_TIMESTAMP, &opengl);
-        const std::int64_t between = Stopwatch::now() - before;
-        if (between >= shortest) continue;
-        shortest = between;
-        offset = before + between / 2 - opengl;
-    }
-    return offset;
-}
-
-}  // namespace
 
 // Submits the commands before a span apart from those in it: a renderer that draws tile after tile
 // (llvmpipe) meets a query once a tile and keeps the last time.

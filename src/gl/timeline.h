@@ -25,9 +25,8 @@ class Fence {
     void* sync_ = nullptr;
 };
 
-// Counts events of the draws between begin() and end(). Two queries of one kind must not overlap. A
-// timestamp has no span: stamp() records the time at which all commands submitted before it are
-// done.
+// Counts events of the draws between begin() and end(), which must not overlap, or records by
+// stamp() the time at which all commands submitted before it are done.
 class Query {
   public:
     enum class Kind { samples_passed, timestamp };

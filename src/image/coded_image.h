@@ -6,10 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "lamina/image_color_space.h"
+
 namespace lamina {
 
-// Pixels in the form of an 8- or 16-bit PNG: sRGB codes that are not converted to linear light. Row
-// 0 is the top; channels are interleaved.
+// Pixels of an 8- or 16-bit PNG: interleaved sRGB codes, row 0 on top.
 struct CodedImage {
     int width = 0;
     int height = 0;
@@ -34,8 +35,7 @@ using PixelColor = std::array<std::uint16_t, 3>;  // sRGB codes of 8 bits
 inline constexpr int text_dots_high = 7;
 int text_width(std::string_view text, int dot);  // pixels
 
-// Draws the text with its top left corner at (left, top). Parts outside the picture, which must
-// have three channels of 8 bits, are cut off.
+// Draws the text from its top left corner at (left, top) on, within an 8-bit RGB picture.
 void draw_text(CodedImage& image, int left, int top, std::string_view text, int dot,
                const PixelColor& color);
 
@@ -45,5 +45,12 @@ void fill_rectangle(CodedImage& image, int left, int top, int width, int height,
 
 // Copies a picture, as far as it fits, into another one, its top left corner to (left, top).
 void copy_into(CodedImage& image, const CodedImage& part, int left, int top);
+
+// The transfer curve of sRGB (IEC 61966-2-1) from linear light to stored values, 0..1, and back.
+double srgb_from_linear(double linear);
+double linear_from_srgb(double stored);
+
+// Returns the 8-bit code that shows a number of a picture in `space`, clamped to 0..1.
+std::uint16_t display_code(double value, ImageColorSpace space);
 
 }  // namespace lamina

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,8 +13,7 @@
 
 namespace lamina {
 
-// The difference e = A - B in units of 1/255, pixel by pixel from the top left, channels
-// interleaved.
+// The difference e = A - B in units of 1/255, row by row from the top, channels interleaved.
 struct Difference {
     int width = 0;
     int height = 0;
@@ -20,8 +21,7 @@ struct Difference {
     std::vector<double> e;
 };
 
-// Both throw Error if the sizes differ (the message has both); for PNGs also if the channels
-// differ.
+// Both throw Error, which has both sizes, if these differ; for PNGs also if the channels do.
 template <typename RealA, typename RealB>
 Difference difference(const RgbaImage<RealA>& a, const RgbaImage<RealB>& b);
 
@@ -53,5 +53,16 @@ template <typename RealA, typename RealB>
 ImageError image_error(const RgbaImage<RealA>& a, const RgbaImage<RealB>& b) {
     return measure(difference(a, b));
 }
+
+// A picture of a difference in 8-bit sRGB codes: each pixel's largest |e|, blue where e < 0, white
+// at 0 (for any scale), red where e > 0, darkest where |e| >= scale (in 1/255).
+CodedImage false_color(const Difference& difference, double scale);
+
+// Returns the colour, in sRGB codes, of e = share * scale, for -1 <= share <= 1.
+std::array<std::uint16_t, 3> false_color_of(double share);
+
+// Draws false_color() and below it the colour bar from -scale to scale with numbers at its ends,
+// "<=" and ">=" if differences beyond are clipped. White fills up narrow pictures.
+CodedImage difference_picture(const Difference& difference, double scale);
 
 }  // namespace lamina

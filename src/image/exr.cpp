@@ -13,7 +13,6 @@
 #include <exception>
 #include <fstream>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <utility>
 
@@ -54,8 +53,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     return number;
 }
 
-// Tells whether a list of channels (a name, a zero and 16 bytes each) ends with an empty name
-// exactly at the end of the value.
+// Tells whether a list of channels (name, zero, 16 bytes) ends with an empty name at the end.
 bool channels_fill(std::string_view value) {
     constexpr std::size_t channel_bytes = 16;
     std::size_t at = 0;
@@ -67,8 +65,7 @@ bool channels_fill(std::string_view value) {
     return at + 1 == value.size();
 }
 
-// Tells whether the last of the strings (a length, then as many bytes) ends exactly at the end of
-// the value.
+// Tells whether the last of the strings (a length, then as many bytes) ends with the value.
 bool strings_fill(std::string_view value) {
     std::uint64_t at = 0;
     while (at + 4 <= value.size()) at += 4 + std::uint64_t{number_at(value, at)};
@@ -93,6 +90,9 @@ bool fills(std::string_view type, std::string_view value) {
     return sized == std::end(sizes_of_types) || value.size() == sized->second;
 }
 
+// Checks headers before OpenEXR reads them. Throws Error if an attribute, or the table of tiles,
+// promises more bytes than the file has, or if an attribute's length does not fit its type: OpenEXR
+// 3.1 would take up to 2 GiB for it, or read beyond it.
 class HeaderWalk {
   public:
     HeaderWalk(const std::filesystem::path& path, std::uint64_t file_bytes)
@@ -184,14 +184,6 @@ class HeaderWalk {
     std::optional<std::array<std::int64_t, 2>> window_, tile_;
     std::uint32_t chunks_ = 0;
 };
-
-// Checks the headers of an OpenEXR file before OpenEXR reads them. Throws Error if an attribute, or
-// the table of tiles, promises more bytes than the file has left, or if the length of an attribute
-// does not fit its type. OpenEXR 3.1 would take up to 2 GiB of memory for such an attribute, or
-// read beyond it. OpenEXR reports other defects of a header itself.
-void check_exr_header(const std::filesystem::path& path, std::uint64_t file_bytes) {
-    HeaderWalk(path, file_bytes).check();
-}
 
 constexpr const char* space_attribute = "color_space";
 constexpr const char* rgba_names[4] = {"R", "G", "B", "A"};
@@ -299,15 +291,13 @@ Image read_pixels(const std::string& name, std::uint64_t file_bytes) {
     Image image(static_cast<int>(width), static_cast<int>(height));
     Imf::FrameBuffer pixels;
     if (found.grey) pixels.insert("Y", slice(image, 0, window, 0));
-    for (int channel = found.grey ? 3 : 0; channel < 4; ++channel) {
+    for (int channel = found.grey ? 3 : 0; channel < 4; ++channel)
         pixels.insert(rgba_names[channel], slice(image, channel, window, channel == 3 ? 1 : 0));
-    }
     input.setFrameBuffer(pixels);
     input.readPixels(window.min.y, window.max.y);
     if (found.grey) {
-        for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        for (std::size_t i = 0; i < image.rgba.size(); i += 4)
             image.rgba[i + 1] = image.rgba[i + 2] = image.rgba[i];
-        }
     }
     return image;
 }
@@ -316,7 +306,7 @@ Image read_pixels(const std::string& name, std::uint64_t file_bytes) {
 template <typename Read>
 auto read_with(const std::filesystem::path& path, const Read& read) {
     const std::uint64_t file_bytes = length_of_file(path);
-    check_exr_header(path, file_bytes);
+    HeaderWalk(path, file_bytes).check();
     // Makes OpenEXR refuse such headers before it takes memory for its own tables.
     Imf::Header::setMaxImageSize(max_image_side, max_image_side);
     Imf::Header::setMaxTileSize(max_image_side, max_image_side);

@@ -11,18 +11,15 @@
 
 namespace lamina {
 
-// Writes channels R, G, B, A as 32-bit float with ZIP compression, and the attributes as strings.
-// Display values are marked by one more, "color_space" of "display"; without it a file holds linear
-// light.
-// There is no time stamp: equal images make equal files. Throws Error if a component is not
-// finite or the disk is full. The caller commits the file.
+// Writes channels R, G, B, A as 32-bit float with ZIP compression, and the attributes as strings;
+// "color_space" of "display" marks display values. No time stamp: equal images make equal files.
+// Throws Error if a component is not finite or the disk is full. The caller commits the file.
 void write_exr(OutputFile& file, const Image& image,
                const std::map<std::string, std::string>& attributes,
                ImageColorSpace space = ImageColorSpace::linear);
 
-// Reads the data window of the first part, which must be flat, with any pixel type. A missing A
-// becomes 1, and a file with only Y is grey. Throws Error for anything else that lacks R, G or B,
-// for damaged files and for sizes beyond image_limits.h.
+// Reads the data window of the first part, which must be flat, with R, G, B and perhaps A, else 1,
+// or Y, which is grey. Throws Error for others, damaged files and sizes beyond image_limits.h.
 Image read_exr(const std::filesystem::path& path);
 
 // Tells whether the numbers of a file that read_exr() reads are linear light or display values.

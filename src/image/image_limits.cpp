@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/image_limits.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <system_error>
 
+#include "base/enum_words.h"
 #include "base/error.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina {
 
@@ -22,12 +25,10 @@ void check_image_size(const std::string& name, std::int64_t width, std::int64_t 
 std::uint64_t length_of_file(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) {
+    if (!std::filesystem::exists(status))
         fail("{}: cannot open: {}", path.string(), error ? error.message() : std::strerror(ENOENT));
-    }
-    if (!std::filesystem::is_regular_file(status)) {
+    if (!std::filesystem::is_regular_file(status))
         fail("{}: cannot open: it is not a regular file", path.string());
-    }
     const std::uintmax_t length = std::filesystem::file_size(path, error);
     if (error) fail("{}: cannot open: {}", path.string(), error.message());
     return length;
@@ -55,5 +56,22 @@ void require_finite(const std::string& name, const RgbaImage<Real>& image) {
 
 template void require_finite(const std::string&, const Image&);
 template void require_finite(const std::string&, const PreciseImage&);
+
+Image to_float(const PreciseImage& image) {
+    Image rounded(image.width, image.height);
+    std::transform(image.rgba.begin(), image.rgba.end(), rounded.rgba.begin(),
+                   [](double value) { return static_cast<float>(value); });
+    return rounded;
+}
+
+PreciseImage to_double(const Image& image) {
+    PreciseImage precise(image.width, image.height);
+    precise.rgba.assign(image.rgba.begin(), image.rgba.end());
+    return precise;
+}
+
+const char* name_of(ImageColorSpace space) {
+    return word_of(space, {"linear", "display"});
+}
 
 }  // namespace lamina

@@ -5,12 +5,8 @@
 #include <bit>
 #include <cerrno>
 #include <charconv>
-#include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "base/error.h"
 #include "image/image_limits.h"
@@ -27,6 +23,48 @@ void read_bytes(std::ifstream& stream, const std::string& name, void* bytes, std
     if (!stream) fail("{}: cannot read as NPY: the file ends too early", name);
 }
 
+static_assert(std::endian::native == std::endian::little,
+              "the numbers are copied as they lie in memory");
+
+constexpr std::size_t alignment = 64;  // bytes; the data begin at a multiple of it (NEP 1)
+
+struct Layout {
+    bool is_double = true;
+    std::int64_t height = 0, width = 0, channels = 0;
+};
+
+Layout layout_of(const NpyHeader& header) {
+    Layout found;
+    const std::string descr = header.descr();
+    if (descr != "<f8" && descr != "<f4") header.wrong("descr", "'<f4' or '<f8'");
+    found.is_double = descr == "<f8";
+    if (header.is_fortran_order()) header.wrong("fortran_order", "False");
+    const std::vector<std::int64_t> shape = header.shape();
+    if (shape.size() != 3 || (shape[2] != 3 && shape[2] != 4))
+        header.wrong("shape", "(height, width, 4) or (height, width, 3)");
+    found.height = shape[0];
+    found.width = shape[1];
+    found.channels = shape[2];
+    return found;
+}
+
+template <typename Real>
+void read_pixels(std::ifstream& stream, const std::string& name, std::int64_t channels,
+                 PreciseImage& image) {
+    const auto width = static_cast<std::size_t>(image.width);
+    const auto stored = static_cast<std::size_t>(channels);
+    std::vector<Real> row(width * stored);
+    for (int y = 0; y < image.height; ++y) {
+        read_bytes(stream, name, row.data(), row.size() * sizeof(Real));
+        double* pixel = image.pixel(0, y);
+        for (std::size_t x = 0; x < width; ++x, pixel += 4) {
+            pixel[3] = 1;
+            for (std::size_t c = 0; c < stored; ++c)
+                pixel[c] = static_cast<double>(row[x * stored + c]);
+        }
+    }
+}
+
 }  // namespace
 
 NpyHeader::NpyHeader(const std::filesystem::path& path) : name_(path.string()) {
@@ -34,20 +72,16 @@ NpyHeader::NpyHeader(const std::filesystem::path& path) : name_(path.string()) {
     if (!stream) fail("{}: cannot open: {}", name_, std::strerror(errno));
     char start[8] = {};
     read_bytes(stream, name_, start, sizeof start);
-    if (std::string_view(start, npy_magic.size()) != npy_magic) {
+    if (std::string_view(start, npy_magic.size()) != npy_magic)
         fail("{}: cannot read as NPY: the file does not begin with \\x93NUMPY", name_);
-    }
     const int version = static_cast<unsigned char>(start[6]);
-    if (version < 1 || version > 3) {
-        fail("{}: NPY version {}; expected 1, 2 or 3", name_, version);
-    }
+    if (version < 1 || version > 3) fail("{}: NPY version {}; expected 1, 2 or 3", name_, version);
     unsigned char length_bytes[4] = {};
     read_bytes(stream, name_, length_bytes, version == 1 ? 2 : 4);
     std::uint32_t length = 0;  // little-endian in the file
     for (int i = 3; i >= 0; --i) length = length << 8 | length_bytes[i];
-    if (length > max_header_bytes) {
+    if (length > max_header_bytes)
         fail("{}: NPY header of {} bytes; expected at most {}", name_, length, max_header_bytes);
-    }
     text_.resize(length);
     read_bytes(stream, name_, text_.data(), length);
     data_offset_ = static_cast<std::int64_t>(sizeof start) + (version == 1 ? 2 : 4) + length;
@@ -101,35 +135,8 @@ void NpyHeader::wrong(const char* key, std::string_view expected) const {
          closing == ')' && end < 40 ? ")" : "", expected);
 }
 
-namespace {
-
-static_assert(std::endian::native == std::endian::little,
-              "the numbers are copied as they lie in memory");
-
-constexpr std::size_t alignment = 64;  // bytes; the data begin at a multiple of it (NEP 1)
-
-struct Layout {
-    bool is_double = true;
-    std::int64_t height = 0, width = 0, channels = 0;
-};
-
-Layout layout_of(const NpyHeader& header) {
-    Layout found;
-    const std::string descr = header.descr();
-    if (descr != "<f8" && descr != "<f4") header.wrong("descr", "'<f4' or '<f8'");
-    found.is_double = descr == "<f8";
-    if (header.is_fortran_order()) header.wrong("fortran_order", "False");
-    const std::vector<std::int64_t> shape = header.shape();
-    if (shape.size() != 3 || (shape[2] != 3 && shape[2] != 4))
-        header.wrong("shape", "(height, width, 4) or (height, width, 3)");
-    found.height = shape[0];
-    found.width = shape[1];
-    found.channels = shape[2];
-    return found;
-}
-
 template <typename Real>
-void write_numbers(OutputFile& file, const RgbaImage<Real>& image) {
+void write_npy(OutputFile& file, const RgbaImage<Real>& image) {
     const std::string name = file.path().string();
     check_image_size(name, image.width, image.height);
     require_finite(name, image);
@@ -146,32 +153,8 @@ void write_numbers(OutputFile& file, const RgbaImage<Real>& image) {
     file.write(image.rgba.data(), image.rgba.size() * sizeof(Real));
 }
 
-template <typename Real>
-void read_pixels(std::ifstream& stream, const std::string& name, std::int64_t channels,
-                 PreciseImage& image) {
-    const auto width = static_cast<std::size_t>(image.width);
-    const auto stored = static_cast<std::size_t>(channels);
-    std::vector<Real> row(width * stored);
-    for (int y = 0; y < image.height; ++y) {
-        read_bytes(stream, name, row.data(), row.size() * sizeof(Real));
-        double* pixel = image.pixel(0, y);
-        for (std::size_t x = 0; x < width; ++x, pixel += 4) {
-            pixel[3] = 1;
-            for (std::size_t c = 0; c < stored; ++c)
-                pixel[c] = static_cast<double>(row[x * stored + c]);
-        }
-    }
-}
-
-}  // namespace
-
-void write_npy(OutputFile& file, const Image& image) {
-    write_numbers(file, image);
-}
-
-void write_npy(OutputFile& file, const PreciseImage& image) {
-    write_numbers(file, image);
-}
+template void write_npy(OutputFile&, const Image&);
+template void write_npy(OutputFile&, const PreciseImage&);
 
 PreciseImage read_npy(const std::filesystem::path& path) {
     const std::string name = path.string();

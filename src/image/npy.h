@@ -14,8 +14,7 @@ namespace lamina {
 
 constexpr std::string_view npy_magic = "\x93NUMPY";
 
-// The header of a file in NumPy's format (NEP 1): the literal of a Python dictionary. Throws Error
-// for what cannot be read as one.
+// The header of a NumPy file (NEP 1), a Python dictionary. Throws Error if it is none.
 class NpyHeader {
   public:
     explicit NpyHeader(const std::filesystem::path& path);
@@ -36,11 +35,10 @@ class NpyHeader {
     std::int64_t data_offset_ = 0;
 };
 
-// Writes NumPy's format (NEP 1), version 1.0: float32 or float64 as the image has them, little
-// endian, C order, shape (height, width, 4). Throws Error if a component is not finite or the
-// disk is full. The caller commits the file.
-void write_npy(OutputFile& file, const Image& image);
-void write_npy(OutputFile& file, const PreciseImage& image);
+// Writes NumPy's format (NEP 1) 1.0 as the image has its numbers: little endian, C order, shape
+// (height, width, 4). Throws Error as write_exr() does. The caller commits the file.
+template <typename Real>
+void write_npy(OutputFile& file, const RgbaImage<Real>& image);
 
 // Reads '<f4' or '<f8' in C order with shape (height, width, 4), or (height, width, 3) with A = 1.
 // Throws Error for anything else, and if the file's length does not match the header.

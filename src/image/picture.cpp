@@ -60,8 +60,7 @@ Difference difference(const LoadedImage& a, const LoadedImage& b) {
     if (a.space && b.space && *a.space != *b.space) {
         fail(
             "{}, {}: one holds linear light, the other display values (image.color_space); "
-            "expected "
-            "the same of both",
+            "expected the same of both",
             a.name, b.name);
     }
     try {

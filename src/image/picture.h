@@ -28,14 +28,12 @@ struct LoadedImage {
 // other suffixes, bad files, and components that are not finite.
 LoadedImage load_image(const std::filesystem::path& path);
 
-// Compares EXR and NPY with each other, and PNG with PNG as stored codes. Throws Error, with the
-// names of the files, if they differ in kind or size, or if one is known to hold linear light and
-// the other display values.
+// Compares EXR and NPY with each other, and PNG with PNG as codes. Throws Error, with the names of
+// the files, if they differ in kind, in size or, as far as it is known, in colour space.
 Difference difference(const LoadedImage& a, const LoadedImage& b);
 
-// Writes a PNG file (image/png.h) if the suffix is .png, NumPy's format (image/npy.h) if it is
-// .npy, else an EXR file (image/exr.h) with the attributes. `space`: that of image and background.
-// Returns how many pixels were clamped. The caller commits the file.
+// Writes PNG or NPY by the suffix (.png, .npy), else EXR with the attributes. `space`: that of
+// image and background. Returns how many pixels were clamped. The caller commits the file.
 std::size_t write_picture(OutputFile& file, const Image& image, const glm::dvec3& background,
                           const std::map<std::string, std::string>& attributes,
                           ImageColorSpace space = ImageColorSpace::linear);

@@ -3,10 +3,8 @@
 
 #include <png.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <cmath>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -14,7 +12,6 @@
 
 #include "base/error.h"
 #include "image/image_limits.h"
-#include "image/srgb.h"
 
 namespace lamina {
 namespace {
@@ -29,8 +26,7 @@ void on_error(png_structp png, png_const_charp text) {
 void on_warning(png_structp /*png*/, png_const_charp /*text*/) {
 }  // warnings are about chunks that do not change codes
 
-// Runs calls of libpng, which leaves them by longjmp() when it fails. Returns false then. `body`
-// must own nothing that needs a destructor.
+// Runs calls of libpng; false if it leaves them by longjmp(). `body` owns nothing to destroy.
 template <typename Body>
 [[nodiscard]] bool succeeds(png_structp png, const Body& body) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -46,26 +42,21 @@ void write_block(png_structp png, png_bytep bytes, std::size_t count) {
 
 void flush_nothing(png_structp /*png*/) {}
 
-struct Writer {
+// libpng's structures for writing or reading.
+struct Png {
+    bool writes;
     Message message = "";
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, message, on_error, on_warning);
+    png_structp png = (writes ? png_create_write_struct : png_create_read_struct)(
+        PNG_LIBPNG_VER_STRING, message, on_error, on_warning);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
 
-    Writer() = default;
-    Writer(const Writer&) = delete;
-    Writer& operator=(const Writer&) = delete;
-    ~Writer() { png_destroy_write_struct(&png, &info); }
-};
-
-struct Reader {
-    Message message = "";
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, message, on_error, on_warning);
-    png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-
-    Reader() = default;
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
-    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+    explicit Png(bool to_write) : writes(to_write) {}
+    Png(const Png&) = delete;
+    Png& operator=(const Png&) = delete;
+    ~Png() {
+        writes ? png_destroy_write_struct(&png, &info)
+               : png_destroy_read_struct(&png, &info, nullptr);
+    }
 };
 
 int color_type(int channels) {
@@ -92,16 +83,13 @@ void unpack(const std::vector<png_byte>& bytes, CodedImage& image) {
 }
 
 // Requests the expansions that turn every PNG into one of CodedImage's kinds.
-void expand(Reader& reader) {
-    if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE) {
+void expand(Png& reader) {
+    if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE)
         png_set_palette_to_rgb(reader.png);
-    }
-    if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_GRAY) {
+    if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_GRAY)
         png_set_expand_gray_1_2_4_to_8(reader.png);
-    }
-    if (png_get_valid(reader.png, reader.info, PNG_INFO_tRNS) != 0) {
+    if (png_get_valid(reader.png, reader.info, PNG_INFO_tRNS) != 0)
         png_set_tRNS_to_alpha(reader.png);
-    }
     png_set_interlace_handling(reader.png);
     png_read_update_info(reader.png, reader.info);
 }
@@ -153,7 +141,7 @@ std::vector<std::uint8_t> png_codes(const Image& image, const glm::dvec3& backgr
 void write_png(OutputFile& file, const CodedImage& image) {
     const std::string name = file.path().string();
     check_image_size(name, image.width, image.height);
-    Writer writer;
+    Png writer(true);
     if (writer.info == nullptr) fail("{}: cannot write: out of memory", name);
     const std::size_t row_codes =
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
@@ -197,7 +185,7 @@ CodedImage read_png(const std::filesystem::path& path) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                std::fclose);
     if (file == nullptr) fail("{}: cannot open: {}", name, std::strerror(errno));
-    Reader reader;
+    Png reader(false);
     if (reader.info == nullptr) fail("{}: cannot read: out of memory", name);
     const auto bad_file = [&] {
         fail("{}: cannot read as PNG: {}", name, one_line(reader.message));
@@ -206,8 +194,7 @@ CodedImage read_png(const std::filesystem::path& path) {
     const bool has_header = succeeds(reader.png, [&] {
         png_init_io(reader.png, file.get());
         png_set_user_limits(reader.png, max_image_side, max_image_side);
-        // libpng takes memory for some chunks on their word alone, so all that do not change codes
-        // are ignored.
+        // libpng trusts some chunks with memory, so all that change no codes are ignored.
         png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(reader.png, reader.info);
     });
@@ -226,9 +213,8 @@ CodedImage read_png(const std::filesystem::path& path) {
     const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
     std::vector<png_byte> bytes(row_bytes * static_cast<std::size_t>(height));
     std::vector<png_bytep> rows;
-    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
         rows.push_back(&bytes[y * row_bytes]);
-    }
     const bool complete = succeeds(reader.png, [&] {
         png_read_image(reader.png, rows.data());
         png_read_end(reader.png, nullptr);

@@ -15,19 +15,17 @@
 
 namespace lamina {
 
-// Writes a picture to look at: C + (1-A) * background in the numbers of `space`, clamped to 0..1,
-// encoded from linear light to sRGB or, as display values, taken as they are, and rounded to the
-// nearest 8-bit code, as RGB with an sRGB chunk and no time stamp. Returns how many pixels were
+// Writes a picture to look at: C + (1-A) * background, clamped to 0..1, encoded to sRGB if it is
+// linear light, as 8-bit RGB with an sRGB chunk and no time stamp. Returns how many pixels were
 // clamped by more than 1/510 in some channel; less is the rounding of a low-precision target.
-// Throws Error as write_exr does. The caller commits the file.
+// Throws Error as write_exr() does. The caller commits the file.
 std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& background,
                       ImageColorSpace space = ImageColorSpace::linear);
 
 // Writes the codes unchanged, marked as sRGB.
 void write_png(OutputFile& file, const CodedImage& image);
 
-// Return the bytes of a PNG file with an RGB picture of 8 bits; for an image it has the codes that
-// write_png() writes.
+// Return the bytes of a PNG file of 8-bit RGB: for an image, the codes of write_png().
 std::string encode_png(const CodedImage& image);
 std::string encode_png(const Image& image, const glm::dvec3& background, ImageColorSpace space);
 
@@ -35,9 +33,8 @@ std::string encode_png(const Image& image, const glm::dvec3& background, ImageCo
 std::vector<std::uint8_t> png_codes(const Image& image, const glm::dvec3& background,
                                     ImageColorSpace space);
 
-// Reads a PNG file. Palettes and grey of fewer than 8 bits are expanded to 8 bits, and a
-// transparent colour becomes an alpha channel. Other codes are as stored. Throws Error for damaged
-// files and for sizes beyond image_limits.h.
+// Reads a PNG file's codes; palettes and grey of fewer than 8 bits are expanded to 8 bits, and a
+// transparent colour becomes alpha. Throws Error for damaged files and sizes beyond image_limits.h.
 CodedImage read_png(const std::filesystem::path& path);
 
 }  // namespace lamina

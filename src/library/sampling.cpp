@@ -15,8 +15,8 @@
 #include "mesh/predicates.h"
 #include "mesh/ray_walk.h"
 #include "reference/cells.h"
-#include "reference/clip.h"
-#include "scene/scene_mesh.h"
+#include "reference/mesh_walk.h"
+#include "scene/scene.h"
 #include "volume/volume_store.h"
 
 namespace lamina {

@@ -1,16 +1,99 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/session.h"
 
-#include <utility>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/client.h"
 #include "base/error.h"
 #include "base/profile.h"
-#include "library/point_probe_parts.h"
-#include "library/session_parts.h"
-#include "scene/half_space.h"
-#include "scene/lighting_check.h"
+#include "choice/value_distribution.h"
+#include "lamina/point_probe.h"
+#include "lamina/scene.h"
+#include "mesh/face_tree.h"
+#include "reference/tracer.h"
+#include "render/pipeline.h"
+#include "scene/camera.h"
+#include "scene/clip.h"
+#include "scene/scene.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
+namespace {
+
+// Throws Error if there is no such view: scene files are checked for that when they are read.
+void check_view(const Camera& camera, int width, int height) {
+    if (width < 1 || height < 1)
+        fail("image: found {} x {} pixels, expected 1 x 1 or more", width, height);
+    View(camera, width, height);
+}
+
+int arena_threads(int threads) {
+    if (threads < 0) fail("threads: found {}, expected 0 (all) or more", threads);
+    return threads == 0 ? tbb::task_arena::automatic : threads;
+}
+
+}  // namespace
+
+// A session: the pipeline of its scene with a client's own settings, such as threads, a folder that
+// it may read, and its warnings.
+struct Session::Parts {
+    Parts(Scene scene, const SessionOptions& options)
+        : only_below(allowed_folder(options.only_below)), threads(arena_threads(options.threads)) {
+        check_view(scene.camera.value_or({}), scene.width, scene.height);
+        check_lighting(scene);
+        pipeline = std::make_unique<Pipeline>(
+            std::move(scene), SceneData(),
+            PipelineOptions{.context = options.context, .many_frames = options.many_frames});
+        pipeline->data().keep_volume();
+    }
+
+    // Returns work(), called for the session's client: in its threads, with its warnings kept. Each
+    // picture repeats its warnings, so they are kept once.
+    template <typename Work>
+    auto run(const Work& work, std::stop_token stop = {}, const ProgressCallback& progress = {}) {
+        const WarningTaker taker = [this](const std::string& text) {
+            const std::lock_guard lock(keeping);
+            if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(text);
+        };
+        ProgressListener listener{progress};
+        return threads.execute([&] {
+            const ClientScope scope({std::move(stop), &taker, &listener, only_below});
+            return work();
+        });
+    }
+
+    ~Parts() {
+        run([&] { pipeline.reset(); });
+    }
+
+    std::shared_ptr<const std::filesystem::path> only_below;
+    tbb::task_arena threads;
+    std::mutex keeping;
+    std::vector<std::string> warnings;
+    std::unique_ptr<Pipeline> pipeline;
+    std::weak_ptr<const void> counted;  // the data of the last histogram
+    ValueDistribution counts;
+    Image picture;
+    FrameStatistics statistics, trace_statistics;
+};
+
+// The members of one kind of data are set.
+struct PointProbe::Parts {
+    Scene scene;
+    std::shared_ptr<const VolumeData> volume;
+    std::shared_ptr<const SceneMesh> mesh;
+    std::once_flag first;
+    std::optional<FaceTree> open_faces;  // of the mesh, made when it is first needed
+};
 
 Session::Session(Scene scene, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
@@ -85,9 +168,7 @@ const Scene& Session::chosen_scene() const {
 }
 
 const Scene& Session::resolved_scene() {
-    const Scene* resolved = nullptr;
-    parts_->run([&] { resolved = &parts_->pipeline->resolved_scene(); });
-    return *resolved;
+    return *parts_->run([&] { return &parts_->pipeline->resolved_scene(); });
 }
 
 void Session::save_resolved_scene(const std::filesystem::path& file) {
@@ -100,8 +181,8 @@ void Session::save_resolved_scene(const std::filesystem::path& file) {
 }
 
 PlanSummary Session::plan() {
-    PlanSummary summary;
-    parts_->run([&] {
+    return parts_->run([&] {
+        PlanSummary summary;
         if (chosen_scene().method == Method::trace)
             fail("render.method: \"trace\" has no plan, expected \"slice\" or \"project\"");
         const Plan& plan = parts_->pipeline->plan();
@@ -115,14 +196,12 @@ PlanSummary Session::plan() {
         summary.error = plan.error();
         for (const Omission& omission : plan.omitted)
             summary.left_out.push_back({omission.name, omission.reason});
+        return summary;
     });
-    return summary;
 }
 
 std::string Session::explanation() {
-    std::string text;
-    parts_->run([&] { text = parts_->pipeline->explanation(); });
-    return text;
+    return parts_->run([&] { return parts_->pipeline->explanation(); });
 }
 
 const Image& Session::draw(std::stop_token stop, const ProgressCallback& progress) {
@@ -146,12 +225,12 @@ void Session::draw(Image& picture, std::stop_token stop, const ProgressCallback&
 const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback& progress,
                                    const TileCallback& tile_done) {
     Stopwatch watch;
-    const PreciseImage* truth = nullptr;
-    parts_->run(
+    const PreciseImage* const truth = parts_->run(
         [&] {
-            truth = &parts_->pipeline->trace(tile_done).image;
+            const PreciseImage& traced = parts_->pipeline->trace(tile_done).image;
             parts_->trace_statistics = parts_->pipeline->trace_statistics();
-            parts_->pipeline->warn_of(to_float(*truth));
+            parts_->pipeline->warn_of(to_float(traced));
+            return &traced;
         },
         std::move(stop), progress);
     parts_->trace_statistics.draw_ms = 1e3 * watch.seconds();
@@ -159,17 +238,13 @@ const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback&
 }
 
 Grid::Bounds Session::bounds() {
-    Grid::Bounds bounds;
-    parts_->run([&] {
+    return parts_->run([&]() -> Grid::Bounds {
         const Scene& scene = parts_->pipeline->scene();
-        if (scene.draws_mesh()) {
-            const auto& [min, max] = parts_->pipeline->data().mesh(scene)->mesh.bounds();
-            bounds = {min, max};
-        } else {
-            bounds = parts_->pipeline->data().volume(scene)->volume.grid().bounds();
-        }
+        SceneData& data = parts_->pipeline->data();
+        if (!scene.draws_mesh()) return data.volume(scene)->volume.grid().bounds();
+        const auto& [min, max] = data.mesh(scene)->mesh.bounds();
+        return {min, max};
     });
-    return bounds;
 }
 
 PointProbe Session::probe() {
@@ -186,9 +261,17 @@ PointProbe Session::probe() {
 }
 
 ValueHistogram Session::histogram(int bins) {
-    ValueHistogram found;
-    parts_->run([&] { found = parts_->histogram(bins); });
-    return found;
+    return parts_->run([&] {
+        if (bins < 1) fail("histogram: found {} intervals, expected 1 or more", bins);
+        const Scene& scene = parts_->pipeline->scene();
+        const std::unique_ptr<Field> field = parts_->pipeline->field();
+        SceneData& data = parts_->pipeline->data();
+        const std::shared_ptr<const void> drawn =
+            scene.draws_mesh() ? std::shared_ptr<const void>(data.mesh(scene)) : data.volume(scene);
+        if (parts_->counted.lock() != drawn) parts_->counts = field->distribution();
+        parts_->counted = drawn;
+        return binned(parts_->counts, field->range(), field->whole_numbers(), bins);
+    });
 }
 
 const FrameStatistics& Session::statistics() const {
@@ -202,6 +285,16 @@ const FrameStatistics& Session::trace_statistics() const {
 std::vector<std::string> Session::take_warnings() {
     const std::lock_guard lock(parts_->keeping);
     return std::exchange(parts_->warnings, {});
+}
+
+PointProbe::PointProbe(std::shared_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+std::optional<SeenPoint> PointProbe::seen(double column, double row) const {
+    if (parts_->volume) return seen_point(parts_->scene, parts_->volume->volume, column, row);
+    const SceneMesh& mesh = *parts_->mesh;
+    std::call_once(parts_->first,
+                   [&] { parts_->open_faces.emplace(mesh.mesh, mesh.mesh.open_faces()); });
+    return seen_point(parts_->scene, mesh, *parts_->open_faces, column, row);
 }
 
 }  // namespace lamina

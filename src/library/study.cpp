@@ -7,7 +7,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "study/frame_times.h"
+#include "study/study_frames.h"
 #include "study/study_output.h"
 #include "study/study_runner.h"
 

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/face_tree.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include "mesh/predicates.h"
 
 namespace lamina {
-
 namespace {
 
 constexpr std::int32_t faces_per_leaf = 4;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -30,11 +26,9 @@ FaceTree::FaceTree(const TetMesh& mesh, std::span<const TetFace> faces) : order_
 void FaceTree::build(std::span<const Box> boxes, std::int32_t first, std::int32_t end) {
     Box box = nothing(), centers = box;
     for (std::int32_t i = first; i < end; ++i) {
-        const Box& face = boxes[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
-        box.min = glm::min(box.min, face.min);
-        box.max = glm::max(box.max, face.max);
-        centers.min = glm::min(centers.min, 0.5 * face.min + 0.5 * face.max);
-        centers.max = glm::max(centers.max, 0.5 * face.min + 0.5 * face.max);
+        const Box& face = boxes[order_[i]];
+        box.add(face);
+        centers.add(0.5 * face.min + 0.5 * face.max);
     }
     const std::size_t self = nodes_.size();
     nodes_.push_back({box, first, end, -1});
@@ -45,7 +39,7 @@ void FaceTree::build(std::span<const Box> boxes, std::int32_t first, std::int32_
                                                                   : 2;
     const std::int32_t middle = first + (end - first) / 2;
     const auto center = [&](std::int32_t face) {
-        const Box& b = boxes[static_cast<std::size_t>(face)];
+        const Box& b = boxes[face];
         return 0.5 * b.min[axis] + 0.5 * b.max[axis];
     };
     std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + end,
@@ -55,15 +49,8 @@ void FaceTree::build(std::span<const Box> boxes, std::int32_t first, std::int32_
     build(boxes, middle, end);
 }
 
-namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-}  // namespace
-
-// A cross product of two rounded differences is off by at most 3 epsilon |u| |v| (1-norms) in each
-// component, and its product with a third difference p by as much again and 3 epsilon of itself:
-// less than 16 epsilon |u| |v| |p| in all.
+// A cross product of rounded differences is off by at most 3 epsilon |u| |v| (1-norms), its product
+// with p by as much again and 3 epsilon of itself: less than 16 epsilon |u| |v| |p|.
 RoundedPlane::RoundedPlane(const glm::dvec3& u, const glm::dvec3& v)
     : normal(glm::cross(u, v)), error(16 * epsilon * norm1(u) * norm1(v)) {}
 

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 #include "mesh/tet_mesh.h"
 
 namespace lamina {
 
-// A hierarchy of boxes around faces of a mesh, usually its open faces. It finds the faces that a
-// ray, a pyramid or another shape may meet.
+// Boxes in boxes around faces of a mesh, to find those that a ray or another shape may meet.
 class FaceTree {
   public:
     struct Box {
@@ -42,8 +34,7 @@ class FaceTree {
         visit_nodes([&](std::size_t node) { return meets(nodes_[node].box); }, visit);
     }
 
-    // Calls visit() like the function above, but the test gets the number of the node:
-    // meets(number).
+    // As above, but the test gets the number of the node.
     template <typename Meets, typename Visit>
     void visit_nodes(const Meets& meets, const Visit& visit) const {
         std::array<std::int32_t, 64> stack;  // the tree is balanced: its height is below 32
@@ -57,16 +48,14 @@ class FaceTree {
                 stack[waiting++] = node.right;
                 stack[waiting++] = static_cast<std::int32_t>(number) + 1;
             } else {
-                for (std::int32_t i = node.first; i < node.end; ++i)
-                    visit(order_[static_cast<std::size_t>(i)]);
+                for (std::int32_t i = node.first; i < node.end; ++i) visit(order_[i]);
             }
         }
     }
 
     std::size_t node_count() const { return nodes_.size(); }
 
-    // Sums up, for each node, what add_face(index, node) adds for the faces below it. `nodes` has
-    // one element a node; all start from `nothing` and are combined by add().
+    // Sums up what add_face(index, node) adds for the faces below each node, by add().
     template <typename Known, typename AddFace>
     void sum(std::span<Known> nodes, const Known& nothing, const AddFace& add_face) const {
         for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before their parents
@@ -74,11 +63,10 @@ class FaceTree {
             nodes[i] = nothing;
             if (node.right >= 0) {
                 nodes[i].add(nodes[i + 1]);
-                nodes[i].add(nodes[static_cast<std::size_t>(node.right)]);
+                nodes[i].add(nodes[node.right]);
                 continue;
             }
-            for (std::int32_t at = node.first; at < node.end; ++at)
-                add_face(order_[static_cast<std::size_t>(at)], nodes[i]);
+            for (std::int32_t at = node.first; at < node.end; ++at) add_face(order_[at], nodes[i]);
         }
     }
 
@@ -96,8 +84,7 @@ class FaceTree {
 
 using Triangle = std::array<glm::dvec3, 3>;
 
-// The normal of a plane, with a bound on its rounding error. Points are given relative to a point
-// of the plane.
+// The normal of a plane, with a bound on its rounding error.
 struct RoundedPlane {
     RoundedPlane() = default;
     RoundedPlane(const glm::dvec3& u, const glm::dvec3& v);  // spanned by these two vectors
@@ -109,21 +96,17 @@ struct RoundedPlane {
 };
 
 // Returns the exact side of a triangle's plane on which a point lies: 1 if the corners are seen
-// counter-clockwise from it, -1 on the other side, 0 on the plane. `plane`: the plane through the
-// first corner along the edges from there.
+// counter-clockwise from it. `plane` goes through the first corner.
 int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& point);
 
-// The closed half space on the positive side of a plane. A search of a FaceTree for the faces that
-// it may contain asks it about their boxes.
+// The closed half space on the positive side of a plane.
 class PlaneSide {
   public:
     PlaneSide() = default;
     // `bounds`: contains all that reaches() is asked about.
     PlaneSide(const RoundedPlane& plane, const glm::dvec3& origin, const FaceTree::Box& bounds);
-    // Tells whether a box or a triangle may contain a point of the half space. Rounding never makes
-    // this false for one that does.
+    // Tells whether a box or a triangle may contain a point of it. Rounding never makes this false.
     bool reaches(const FaceTree::Box& box) const {
-        // The corner of the box that is farthest along the normal.
         const auto most = [&](int axis) {
             return normal_[axis] * (normal_[axis] > 0 ? box.max[axis] : box.min[axis]);
         };

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/mesh_picture.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <vector>
 
 namespace lamina {
 namespace {
@@ -38,7 +34,7 @@ class Panel {
           up_(up),
           side_(side),
           center_(0.5 * mesh.bounds().min + 0.5 * mesh.bounds().max),
-          piece_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), -1),
+          piece_(static_cast<std::size_t>(side) * side, -1),
           height_(piece_.size(), -INFINITY),
           color_(piece_.size()) {
         const glm::dvec3 half = 0.5 * mesh.bounds().max - 0.5 * mesh.bounds().min;
@@ -47,7 +43,7 @@ class Panel {
         scale_ = reach > 0 ? 0.5 * side / reach : 1;
     }
 
-    // Returns the place in the panel, in pixels, rows downwards.
+    // In pixels, rows downwards.
     glm::dvec2 place(const glm::dvec3& point) const {
         const glm::dvec3 p = point - center_;
         return {0.5 * side_ + scale_ * glm::dot(p, right_),
@@ -102,8 +98,7 @@ class Panel {
 
   private:
     std::size_t index(int column, int row) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
-               static_cast<std::size_t>(column);
+        return static_cast<std::size_t>(row) * side_ + column;
     }
     bool at_edge(int column, int row) const {
         const std::int32_t piece = piece_[index(column, row)];
@@ -153,17 +148,12 @@ class MeshPainter {
     }
 
   private:
-    const glm::dvec3& point(std::int32_t corner) const {
-        return mesh_.points()[static_cast<std::size_t>(corner)];
-    }
-    double value(std::int32_t corner) const {
-        return scalar_.empty() ? 0 : scalar_[static_cast<std::size_t>(corner)];
-    }
+    const glm::dvec3& point(std::int32_t corner) const { return mesh_.points()[corner]; }
+    double value(std::int32_t corner) const { return scalar_.empty() ? 0 : scalar_[corner]; }
 
     void draw_face(const TetFace& face, std::int32_t piece, const glm::dvec3& towards_eye,
                    Panel& panel) const {
-        const auto corners = corners_of_face(mesh_.tets()[static_cast<std::size_t>(face.tet)],
-                                             static_cast<std::size_t>(face.face));
+        const auto corners = corners_of_face(mesh_.tets()[face.tet], face.face);
         const glm::dvec3 &a = point(corners[0]), &b = point(corners[1]), &c = point(corners[2]);
         const glm::dvec3 normal = glm::cross(b - a, c - a);
         const double facing = glm::dot(normal, towards_eye);
@@ -185,7 +175,6 @@ class MeshPainter {
         });
     }
 
-    // Draws the pixels whose point on the plane lies inside the tet by its barycentric coordinates.
     void cut_tet(std::size_t index, int axis, double plane, Panel& panel) const {
         const Tet& tet = mesh_.tets()[index];
         const glm::dvec3& a = point(tet[0]);
@@ -227,13 +216,11 @@ CodedImage mesh_picture(const TetMesh& mesh, std::span<const double> scalar,
     painter.draw_boundary(towards_eye, boundary);
     boundary.copy_to(image, room, room);
     const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-    Panel across_x(mesh, y, z, side), across_y(mesh, x, z, side), across_z(mesh, x, y, side);
-    painter.draw_cut(0, across_x);
-    across_x.copy_to(image, second, room);
-    painter.draw_cut(1, across_y);
-    across_y.copy_to(image, room, second);
-    painter.draw_cut(2, across_z);
-    across_z.copy_to(image, second, second);
+    for (int axis = 0; axis < 3; ++axis) {
+        Panel panel(mesh, axis == 0 ? y : x, axis == 2 ? y : z, side);
+        painter.draw_cut(axis, panel);
+        panel.copy_to(image, axis == 1 ? room : second, axis == 0 ? room : second);
+    }
     return image;
 }
 

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/mesh_shape.h"
 
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <cstdint>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <tuple>
-#include <vector>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include "base/parallel.h"
 #include "mesh/face_tree.h"
@@ -21,7 +13,6 @@
 #include "mesh/ray_walk.h"
 
 namespace lamina {
-
 namespace {
 
 constexpr double flat_enough = 1e-12;  // share of the diagonal: see the header
@@ -29,7 +20,6 @@ constexpr std::int64_t tets_per_task = 8192;
 
 constexpr EdgeLengths no_edges{std::numeric_limits<double>::infinity(), 0};
 
-// An edge of an open face, from the lower to the higher point.
 struct BoundaryEdge {
     std::int32_t low, high;
     std::int32_t face;  // index into open_faces()
@@ -43,9 +33,8 @@ struct BoundaryEdge {
 };
 
 std::array<std::int32_t, 3> open_face(const TetMesh& mesh, std::int32_t index) {
-    const TetFace& face = mesh.open_faces()[static_cast<std::size_t>(index)];
-    return corners_of_face(mesh.tets()[static_cast<std::size_t>(face.tet)],
-                           static_cast<std::size_t>(face.face));
+    const TetFace& face = mesh.open_faces()[index];
+    return corners_of_face(mesh.tets()[face.tet], face.face);
 }
 
 std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
@@ -67,7 +56,7 @@ std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
 Convexity bend(const TetMesh& mesh, const BoundaryEdge& first, const BoundaryEdge& second,
                double tolerance) {
     const auto point = [&](std::int32_t index) -> const glm::dvec3& {
-        return mesh.points()[static_cast<std::size_t>(index)];
+        return mesh.points()[index];
     };
     const auto normal = [&](std::int32_t face) {
         const auto [a, b, c] = open_face(mesh, face);
@@ -85,7 +74,6 @@ Convexity bend(const TetMesh& mesh, const BoundaryEdge& first, const BoundaryEdg
                                                                       : Convexity::none;
 }
 
-// Disjoint sets of faces. The faces of one set are connected.
 class FaceSets {
   public:
     explicit FaceSets(std::size_t faces) : parent_(faces), count_(faces) {
@@ -109,22 +97,161 @@ class FaceSets {
     std::size_t count_;
 };
 
+constexpr std::int64_t faces_per_task = 64;
+
+// Faces that may be examined for each face, on average. Real meshes need far fewer.
+constexpr std::int64_t looks_a_face = 60;
+
+constexpr std::int64_t most_lines = 500, lines_per_task = 8;
+
+bool meet(const FaceTree::Box& a, const FaceTree::Box& b) {
+    return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
+}
+
+// Tells whether the edge from p to q passes through the inside of a triangle.
+bool pierces(const glm::dvec3& p, const glm::dvec3& q, const Triangle& triangle) {
+    const auto& [a, b, c] = triangle;
+    if (orientation(a, b, c, p) * orientation(a, b, c, q) >= 0) return false;
+    const int first = orientation(p, q, a, b);
+    return first != 0 && orientation(p, q, b, c) == first && orientation(p, q, c, a) == first;
+}
+
+bool edge_pierces(const Triangle& edges, const Triangle& triangle) {
+    return pierces(edges[0], edges[1], triangle) || pierces(edges[1], edges[2], triangle) ||
+           pierces(edges[2], edges[0], triangle);
+}
+
+class OverlapSearch {
+  public:
+    explicit OverlapSearch(const TetMesh& mesh)
+        : mesh_(mesh), tree_(mesh, mesh.open_faces()), overlapping_(mesh.tets().size()) {}
+
+    std::int64_t count() {
+        mark_crossing();
+        mark_shared();
+        mark_inner_parts();
+        return std::ranges::count(overlapping_, 1);
+    }
+
+  private:
+    std::array<std::int32_t, 3> points_of(const TetFace& face) const {
+        std::array<std::int32_t, 3> points = corners_of_face(mesh_.tets()[face.tet], face.face);
+        std::sort(points.begin(), points.end());
+        return points;
+    }
+    void mark(const TetFace& face) {
+        std::atomic_ref<std::uint8_t>(overlapping_[face.tet]).store(1, std::memory_order_relaxed);
+    }
+
+    // Faces that share two points meet in an edge, or lie in one plane.
+    void mark_crossing() {
+        const auto faces = mesh_.open_faces();
+        std::atomic<std::int64_t> left{looks_a_face * std::ssize(faces)};
+        parallel_for(std::ssize(faces), faces_per_task, [&](std::int64_t index) {
+            const TetFace& face = faces[index];
+            if (is_flat(face) || left <= 0) return;
+            std::int64_t looks = 0;
+            const Triangle here = mesh_.corners(face);
+            const FaceTree::Box box = FaceTree::box_around(here);
+            const auto points = points_of(face);
+            tree_.visit([&](const FaceTree::Box& other) { return meet(box, other); },
+                        [&](std::int32_t number) {
+                            if (number <= index) return;
+                            const TetFace& other = faces[number];
+                            if (++looks > left || is_flat(other)) return;
+                            if (shared_points(points, points_of(other)) >= 2) return;
+                            const Triangle there = mesh_.corners(other);
+                            if (!meet(box, FaceTree::box_around(there))) return;
+                            if (!edge_pierces(here, there) && !edge_pierces(there, here)) return;
+                            mark(face);
+                            mark(other);
+                        });
+            left -= looks;
+        });
+    }
+    bool is_flat(const TetFace& face) const {
+        return std::ranges::binary_search(mesh_.flat_tets(), face.tet);
+    }
+    static int shared_points(const std::array<std::int32_t, 3>& a,
+                             const std::array<std::int32_t, 3>& b) {
+        int shared = 0;
+        for (const std::int32_t point : a) shared += std::ranges::count(b, point) > 0;
+        return shared;
+    }
+
+    // Open faces with the same corners have two tets or more on one side.
+    void mark_shared() {
+        if (mesh_.findings().folded_faces + mesh_.findings().nonmanifold_faces == 0) return;
+        std::vector<std::int32_t> order(mesh_.open_faces().size());
+        for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
+        const auto face_of = [&](std::int32_t number) -> const TetFace& {
+            return mesh_.open_faces()[number];
+        };
+        std::ranges::sort(order, {},
+                          [&](std::int32_t number) { return points_of(face_of(number)); });
+        for (std::size_t i = 1; i < order.size(); ++i) {
+            const TetFace &a = face_of(order[i - 1]), &b = face_of(order[i]);
+            if (points_of(a) != points_of(b)) continue;
+            mark(a);
+            mark(b);
+        }
+    }
+
+    // If no faces cross, a part is inside another one as a whole: one line through it suffices.
+    void mark_inner_parts() {
+        if (std::ranges::count(overlapping_, 1) > 0) return;
+        std::vector<char> seen(mesh_.tets().size());
+        std::vector<std::int32_t> waiting;
+        std::vector<TetFace> parts;  // a face of each
+        for (const TetFace& face : mesh_.open_faces()) {
+            if (seen[face.tet]) continue;
+            visit_part(face.tet, seen, waiting);
+            parts.push_back(face);
+        }
+        if (parts.size() == 1) return;
+        const std::int64_t step = std::ssize(parts) / most_lines + 1;
+        parallel_for(std::ssize(parts) / step, lines_per_task, [&](std::int64_t index) {
+            const TetFace& face = parts[index * step];
+            const auto [a, b, c] = mesh_.corners(face);
+            RayWalk walk(mesh_, tree_);
+            walk.aim((a + b + c) / 3.0, glm::cross(b - a, c - a));
+            if (walk.overlapping()) mark(face);
+        });
+    }
+    void visit_part(std::int32_t tet, std::vector<char>& seen, std::vector<std::int32_t>& waiting) {
+        waiting.assign(1, tet);
+        seen[tet] = 1;
+        while (!waiting.empty()) {
+            const std::int32_t here = waiting.back();
+            waiting.pop_back();
+            for (const std::int32_t next : mesh_.neighbors()[here]) {
+                if (next == TetMesh::no_neighbor || seen[next]) continue;
+                seen[next] = 1;
+                waiting.push_back(next);
+            }
+        }
+    }
+
+    const TetMesh& mesh_;
+    FaceTree tree_;
+    std::vector<std::uint8_t> overlapping_;
+};
+
 }  // namespace
 
 EdgeLengths edge_lengths(const TetMesh& mesh) {
-    const auto tets = static_cast<std::int64_t>(mesh.tets().size());
+    const auto tets = std::ssize(mesh.tets());
     std::vector<EdgeLengths> found(
         static_cast<std::size_t>((tets + tets_per_task - 1) / tets_per_task), no_edges);
-    parallel_for(static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t task) {
-        EdgeLengths& mine = found[static_cast<std::size_t>(task)];
+    parallel_for(std::ssize(found), 1, [&](std::int64_t task) {
+        EdgeLengths& mine = found[task];
         const std::int64_t end = std::min(tets, (task + 1) * tets_per_task);
         for (std::int64_t tet = task * tets_per_task; tet < end; ++tet) {
-            const Tet& corners = mesh.tets()[static_cast<std::size_t>(tet)];
+            const Tet& corners = mesh.tets()[tet];
             for (std::size_t i = 0; i < 4; ++i) {
                 for (std::size_t j = i + 1; j < 4; ++j) {
                     const double length =
-                        glm::length(mesh.points()[static_cast<std::size_t>(corners[j])] -
-                                    mesh.points()[static_cast<std::size_t>(corners[i])]);
+                        glm::length(mesh.points()[corners[j]] - mesh.points()[corners[i]]);
                     mine.shortest = std::min(mine.shortest, length);
                     mine.longest = std::max(mine.longest, length);
                 }
@@ -158,156 +285,6 @@ Convexity convexity(const TetMesh& mesh) {
     }
     return surfaces.count() == 1 ? result : Convexity::none;
 }
-
-namespace {
-
-constexpr std::int64_t faces_per_task = 64;
-
-// Faces that may be examined for each face, on average. Real meshes need far fewer.
-constexpr std::int64_t looks_a_face = 60;
-
-// Number of parts of a mesh through which lines are followed at most.
-constexpr std::int64_t most_lines = 500, lines_per_task = 8;
-
-bool meet(const FaceTree::Box& a, const FaceTree::Box& b) {
-    return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
-}
-
-// Tells whether the edge from p to q passes through the inside of a triangle, from one side to the
-// other.
-bool pierces(const glm::dvec3& p, const glm::dvec3& q, const Triangle& triangle) {
-    const auto& [a, b, c] = triangle;
-    if (orientation(a, b, c, p) * orientation(a, b, c, q) >= 0) return false;
-    const int first = orientation(p, q, a, b);
-    return first != 0 && orientation(p, q, b, c) == first && orientation(p, q, c, a) == first;
-}
-
-bool edge_pierces(const Triangle& edges, const Triangle& triangle) {
-    return pierces(edges[0], edges[1], triangle) || pierces(edges[1], edges[2], triangle) ||
-           pierces(edges[2], edges[0], triangle);
-}
-
-class OverlapSearch {
-  public:
-    explicit OverlapSearch(const TetMesh& mesh)
-        : mesh_(mesh), tree_(mesh, mesh.open_faces()), overlapping_(mesh.tets().size()) {}
-
-    std::int64_t count() {
-        mark_crossing();
-        mark_shared();
-        mark_inner_parts();
-        return std::ranges::count(overlapping_, 1);
-    }
-
-  private:
-    std::array<std::int32_t, 3> points_of(const TetFace& face) const {
-        std::array<std::int32_t, 3> points = corners_of_face(
-            mesh_.tets()[static_cast<std::size_t>(face.tet)], static_cast<std::size_t>(face.face));
-        std::sort(points.begin(), points.end());
-        return points;
-    }
-    void mark(const TetFace& face) {
-        std::atomic_ref<std::uint8_t>(overlapping_[static_cast<std::size_t>(face.tet)])
-            .store(1, std::memory_order_relaxed);
-    }
-
-    // Faces that share two points meet in an edge, or lie in one plane.
-    void mark_crossing() {
-        const auto faces = mesh_.open_faces();
-        std::atomic<std::int64_t> left{looks_a_face * std::ssize(faces)};
-        parallel_for(std::ssize(faces), faces_per_task, [&](std::int64_t index) {
-            const TetFace& face = faces[static_cast<std::size_t>(index)];
-            if (is_flat(face) || left <= 0) return;
-            std::int64_t looks = 0;
-            const Triangle here = mesh_.corners(face);
-            const FaceTree::Box box = FaceTree::box_around(here);
-            const auto points = points_of(face);
-            tree_.visit([&](const FaceTree::Box& other) { return meet(box, other); },
-                        [&](std::int32_t number) {
-                            if (number <= index) return;
-                            const TetFace& other = faces[static_cast<std::size_t>(number)];
-                            if (++looks > left || is_flat(other)) return;
-                            if (shared_points(points, points_of(other)) >= 2) return;
-                            const Triangle there = mesh_.corners(other);
-                            if (!meet(box, FaceTree::box_around(there))) return;
-                            if (!edge_pierces(here, there) && !edge_pierces(there, here)) return;
-                            mark(face);
-                            mark(other);
-                        });
-            left -= looks;
-        });
-    }
-    bool is_flat(const TetFace& face) const {
-        return std::ranges::binary_search(mesh_.flat_tets(), face.tet);
-    }
-    static int shared_points(const std::array<std::int32_t, 3>& a,
-                             const std::array<std::int32_t, 3>& b) {
-        int shared = 0;
-        for (const std::int32_t point : a) shared += std::ranges::count(b, point) > 0;
-        return shared;
-    }
-
-    // Marks faces that coincide: open faces with the same corners have two tets or more on one
-    // side.
-    void mark_shared() {
-        if (mesh_.findings().folded_faces + mesh_.findings().nonmanifold_faces == 0) return;
-        std::vector<std::int32_t> order(mesh_.open_faces().size());
-        for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
-        const auto face_of = [&](std::int32_t number) -> const TetFace& {
-            return mesh_.open_faces()[static_cast<std::size_t>(number)];
-        };
-        std::ranges::sort(order, {},
-                          [&](std::int32_t number) { return points_of(face_of(number)); });
-        for (std::size_t i = 1; i < order.size(); ++i) {
-            const TetFace &a = face_of(order[i - 1]), &b = face_of(order[i]);
-            if (points_of(a) != points_of(b)) continue;
-            mark(a);
-            mark(b);
-        }
-    }
-
-    // Marks parts that lie inside others. If no faces cross, a part is inside another one as a
-    // whole or not at all, so one line through each part suffices.
-    void mark_inner_parts() {
-        if (std::ranges::count(overlapping_, 1) > 0) return;
-        std::vector<char> seen(mesh_.tets().size());
-        std::vector<std::int32_t> waiting;
-        std::vector<TetFace> parts;  // a face of each
-        for (const TetFace& face : mesh_.open_faces()) {
-            if (seen[static_cast<std::size_t>(face.tet)]) continue;
-            visit_part(face.tet, seen, waiting);
-            parts.push_back(face);
-        }
-        if (parts.size() == 1) return;
-        const std::int64_t step = std::ssize(parts) / most_lines + 1;
-        parallel_for(std::ssize(parts) / step, lines_per_task, [&](std::int64_t index) {
-            const TetFace& face = parts[static_cast<std::size_t>(index * step)];
-            const auto [a, b, c] = mesh_.corners(face);
-            RayWalk walk(mesh_, tree_);
-            walk.aim((a + b + c) / 3.0, glm::cross(b - a, c - a));
-            if (walk.overlapping()) mark(face);
-        });
-    }
-    void visit_part(std::int32_t tet, std::vector<char>& seen, std::vector<std::int32_t>& waiting) {
-        waiting.assign(1, tet);
-        seen[static_cast<std::size_t>(tet)] = 1;
-        while (!waiting.empty()) {
-            const std::int32_t here = waiting.back();
-            waiting.pop_back();
-            for (const std::int32_t next : mesh_.neighbors()[static_cast<std::size_t>(here)]) {
-                if (next == TetMesh::no_neighbor || seen[static_cast<std::size_t>(next)]) continue;
-                seen[static_cast<std::size_t>(next)] = 1;
-                waiting.push_back(next);
-            }
-        }
-    }
-
-    const TetMesh& mesh_;
-    FaceTree tree_;
-    std::vector<std::uint8_t> overlapping_;
-};
-
-}  // namespace
 
 std::int64_t count_overlapping_tets(const TetMesh& mesh) {
     return OverlapSearch(mesh).count();

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/predicates.h"
 
-#include <array>
-#include <cmath>
 #include <limits>
 
 #include "base/arithmetic.h"
 
 namespace lamina {
-
 namespace {
 
 // Half an ulp of 1, which Shewchuk calls epsilon.
 constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
-// Shewchuk's error bound for orient3d with rounded differences ("o3derrboundA"), as a share of the
-// permanent.
+// Shewchuk's error bound for orient3d ("o3derrboundA"), as a share of the permanent.
 constexpr double error_bound = (7 + 56 * half_ulp) * half_ulp;
 
 // A sum of doubles without any rounding: nonoverlapping components, smallest first (Shewchuk,

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/ray_walk.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
-
 #include "mesh/predicates.h"
 
 // LAMINA_CLONE_FOR_FMA before a function compiles it for processors with fused multiply-add, too,
@@ -22,7 +17,6 @@
 #endif
 
 namespace lamina {
-
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -31,8 +25,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // before it: crossings are good to some epsilon of the distance, and meshes may touch themselves.
 constexpr double touching = 1e-12;
 
-// Computes a * b - c * d to 2 ulps (Kahan; Jeannerod, Louvet, Muller 2013), so that faces seen
-// edge-on keep their weights.
+// a * b - c * d to 2 ulps (Kahan; Jeannerod, Louvet, Muller 2013), for faces seen edge-on.
 LAMINA_IN_CLONES double difference_of_products(double a, double b, double c, double d) {
     const double cd = c * d;
     return std::fma(a, b, -cd) + std::fma(-c, d, cd);
@@ -55,14 +48,14 @@ Nearest nearest(double ax, double ay, double bx, double by) {
 void RayWalk::aim(const glm::dvec3& origin, const glm::dvec3& direction) {
     set_line(origin, direction);
     tree_.visit([&](const FaceTree::Box& box) { return meets(box); },
-                [&](std::int32_t index) { test_open_face(index); });
+                [&](std::int32_t index) { test_face(index); });
     sort_crossings();
 }
 
 void RayWalk::aim(const glm::dvec3& origin, const glm::dvec3& direction,
                   std::span<const std::int32_t> faces) {
     set_line(origin, direction);
-    for (const std::int32_t index : faces) test_open_face(index);
+    for (const std::int32_t index : faces) test_face(index);
     sort_crossings();
 }
 
@@ -84,12 +77,8 @@ void RayWalk::set_line(const glm::dvec3& origin, const glm::dvec3& direction) {
     exits_.clear();
 }
 
-void RayWalk::test_open_face(std::int32_t index) {
-    test_face(mesh_.open_faces()[static_cast<std::size_t>(index)]);
-}
-
 LAMINA_IN_CLONES RayWalk::Corner RayWalk::see(std::int32_t point) const {
-    const glm::dvec3 p = mesh_.points()[static_cast<std::size_t>(point)] - line_.origin;
+    const glm::dvec3 p = mesh_.points()[point] - line_.origin;
     return {point, glm::dot(p, line_.across_x), glm::dot(p, line_.across_y),
             glm::dot(p, line_.direction) / line_.direction_square, place_error * norm1(p)};
 }
@@ -100,15 +89,13 @@ LAMINA_IN_CLONES RayWalk::Side RayWalk::side(const Corner& a, const Corner& b) c
                          (std::abs(b.x) + std::abs(b.y)) * a.reach + epsilon * std::abs(area);
     if (area > error) return {area, 1};
     if (-area > error) return {area, -1};
-    const int sign = exact_side(mesh_.points()[static_cast<std::size_t>(a.point)],
-                                mesh_.points()[static_cast<std::size_t>(b.point)]);
+    const int sign = exact_side(mesh_.points()[a.point], mesh_.points()[b.point]);
     return {area * sign > 0 ? area : 0, sign};
 }
 
-// Returns the sign of det(d, p - o, q - o). If that is 0, returns the sign for the perturbed line:
-// moved by o += (e, e^2, e^3) and then turned by d += (f, f^2, f^3), with f infinitely smaller than
-// any power of e. The terms follow in the order of their size (E = q - p). For two points p != q
-// one of them is not 0.
+// Returns the sign of det(d, p - o, q - o); if 0, that for the line moved by o += (e, e^2, e^3) and
+// then turned by d += (f, f^2, f^3), with f infinitely smaller than any power of e. The terms
+// follow by size (E = q - p). For two points p != q one of them is not 0.
 int RayWalk::exact_side(const glm::dvec3& p, const glm::dvec3& q) const {
     const glm::dvec3 none(0);
     const glm::dvec3 &origin = line_.origin, &direction = line_.direction;
@@ -151,17 +138,15 @@ FaceCrossing RayWalk::crossing(const RayFront& front) {
             result.weights[j] = place.share;
         }
     }
-    // Parameters are taken relative to one corner's, so that no digits are lost far from the
-    // origin.
+    // Relative to one corner's, so that no digits are lost far from the origin.
     result.at = corners[0].at + (result.weights[1] * (corners[1].at - corners[0].at) +
                                  result.weights[2] * (corners[2].at - corners[0].at));
     return result;
 }
 
-// Returns the corners of a face, counter-clockwise for a line that comes in.
+// Counter-clockwise for a line that comes in.
 LAMINA_IN_CLONES std::array<RayWalk::Corner, 3> RayWalk::see_face(const TetFace& face) const {
-    const auto [a, b, c] = corners_of_face(mesh_.tets()[static_cast<std::size_t>(face.tet)],
-                                           static_cast<std::size_t>(face.face));
+    const auto [a, b, c] = corners_of_face(mesh_.tets()[face.tet], face.face);
     return {see(a), see(c), see(b)};
 }
 
@@ -176,8 +161,7 @@ LAMINA_CLONE_FOR_FMA RayFront RayWalk::front_of(const TetFace& face) const {
     return {corners, {first.area, second.area, third.area}};
 }
 
-// Tells whether the line passes the corners on one side of an axis across it, whatever their
-// rounding.
+// Tells whether the line surely passes all corners on one side of an axis across it.
 LAMINA_IN_CLONES bool RayWalk::passes(const std::array<Corner, 3>& p) {
     const double reach = std::max({p[0].reach, p[1].reach, p[2].reach});
     const auto aside = [&](double a, double b, double c) {
@@ -186,7 +170,8 @@ LAMINA_IN_CLONES bool RayWalk::passes(const std::array<Corner, 3>& p) {
     return aside(p[0].x, p[1].x, p[2].x) || aside(p[0].y, p[1].y, p[2].y);
 }
 
-LAMINA_CLONE_FOR_FMA void RayWalk::test_face(const TetFace& face) {
+LAMINA_CLONE_FOR_FMA void RayWalk::test_face(std::int32_t index) {
+    const TetFace& face = mesh_.open_faces()[index];
     const std::array<Corner, 3> corners = see_face(face);
     if (passes(corners)) return;
     const auto [first, second, third] = sides_of(corners);
@@ -222,13 +207,10 @@ void RayWalk::sort_crossings() {
     }
 }
 
-// Finds the face through which the line leaves. The line passes inside the front's three edges.
-// Turning about the line from corner to corner, the edges to the fourth corner change from one side
-// of the line to the other and back: the line leaves through the face of the two corners i, j
-// between which they change from negative to positive. The fourth corner replaces the corner that
-// the line leaves behind.
+// From corner to corner the edges to the fourth corner change sides of the line and back: it leaves
+// between the corners where they turn positive. The fourth corner replaces the third.
 LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, RayFront& front) const {
-    const Tet& tet = mesh_.tets()[static_cast<std::size_t>(segment.tet)];
+    const Tet& tet = mesh_.tets()[segment.tet];
     auto& [p, areas] = front;
     const Corner top = see(corner_opposite(tet, p[0].point, p[1].point, p[2].point));
     const std::array<Side, 3> to_top{side(p[0], top), side(p[1], top), side(p[2], top)};
@@ -241,7 +223,7 @@ LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, RayFront& f
     areas[k] = -to_top[i].area;
     segment.out = crossing(front);
     segment.out.at = std::max(segment.out.at, segment.in.at);
-    return mesh_.neighbors()[static_cast<std::size_t>(segment.tet)][face];
+    return mesh_.neighbors()[segment.tet][face];
 }
 
 void RayWalk::list(std::vector<TetSegment>& segments) const {

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <vector>
-
-#include <glm/vec3.hpp>
 #include "lamina/tet.h"
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
@@ -30,8 +23,7 @@ struct RayFront {
         double reach;  // bounds the rounding of x and y
     };
     std::array<Corner, 3> corners;  // counter-clockwise
-    // Twice the areas of the triangles of the line and the edges 01, 12 and 20. None is negative;
-    // an area is 0 if rounding alone made it negative.
+    // Twice the areas of the triangles of the line and edges 01, 12, 20: >= 0, up to rounding.
     std::array<double, 3> areas;
 };
 
@@ -41,7 +33,6 @@ inline std::int32_t corner_opposite(const Tet& tet, std::int32_t a, std::int32_t
     return tet[0] ^ tet[1] ^ tet[2] ^ tet[3] ^ a ^ b ^ c;  // the others cancel
 }
 
-// The crossing of a line with a face.
 struct FaceCrossing {
     std::array<std::int32_t, 3> corners;  // counter-clockwise seen along the line
     std::array<double, 3> weights;  // barycentric weights of the corners, >= 0; their sum is 1
@@ -49,23 +40,20 @@ struct FaceCrossing {
 
     // Interpolates one value a point linearly. Constant values stay exactly the same.
     double interpolate(std::span<const double> values) const {
-        const double first = values[static_cast<std::size_t>(corners[0])];
-        return first + (weights[1] * (values[static_cast<std::size_t>(corners[1])] - first) +
-                        weights[2] * (values[static_cast<std::size_t>(corners[2])] - first));
+        const double first = values[corners[0]];
+        return first + (weights[1] * (values[corners[1]] - first) +
+                        weights[2] * (values[corners[2]] - first));
     }
 };
 
-// The segment of a line inside one tet.
 struct TetSegment {
     std::int32_t tet;
     FaceCrossing in, out;  // in.at <= out.at
 };
 
-// Finds the tets that a line passes, from open face to open face through the neighbours. Every face
-// is decided exactly, so that no line leaks between two tets, through an edge or through a point. A
-// line that meets an edge or a point is displaced by an infinitesimal amount that is the same for
-// all tets (simulation of simplicity, Edelsbrunner and Muecke 1990). Each thread needs its own
-// object, which keeps its memory from line to line.
+// Finds the tets that a line passes. Every face is decided exactly, so no line leaks between two
+// tets. A line that meets an edge or a point is displaced by an infinitesimal amount (simulation of
+// simplicity, Edelsbrunner and Muecke 1990). Each thread needs its own object.
 class RayWalk {
   public:
     RayWalk(const TetMesh& mesh, const FaceTree& open_faces) : mesh_(mesh), tree_(open_faces) {}
@@ -77,7 +65,7 @@ class RayWalk {
 
     // Sets the line and finds where it enters and leaves the mesh.
     void aim(const glm::dvec3& origin, const glm::dvec3& direction);
-    // Sets the line, too. `faces`: open faces by their indices, among them all that the line meets.
+    // `faces`: indices of open faces, among them all that the line meets.
     void aim(const glm::dvec3& origin, const glm::dvec3& direction,
              std::span<const std::int32_t> faces);
     const LineFrame& line() const { return line_; }
@@ -87,12 +75,10 @@ class RayWalk {
         double at;
     };
     std::span<const Entry> entries() const { return entries_; }  // ascending
-    // Tells whether the mesh overlaps itself along this line: the line enters again before it has
-    // left.
+    // Tells whether the mesh overlaps itself there: the line enters again before it has left.
     bool overlapping() const { return overlapping_; }
 
-    // Calls visit(TetSegment) from the entry on until the line leaves the mesh, or until visit
-    // returns false.
+    // Calls visit(TetSegment) until the line leaves the mesh, or visit returns false.
     template <typename Visit>
     void follow(const Entry& entry, const Visit& visit) const {
         RayFront front = front_of(entry.face);
@@ -106,11 +92,9 @@ class RayWalk {
         }
     }
 
-    // follow() in two steps: the face through which the line enters, ...
     RayFront front_of(const TetFace& face) const;
     static FaceCrossing crossing(const RayFront& front);
-    // ... and one tet. Fills in how the line leaves segment.tet, and moves the front there; returns
-    // the tet behind, or TetMesh::no_neighbor.
+    // Fills in how the line leaves segment.tet, and moves the front there. Returns the tet behind.
     std::int32_t step(TetSegment& segment, RayFront& front) const;
 
     // Lists all segments of all entries, in ascending order of their entry.
@@ -118,8 +102,7 @@ class RayWalk {
 
   private:
     using Corner = RayFront::Corner;
-    // The side of the line on which the edge from a to b passes, and twice the area of the triangle
-    // of the line, a and b.
+    // The side of the line on which the edge from a to b passes.
     struct Side {
         double area;  // has the sign below, or is 0 if rounding gave the other sign
         int sign;     // exact, never 0
@@ -131,10 +114,9 @@ class RayWalk {
     std::array<Corner, 3> see_face(const TetFace& face) const;
     std::array<Side, 3> sides_of(const std::array<Corner, 3>& corners) const;
     static bool passes(const std::array<Corner, 3>& corners);
-    void test_face(const TetFace& face);
     bool meets(const FaceTree::Box& box) const;
     void set_line(const glm::dvec3& origin, const glm::dvec3& direction);
-    void test_open_face(std::int32_t index);
+    void test_face(std::int32_t index);  // an open face
     void sort_crossings();
 
     const TetMesh& mesh_;

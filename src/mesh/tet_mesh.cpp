@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/tet_mesh.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,12 +14,11 @@
 #include "mesh/predicates.h"
 
 namespace lamina {
-
 namespace {
 
 constexpr std::int64_t points_per_task = 1024;
 
-// A face in the bucket of its least corner. `code` is 4 * tet + face.
+// A face in the bucket of its least corner; code: 4 * tet + face.
 struct FaceKey {
     std::int32_t middle, largest;
     std::uint32_t code;
@@ -65,14 +59,23 @@ FaceBuckets fill_buckets(std::span<const Tet> tets, std::size_t point_count) {
     for (std::size_t tet = 0; tet < tets.size(); ++tet) {
         for (std::size_t face = 0; face < 4; ++face) {
             const auto [least, middle, largest] = ascending_corners(tets[tet], face);
-            buckets.faces[next[static_cast<std::size_t>(least)]++] = {
-                middle, largest, static_cast<std::uint32_t>(4 * tet + face)};
+            buckets.faces[next[least]++] = {middle, largest,
+                                            static_cast<std::uint32_t>(4 * tet + face)};
         }
     }
     return buckets;
 }
 
-// The counts of one bucket.
+// The tet across each face, found by corner indices alone. Faces of three or more tets have none.
+struct FaceMatching {
+    // Tet across face i; -1 if there is none.
+    std::vector<std::array<std::int32_t, 4>> neighbors;
+    // Tets with the same corners as an earlier tet, ascending.
+    std::vector<std::int32_t> duplicates;
+    std::int64_t boundary_faces = 0;     // number of faces of one tet
+    std::int64_t nonmanifold_faces = 0;  // number of faces of three or more tets
+};
+
 struct BucketCounts {
     std::int32_t boundary = 0, nonmanifold = 0;
 };
@@ -108,15 +111,9 @@ class Matcher {
     }
 
   private:
-    std::int32_t& across(const FaceKey& key) {
-        return matching_.neighbors[static_cast<std::size_t>(key.tet())][key.face()];
-    }
-    std::int32_t opposite(const FaceKey& key) const {
-        return tets_[static_cast<std::size_t>(key.tet())][key.face()];
-    }
-    // Tets with a common face and the same opposite corner are the same tet. They are marked only
-    // at the face opposite their largest corner, in the bucket of their least one, so that no two
-    // tasks write one mark.
+    std::int32_t& across(const FaceKey& key) { return matching_.neighbors[key.tet()][key.face()]; }
+    std::int32_t opposite(const FaceKey& key) const { return tets_[key.tet()][key.face()]; }
+    // Marked only at the face opposite the largest corner: no two tasks write one mark.
     void mark_duplicates(std::span<const FaceKey> group) {
         std::vector<FaceKey> by_apex(group.begin(), group.end());
         std::sort(by_apex.begin(), by_apex.end(), [&](const FaceKey& a, const FaceKey& b) {
@@ -124,10 +121,10 @@ class Matcher {
         });
         for (std::size_t i = 1; i < by_apex.size(); ++i) {
             const std::int32_t apex = opposite(by_apex[i]);
-            const Tet& tet = tets_[static_cast<std::size_t>(by_apex[i].tet())];
+            const Tet& tet = tets_[by_apex[i].tet()];
             if (apex == opposite(by_apex[i - 1]) &&
                 apex == *std::max_element(tet.begin(), tet.end()))
-                duplicate_[static_cast<std::size_t>(by_apex[i].tet())] = 1;
+                duplicate_[by_apex[i].tet()] = 1;
         }
     }
 
@@ -135,37 +132,6 @@ class Matcher {
     FaceMatching& matching_;
     std::vector<char> duplicate_;
 };
-
-}  // namespace
-
-FaceMatching match_faces(std::span<const Tet> tets, std::size_t point_count) {
-    FaceMatching matching;
-    matching.neighbors.assign(tets.size(), {-1, -1, -1, -1});
-    FaceBuckets buckets = fill_buckets(tets, point_count);
-    Matcher matcher(tets, matching);
-    const auto points = static_cast<std::int64_t>(point_count);
-    const std::int64_t tasks = (points + points_per_task - 1) / points_per_task;
-    std::vector<BucketCounts> counts(static_cast<std::size_t>(tasks));
-    parallel_for(tasks, 1, [&](std::int64_t task) {
-        const std::int64_t end = std::min(points, (task + 1) * points_per_task);
-        for (auto point = static_cast<std::size_t>(task * points_per_task);
-             point < static_cast<std::size_t>(end); ++point) {
-            const std::uint32_t from = buckets.start[point], to = buckets.start[point + 1];
-            const BucketCounts found =
-                matcher.match(std::span(buckets.faces).subspan(from, to - from));
-            counts[static_cast<std::size_t>(task)].boundary += found.boundary;
-            counts[static_cast<std::size_t>(task)].nonmanifold += found.nonmanifold;
-        }
-    });
-    for (const BucketCounts& found : counts) {
-        matching.boundary_faces += found.boundary;
-        matching.nonmanifold_faces += found.nonmanifold;
-    }
-    matching.duplicates = matcher.duplicates();
-    return matching;
-}
-
-namespace {
 
 constexpr std::int64_t grain = 4096;                     // tets a task
 constexpr std::size_t most_tets = std::size_t{1} << 29;  // four faces each must fit 32 bits
@@ -183,8 +149,7 @@ bool repeats_corner(Tet corners) {
     return std::adjacent_find(corners.begin(), corners.end()) != corners.end();
 }
 
-// Tells whether two neighbours lie on the two sides of their common face, by the order of its
-// corners. `face`: the face of `tet` opposite the corner that `other` lacks.
+// `face`: the one of `tet` opposite the corner that `other` lacks.
 bool opposite_sides(const Tet& tet, std::size_t face, const Tet& other) {
     const auto [p, q, r] = corners_of_face(tet, face);
     std::size_t apex = 0;
@@ -199,6 +164,55 @@ void turn(Tet& tet, std::array<std::int32_t, 4>& neighbors) {
     std::swap(neighbors[2], neighbors[3]);
 }
 
+struct Weighted {
+    glm::dvec3 sum{0};  // gradient times six volumes
+    double weight = 0;
+};
+
+// Lengths are in units of `unit`. Nothing is divided by the volume of a sliver.
+Weighted weighted_gradient(const TetMesh& mesh, std::span<const double> scalar, const Tet& tet,
+                           double unit) {
+    const auto point = [&](std::size_t i) { return mesh.points()[tet[i]]; };
+    const auto value = [&](std::size_t i) { return scalar[tet[i]]; };
+    const glm::dvec3 a = (point(1) - point(0)) / unit, b = (point(2) - point(0)) / unit,
+                     c = (point(3) - point(0)) / unit;
+    const glm::dvec3 bc = glm::cross(b, c);
+    const double weight = glm::dot(a, bc);
+    const glm::dvec3 sum = (value(1) - value(0)) * bc + (value(2) - value(0)) * glm::cross(c, a) +
+                           (value(3) - value(0)) * glm::cross(a, b);
+    // Tets are positively oriented; the rounded volume of those next to flat may not be.
+    if (!(weight > 0) || !std::isfinite(sum.x + sum.y + sum.z)) return {};
+    return {sum, weight};
+}
+
+// Matches faces by sorting, with 48 bytes a tet of memory. Corners of a tet must differ.
+FaceMatching match_faces(std::span<const Tet> tets, std::size_t point_count) {
+    FaceMatching matching;
+    matching.neighbors.assign(tets.size(), {-1, -1, -1, -1});
+    FaceBuckets buckets = fill_buckets(tets, point_count);
+    Matcher matcher(tets, matching);
+    const auto points = static_cast<std::int64_t>(point_count);
+    const std::int64_t tasks = (points + points_per_task - 1) / points_per_task;
+    std::vector<BucketCounts> counts(static_cast<std::size_t>(tasks));
+    parallel_for(tasks, 1, [&](std::int64_t task) {
+        const std::int64_t end = std::min(points, (task + 1) * points_per_task);
+        for (auto point = static_cast<std::size_t>(task * points_per_task);
+             point < static_cast<std::size_t>(end); ++point) {
+            const std::uint32_t from = buckets.start[point], to = buckets.start[point + 1];
+            const BucketCounts found =
+                matcher.match(std::span(buckets.faces).subspan(from, to - from));
+            counts[task].boundary += found.boundary;
+            counts[task].nonmanifold += found.nonmanifold;
+        }
+    });
+    for (const BucketCounts& found : counts) {
+        matching.boundary_faces += found.boundary;
+        matching.nonmanifold_faces += found.nonmanifold;
+    }
+    matching.duplicates = matcher.duplicates();
+    return matching;
+}
+
 }  // namespace
 
 TetMesh::TetMesh(MeshData data, const std::string& name)
@@ -207,17 +221,16 @@ TetMesh::TetMesh(MeshData data, const std::string& name)
       point_scalars_(std::move(data.point_scalars)),
       cell_scalars_(std::move(data.cell_scalars)) {
     findings_.cells = data.cells;
-    findings_.tets_read = static_cast<std::int64_t>(tets_.size());
+    findings_.tets_read = std::ssize(tets_);
     check_corners(name);
     drop_repeated_corners();
     if (tets_.empty()) fail("{}: all {} tets repeat a corner", name, findings_.tets_read);
     check_points(name);
     FaceMatching matching = match_faces(tets_, points_.size());
     if (!matching.duplicates.empty()) {
-        findings_.duplicates = static_cast<std::int64_t>(matching.duplicates.size());
+        findings_.duplicates = std::ssize(matching.duplicates);
         std::vector<char> dropped(tets_.size(), 0);
-        for (const std::int32_t tet : matching.duplicates)
-            dropped[static_cast<std::size_t>(tet)] = 1;
+        for (const std::int32_t tet : matching.duplicates) dropped[tet] = 1;
         drop(dropped);
         matching = match_faces(tets_, points_.size());
     }
@@ -231,10 +244,8 @@ TetMesh::TetMesh(MeshData data, const std::string& name)
 }
 
 std::array<glm::dvec3, 3> TetMesh::corners(const TetFace& face) const {
-    const auto [a, b, c] = corners_of_face(tets_[static_cast<std::size_t>(face.tet)],
-                                           static_cast<std::size_t>(face.face));
-    return {points_[static_cast<std::size_t>(a)], points_[static_cast<std::size_t>(b)],
-            points_[static_cast<std::size_t>(c)]};
+    const auto [a, b, c] = corners_of_face(tets_[face.tet], face.face);
+    return {points_[a], points_[b], points_[c]};
 }
 
 void TetMesh::check_corners(const std::string& name) const {
@@ -245,7 +256,7 @@ void TetMesh::check_corners(const std::string& name) const {
         for (const std::int32_t corner : tets_[tet]) {
             if (corner < 0 || static_cast<std::size_t>(corner) >= points_.size())
                 fail("{}: tet {} has corner {}, expected 0 to {}", name, tet, corner,
-                     static_cast<std::int64_t>(points_.size()) - 1);
+                     std::ssize(points_) - 1);
         }
     }
 }
@@ -253,7 +264,7 @@ void TetMesh::check_corners(const std::string& name) const {
 void TetMesh::check_points(const std::string& name) {
     std::vector<char> used(points_.size(), 0);
     for (const Tet& tet : tets_) {
-        for (const std::int32_t corner : tet) used[static_cast<std::size_t>(corner)] = 1;
+        for (const std::int32_t corner : tet) used[corner] = 1;
     }
     bounds_ = {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -296,11 +307,8 @@ void TetMesh::drop_repeated_corners() {
 void TetMesh::orient() {
     std::vector<char> flat(tets_.size(), 0);
     std::atomic<std::int64_t> inverted{0};
-    parallel_for(static_cast<std::int64_t>(tets_.size()), grain, [&](std::int64_t index) {
-        const auto i = static_cast<std::size_t>(index);
-        const auto at = [&](std::size_t k) {
-            return points_[static_cast<std::size_t>(tets_[i][k])];
-        };
+    parallel_for(std::ssize(tets_), grain, [&](std::size_t i) {
+        const auto at = [&](std::size_t k) { return points_[tets_[i][k]]; };
         const int sign = orientation(at(0), at(1), at(2), at(3));
         flat[i] = sign == 0;
         if (sign >= 0) return;
@@ -311,13 +319,13 @@ void TetMesh::orient() {
     for (std::size_t tet = 0; tet < flat.size(); ++tet) {
         if (flat[tet] != 0) flat_.push_back(static_cast<std::int32_t>(tet));
     }
-    findings_.degenerate += static_cast<std::int64_t>(flat_.size());
+    findings_.degenerate += std::ssize(flat_);
 }
 
 // Orients flat tets, which have no orientation of their own, so that they agree with a neighbour.
 void TetMesh::orient_flat() {
     std::vector<char> open(tets_.size(), 0);
-    for (const std::int32_t tet : flat_) open[static_cast<std::size_t>(tet)] = 1;
+    for (const std::int32_t tet : flat_) open[tet] = 1;
     std::vector<std::int32_t> waiting = flat_;
     for (bool progress = true; progress && !waiting.empty();) {
         std::vector<std::int32_t> left;
@@ -325,14 +333,14 @@ void TetMesh::orient_flat() {
             const auto tet = static_cast<std::size_t>(index);
             std::size_t face = 0;
             const auto oriented = [&](std::int32_t other) {
-                return other != no_neighbor && open[static_cast<std::size_t>(other)] == 0;
+                return other != no_neighbor && open[other] == 0;
             };
             while (face < 4 && !oriented(neighbors_[tet][face])) ++face;
             if (face == 4) {
                 left.push_back(index);
                 continue;
             }
-            const Tet& other = tets_[static_cast<std::size_t>(neighbors_[tet][face])];
+            const Tet& other = tets_[neighbors_[tet][face]];
             if (!opposite_sides(tets_[tet], face, other)) turn(tets_[tet], neighbors_[tet]);
             open[tet] = 0;
         }
@@ -343,12 +351,11 @@ void TetMesh::orient_flat() {
 
 void TetMesh::cut_folded_faces() {
     std::atomic<std::int64_t> folded{0};
-    parallel_for(static_cast<std::int64_t>(tets_.size()), grain, [&](std::int64_t index) {
-        const auto tet = static_cast<std::size_t>(index);
+    parallel_for(std::ssize(tets_), grain, [&](std::size_t tet) {
         for (std::size_t face = 0; face < 4; ++face) {
             const std::int32_t other = neighbors_[tet][face];
             if (other == no_neighbor) continue;
-            if (opposite_sides(tets_[tet], face, tets_[static_cast<std::size_t>(other)])) continue;
+            if (opposite_sides(tets_[tet], face, tets_[other])) continue;
             neighbors_[tet][face] = no_neighbor;
             folded.fetch_add(1, std::memory_order_relaxed);
         }
@@ -376,7 +383,7 @@ MeshScalar average_to_points(std::size_t point_count, std::span<const Tet> tets,
     MeshScalar result{scalar.name, std::vector<double>(point_count, 0.0)};
     std::vector<std::int32_t> around(point_count, 0);
     for (const Tet& tet : tets) {
-        for (const std::int32_t corner : tet) ++around[static_cast<std::size_t>(corner)];
+        for (const std::int32_t corner : tet) ++around[corner];
     }
     for (std::size_t i = 0; i < tets.size(); ++i) {
         for (const std::int32_t corner : tets[i]) {
@@ -391,34 +398,6 @@ MeshScalar average_to_points(std::size_t point_count, std::span<const Tet> tets,
     return result;
 }
 
-namespace {
-
-struct Weighted {
-    glm::dvec3 sum{0};  // gradient times six volumes
-    double weight = 0;
-};
-
-// Returns the weighted gradient of one tet, with lengths in units of `unit`. The gradient times the
-// volume is a sum of products: nothing is divided by the volume of a sliver.
-Weighted weighted_gradient(const TetMesh& mesh, std::span<const double> scalar, const Tet& tet,
-                           double unit) {
-    const auto point = [&](std::size_t i) {
-        return mesh.points()[static_cast<std::size_t>(tet[i])];
-    };
-    const auto value = [&](std::size_t i) { return scalar[static_cast<std::size_t>(tet[i])]; };
-    const glm::dvec3 a = (point(1) - point(0)) / unit, b = (point(2) - point(0)) / unit,
-                     c = (point(3) - point(0)) / unit;
-    const glm::dvec3 bc = glm::cross(b, c);
-    const double weight = glm::dot(a, bc);
-    const glm::dvec3 sum = (value(1) - value(0)) * bc + (value(2) - value(0)) * glm::cross(c, a) +
-                           (value(3) - value(0)) * glm::cross(a, b);
-    // Tets are positively oriented; the rounded volume of those next to flat may not be.
-    if (!(weight > 0) || !std::isfinite(sum.x + sum.y + sum.z)) return {};
-    return {sum, weight};
-}
-
-}  // namespace
-
 std::vector<glm::dvec3> point_gradients(const TetMesh& mesh, std::span<const double> scalar) {
     const double unit = glm::distance(mesh.bounds().min, mesh.bounds().max);
     std::vector<Weighted> points(mesh.points().size());
@@ -426,7 +405,7 @@ std::vector<glm::dvec3> point_gradients(const TetMesh& mesh, std::span<const dou
         const Weighted one = weighted_gradient(mesh, scalar, tet, unit);
         if (!(one.weight > 0)) continue;
         for (const std::int32_t corner : tet) {
-            Weighted& point = points[static_cast<std::size_t>(corner)];
+            Weighted& point = points[corner];
             point.sum += one.sum;
             point.weight += one.weight;
         }

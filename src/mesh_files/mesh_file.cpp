@@ -3,22 +3,15 @@
 
 #include <algorithm>
 #include <string>
-#include <vector>
 
 #include "base/error.h"
 #include "base/input_file.h"
-#include "mesh_files/node_ele.h"
-#include "mesh_files/vtk_legacy.h"
-#include "mesh_files/vtu.h"
+#include "mesh_files/mesh_formats.h"
 
 namespace lamina {
-
 namespace {
 
 using Path = std::filesystem::path;
-
-// The text that legacy VTK files begin with.
-constexpr const char* vtk_magic = "# vtk DataFile";
 
 MeshData read_first_of_pvd(const Path& path) {
     return read_pvd(path, 0);
@@ -26,47 +19,28 @@ MeshData read_first_of_pvd(const Path& path) {
 
 struct MeshFormat {
     MeshData (*read)(const Path&);
-    bool (*holds)(const std::string& beginning);
+    const char* mark;  // in the beginning of a VTK XML file; null: other files
     std::vector<std::string> extensions;
 };
 
-bool is_vtk(const std::string& beginning) {
-    return beginning.starts_with(vtk_magic);
-}
-
-// Returns the beginning of the VTKFile element of a VTK XML file, or nothing.
-std::string vtk_xml_tag(const std::string& beginning) {
+// Tells a file by its beginning. TetGen's files are numbers, which could mean anything.
+bool holds(const MeshFormat& format, const std::string& beginning) {
+    if (format.read == read_vtk) return beginning.starts_with("# vtk DataFile");
     const std::size_t tag = beginning.find("<VTKFile");
-    return tag == std::string::npos ? "" : beginning.substr(tag);
-}
-
-bool is_pvtu(const std::string& beginning) {
-    return vtk_xml_tag(beginning).find("PUnstructuredGrid") != std::string::npos;
-}
-
-bool is_vtu(const std::string& beginning) {
-    return vtk_xml_tag(beginning).find("UnstructuredGrid") != std::string::npos;
-}
-
-bool is_pvd(const std::string& beginning) {
-    return vtk_xml_tag(beginning).find("\"Collection\"") != std::string::npos;
-}
-
-// TetGen's files are numbers, which could mean anything.
-bool is_node_ele(const std::string& /*beginning*/) {
-    return false;
+    return format.mark != nullptr && tag != std::string::npos &&
+           beginning.find(format.mark, tag) != std::string::npos;
 }
 
 const MeshFormat* find_format(const Path& path) {
     expect_allowed(path);
-    static const std::vector<MeshFormat> formats{{read_pvtu, is_pvtu, {".pvtu"}},
-                                                 {read_vtu, is_vtu, {".vtu"}},
-                                                 {read_first_of_pvd, is_pvd, {".pvd"}},
-                                                 {read_vtk, is_vtk, {".vtk"}},
-                                                 {read_node_ele, is_node_ele, {".node", ".ele"}}};
+    static const std::vector<MeshFormat> formats{{read_pvtu, "PUnstructuredGrid", {".pvtu"}},
+                                                 {read_vtu, "UnstructuredGrid", {".vtu"}},
+                                                 {read_first_of_pvd, "\"Collection\"", {".pvd"}},
+                                                 {read_vtk, nullptr, {".vtk"}},
+                                                 {read_node_ele, nullptr, {".node", ".ele"}}};
     const std::string beginning = file_beginning(path, 512);
     for (const MeshFormat& format : formats) {
-        if (format.holds(beginning)) return &format;
+        if (holds(format, beginning)) return &format;
     }
     for (const MeshFormat& format : formats) {
         if (std::ranges::count(format.extensions, path.extension().string()) > 0) return &format;

@@ -17,7 +17,7 @@ bool is_mesh_file(const std::filesystem::path& path);
 // Reads a mesh: a VTK XML or legacy VTK unstructured grid; one in several files, which a .pvtu
 // names; one step of a .pvd; or TetGen's pair of .node and .ele (either name stands for both).
 // Pieces are joined (mesh_files/mesh_assembly.h). Hexahedra, voxels, wedges and pyramids are cut
-// into tets (mesh_files/cell_split.h), quadratic cells are straightened; cells without volume are
+// into tets (split_cell()), quadratic cells are straightened; cells without volume are
 // counted. Point and cell arrays of one component become scalars, and those of three components the
 // lengths of their vectors and three scalars NAME.x, .y and .z. Other arrays are skipped. All
 // corner indices of the result are in range. `time`: the step, counted from 0 in the order of time;
@@ -40,7 +40,7 @@ void write_vtu(AtomicFile& file, const MeshData& mesh);
 
 // Write TetGen's pair of files, counted from 1, with 17 digits. Point scalars become point
 // attributes and cell scalars become attributes of the tets; comments hold their names
-// (mesh_files/node_ele.h).
+// (mesh_files/mesh_formats.h).
 void write_node(AtomicFile& file, const MeshData& mesh);
 void write_ele(AtomicFile& file, const MeshData& mesh);
 

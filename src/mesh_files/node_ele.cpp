@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // TetGen's manual, section 5.2, describes the formats.
-#include "mesh_files/node_ele.h"
+#include "mesh_files/mesh_formats.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/client.h"
 #include "base/error.h"

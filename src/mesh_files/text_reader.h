@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -15,9 +17,6 @@
 #include "base/value_type.h"
 
 namespace lamina {
-
-// Warns of the characters of `text` that are not blanks. `behind`: names what ends before it.
-void warn_of_surplus(const std::string& what, std::string_view text, const char* behind);
 
 // Reads words and numbers from a text, independently of the locale.
 class TextReader {
@@ -44,11 +43,26 @@ class TextReader {
     const char* here() const { return at_; }
     void skip(std::size_t count) { at_ += count; }  // at most left()
 
-    // The number of the line of the last word read; the first has number 1.
-    std::size_t line_number() const;
+    // Returns the number of the line of the last word read; the first has number 1.
+    std::size_t line_number() const {
+        return static_cast<std::size_t>(std::count(begin_, at_, '\n')) + 1;
+    }
 
-    std::string_view word();  // empty at the end
-    std::string_view line();  // from here to the newline, which is skipped
+    // Returns the next word, or nothing at the end.
+    std::string_view word() {
+        if (at_end()) return {};
+        const char* const first = at_;
+        at_ = std::find_if(at_, end_, is_blank);
+        return {first, static_cast<std::size_t>(at_ - first)};
+    }
+
+    // Returns the text from here to the newline, which is skipped.
+    std::string_view line() {
+        const char* const first = at_;
+        const char* const stop = std::find(at_, end_, '\n');
+        at_ = stop == end_ ? stop : stop + 1;
+        return {first, static_cast<std::size_t>(stop - first)};
+    }
 
     // Reads the next word as a T and moves past it. If the word is no T or does not fit, returns
     // false and does not move. Numbers too small for a floating-point type become 0; "nan" and
@@ -80,10 +94,29 @@ class TextReader {
 };
 
 // Returns the next word for messages: "'abc'", shortened if it is long, or "the end".
-std::string next_word(TextReader reader);
+inline std::string next_word(TextReader reader) {
+    constexpr std::size_t longest = 40;
+    const std::string_view word = reader.word();
+    if (word.empty()) return "the end";
+    std::string text;
+    for (const char c : word.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
+    return "'" + text + (word.size() > longest ? "...'" : "'");
+}
+
+// Warns of the characters of `text` that are not blanks. `behind`: names what ends before it.
+inline void warn_of_surplus(const std::string& what, std::string_view text, const char* behind) {
+    const auto surplus = std::ranges::count_if(text, std::not_fn(TextReader::is_blank));
+    if (surplus == 0) return;
+    warn(fmt::format("{}: found {} bytes behind {}, expected none: they are not used", what,
+                     surplus, behind));
+}
 
 // Returns the name that VTK XML files give a type: "Float32".
-const char* vtk_name_of(ValueType type);
+inline const char* vtk_name_of(ValueType type) {
+    static constexpr const char* names[] = {"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
+                                            "UInt32", "Int64", "UInt64", "Float32", "Float64"};
+    return names[static_cast<std::size_t>(type)];
+}
 
 // Reads `count` numbers of `type`. Throws Error. `what`: names the file and the array in messages.
 template <typename To>

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // "VTK File Formats" (the VTK User's Guide) and, for what it does not say, vtkDataReader.cxx.
-#include "mesh_files/vtk_legacy.h"
+#include "mesh_files/mesh_formats.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/input_file.h"
@@ -25,45 +23,6 @@ namespace {
 struct VtkType {
     enum class Kind { number, bit, string } kind = Kind::number;
     ValueType value = ValueType::float32;
-};
-
-// Reads words, numbers and arrays of a legacy VTK file. Throws Error. Messages name the file and
-// the position: a line of an ASCII file, a byte of a binary one.
-class VtkTokens {
-  public:
-    VtkTokens(std::string file, std::string_view text) : file_(std::move(file)), reader_(text) {}
-
-    const std::string& file() const { return file_; }
-    std::string_view line() { return reader_.line(); }
-    void set_binary(bool binary) { binary_ = binary; }
-
-    std::string where() const;             // "FILE: line 12" or "FILE: byte 345"
-    std::string keyword();                 // the next word in lower case; empty at the end
-    std::string name();                    // name of an array, with %20 and the like decoded
-    std::int64_t count(const char* what);  // a whole number >= 0
-    // Reads such a number if the line has more words, else returns `otherwise`.
-    std::int64_t count_in_line(std::int64_t otherwise);
-    VtkType type();
-
-    // Reads `count` numbers. In a binary file they begin on the next line and are big endian.
-    template <typename To>
-    std::vector<To> values(ValueType type, std::int64_t count, const std::string& what) {
-        const std::string place = file_ + ": " + what;
-        if (!binary_) return read_text_values<To>(reader_, type, count, place);
-        const char* const bytes = take(count, bytes_of(type), place);
-        return values_from_bytes<To>(type, bytes, static_cast<std::size_t>(count),
-                                     std::endian::native == std::endian::little);
-    }
-    void skip_values(VtkType type, std::int64_t count, const std::string& what);
-    void skip_metadata();  // skips the lines up to an empty one
-
-  private:
-    const char* take(std::int64_t count, std::size_t size, const std::string& what);
-    void skip_strings(std::int64_t count, const std::string& what);
-
-    std::string file_;
-    TextReader reader_;
-    bool binary_ = false;
 };
 
 std::string lower(std::string_view text) {
@@ -101,119 +60,153 @@ constexpr std::array<NamedType, 18> named_types{{
     {"double", {of_numbers, ValueType::float64}},
 }};
 
-std::string VtkTokens::where() const {
-    if (binary_) return fmt::format("{}: byte {}", file_, reader_.position());
-    return fmt::format("{}: line {}", file_, reader_.line_number());
-}
+// Reads words, numbers and arrays of a legacy VTK file. Throws Error. Messages name the file and
+// the position: a line of an ASCII file, a byte of a binary one.
+class VtkTokens {
+  public:
+    VtkTokens(std::string file, std::string_view text) : file_(std::move(file)), reader_(text) {}
 
-std::string VtkTokens::keyword() {
-    constexpr std::size_t longest = 40;  // keywords are shorter: longer words are binary data
-    return lower(reader_.word().substr(0, longest));
-}
+    const std::string& file() const { return file_; }
+    std::string_view line() { return reader_.line(); }
+    void set_binary(bool binary) { binary_ = binary; }
 
-std::string VtkTokens::name() {
-    const std::string_view coded = reader_.word();
-    if (coded.empty()) fail("{}: found the end, expected the name of an array", where());
-    std::string name;
-    for (std::size_t i = 0; i < coded.size(); ++i) {
-        unsigned char code = 0;
-        const char* const hex = coded.data() + i + 1;
-        if (coded[i] == '%' && i + 2 < coded.size() &&
-            std::from_chars(hex, hex + 2, code, 16).ptr == hex + 2) {
-            name += static_cast<char>(code);
-            i += 2;
-        } else {
-            name += coded[i];
-        }
+    // Returns "FILE: line 12" or "FILE: byte 345".
+    std::string where() const {
+        if (binary_) return fmt::format("{}: byte {}", file_, reader_.position());
+        return fmt::format("{}: line {}", file_, reader_.line_number());
     }
-    return one_line(name);
-}
 
-std::int64_t VtkTokens::count(const char* what) {
-    std::int64_t count = 0;
-    TextReader before = reader_;
-    if (!reader_.read(count) || count < 0) {
-        fail("{}: {}: found {}, expected a whole number >= 0", where(), what, next_word(before));
+    // Returns the next word in lower case; empty at the end.
+    std::string keyword() {
+        constexpr std::size_t longest = 40;  // keywords are shorter: longer words are binary data
+        return lower(reader_.word().substr(0, longest));
     }
-    return count;
-}
 
-std::int64_t VtkTokens::count_in_line(std::int64_t otherwise) {
-    return reader_.line_goes_on() ? count("number of components") : otherwise;
-}
-
-VtkType VtkTokens::type() {
-    TextReader before = reader_;
-    const std::string name = keyword();
-    const auto found = std::ranges::find(named_types, name, &NamedType::name);
-    if (found == named_types.end()) {
-        fail("{}: found {}, expected a type of numbers (float, double, int, ...)", where(),
-             next_word(before));
-    }
-    return found->type;
-}
-
-const char* VtkTokens::take(std::int64_t count, std::size_t size, const std::string& what) {
-    reader_.line();
-    if (static_cast<std::uint64_t>(count) > reader_.left() / size) {
-        fail("{}: found {} bytes before the end of the file, expected {} numbers of {} bytes", what,
-             reader_.left(), count, size);
-    }
-    const char* const bytes = reader_.here();
-    reader_.skip(static_cast<std::size_t>(count) * size);
-    return bytes;
-}
-
-void VtkTokens::skip_values(VtkType type, std::int64_t count, const std::string& what) {
-    const std::string place = file_ + ": " + what;
-    if (type.kind == VtkType::Kind::string) {
-        skip_strings(count, place);
-    } else if (!binary_) {
-        for (std::int64_t i = 0; i < count; ++i) {
-            if (reader_.word().empty()) {
-                fail("{}: found {} values before the end of the file, expected {}", place, i,
-                     count);
+    // Returns the name of an array, with %20 and the like decoded.
+    std::string name() {
+        const std::string_view coded = reader_.word();
+        if (coded.empty()) fail("{}: found the end, expected the name of an array", where());
+        std::string name;
+        for (std::size_t i = 0; i < coded.size(); ++i) {
+            unsigned char code = 0;
+            const char* const hex = coded.data() + i + 1;
+            if (coded[i] == '%' && i + 2 < coded.size() &&
+                std::from_chars(hex, hex + 2, code, 16).ptr == hex + 2) {
+                name += static_cast<char>(code);
+                i += 2;
+            } else {
+                name += coded[i];
             }
         }
-    } else if (type.kind == VtkType::Kind::bit) {
-        take(count / 8 + (count % 8 != 0 ? 1 : 0), 1, place);
-    } else {
-        take(count, bytes_of(type.value), place);
+        return one_line(name);
     }
-}
 
-// Skips strings, which vtkDataWriter writes one a line. In binary files each follows its length,
-// which takes 1, 2, 4 or 8 bytes as its two highest bits say.
-void VtkTokens::skip_strings(std::int64_t count, const std::string& what) {
-    reader_.line();
-    for (std::int64_t i = 0; i < count; ++i) {
-        if (reader_.left() == 0) {
-            fail("{}: found {} strings before the end of the file, expected {}", what, i, count);
+    // Returns a whole number >= 0.
+    std::int64_t count(const char* what) {
+        std::int64_t count = 0;
+        TextReader before = reader_;
+        if (!reader_.read(count) || count < 0) {
+            fail("{}: {}: found {}, expected a whole number >= 0", where(), what,
+                 next_word(before));
         }
-        if (!binary_) {
-            reader_.line();
-            continue;
-        }
-        const auto first = static_cast<unsigned char>(*reader_.here());
-        const std::size_t prefix = std::size_t{1} << (3 - (first >> 6));
-        std::uint64_t length = first & 63;
-        for (std::size_t j = 1; j < std::min(prefix, reader_.left()); ++j) {
-            length = length << 8 | static_cast<unsigned char>(reader_.here()[j]);
-        }
-        if (prefix > reader_.left() || length > reader_.left() - prefix) {
-            fail("{}: string {} goes beyond the end of the file", what, i + 1);
-        }
-        reader_.skip(prefix + length);
+        return count;
     }
-}
 
-void VtkTokens::skip_metadata() {
-    reader_.line();
-    while (reader_.left() > 0) {
-        TextReader line(reader_.line());
-        if (line.at_end()) return;
+    // Reads such a number if the line has more words, else returns `otherwise`.
+    std::int64_t count_in_line(std::int64_t otherwise) {
+        return reader_.line_goes_on() ? count("number of components") : otherwise;
     }
-}
+
+    VtkType type() {
+        TextReader before = reader_;
+        const std::string name = keyword();
+        const auto found = std::ranges::find(named_types, name, &NamedType::name);
+        if (found == named_types.end()) {
+            fail("{}: found {}, expected a type of numbers (float, double, int, ...)", where(),
+                 next_word(before));
+        }
+        return found->type;
+    }
+
+    // Reads `count` numbers. In a binary file they begin on the next line and are big endian.
+    template <typename To>
+    std::vector<To> values(ValueType type, std::int64_t count, const std::string& what) {
+        const std::string place = file_ + ": " + what;
+        if (!binary_) return read_text_values<To>(reader_, type, count, place);
+        const char* const bytes = take(count, bytes_of(type), place);
+        return values_from_bytes<To>(type, bytes, static_cast<std::size_t>(count),
+                                     std::endian::native == std::endian::little);
+    }
+
+    void skip_values(VtkType type, std::int64_t count, const std::string& what) {
+        const std::string place = file_ + ": " + what;
+        if (type.kind == VtkType::Kind::string) {
+            skip_strings(count, place);
+        } else if (!binary_) {
+            for (std::int64_t i = 0; i < count; ++i) {
+                if (reader_.word().empty()) {
+                    fail("{}: found {} values before the end of the file, expected {}", place, i,
+                         count);
+                }
+            }
+        } else if (type.kind == VtkType::Kind::bit) {
+            take(count / 8 + (count % 8 != 0 ? 1 : 0), 1, place);
+        } else {
+            take(count, bytes_of(type.value), place);
+        }
+    }
+
+    // Skips the lines up to an empty one.
+    void skip_metadata() {
+        reader_.line();
+        while (reader_.left() > 0) {
+            TextReader line(reader_.line());
+            if (line.at_end()) return;
+        }
+    }
+
+  private:
+    const char* take(std::int64_t count, std::size_t size, const std::string& what) {
+        reader_.line();
+        if (static_cast<std::uint64_t>(count) > reader_.left() / size) {
+            fail("{}: found {} bytes before the end of the file, expected {} numbers of {} bytes",
+                 what, reader_.left(), count, size);
+        }
+        const char* const bytes = reader_.here();
+        reader_.skip(static_cast<std::size_t>(count) * size);
+        return bytes;
+    }
+
+    // Skips strings, which vtkDataWriter writes one a line. In binary files each follows its
+    // length, which takes 1, 2, 4 or 8 bytes as its two highest bits say.
+    void skip_strings(std::int64_t count, const std::string& what) {
+        reader_.line();
+        for (std::int64_t i = 0; i < count; ++i) {
+            if (reader_.left() == 0) {
+                fail("{}: found {} strings before the end of the file, expected {}", what, i,
+                     count);
+            }
+            if (!binary_) {
+                reader_.line();
+                continue;
+            }
+            const auto first = static_cast<unsigned char>(*reader_.here());
+            const std::size_t prefix = std::size_t{1} << (3 - (first >> 6));
+            std::uint64_t length = first & 63;
+            for (std::size_t j = 1; j < std::min(prefix, reader_.left()); ++j) {
+                length = length << 8 | static_cast<unsigned char>(reader_.here()[j]);
+            }
+            if (prefix > reader_.left() || length > reader_.left() - prefix) {
+                fail("{}: string {} goes beyond the end of the file", what, i + 1);
+            }
+            reader_.skip(prefix + length);
+        }
+    }
+
+    std::string file_;
+    TextReader reader_;
+    bool binary_ = false;
+};
 
 // An attribute of a data set by its keyword, and its number of components; 0: its line says it.
 struct Attribute {

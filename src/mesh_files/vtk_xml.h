@@ -11,9 +11,38 @@
 
 #include "base/input_file.h"
 #include "base/value_type.h"
-#include "mesh_files/vtk_xml_data.h"
 
 namespace lamina {
+
+// An encoded array of a VTK XML file, from its beginning to the end of the text or data that may
+// belong to it.
+struct VtkXmlSource {
+    std::string_view text;                   // base64
+    const RandomAccessFile* file = nullptr;  // or its bytes begin .. end - 1
+    std::uint64_t begin = 0, end = 0;
+    bool base64 = true;
+
+    std::uint64_t left() const { return file != nullptr ? end - begin : text.size(); }
+    void skip(std::uint64_t count) {
+        if (file != nullptr)
+            begin += count;
+        else
+            text.remove_prefix(count);
+    }
+};
+
+// How a VTK XML file encodes its binary arrays: attributes of its VTKFile element.
+struct VtkXmlEncoding {
+    bool swap_bytes = false;
+    ValueType header_type = ValueType::uint32;
+    std::string compressor;  // empty: none
+};
+
+// Values in their own type and native byte order.
+struct VtkXmlValues {
+    ValueType type = ValueType::uint8;
+    ByteBuffer bytes;
+};
 
 // The text of a VTK XML file without its appended data. These are no XML if they are raw, and stay
 // in the file until an array is read. Throws Error if the file does not end as it should.

@@ -2,27 +2,25 @@
 // .pvtu: "VTK File Formats", "Parallel unstructured grid", and vtkXMLPUnstructuredGridWriter.
 // .pvd: "ParaView/Data formats", "PVD File Format": <DataSet timestep="T" group="" part="N"
 // file="F"/>.
-#include "mesh_files/vtu.h"
+#include "mesh_files/mesh_formats.h"
 
 #include <zlib.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <pugixml.hpp>
 #include <set>
-#include <string>
 #include <string_view>
-#include <utility>
 
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/parallel.h"
+#include "mesh_files/mesh_assembly.h"
 #include "mesh_files/mesh_file.h"
 #include "mesh_files/text_reader.h"
 #include "mesh_files/vtk_xml.h"
@@ -34,55 +32,50 @@ namespace {
 class VtkIndex {
   public:
     // `type`: that of its VTKFile element, and the name of the one element in that. Throws Error.
-    VtkIndex(const std::filesystem::path& path, const char* type);
+    VtkIndex(const std::filesystem::path& path, const char* type) : name_(path.string()) {
+        expect_allowed(path);
+        constexpr std::size_t most_bytes = std::size_t{64} << 20, most_marks = 1'000'000;
+        const std::uintmax_t size =
+            std::filesystem::is_regular_file(path) ? std::filesystem::file_size(path) : 0;
+        if (size > most_bytes) {
+            fail("{}: found {} bytes, expected at most {}, because it only names files", name_,
+                 size, most_bytes);
+        }
+        const std::string text = read_file_bytes(path);
+        const auto marks = static_cast<std::size_t>(
+            std::ranges::count_if(text, [](char c) { return c == '<' || c == '='; }));
+        if (marks > most_marks)
+            fail("{}: found {} tags and attributes, expected at most {}", name_, marks, most_marks);
+        const pugi::xml_parse_result result = document_.load_buffer(
+            text.data(), text.size(), pugi::parse_escapes, pugi::encoding_utf8);
+        if (!result) {
+            fail("{}: truncated or damaged XML at byte {} of {}: {}", name_, result.offset,
+                 text.size(), result.description());
+        }
+        const pugi::xml_node root = document_.child("VTKFile");
+        if (!root) fail("{}: not a VTK XML file: no <VTKFile> in it", name_);
+        const std::string found = root.attribute("type").value();
+        if (found != type)
+            fail("{}: VTKFile type: found '{}', expected '{}'", name_, one_line(found), type);
+        node_ = root.child(type);
+        if (!node_) fail("{}: no <{}> in it", name_, type);
+    }
 
     const std::string& name() const { return name_; }
     pugi::xml_node node() const { return node_; }
     // Returns the file that an attribute names, relative to this one. `what`: for messages.
     std::filesystem::path file_in(pugi::xml_node node, const char* attribute,
-                                  const std::string& what) const;
+                                  const std::string& what) const {
+        const std::filesystem::path file = node.attribute(attribute).value();
+        if (file.empty()) fail("{}: {}: {}: found none, expected a file", name_, what, attribute);
+        return std::filesystem::path(name_).parent_path() / file;  // an absolute one stays as it is
+    }
 
   private:
     std::string name_;
     pugi::xml_document document_;
     pugi::xml_node node_;
 };
-
-VtkIndex::VtkIndex(const std::filesystem::path& path, const char* type) : name_(path.string()) {
-    expect_allowed(path);
-    constexpr std::size_t most_bytes = std::size_t{64} << 20, most_marks = 1'000'000;
-    const std::uintmax_t size =
-        std::filesystem::is_regular_file(path) ? std::filesystem::file_size(path) : 0;
-    if (size > most_bytes) {
-        fail("{}: found {} bytes, expected at most {}, because it only names files", name_, size,
-             most_bytes);
-    }
-    const std::string text = read_file_bytes(path);
-    const auto marks = static_cast<std::size_t>(
-        std::ranges::count_if(text, [](char c) { return c == '<' || c == '='; }));
-    if (marks > most_marks)
-        fail("{}: found {} tags and attributes, expected at most {}", name_, marks, most_marks);
-    const pugi::xml_parse_result result =
-        document_.load_buffer(text.data(), text.size(), pugi::parse_escapes, pugi::encoding_utf8);
-    if (!result) {
-        fail("{}: truncated or damaged XML at byte {} of {}: {}", name_, result.offset, text.size(),
-             result.description());
-    }
-    const pugi::xml_node root = document_.child("VTKFile");
-    if (!root) fail("{}: not a VTK XML file: no <VTKFile> in it", name_);
-    const std::string found = root.attribute("type").value();
-    if (found != type)
-        fail("{}: VTKFile type: found '{}', expected '{}'", name_, one_line(found), type);
-    node_ = root.child(type);
-    if (!node_) fail("{}: no <{}> in it", name_, type);
-}
-
-std::filesystem::path VtkIndex::file_in(pugi::xml_node node, const char* attribute,
-                                        const std::string& what) const {
-    const std::filesystem::path file = node.attribute(attribute).value();
-    if (file.empty()) fail("{}: {}: {}: found none, expected a file", name_, what, attribute);
-    return std::filesystem::path(name_).parent_path() / file;  // an absolute one stays as it is
-}
 
 // Throws Error if two of the files, which `name` lists, are one: it would be read twice.
 void expect_each_once(const std::vector<std::filesystem::path>& files, const std::string& name) {
@@ -159,6 +152,23 @@ MeshPiece read_piece(const VtkXmlFile& file, pugi::xml_node node, const std::str
     return piece;
 }
 
+void add_vtu(const std::filesystem::path& path, MeshAssembly& assembly) {
+    const VtkXmlFile file(path);
+    const auto pieces = file.grid().children("Piece");
+    const bool single = std::distance(pieces.begin(), pieces.end()) == 1;
+    int number = 0;
+    for (const pugi::xml_node piece : pieces) {
+        ++number;
+        assembly.add(read_piece(
+            file, piece, single ? file.name() : fmt::format("{}: Piece {}", file.name(), number)));
+    }
+    if (number == 0) fail("{}: no <Piece> in it", file.name());
+}
+
+void add_pvtu(const std::filesystem::path& path, MeshAssembly& assembly) {
+    for (const std::filesystem::path& piece : pieces_of_pvtu(path)) add_vtu(piece, assembly);
+}
+
 double time_of(pugi::xml_node set, const std::string& what) {
     const pugi::xml_attribute attribute = set.attribute("timestep");
     if (!attribute) return 0;
@@ -201,22 +211,10 @@ std::string compress(const void* values, std::size_t size) {
 std::string escaped(const std::string& name) {
     std::string text;
     for (const char c : one_line(name)) {
-        switch (c) {
-            case '&':
-                text += "&amp;";
-                break;
-            case '<':
-                text += "&lt;";
-                break;
-            case '>':
-                text += "&gt;";
-                break;
-            case '"':
-                text += "&quot;";
-                break;
-            default:
-                text += c;
-        }
+        constexpr std::pair<char, const char*> marks[] = {
+            {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+        const auto* const mark = std::ranges::find(marks, c, &std::pair<char, const char*>::first);
+        text += mark == std::end(marks) ? std::string(1, c) : mark->second;
     }
     return text;
 }
@@ -261,19 +259,6 @@ std::vector<T> offsets(std::size_t tets) {
 
 }  // namespace
 
-void add_vtu(const std::filesystem::path& path, MeshAssembly& assembly) {
-    const VtkXmlFile file(path);
-    const auto pieces = file.grid().children("Piece");
-    const bool single = std::distance(pieces.begin(), pieces.end()) == 1;
-    int number = 0;
-    for (const pugi::xml_node piece : pieces) {
-        ++number;
-        assembly.add(read_piece(
-            file, piece, single ? file.name() : fmt::format("{}: Piece {}", file.name(), number)));
-    }
-    if (number == 0) fail("{}: no <Piece> in it", file.name());
-}
-
 MeshData read_vtu(const std::filesystem::path& path) {
     MeshAssembly assembly(path.string());
     add_vtu(path, assembly);
@@ -289,10 +274,6 @@ std::vector<std::filesystem::path> pieces_of_pvtu(const std::filesystem::path& p
     if (files.empty()) fail("{}: no <Piece> in it", index.name());
     expect_each_once(files, index.name());
     return files;
-}
-
-void add_pvtu(const std::filesystem::path& path, MeshAssembly& assembly) {
-    for (const std::filesystem::path& piece : pieces_of_pvtu(path)) add_vtu(piece, assembly);
 }
 
 MeshData read_pvtu(const std::filesystem::path& path) {

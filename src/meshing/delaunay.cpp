@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <cstring>
 #include <sstream>
-#include <string>
 #include <thread>
 
 #include "base/client.h"
@@ -25,7 +24,6 @@
 extern char** environ;
 
 namespace lamina {
-
 namespace {
 
 void write_points(TemporaryFile& file, std::span<const glm::dvec3> points) {
@@ -82,8 +80,7 @@ bool is_ended_by_user(int status) {
     return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
 }
 
-// A child process that outlives neither this object nor this process
-// (tetrahedralize_parent_option).
+// Outlives neither this object nor this process (tetrahedralize_parent_option).
 class Child {
   public:
     Child(const std::filesystem::path& program, std::FILE* in, std::FILE* out, int err) {
@@ -183,12 +180,8 @@ DelaunayTets read_tets(std::FILE* file, std::size_t points) {
 
 }  // namespace
 
-std::optional<std::filesystem::path> find_tetrahedralizer() {
-    return find_program(tetrahedralize_program);
-}
-
 std::filesystem::path require_tetrahedralizer() {
-    const auto program = find_tetrahedralizer();
+    const auto program = find_program(tetrahedralize_program);
     if (!program) {
         fail(
             "{} is neither beside lamina nor in PATH: build lamina with TetGen (libtet1.5-dev, "

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meshing/interpolation_error.h"
 
-#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <vector>
 
+#include "base/client.h"
 #include "base/parallel.h"
-#include "base/progress.h"
-#include "meshing/trilinear_field.h"
 
 namespace lamina {
 namespace {
@@ -19,23 +17,20 @@ using Cell = TrilinearField::Cell;
 using Box = std::array<glm::dvec3, 2>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Bounds are brought no nearer than this to the largest difference found. If that equals the
-// tolerance, as it can with integer samples, refinement would never end.
+// Bounds come no nearer to the largest difference found, which may equal the tolerance.
 constexpr double nearness = 0.98;
 constexpr double nearness_to_insert = 0.8;  // for the place of a violation
 constexpr int deepest = 60;                 // halvings of a piece: far below rounding
 // Pieces that are examined in one cell at most. Further pieces count with their bounds.
 constexpr int most_pieces = 20000;
 
-// Ratio of a tet's longest edge and smallest height above which the linear function, continued to
-// the cell's corners, is too large to bound anything, and its rounding errors matter.
+// Longest edge over smallest height of a tet above which the continued function bounds nothing.
 constexpr double flattest = 1e4;
 
 glm::dvec3 corner_of(const Box& box, std::size_t corner) {
     return {box[corner & 1].x, box[(corner >> 1) & 1].y, box[corner >> 2].z};
 }
 
-// A linear function and its range over boxes.
 struct Affine {
     glm::dvec3 gradient{0};
     double constant = 0;
@@ -48,8 +43,7 @@ struct Affine {
     }
 };
 
-// The tet, with the data that boxes are compared with. Positions are relative to its first corner,
-// so that rounding does not grow with the grid.
+// Positions are relative to the first corner, so that rounding does not grow with the grid.
 struct MeasuredTet {
     glm::dvec3 origin{0};
     std::array<Affine, 4> barycentric;
@@ -96,7 +90,6 @@ struct MeasuredTet {
         return std::all_of(barycentric.begin(), barycentric.end(),
                            [&](const Affine& weight) { return weight.at(relative_point) >= 0; });
     }
-    // Returns the range of the linear function over the part of the box in the tet.
     ValueRange over(const Box& relative_box) const {
         const ValueRange box = value.over(relative_box);
         return {std::max(box.lo, values.lo), std::min(box.hi, values.hi)};
@@ -111,7 +104,6 @@ struct OpenPiece {
     CellPiece piece;
     int depth;
 };
-// Working memory of measurements, kept from one to the next.
 struct WorkingSpace {
     std::vector<OpenCell> cells;
     std::vector<std::pair<int, Cell>> blocks;
@@ -119,7 +111,6 @@ struct WorkingSpace {
     std::vector<OpenPiece> pieces;
 };
 
-// One measurement.
 class Measurement {
   public:
     Measurement(const TrilinearField& field, const CellRanges& ranges,
@@ -150,8 +141,7 @@ class Measurement {
     }
 
   private:
-    // Returns the difference that need not be known better: up to this, there is no violation, or
-    // one not much larger than was found.
+    // Returns the difference up to which there is no violation, or none much larger than was found.
     double enough() const {
         const bool place_only = goal_ == ErrorGoal::decide && violated();
         return std::max(tolerance_, error_.found / (place_only ? nearness_to_insert : nearness));
@@ -165,8 +155,7 @@ class Measurement {
     bool invisible(double lo, double hi) const {
         return transfer_function_ && transfer_function_->transparent(lo, hi);
     }
-    // Takes a difference into account, also at places whose values are only nearly visible.
-    // Otherwise bounds would have to follow the surface at which visibility begins.
+    // Counts nearly visible places, too: bounds need not follow where visibility begins.
     void found(double trilinear, double linear, const glm::dvec3& place) {
         const double difference = std::abs(trilinear - linear);
         if (difference <= error_.found) return;
@@ -194,9 +183,136 @@ class Measurement {
         return box;
     }
 
-    void look_into_blocks(WorkingSpace& space);
-    void look_at_cell(const Cell& cell, std::vector<OpenCell>& open);
-    void look_into_cell(const OpenCell& open, WorkingSpace& space);
+    // Descends to the cells that ranges of blocks do not decide.
+    void look_into_blocks(WorkingSpace& space) {
+        space.cells.clear();
+        space.blocks.clear();
+        const Cell lowest = field_.cell_of(tet_.bounds[0]);
+        Cell highest = field_.cell_of(tet_.bounds[1]);
+        for (int axis = 0; axis < 3; ++axis) {  // not the cell that the tet only touches
+            const double plane = field_.planes(axis)[highest[axis]];
+            if (highest[axis] > lowest[axis] && plane == tet_.bounds[1][axis]) --highest[axis];
+        }
+        const auto add_blocks = [&](int level, const Cell& first, const Cell& last) {
+            for (std::int32_t z = first[2]; z <= last[2]; ++z) {
+                for (std::int32_t y = first[1]; y <= last[1]; ++y) {
+                    for (std::int32_t x = first[0]; x <= last[0]; ++x) {
+                        space.blocks.push_back({level, {x, y, z}});
+                    }
+                }
+            }
+        };
+        int level = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            while ((highest[axis] >> level) - (lowest[axis] >> level) > 1) ++level;
+        }
+        level = std::min(level, ranges_.levels());
+        Cell first{}, last{};
+        for (int axis = 0; axis < 3; ++axis) {
+            first[axis] = lowest[axis] >> level;
+            last[axis] = highest[axis] >> level;
+        }
+        add_blocks(level, first, last);
+        while (!space.blocks.empty()) {
+            const auto [at_level, block] = space.blocks.back();
+            space.blocks.pop_back();
+            if (at_level == 0) {
+                look_at_cell(block, space.cells);
+                continue;
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                first[axis] = std::max(lowest[axis], block[axis] << at_level);
+                last[axis] = std::min(highest[axis], ((block[axis] + 1) << at_level) - 1);
+            }
+            const Box box = tet_.relative(box_of(first, last));
+            if (tet_.outside(box)) continue;
+            if (decided(ranges_.of_block(at_level, block), tet_.over(box))) continue;
+            for (int axis = 0; axis < 3; ++axis) {
+                first[axis] >>= at_level - 1;
+                last[axis] >>= at_level - 1;
+            }
+            add_blocks(at_level - 1, first, last);
+        }
+    }
+
+    // Bounds the difference by its values at the corners of the cell's part in the tet's bounds.
+    void look_at_cell(const Cell& cell, std::vector<OpenCell>& open) {
+        const Box box = box_of(cell, cell);
+        const Box relative = tet_.relative(box);
+        if (tet_.outside(relative)) return;
+        if (tet_.flatness > flattest) {
+            open.push_back({infinity, cell});
+            return;
+        }
+        glm::dvec3 lowest{0}, size{1};
+        for (int axis = 0; axis < 3; ++axis) {
+            lowest[axis] = field_.planes(axis)[cell[axis]];
+            size[axis] = field_.planes(axis)[cell[axis] + 1] - lowest[axis];
+        }
+        const TrilinearPolynomial polynomial(field_.corners(cell));
+        double bound = 0;
+        ValueRange trilinear{infinity, -infinity};
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 place = corner_of(box, corner),
+                             from_origin = corner_of(relative, corner);
+            const double value = polynomial.at((place - lowest) / size);
+            const double linear = tet_.value.at(from_origin);
+            trilinear = {std::min(trilinear.lo, value), std::max(trilinear.hi, value)};
+            bound = std::max(bound, std::abs(value - linear));
+            if (std::abs(value - linear) > error_.found && tet_.contains(from_origin)) {
+                found(value, linear, place);
+            }
+        }
+        const ValueRange linear = tet_.over(relative);
+        bound = std::min(bound, std::max(trilinear.hi - linear.lo, linear.hi - trilinear.lo));
+        if (decided(bound) || decided(trilinear, linear)) return;
+        open.push_back({bound, cell});
+    }
+
+    // Bounds the difference on the tet's part in the cell.
+    void look_into_cell(const OpenCell& open, WorkingSpace& space) {
+        if (decided(open.bound)) return;
+        glm::dvec3 lowest{0}, size{1};
+        for (int axis = 0; axis < 3; ++axis) {
+            lowest[axis] = field_.planes(axis)[open.cell[axis]];
+            size[axis] = field_.planes(axis)[open.cell[axis] + 1] - lowest[axis];
+        }
+        CellPiece whole{corners_, values_};
+        for (glm::dvec3& corner : whole.corners) corner = (corner - lowest) / size;
+        space.clipped.assign(1, whole);
+        clip_to_cell(space.clipped, space.spare);
+        space.pieces.clear();
+        for (const CellPiece& piece : space.clipped) space.pieces.push_back({piece, 0});
+
+        const TrilinearPolynomial polynomial(field_.corners(open.cell));
+        for (int count = 0; !space.pieces.empty(); ++count) {
+            const auto [piece, depth] = space.pieces.back();
+            space.pieces.pop_back();
+            const BernsteinCubic cubic(polynomial, piece);
+            for (std::size_t i = 0; i < 4; ++i) {
+                found(cubic.trilinear[i], piece.values[i], lowest + piece.corners[i] * size);
+            }
+            const double bound = cubic.largest();
+            if (decided(bound)) continue;
+            const auto [t_lo, t_hi] =
+                std::minmax_element(cubic.trilinear.begin(), cubic.trilinear.end());
+            const auto [l_lo, l_hi] = std::minmax_element(piece.values.begin(), piece.values.end());
+            if (invisible(std::min(*t_lo, *l_lo), std::max(*t_hi, *l_hi))) continue;
+            if (depth == deepest || count > most_pieces) {
+                error_.bound = std::max(error_.bound, bound);
+                continue;
+            }
+            const auto& [a, b] = BernsteinCubic::edges[cubic.edge_to_halve(piece)];
+            const glm::dvec3 middle = 0.5 * (piece.corners[a] + piece.corners[b]);
+            const double value = 0.5 * (piece.values[a] + piece.values[b]);
+            for (const std::size_t moved : {a, b}) {
+                CellPiece half = piece;
+                half.corners[moved] = middle;
+                half.values[moved] = value;
+                space.pieces.push_back({half, depth + 1});
+            }
+        }
+    }
 
     const TrilinearField& field_;
     const CellRanges& ranges_;
@@ -209,136 +325,6 @@ class Measurement {
     TetError error_;
 };
 
-// Descends to the cells that ranges of blocks do not decide.
-void Measurement::look_into_blocks(WorkingSpace& space) {
-    space.cells.clear();
-    space.blocks.clear();
-    const Cell lowest = field_.cell_of(tet_.bounds[0]);
-    Cell highest = field_.cell_of(tet_.bounds[1]);
-    for (int axis = 0; axis < 3; ++axis) {  // not the cell that the tet only touches
-        const double plane = field_.planes(axis)[highest[axis]];
-        if (highest[axis] > lowest[axis] && plane == tet_.bounds[1][axis]) --highest[axis];
-    }
-    const auto add_blocks = [&](int level, const Cell& first, const Cell& last) {
-        for (std::int32_t z = first[2]; z <= last[2]; ++z) {
-            for (std::int32_t y = first[1]; y <= last[1]; ++y) {
-                for (std::int32_t x = first[0]; x <= last[0]; ++x) {
-                    space.blocks.push_back({level, {x, y, z}});
-                }
-            }
-        }
-    };
-    int level = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        while ((highest[axis] >> level) - (lowest[axis] >> level) > 1) ++level;
-    }
-    level = std::min(level, ranges_.levels());
-    Cell first{}, last{};
-    for (int axis = 0; axis < 3; ++axis) {
-        first[axis] = lowest[axis] >> level;
-        last[axis] = highest[axis] >> level;
-    }
-    add_blocks(level, first, last);
-    while (!space.blocks.empty()) {
-        const auto [at_level, block] = space.blocks.back();
-        space.blocks.pop_back();
-        if (at_level == 0) {
-            look_at_cell(block, space.cells);
-            continue;
-        }
-        for (int axis = 0; axis < 3; ++axis) {
-            first[axis] = std::max(lowest[axis], block[axis] << at_level);
-            last[axis] = std::min(highest[axis], ((block[axis] + 1) << at_level) - 1);
-        }
-        const Box box = tet_.relative(box_of(first, last));
-        if (tet_.outside(box)) continue;
-        if (decided(ranges_.of_block(at_level, block), tet_.over(box))) continue;
-        for (int axis = 0; axis < 3; ++axis) {
-            first[axis] >>= at_level - 1;
-            last[axis] >>= at_level - 1;
-        }
-        add_blocks(at_level - 1, first, last);
-    }
-}
-
-// Bounds the difference by its values at the corners of the cell's part in the tet's bounds.
-void Measurement::look_at_cell(const Cell& cell, std::vector<OpenCell>& open) {
-    const Box box = box_of(cell, cell);
-    const Box relative = tet_.relative(box);
-    if (tet_.outside(relative)) return;
-    if (tet_.flatness > flattest) {
-        open.push_back({infinity, cell});
-        return;
-    }
-    glm::dvec3 lowest{0}, size{1};
-    for (int axis = 0; axis < 3; ++axis) {
-        lowest[axis] = field_.planes(axis)[cell[axis]];
-        size[axis] = field_.planes(axis)[cell[axis] + 1] - lowest[axis];
-    }
-    const TrilinearPolynomial polynomial(field_.corners(cell));
-    double bound = 0;
-    ValueRange trilinear{infinity, -infinity};
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 place = corner_of(box, corner), from_origin = corner_of(relative, corner);
-        const double value = polynomial.at((place - lowest) / size);
-        const double linear = tet_.value.at(from_origin);
-        trilinear = {std::min(trilinear.lo, value), std::max(trilinear.hi, value)};
-        bound = std::max(bound, std::abs(value - linear));
-        if (std::abs(value - linear) > error_.found && tet_.contains(from_origin)) {
-            found(value, linear, place);
-        }
-    }
-    const ValueRange linear = tet_.over(relative);
-    bound = std::min(bound, std::max(trilinear.hi - linear.lo, linear.hi - trilinear.lo));
-    if (decided(bound) || decided(trilinear, linear)) return;
-    open.push_back({bound, cell});
-}
-
-// Bounds the difference on the tet's part in the cell.
-void Measurement::look_into_cell(const OpenCell& open, WorkingSpace& space) {
-    if (decided(open.bound)) return;
-    glm::dvec3 lowest{0}, size{1};
-    for (int axis = 0; axis < 3; ++axis) {
-        lowest[axis] = field_.planes(axis)[open.cell[axis]];
-        size[axis] = field_.planes(axis)[open.cell[axis] + 1] - lowest[axis];
-    }
-    CellPiece whole{corners_, values_};
-    for (glm::dvec3& corner : whole.corners) corner = (corner - lowest) / size;
-    space.clipped.assign(1, whole);
-    clip_to_cell(space.clipped, space.spare);
-    space.pieces.clear();
-    for (const CellPiece& piece : space.clipped) space.pieces.push_back({piece, 0});
-
-    const TrilinearPolynomial polynomial(field_.corners(open.cell));
-    for (int count = 0; !space.pieces.empty(); ++count) {
-        const auto [piece, depth] = space.pieces.back();
-        space.pieces.pop_back();
-        const BernsteinCubic cubic(polynomial, piece);
-        for (std::size_t i = 0; i < 4; ++i) {
-            found(cubic.trilinear[i], piece.values[i], lowest + piece.corners[i] * size);
-        }
-        const double bound = cubic.largest();
-        if (decided(bound)) continue;
-        const auto [t_lo, t_hi] =
-            std::minmax_element(cubic.trilinear.begin(), cubic.trilinear.end());
-        const auto [l_lo, l_hi] = std::minmax_element(piece.values.begin(), piece.values.end());
-        if (invisible(std::min(*t_lo, *l_lo), std::max(*t_hi, *l_hi))) continue;
-        if (depth == deepest || count > most_pieces) {
-            error_.bound = std::max(error_.bound, bound);
-            continue;
-        }
-        const auto& [a, b] = BernsteinCubic::edges[cubic.edge_to_halve(piece)];
-        const glm::dvec3 middle = 0.5 * (piece.corners[a] + piece.corners[b]);
-        const double value = 0.5 * (piece.values[a] + piece.values[b]);
-        for (const std::size_t moved : {a, b}) {
-            CellPiece half = piece;
-            half.corners[moved] = middle;
-            half.values[moved] = value;
-            space.pieces.push_back({half, depth + 1});
-        }
-    }
-}
-
 }  // namespace
 
 TetError InterpolationError::measure(const std::array<glm::dvec3, 4>& corners,
@@ -350,28 +336,23 @@ TetError InterpolationError::measure(const std::array<glm::dvec3, 4>& corners,
 double InterpolationError::largest(std::span<const glm::dvec3> points,
                                    std::span<const double> values, std::span<const Tet> tets,
                                    double tolerance) const {
-    constexpr std::int64_t per_task = 256;
-    const auto count = static_cast<std::int64_t>(tets.size());
-    const std::int64_t tasks = (count + per_task - 1) / per_task;
-    std::vector<double> bounds(static_cast<std::size_t>(tasks), 0.0);
-    Progress progress("measuring the error", count);
-    parallel_for(tasks, 1, [&](std::int64_t task) {
-        const std::int64_t end = std::min(count, (task + 1) * per_task);
-        for (std::int64_t i = task * per_task; i < end; ++i) {
-            const Tet& tet = tets[static_cast<std::size_t>(i)];
-            std::array<glm::dvec3, 4> corners;
-            std::array<double, 4> corner_values;
-            for (std::size_t corner = 0; corner < 4; ++corner) {
-                corners[corner] = points[static_cast<std::size_t>(tet[corner])];
-                corner_values[corner] = values[static_cast<std::size_t>(tet[corner])];
-            }
-            const TetError error = measure(corners, corner_values, tolerance, ErrorGoal::bound);
-            bounds[static_cast<std::size_t>(task)] =
-                std::max(bounds[static_cast<std::size_t>(task)], error.bound);
+    Progress progress("measuring the error", std::ssize(tets));
+    std::atomic<double> largest{0};
+    parallel_for(std::ssize(tets), 256, [&](std::int64_t number) {
+        const Tet& tet = tets[number];
+        std::array<glm::dvec3, 4> corners;
+        std::array<double, 4> corner_values;
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            corners[corner] = points[tet[corner]];
+            corner_values[corner] = values[tet[corner]];
         }
-        progress.advance(end - task * per_task);
+        const TetError error = measure(corners, corner_values, tolerance, ErrorGoal::bound);
+        double known = largest;
+        while (known < error.bound && !largest.compare_exchange_weak(known, error.bound)) {
+        }
+        progress.advance();
     });
-    return bounds.empty() ? 0 : *std::max_element(bounds.begin(), bounds.end());
+    return largest;
 }
 
 }  // namespace lamina

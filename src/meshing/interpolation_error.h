@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <span>
-
 #include "lamina/tet.h"
 #include "lamina/transfer_function.h"
 #include "meshing/trilinear_field.h"
@@ -19,7 +14,6 @@ struct TetError {
     glm::dvec3 place{0};  // in the tet, index space
 };
 
-// The question that measure() answers.
 enum class ErrorGoal {
     // The tolerance is kept or not: either bound <= tolerance, or bound is infinite and `found` is
     // at least 0.98 of the tolerance; then it is a large error but not always the largest.
@@ -43,13 +37,11 @@ class InterpolationError {
                        const TransferFunction* transfer_function)
         : field_(field), ranges_(ranges), transfer_function_(transfer_function) {}
 
-    // Measures the tet with `corners` (index space, in the field's box, any orientation) and the
-    // values of the linear function there. A tet without volume has no error.
+    // `corners`: in index space, any orientation. A tet without volume has no error.
     TetError measure(const std::array<glm::dvec3, 4>& corners, const std::array<double, 4>& values,
                      double tolerance, ErrorGoal goal) const;
 
-    // Returns the largest bound over a whole mesh with points in index space. Parallel, with
-    // progress.
+    // Returns the largest bound over a whole mesh with points in index space. Parallel.
     double largest(std::span<const glm::dvec3> points, std::span<const double> values,
                    std::span<const Tet> tets, double tolerance) const;
 

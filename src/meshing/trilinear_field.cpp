@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meshing/trilinear_field.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,7 +12,6 @@
 #include "volume/volume_store.h"
 
 namespace lamina {
-
 namespace {
 
 std::vector<double> planes_along(std::int64_t samples, double first, double last) {
@@ -47,76 +45,12 @@ std::vector<float> samples_of(const Volume& volume) {
     return copy;
 }
 
-}  // namespace
-
-TrilinearField::TrilinearField(const Volume& volume) : size_(volume.grid().size) {
-    const MinMaxBricks bricks = measure_bricks(volume);
-    if (bricks.non_finite > 0) {
-        fail("{} of {} samples are NaN or infinite: no mesh can follow them", bricks.non_finite,
-             volume.grid().sample_count());
-    }
-    range_ = bricks.whole;
-    const glm::dvec3 first = volume.grid().index_min(), last = volume.grid().index_max();
-    for (int axis = 0; axis < 3; ++axis) {
-        if (size_[axis] > std::numeric_limits<std::int32_t>::max() - 2) {
-            fail("the volume has {} samples along axis {}: expected fewer than 2^31", size_[axis],
-                 axis);
-        }
-        planes_[axis] = planes_along(size_[axis], first[axis], last[axis]);
-        shift_[axis] = size_[axis] > 1 && first[axis] < 0 ? 1 : 0;
-    }
-    samples_ = samples_of(volume);
-}
-
-TrilinearField::Cell TrilinearField::cell_of(const glm::dvec3& index) const {
-    Cell cell{};
-    for (int axis = 0; axis < 3; ++axis) {
-        const double last = cell_count(axis) - 1;
-        const double plane = size_[axis] == 1 ? 0 : std::floor(index[axis]) + shift_[axis];
-        cell[axis] = static_cast<std::int32_t>(std::clamp(plane, 0.0, last));
-    }
-    return cell;
-}
-
-double TrilinearField::at_plane(const Cell& plane) const {
-    std::array<std::int64_t, 3> sample{};
-    for (int axis = 0; axis < 3; ++axis) {
-        sample[axis] = std::clamp<std::int64_t>(plane[axis] - shift_[axis], 0, size_[axis] - 1);
-    }
-    return samples_[static_cast<std::size_t>((sample[2] * size_[1] + sample[1]) * size_[0] +
-                                             sample[0])];
-}
-
-TrilinearField::Corners TrilinearField::corners(const Cell& cell) const {
-    Corners values{};
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-        values[corner] = at_plane({cell[0] + static_cast<std::int32_t>(corner & 1),
-                                   cell[1] + static_cast<std::int32_t>((corner >> 1) & 1),
-                                   cell[2] + static_cast<std::int32_t>(corner >> 2)});
-    }
-    return values;
-}
-
-double TrilinearField::at(const glm::dvec3& index) const {
-    const Cell cell = cell_of(index);
-    Corners v = corners(cell);
-    for (int axis = 2; axis >= 0; --axis) {
-        const double lo = planes_[axis][cell[axis]], hi = planes_[axis][cell[axis] + 1];
-        const double t = (index[axis] - lo) / (hi - lo);
-        for (int i = 0; i < (1 << axis); ++i) v[i] += t * (v[i + (1 << axis)] - v[i]);
-    }
-    return v[0];
-}
-
-namespace {
-
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 std::array<std::int64_t, 3> half_of(const std::array<std::int64_t, 3>& count) {
     return {(count[0] + 1) / 2, (count[1] + 1) / 2, (count[2] + 1) / 2};
 }
 
-// Calls visit(x, y, z) for all first[i] <= (x, y, z)[i] <= last[i].
 template <typename Visit>
 void for_each(const TrilinearField::Cell& first, const TrilinearField::Cell& last,
               const Visit& visit) {
@@ -129,68 +63,6 @@ void for_each(const TrilinearField::Cell& first, const TrilinearField::Cell& las
     }
 }
 
-}  // namespace
-
-template <typename RangeOf>
-void CellRanges::add_level(std::array<std::int64_t, 3> count, const RangeOf& range_of) {
-    Level level{count, {}};
-    level.ranges.resize(static_cast<std::size_t>(count[0] * count[1] * count[2]));
-    parallel_for(count[1] * count[2], 16, [&](std::int64_t row) {
-        for (std::int64_t x = 0; x < count[0]; ++x) {
-            const TrilinearField::Cell block{static_cast<std::int32_t>(x),
-                                             static_cast<std::int32_t>(row % count[1]),
-                                             static_cast<std::int32_t>(row / count[1])};
-            level.ranges[level.offset(block)] = range_of(block);
-        }
-    });
-    levels_.push_back(std::move(level));
-}
-
-CellRanges::CellRanges(const TrilinearField& field) {
-    std::array<std::int64_t, 3> count{field.cell_count(0), field.cell_count(1),
-                                      field.cell_count(2)};
-    // A block covers its cells and both planes around them.
-    const auto range_of_planes = [&](const TrilinearField::Cell& block) {
-        TrilinearField::Cell first{}, last{};
-        for (int axis = 0; axis < 3; ++axis) {
-            first[axis] = 2 * block[axis];
-            last[axis] = std::min(2 * block[axis] + 2, field.cell_count(axis));
-        }
-        Range range{infinity, -infinity};
-        for_each(first, last, [&](const TrilinearField::Cell& plane) {
-            const auto value = static_cast<float>(field.at_plane(plane));
-            range = {std::min(range.lo, value), std::max(range.hi, value)};
-        });
-        return range;
-    };
-    count = half_of(count);
-    add_level(count, range_of_planes);
-
-    while (count[0] > 1 || count[1] > 1 || count[2] > 1) {
-        const std::size_t below = levels_.size() - 1;
-        const auto range_of_children = [&](const TrilinearField::Cell& block) {
-            const Level& children = levels_[below];
-            TrilinearField::Cell first{}, last{};
-            for (int axis = 0; axis < 3; ++axis) {
-                first[axis] = 2 * block[axis];
-                last[axis] = static_cast<std::int32_t>(
-                    std::min<std::int64_t>(first[axis] + 1, children.count[axis] - 1));
-            }
-            Range range{infinity, -infinity};
-            for_each(first, last, [&](const TrilinearField::Cell& child) {
-                const Range& part = children.ranges[children.offset(child)];
-                range = {std::min(range.lo, part.lo), std::max(range.hi, part.hi)};
-            });
-            return range;
-        };
-        count = half_of(count);
-        add_level(count, range_of_children);
-    }
-}
-
-namespace {
-
-// The place at which the edge from corner `in` to corner `out` meets the plane `axis` = `level`.
 struct Crossing {
     glm::dvec3 point;
     double value;
@@ -267,6 +139,117 @@ struct EdgeChoice {
 };
 
 }  // namespace
+
+TrilinearField::TrilinearField(const Volume& volume) : size_(volume.grid().size) {
+    const MinMaxBricks bricks = measure_bricks(volume);
+    if (bricks.non_finite > 0) {
+        fail("{} of {} samples are NaN or infinite: no mesh can follow them", bricks.non_finite,
+             volume.grid().sample_count());
+    }
+    range_ = bricks.whole;
+    const glm::dvec3 first = volume.grid().index_min(), last = volume.grid().index_max();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (size_[axis] > std::numeric_limits<std::int32_t>::max() - 2) {
+            fail("the volume has {} samples along axis {}: expected fewer than 2^31", size_[axis],
+                 axis);
+        }
+        planes_[axis] = planes_along(size_[axis], first[axis], last[axis]);
+        shift_[axis] = size_[axis] > 1 && first[axis] < 0 ? 1 : 0;
+    }
+    samples_ = samples_of(volume);
+}
+
+TrilinearField::Cell TrilinearField::cell_of(const glm::dvec3& index) const {
+    Cell cell{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double last = cell_count(axis) - 1;
+        const double plane = size_[axis] == 1 ? 0 : std::floor(index[axis]) + shift_[axis];
+        cell[axis] = static_cast<std::int32_t>(std::clamp(plane, 0.0, last));
+    }
+    return cell;
+}
+
+double TrilinearField::at_plane(const Cell& plane) const {
+    std::array<std::int64_t, 3> sample{};
+    for (int axis = 0; axis < 3; ++axis) {
+        sample[axis] = std::clamp<std::int64_t>(plane[axis] - shift_[axis], 0, size_[axis] - 1);
+    }
+    return samples_[(sample[2] * size_[1] + sample[1]) * size_[0] + sample[0]];
+}
+
+TrilinearField::Corners TrilinearField::corners(const Cell& cell) const {
+    Corners values{};
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        values[corner] = at_plane({cell[0] + static_cast<std::int32_t>(corner & 1),
+                                   cell[1] + static_cast<std::int32_t>((corner >> 1) & 1),
+                                   cell[2] + static_cast<std::int32_t>(corner >> 2)});
+    }
+    return values;
+}
+
+double TrilinearField::at(const glm::dvec3& index) const {
+    const Cell cell = cell_of(index);
+    Corners v = corners(cell);
+    for (int axis = 2; axis >= 0; --axis) {
+        const double lo = planes_[axis][cell[axis]], hi = planes_[axis][cell[axis] + 1];
+        const double t = (index[axis] - lo) / (hi - lo);
+        for (int i = 0; i < (1 << axis); ++i) v[i] += t * (v[i + (1 << axis)] - v[i]);
+    }
+    return v[0];
+}
+
+template <typename RangeOf>
+void CellRanges::add_level(std::array<std::int64_t, 3> count, const RangeOf& range_of) {
+    Level level{count, {}};
+    level.ranges.resize(static_cast<std::size_t>(count[0] * count[1] * count[2]));
+    parallel_for(count[1] * count[2], 16, [&](std::int64_t row) {
+        for (std::int64_t x = 0; x < count[0]; ++x) {
+            const TrilinearField::Cell block{static_cast<std::int32_t>(x),
+                                             static_cast<std::int32_t>(row % count[1]),
+                                             static_cast<std::int32_t>(row / count[1])};
+            level.ranges[level.offset(block)] = range_of(block);
+        }
+    });
+    levels_.push_back(std::move(level));
+}
+
+CellRanges::CellRanges(const TrilinearField& field) {
+    std::array<std::int64_t, 3> count{field.cell_count(0), field.cell_count(1),
+                                      field.cell_count(2)};
+    // Returns the range of range_at(place) from 2 * block to `reach` beyond, at most at `last`.
+    const auto range_of = [](const TrilinearField::Cell& block, int reach,
+                             const std::array<std::int64_t, 3>& last, const auto& range_at) {
+        TrilinearField::Cell from{}, to{};
+        for (int axis = 0; axis < 3; ++axis) {
+            from[axis] = 2 * block[axis];
+            to[axis] =
+                static_cast<std::int32_t>(std::min<std::int64_t>(from[axis] + reach, last[axis]));
+        }
+        Range range{infinity, -infinity};
+        for_each(from, to, [&](const TrilinearField::Cell& place) {
+            const Range part = range_at(place);
+            range = {std::min(range.lo, part.lo), std::max(range.hi, part.hi)};
+        });
+        return range;
+    };
+    // A block covers its cells and both planes around them.
+    add_level(half_of(count), [&](const TrilinearField::Cell& block) {
+        return range_of(block, 2, count, [&](const TrilinearField::Cell& plane) {
+            const auto value = static_cast<float>(field.at_plane(plane));
+            return Range{value, value};
+        });
+    });
+    for (count = half_of(count); count[0] > 1 || count[1] > 1 || count[2] > 1;
+         count = half_of(count)) {
+        const std::size_t below = levels_.size() - 1;
+        add_level(half_of(count), [&](const TrilinearField::Cell& block) {
+            const std::array<std::int64_t, 3> last{count[0] - 1, count[1] - 1, count[2] - 1};
+            return range_of(block, 1, last, [&](const TrilinearField::Cell& child) {
+                return levels_[below].ranges[levels_[below].offset(child)];
+            });
+        });
+    }
+}
 
 void clip_to_cell(std::vector<CellPiece>& pieces, std::vector<CellPiece>& spare) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -366,8 +349,7 @@ std::size_t BernsteinCubic::edge_to_halve(const CellPiece& piece) const {
                                       std::abs(piece.values[a] - piece.values[b])));
     }
     const double gap = largest() - at_corners;
-    // If the bound is a value at a corner, only the range of the two functions is still to be
-    // narrowed.
+    // If the bound is at a corner, only the range of the two functions is still to be narrowed.
     if (gap < 0.01 * at_corners) return steepest.edge;
     // If the edges are nearly straight, the gap comes from inside the faces.
     return most_bent.score > 0.25 * gap ? most_bent.edge : longest.edge;

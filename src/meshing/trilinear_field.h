@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
 #include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
 
-// The field of a volume on its box, in index space: trilinear between planes of samples. Along a
-// `node` axis the planes lie at 0, ..., n - 1. Along a `cell` axis they lie at -1/2, 0, ..., n - 1,
-// n - 1/2, and the outer ones repeat the border value. Along an axis of one sample they lie at -1/2
-// and 1/2.
+// A volume in index space. Planes lie at 0, ..., n - 1 along a `node` axis; along a `cell` axis at
+// -1/2 and n - 1/2, too (the border value repeats); at -1/2 and 1/2 for one sample.
 class TrilinearField {
   public:
     using Cell = std::array<std::int32_t, 3>;  // between plane i and plane i + 1 of each axis
     using Corners = std::array<double, 8>;     // values at a cell's corners: x + 2y + 4z
 
-    // Keeps a copy of the samples as float, which holds each of the sample types exactly. Throws
-    // Error for volumes with samples that are not finite, or with 2^31 planes along an axis.
+    // Copies the samples to float, which is exact. Throws Error for samples that are not finite.
     explicit TrilinearField(const Volume& volume);
 
     std::span<const double> planes(int axis) const { return planes_[axis]; }
@@ -33,8 +26,7 @@ class TrilinearField {
     glm::dvec3 max() const { return {planes_[0].back(), planes_[1].back(), planes_[2].back()}; }
     const ValueRange& range() const { return range_; }
 
-    // Returns the cell that contains `index`; for a point outside the box, the nearest cell. On a
-    // plane between two cells it is the one with the higher index.
+    // Returns the nearest cell; between two cells the one with the higher index.
     Cell cell_of(const glm::dvec3& index) const;
     Corners corners(const Cell& cell) const;
     double at_plane(const Cell& plane) const;  // the value where three planes meet
@@ -48,15 +40,14 @@ class TrilinearField {
     ValueRange range_;
 };
 
-// The range of a field over blocks of 2^level cells along each axis, from level 1 up to the level
-// with one block.
+// The range over blocks of 2^level cells an axis, from level 1 to the one with one block.
 class CellRanges {
   public:
     explicit CellRanges(const TrilinearField& field);  // parallel; a quarter of the field's memory
 
     int levels() const { return static_cast<int>(levels_.size()); }
     ValueRange of_block(int level, const TrilinearField::Cell& block) const {
-        const Level& blocks = levels_[static_cast<std::size_t>(level - 1)];
+        const Level& blocks = levels_[level - 1];
         const auto [lo, hi] = blocks.ranges[blocks.offset(block)];
         return {lo, hi};
     }
@@ -78,15 +69,13 @@ class CellRanges {
     std::vector<Level> levels_;
 };
 
-// A tetrahedron inside one cell, in the cell's coordinates (0..1 along each axis), with the values
-// of a linear function at its corners.
+// A tet in a cell's coordinates (0..1), with the values of a linear function at its corners.
 struct CellPiece {
     std::array<glm::dvec3, 4> corners;
     std::array<double, 4> values;
 };
 
-// Clips pieces to the cell: each piece is replaced by tetrahedra that fill the region of it inside
-// the cell. `spare` is working memory.
+// Replaces each piece by tets that fill its part in the cell. `spare` is working memory.
 void clip_to_cell(std::vector<CellPiece>& pieces, std::vector<CellPiece>& spare);
 
 // A trilinear function on a cell as a polynomial. The coefficient of x^i y^j z^k is at i + 2j + 4k.
@@ -100,11 +89,9 @@ struct TrilinearPolynomial {
     double second_derivative(const glm::dvec3& p, const glm::dvec3& u, const glm::dvec3& v) const;
 };
 
-// A cubic in Bernstein form on a piece. Its values lie between the least and the largest
-// coefficient (convex hull property). The coefficients of corners are values.
+// A cubic in Bernstein form: its values lie between the least and the largest coefficient.
 struct BernsteinCubic {
-    // Coefficients 0 to 3 belong to the corners. On edge i, 4 + 2i is nearer to its first corner
-    // and 5 + 2i to its second. 16 + i lies in the face opposite corner i.
+    // Coefficients: 0 to 3 corners; 4 + 2i and 5 + 2i near the ends of edge i; 16 + i in face i.
     static constexpr std::array<std::array<std::size_t, 2>, 6> edges{
         {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
@@ -113,8 +100,7 @@ struct BernsteinCubic {
 
     BernsteinCubic(const TrilinearPolynomial& polynomial, const CellPiece& piece);
     double largest() const;  // upper bound of |difference|
-    // Returns the edge at which the piece should be cut so that bound and values, or the ranges of
-    // the two functions, come nearer to each other.
+    // Returns the edge to cut so that bound and values come nearer to each other.
     std::size_t edge_to_halve(const CellPiece& piece) const;
 };
 

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meshing/volume_mesh.h"
 
-#include <array>
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <unordered_set>
 #include <utility>
 
-#include <glm/geometric.hpp>
+#include "base/arithmetic.h"
+#include "base/client.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "meshing/adaptive_mesh.h"
-#include "meshing/delaunay.h"
 
 namespace lamina {
-
 namespace {
 
-// The corners (x + 2y + 4z) of the six tets, one for each order in which a path along the edges
-// from corner 0 to corner 7 can take the axes; all positively oriented.
+// Corners (x + 2y + 4z) of the six positive tets, one for each path from 0 to 7.
 constexpr std::array<Tet, 6> cell_tets{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
+
+std::int64_t kuhn_tet_count(const TrilinearField& field) {
+    return std::int64_t{6} * field.cell_count(0) * field.cell_count(1) * field.cell_count(2);
+}
 
 void check_size(const TrilinearField& field, std::int64_t max_tets) {
     const std::int64_t tets = kuhn_tet_count(field);
@@ -36,11 +41,321 @@ void check_size(const TrilinearField& field, std::int64_t max_tets) {
     }
 }
 
-}  // namespace
+constexpr double finest_lattice = 256;  // places for points per sample
+// Distance from the box's surface, as a share of its tet's extent, at which a point is moved onto
+// the surface. Otherwise the flat tets between the two would stay.
+constexpr double surface_share = 0.125;
+constexpr double tets_per_point = 7;  // estimate, above the average (6.77 for random points)
+constexpr std::int64_t tets_per_task = 16;
+constexpr double worth_a_round = 0.005;  // share of max_tets; refinement ends if less is left
 
-std::int64_t kuhn_tet_count(const TrilinearField& field) {
-    return std::int64_t{6} * field.cell_count(0) * field.cell_count(1) * field.cell_count(2);
+struct PlaceHash {
+    std::size_t operator()(const std::array<std::int64_t, 3>& place) const {
+        std::uint64_t hash = 0;
+        for (const std::int64_t coordinate : place) {
+            hash = (hash ^ static_cast<std::uint64_t>(coordinate)) * 0x9E3779B97F4A7C15u;
+            hash ^= hash >> 29;
+        }
+        return hash;
+    }
+};
+
+glm::dvec3 snapped(const glm::dvec3& place, double per_sample) {
+    return glm::floor(place * per_sample + 0.5) / per_sample;
 }
+
+// The points so far. The last ones can be taken back.
+class Points {
+  public:
+    explicit Points(const TrilinearField& field) : field_(field) {}
+
+    bool add(const glm::dvec3& point) {
+        if (!places_.insert(place_of(point)).second) return false;
+        points_.push_back(point);
+        values_.push_back(field_.at(point));
+        return true;
+    }
+    void shrink(std::size_t count) {
+        while (points_.size() > count) {
+            places_.erase(place_of(points_.back()));
+            points_.pop_back();
+            values_.pop_back();
+        }
+    }
+    std::size_t size() const { return points_.size(); }
+    const std::vector<glm::dvec3>& points() const { return points_; }
+    const std::vector<double>& values() const { return values_; }
+    std::array<glm::dvec3, 4> corners(const Tet& tet) const {
+        return {points_[tet[0]], points_[tet[1]], points_[tet[2]], points_[tet[3]]};
+    }
+    std::array<double, 4> values(const Tet& tet) const {
+        return {values_[tet[0]], values_[tet[1]], values_[tet[2]], values_[tet[3]]};
+    }
+
+  private:
+    static std::array<std::int64_t, 3> place_of(const glm::dvec3& point) {
+        return {std::llround(point.x * finest_lattice), std::llround(point.y * finest_lattice),
+                std::llround(point.z * finest_lattice)};
+    }
+    const TrilinearField& field_;
+    std::vector<glm::dvec3> points_;
+    std::vector<double> values_;
+    std::unordered_set<std::array<std::int64_t, 3>, PlaceHash> places_;
+};
+
+// A tet named by its sorted corners, so that the next round recognises it.
+struct NamedTet {
+    Tet corners;
+    std::int32_t index;
+};
+
+std::vector<NamedTet> by_name(const std::vector<Tet>& tets) {
+    std::vector<NamedTet> names(tets.size());
+    parallel_for(std::ssize(tets), 4096, [&](std::int64_t i) {
+        names[i] = {tets[i], static_cast<std::int32_t>(i)};
+        std::sort(names[i].corners.begin(), names[i].corners.end());
+    });
+    parallel_sort(names.begin(), names.end(),
+                  [](const NamedTet& a, const NamedTet& b) { return a.corners < b.corners; });
+    return names;
+}
+
+// The tets of one round, and what is known of their errors.
+struct Round {
+    DelaunayTets mesh;
+    std::vector<NamedTet> names;
+    std::vector<TetError> errors;
+};
+
+double volume_of(const std::array<glm::dvec3, 4>& p) {
+    return glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) / 6;
+}
+
+// Tells whether `point` lies in the sphere of a positive tet. Rounding only guides a choice.
+bool in_sphere(const std::array<glm::dvec3, 4>& p, const glm::dvec3& point) {
+    const glm::dvec3 a = p[0] - point, b = p[1] - point, c = p[2] - point, d = p[3] - point;
+    const glm::dvec3 ab = glm::cross(a, b), cd = glm::cross(c, d);
+    const double determinant = glm::dot(a, a) * glm::dot(b, cd) - glm::dot(b, b) * glm::dot(a, cd) +
+                               glm::dot(c, c) * glm::dot(d, ab) - glm::dot(d, d) * glm::dot(c, ab);
+    return determinant > 0;
+}
+
+class Refinement {
+  public:
+    Refinement(const TrilinearField& field, const InterpolationError& error,
+               const Delaunay& delaunay, const MeshSettings& settings)
+        : field_(field),
+          error_(error),
+          delaunay_(delaunay),
+          max_tets_(settings.max_tets),
+          tolerance_(settings.tolerance * (field.range().hi - field.range().lo)),
+          points_(field) {}
+
+    MeshData run(MeshReport& report) {
+        begin();
+        DelaunayTets first = tetrahedralize();
+        if (std::ssize(first.tets) > max_tets_) {
+            fail(
+                "the box alone takes {} tets, more than the {} allowed (--max-tets, mesh.max_tets)",
+                first.tets.size(), max_tets_);
+        }
+        accept(std::move(first));
+        while (refine(report)) {
+        }
+        report.rounds = rounds_;
+        report.error = final_error();
+
+        MeshData mesh;
+        mesh.points = points_.points();
+        mesh.tets = std::move(round_.mesh.tets);
+        mesh.point_scalars = {{mesh_scalar_name, points_.values()}};
+        return mesh;
+    }
+
+  private:
+    void begin() {
+        const glm::dvec3 box[2] = {field_.min(), field_.max()};
+        for (int corner = 0; corner < 8; ++corner) {
+            points_.add({box[corner & 1].x, box[(corner >> 1) & 1].y, box[corner >> 2].z});
+        }
+    }
+
+    // Does one round. Returns false at the end.
+    bool refine(MeshReport& report) {
+        const std::vector<std::int32_t> worst = violators();
+        report.within_tolerance = worst.empty();
+        report.stopped_by_max_tets = false;
+        if (worst.empty()) return false;
+        const auto tets = std::ssize(round_.mesh.tets);
+        const double room = static_cast<double>(max_tets_ - tets);
+        report.stopped_by_max_tets = room < worth_a_round * static_cast<double>(max_tets_);
+        if (report.stopped_by_max_tets) return false;
+
+        const std::size_t before = points_.size();
+        add_points(worst, static_cast<std::size_t>(std::max(1.0, room / tets_per_point)));
+        while (points_.size() > before) {
+            DelaunayTets mesh = tetrahedralize();
+            if (std::ssize(mesh.tets) <= max_tets_) {
+                accept(std::move(mesh));
+                return true;
+            }
+            report.stopped_by_max_tets = true;
+            points_.shrink(before + (points_.size() - before) / 2);
+        }
+        return false;
+    }
+
+    // Checks the tets, because they come from another program.
+    DelaunayTets tetrahedralize() const {
+        DelaunayTets mesh = delaunay_(points_.points());
+        std::vector<bool> used(points_.size(), false);
+        CompensatedSum sum;
+        std::int64_t bad = 0;
+        for (const Tet& tet : mesh.tets) {
+            const double part = volume_of(points_.corners(tet));
+            if (!(part > 0)) ++bad;
+            sum.add(part);
+            for (const std::int32_t corner : tet) used[corner] = true;
+        }
+        const auto unused = std::count(used.begin(), used.end(), false);
+        const glm::dvec3 size = field_.max() - field_.min();
+        const double volume = sum.value(), expected = size.x * size.y * size.z;
+        if (bad > 0 || unused > 0 || std::abs(volume - expected) > 1e-12 * expected) {
+            fail(
+                "the tetrahedra of {} points do not fill the box: volume {} of {}, {} tets without "
+                "positive volume, {} points left out",
+                points_.size(), volume, expected, bad, unused);
+        }
+        return mesh;
+    }
+
+    // Takes over a mesh and measures the tets that the round before did not have.
+    void accept(DelaunayTets mesh) {
+        Round next{std::move(mesh), {}, {}};
+        next.names = by_name(next.mesh.tets);
+        next.errors.resize(next.mesh.tets.size());
+        std::vector<std::int32_t> fresh;
+        auto known = round_.names.begin();
+        for (const NamedTet& tet : next.names) {
+            while (known != round_.names.end() && known->corners < tet.corners) ++known;
+            if (known != round_.names.end() && known->corners == tet.corners) {
+                next.errors[tet.index] = round_.errors[known->index];
+            } else {
+                fresh.push_back(tet.index);
+            }
+        }
+        Progress progress(fmt::format("mesh, round {}: {} tets", ++rounds_, next.mesh.tets.size()),
+                          std::ssize(fresh));
+        parallel_for(std::ssize(fresh), tets_per_task, [&](std::int64_t i) {
+            next.errors[fresh[i]] = measured(next.mesh.tets[fresh[i]], ErrorGoal::decide);
+            progress.advance();
+        });
+        round_ = std::move(next);
+    }
+
+    TetError measured(const Tet& tet, ErrorGoal goal) const {
+        return error_.measure(points_.corners(tet), points_.values(tet), tolerance_, goal);
+    }
+
+    // Returns the tets over the tolerance, the worst first.
+    std::vector<std::int32_t> violators() const {
+        std::vector<std::int32_t> list;
+        for (std::size_t i = 0; i < round_.errors.size(); ++i) {
+            if (round_.errors[i].bound > tolerance_) list.push_back(static_cast<std::int32_t>(i));
+        }
+        std::sort(list.begin(), list.end(), [&](std::int32_t a, std::int32_t b) {
+            const double of_a = round_.errors[a].found, of_b = round_.errors[b].found;
+            return of_a != of_b ? of_a > of_b : a < b;
+        });
+        return list;
+    }
+
+    // Adds points so that no two of a round lie in one cavity.
+    void add_points(const std::vector<std::int32_t>& violators, std::size_t most) {
+        destroyed_.assign(round_.mesh.tets.size(), false);
+        const std::size_t before = points_.size();
+        for (const std::int32_t tet : violators) {
+            if (points_.size() - before == most) break;
+            if (!destroyed_[tet]) add_point_in(tet);
+        }
+    }
+
+    // Adds a point on the coarsest lattice with a free place that destroys the tet: points at
+    // samples and halfway between them serve neighbouring tets, too.
+    bool add_point_in(std::int32_t tet) {
+        const auto corners = points_.corners(round_.mesh.tets[tet]);
+        for (double per_sample = 1; per_sample <= finest_lattice; per_sample *= 2) {
+            const glm::dvec3 place = snapped(round_.errors[tet].place, per_sample);
+            if (add_point(tet, onto_surface(place, corners))) return true;
+        }
+        const glm::dvec3 middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+        return add_point(tet, onto_surface(snapped(middle, finest_lattice), corners));
+    }
+
+    bool add_point(std::int32_t tet, const glm::dvec3& place) {
+        if (!in_sphere(points_.corners(round_.mesh.tets[tet]), place) || !points_.add(place)) {
+            return false;
+        }
+        destroy_cavity(tet, place);
+        return true;
+    }
+
+    void destroy_cavity(std::int32_t tet, const glm::dvec3& point) {
+        cavity_.assign(1, tet);
+        destroyed_[tet] = true;
+        while (!cavity_.empty()) {
+            const std::int32_t at = cavity_.back();
+            cavity_.pop_back();
+            for (const std::int32_t neighbor : round_.mesh.neighbors[at]) {
+                if (neighbor < 0 || destroyed_[neighbor]) continue;
+                if (!in_sphere(points_.corners(round_.mesh.tets[neighbor]), point)) continue;
+                destroyed_[neighbor] = true;
+                cavity_.push_back(neighbor);
+            }
+        }
+    }
+
+    glm::dvec3 onto_surface(glm::dvec3 place, const std::array<glm::dvec3, 4>& corners) const {
+        const glm::dvec3 lo =
+            glm::min(glm::min(corners[0], corners[1]), glm::min(corners[2], corners[3]));
+        const glm::dvec3 hi =
+            glm::max(glm::max(corners[0], corners[1]), glm::max(corners[2], corners[3]));
+        for (int axis = 0; axis < 3; ++axis) {
+            const double near = surface_share * (hi[axis] - lo[axis]);
+            const double first = field_.min()[axis], last = field_.max()[axis];
+            if (place[axis] - first < near) place[axis] = first;
+            if (last - place[axis] < near) place[axis] = last;
+        }
+        return place;
+    }
+
+    // Measures the errors of tets over the tolerance: of these, decide() says only that they are.
+    double final_error() {
+        const std::vector<std::int32_t> open = violators();
+        parallel_for(std::ssize(open), 32, [&](std::int64_t i) {
+            round_.errors[open[i]] = measured(round_.mesh.tets[open[i]], ErrorGoal::bound);
+        });
+        double largest = 0;
+        for (const TetError& error : round_.errors) largest = std::max(largest, error.bound);
+        return largest;
+    }
+
+    const TrilinearField& field_;
+    const InterpolationError& error_;
+    const Delaunay& delaunay_;
+    std::int64_t max_tets_;
+    double tolerance_;  // in the data's units
+    Points points_;
+    Round round_;
+    std::vector<bool> destroyed_;  // tets that points of this round destroy
+    std::vector<std::int32_t> cavity_;
+    int rounds_ = 0;
+};
+
+// Share of the range of values up to which the error of a Kuhn split is measured.
+constexpr double kuhn_error_floor = 1e-4;
+
+}  // namespace
 
 MeshData make_kuhn_mesh(const TrilinearField& field, std::int64_t max_tets) {
     check_size(field, max_tets);
@@ -79,30 +394,11 @@ MeshData make_kuhn_mesh(const TrilinearField& field, std::int64_t max_tets) {
     return mesh;
 }
 
-namespace {
-
-// Share of the range of values up to which the error of a Kuhn split is measured.
-constexpr double kuhn_error_floor = 1e-4;
-
-MeshData kuhn_mesh(const TrilinearField& field, const InterpolationError& error,
-                   const MeshSettings& settings, MeshReport& report) {
-    MeshData mesh = make_kuhn_mesh(field, settings.max_tets);
-    report.error = error.largest(mesh.points, mesh.point_scalars[0].values, mesh.tets,
-                                 kuhn_error_floor * report.range);
-    report.within_tolerance = report.error <= settings.tolerance * report.range;
-    return mesh;
+MeshData make_adaptive_mesh(const TrilinearField& field, const InterpolationError& error,
+                            const Delaunay& delaunay, const MeshSettings& settings,
+                            MeshReport& report) {
+    return Refinement(field, error, delaunay, settings).run(report);
 }
-
-MeshData adaptive_mesh(const TrilinearField& field, const InterpolationError& error,
-                       const MeshSettings& settings, MeshReport& report) {
-    const auto program = require_tetrahedralizer();
-    const auto delaunay = [&](std::span<const glm::dvec3> points) {
-        return delaunay_by_process(program, points);
-    };
-    return make_adaptive_mesh(field, error, delaunay, settings, report);
-}
-
-}  // namespace
 
 void place_in_world(MeshData& mesh, const Grid& grid) {
     for (glm::dvec3& point : mesh.points) point = grid.to_world(point);
@@ -119,10 +415,21 @@ MeshData make_volume_mesh(const Volume& volume, const MeshSettings& settings,
     report = {};
     report.kuhn_tets = kuhn_tet_count(field);
     report.range = field.range().hi - field.range().lo;
-    MeshData mesh = settings.kuhn ? kuhn_mesh(field, error, settings, report)
-                                  : adaptive_mesh(field, error, settings, report);
-    report.points = static_cast<std::int64_t>(mesh.points.size());
-    report.tets = static_cast<std::int64_t>(mesh.tets.size());
+    MeshData mesh;
+    if (settings.kuhn) {
+        mesh = make_kuhn_mesh(field, settings.max_tets);
+        report.error = error.largest(mesh.points, mesh.point_scalars[0].values, mesh.tets,
+                                     kuhn_error_floor * report.range);
+        report.within_tolerance = report.error <= settings.tolerance * report.range;
+    } else {
+        const auto program = require_tetrahedralizer();
+        const auto delaunay = [&](std::span<const glm::dvec3> points) {
+            return delaunay_by_process(program, points);
+        };
+        mesh = make_adaptive_mesh(field, error, delaunay, settings, report);
+    }
+    report.points = std::ssize(mesh.points);
+    report.tets = std::ssize(mesh.tets);
     place_in_world(mesh, volume.grid());
     return mesh;
 }

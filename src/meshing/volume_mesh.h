@@ -1,37 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-
 #include "lamina/mesh_data.h"
 #include "lamina/mesh_settings.h"
-#include "lamina/transfer_function.h"
-#include "lamina/volume.h"
-#include "meshing/trilinear_field.h"
+#include "meshing/delaunay.h"
+#include "meshing/interpolation_error.h"
 
 namespace lamina {
 
-// The name of the scalar of meshes made from volumes.
 inline constexpr const char* mesh_scalar_name = "scalar";
 
-std::int64_t kuhn_tet_count(const TrilinearField& field);
-
-// Cuts each cell between the field's planes into six tets around its diagonal from the lowest to
-// the highest corner (Kuhn 1960, Freudenthal 1942). The mesh is conforming, because every face is
-// cut along the diagonal from its lowest to its highest corner. Points lie at all crossings of
-// planes, x fastest, in index space. Throws Error if there would be more than `max_tets` tets or
-// 2^31 points. Parallel.
+// Cuts each cell into six tets around its diagonal from the lowest to the highest corner (Kuhn
+// 1960, Freudenthal 1942). Points lie at all crossings of planes, x fastest, in index space. Throws
+// Error for more than `max_tets` tets or 2^31 points. Parallel.
 MeshData make_kuhn_mesh(const TrilinearField& field, std::int64_t max_tets);
 
-// Transforms a mesh from a grid's index space to world space. If the grid is mirrored, the tets are
-// reoriented.
+// Makes a Delaunay mesh of the field's box. Each round adds points where tets are farthest from the
+// field (Garland and Heckbert, Fast polygonal approximation of terrains and height fields, 1995),
+// until all are within the tolerance or another round would exceed max_tets.
+//
+// Points are in index space, where the box is exactly a box, on a lattice of 1/256 of a sample:
+// tets are exactly flat or clearly not. The result is the same every time. Throws Error.
+MeshData make_adaptive_mesh(const TrilinearField& field, const InterpolationError& error,
+                            const Delaunay& delaunay, const MeshSettings& settings,
+                            MeshReport& report);
+
 void place_in_world(MeshData& mesh, const Grid& grid);
 
-// Makes a mesh of the volume's box with the volume's values at its points (one scalar, "scalar"):
-// the Kuhn split or the adaptive mesh. `transfer_function`: regions in which it shows nothing may
-// stay coarse; if it is null, everything counts. `report.error` is measured for both kinds. Throws
-// Error for samples that are not finite, for a Kuhn split with more than max_tets tets, and if
-// lamina-tetrahedralize is missing or fails.
+// Makes the Kuhn split or the adaptive mesh. `transfer_function`: regions in which it shows nothing
+// may stay coarse; null: everything counts. Throws Error for samples that are not finite, more than
+// max_tets tets of a Kuhn split, and if lamina-tetrahedralize is missing or fails.
 MeshData make_volume_mesh(const Volume& volume, const MeshSettings& settings,
                           const TransferFunction* transfer_function, MeshReport& report);
 

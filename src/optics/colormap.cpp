@@ -4,25 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
-#include <cstddef>
-#include <filesystem>
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "base/error.h"
-#include "base/input_file.h"
 #include "base/json_text.h"
-#include "base/text.h"
 #include "lamina/color.h"
-#include "optics/colors.h"
 
 namespace lamina {
-
 namespace {
 
 constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255, in linear light
@@ -61,8 +52,7 @@ ColorSpace color_space(const nlohmann::json& preset, const std::string& name) {
          shown(*found));
 }
 
-// Reads rows of four numbers. The first of each is its scalar; scalars ascend, and at most two rows
-// share one.
+// Reads rows of four numbers, of which the first ascend; at most two share one.
 std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const char* key,
                                              const std::string& name) {
     const nlohmann::json& flat = preset.at(key);
@@ -97,8 +87,7 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     return rows;
 }
 
-// Samples the colour space between two points: halves an interval until straight lines in the
-// wanted space are close enough to the colours between its ends.
+// Halves an interval until straight lines in the wanted space are close to the colours.
 class SegmentSampler {
   public:
     SegmentSampler(ColorSpace space, ImageColorSpace wanted, const std::array<double, 4>& a,
@@ -151,8 +140,7 @@ std::vector<ColorPoint> sample_colors(ColorSpace space, ImageColorSpace wanted,
         if (a[0] == b[0]) {
             points.push_back({b[0], color_of(b)});
         } else if (space == ColorSpace::step) {
-            // An interval has the colour of its upper point, so there is a step at every point.
-            // Below the first point its own colour stays.
+            // Intervals have the colour of the upper point; below the first its own stays.
             points.push_back({a[0], color_of(b)});
             points.push_back({b[0], color_of(b)});
         } else {
@@ -178,8 +166,7 @@ std::vector<OpacityPoint> read_opacities(const nlohmann::json& preset, const std
     return points;
 }
 
-// Finds the limits of a piecewise linear function from below and from above; `mix(a, b, share)`
-// interpolates.
+// The limits from below and from above; `mix(a, b, share)` interpolates.
 template <typename Point, typename Mix>
 auto limits(const std::vector<Point>& points, double value, const Mix& mix) {
     const auto not_below = std::ranges::lower_bound(points, value, {}, &Point::value);
@@ -196,6 +183,15 @@ auto limits(const std::vector<Point>& points, double value, const Mix& mix) {
 bool is_smooth(const std::vector<ExtinctionPoint>& extinctions, double value) {
     const auto there = std::ranges::lower_bound(extinctions, value, {}, &ExtinctionPoint::value);
     return there != extinctions.end() && there->value == value && there->smooth;
+}
+
+constexpr std::string_view suffix = ".json";
+
+const EmbeddedFile* find(const std::string& name) {
+    const auto files = embedded_colormaps();
+    const auto found = std::ranges::find_if(
+        files, [&](const EmbeddedFile& file) { return file.name == name + std::string(suffix); });
+    return found == files.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -275,19 +271,6 @@ std::vector<GivenPoint> given_points(const Colormap& colormap) {
         given.push_back({point.value, {}, GivenPoint::Density::opacity, point.opacity});
     return given;
 }
-
-namespace {
-
-constexpr std::string_view suffix = ".json";
-
-const EmbeddedFile* find(const std::string& name) {
-    const auto files = embedded_colormaps();
-    const auto found = std::ranges::find_if(
-        files, [&](const EmbeddedFile& file) { return file.name == name + std::string(suffix); });
-    return found == files.end() ? nullptr : &*found;
-}
-
-}  // namespace
 
 std::vector<std::string> colormap_names() {
     std::vector<std::string> names;

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/colors.h"
+#include "optics/colormap.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <numbers>
-#include <optional>
 #include <set>
 
 #include "base/error.h"
-#include "base/text.h"
-#include "image/srgb.h"
+#include "image/coded_image.h"
 #include "lamina/color.h"
 
 namespace lamina {
-
 namespace {
 
 using std::numbers::pi;
@@ -44,8 +40,7 @@ glm::dvec3 lab_from_srgb(const glm::dvec3& srgb) {
     return glm::dvec3(116 * y - 16, 500 * (x - y), 200 * (y - z));
 }
 
-// Colours outside the gamut become darker if a component exceeds 1; negative components become 0,
-// as in VTK.
+// As in VTK, colours become darker if a component exceeds 1, and negative components 0.
 glm::dvec3 srgb_from_lab(const glm::dvec3& lab) {
     const double y = (lab[0] + 16) / 116, x = y + lab[1] / 500, z = y - lab[2] / 200;
     const glm::dvec3 xyz(lab_curve_inverse(x), lab_curve_inverse(y), lab_curve_inverse(z));
@@ -106,8 +101,7 @@ glm::dvec3 srgb_from_msh(const Msh& msh) {
                                     chroma * std::cos(msh.hue), chroma * std::sin(msh.hue)));
 }
 
-// Moreland 2009, section 4.3: the hue of an unsaturated end is turned so that the perceived change
-// is even.
+// Moreland 2009, section 4.3: the hue of an unsaturated end is turned.
 double spun_hue(const Msh& saturated, double unsaturated_magnitude) {
     if (saturated.magnitude >= unsaturated_magnitude - 0.1) return saturated.hue;
     const double reach = std::sqrt(unsaturated_magnitude * unsaturated_magnitude -
@@ -135,33 +129,6 @@ glm::dvec3 interpolate_diverging(const glm::dvec3& a, const glm::dvec3& b, doubl
                           glm::mix(from.saturation, to.saturation, share),
                           glm::mix(from.hue, to.hue, share)});
 }
-
-}  // namespace
-
-glm::dvec3 linear_from_srgb(const glm::dvec3& srgb) {
-    return glm::dvec3(linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b));
-}
-
-glm::dvec3 interpolate_srgb(ColorSpace space, const glm::dvec3& a, const glm::dvec3& b,
-                            double share) {
-    switch (space) {
-        case ColorSpace::rgb:
-            return glm::mix(a, b, share);
-        case ColorSpace::hsv:
-            return interpolate_hsv(a, b, share, false);
-        case ColorSpace::hsv_wrapped:
-            return interpolate_hsv(a, b, share, true);
-        case ColorSpace::lab:
-            return srgb_from_lab(glm::mix(lab_from_srgb(a), lab_from_srgb(b), share));
-        case ColorSpace::diverging:
-            return interpolate_diverging(a, b, share);
-        case ColorSpace::step:
-            return b;
-    }
-    return b;
-}
-
-namespace {
 
 constexpr CssColor colors[] = {
     {"aliceblue", 0xf0f8ff},
@@ -314,20 +281,6 @@ constexpr CssColor colors[] = {
     {"yellowgreen", 0x9acd32},
 };
 
-}  // namespace
-
-std::span<const CssColor> css_colors() {
-    return colors;
-}
-
-std::optional<std::uint32_t> css_color(std::string_view name) {
-    const auto* const found = std::ranges::lower_bound(colors, name, {}, &CssColor::name);
-    if (found == std::end(colors) || found->name != name) return std::nullopt;
-    return found->rgb;
-}
-
-namespace {
-
 std::string lower(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
@@ -344,6 +297,39 @@ std::optional<std::uint32_t> code_of_hex(const std::string& text) {
 }
 
 }  // namespace
+
+glm::dvec3 linear_from_srgb(const glm::dvec3& srgb) {
+    return glm::dvec3(linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b));
+}
+
+glm::dvec3 interpolate_srgb(ColorSpace space, const glm::dvec3& a, const glm::dvec3& b,
+                            double share) {
+    switch (space) {
+        case ColorSpace::rgb:
+            return glm::mix(a, b, share);
+        case ColorSpace::hsv:
+            return interpolate_hsv(a, b, share, false);
+        case ColorSpace::hsv_wrapped:
+            return interpolate_hsv(a, b, share, true);
+        case ColorSpace::lab:
+            return srgb_from_lab(glm::mix(lab_from_srgb(a), lab_from_srgb(b), share));
+        case ColorSpace::diverging:
+            return interpolate_diverging(a, b, share);
+        case ColorSpace::step:
+            return b;
+    }
+    return b;
+}
+
+std::span<const CssColor> css_colors() {
+    return colors;
+}
+
+std::optional<std::uint32_t> css_color(std::string_view name) {
+    const auto* const found = std::ranges::lower_bound(colors, name, {}, &CssColor::name);
+    if (found == std::end(colors) || found->name != name) return std::nullopt;
+    return found->rgb;
+}
 
 glm::dvec3 color_of_display(const glm::dvec3& display, ImageColorSpace space) {
     return space == ImageColorSpace::display ? display : linear_from_srgb(display);

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chords between two curves, (1 - e) f and (1 + e) f, approximate the optical depth f = -log1p(-o)
-// as a function of opacity o. Each chord starts on the lower curve, touches the upper one and ends
-// on the lower one. No chords within the tolerance e are longer; they are sqrt(2) times as long as
-// chords between points of f.
+// Chords between (1 - e) f and (1 + e) f approximate the optical depth f = -log1p(-o). Each starts
+// and ends on the lower curve and touches the upper one: none within e is longer.
 #include "optics/opacity.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <glm/common.hpp>
 
 #include "base/error.h"
 
 namespace lamina {
-
 namespace {
 
 struct Place {
@@ -40,18 +35,15 @@ class Chain {
         aim();
     }
 
-    // Tells whether this chord can end on the curve at `opacity`: it can before it touches the
-    // upper curve, and as long as it is above f.
+    // Tells whether this chord can end on the curve at `opacity`: before it touches, or above f.
     bool reaches(double opacity, double depth) const {
         return opacity <= touch_ || at_.height + slope_ * (opacity - at_.opacity) >= depth;
     }
 
-    // Returns the place where the next chord begins.
     const Place& advance() {
         const double clear = 1 - at_.opacity;
-        // Let v be the part of `clear` that is left: height + slope clear (1 - v) = lower (depth -
-        // ln v). The difference of both sides is concave and rises left of its larger root, so
-        // Newton's steps approach the smaller one from the left.
+        // v is the part of `clear` that is left: height + slope clear (1 - v) = lower (depth - ln
+        // v). The difference is concave, so Newton's steps approach the smaller root from the left.
         const double offset = at_.height - lower_ * at_.depth, rise = slope_ * clear;
         const auto above = [&](double v) { return offset + rise * (1 - v) + lower_ * std::log(v); };
         double v = lower_ / rise / 2;
@@ -69,8 +61,7 @@ class Chain {
     }
 
   private:
-    // Chooses the slope of the next chord: it touches the upper curve at 1 - o = clear / r with r -
-    // 1 - ln r = depth - height / upper, and has that curve's slope there.
+    // Touches the upper curve at 1 - o = clear / r, r - 1 - ln r = depth - height / upper.
     void aim() {
         const double x = rise_to_touch(at_.depth - at_.height / upper_), clear = 1 - at_.opacity;
         slope_ = upper_ * (1 + x) / clear;
@@ -82,8 +73,7 @@ class Chain {
     double slope_ = 0, touch_ = 0;
 };
 
-// Finds the chords from one opacity up to another, within a tolerance; returns false if there are
-// more than `most`.
+// Returns false if there are more than `most` chords.
 bool follow(double from, double to, double tolerance, std::size_t most,
             std::vector<Place>& places) {
     places.clear();
@@ -96,8 +86,7 @@ bool follow(double from, double to, double tolerance, std::size_t most,
     return true;
 }
 
-// Finds the fewest chords within opacity_slope_tolerance, then nearly the smallest tolerance that
-// this number of chords permits.
+// Finds the fewest chords, then nearly the smallest tolerance that they permit.
 std::vector<Place> follow_evenly(double from, double to) {
     constexpr std::size_t any = 1000;
     double kept = opacity_slope_tolerance, missed = 0;
@@ -114,25 +103,6 @@ std::vector<Place> follow_evenly(double from, double to) {
     return best;
 }
 
-}  // namespace
-
-std::vector<OpacitySlopeKnot> follow_opacity(double from, double to) {
-    const double low = std::min(from, to), high = std::max(from, to);
-    const double steepest = -std::expm1(-steepest_optical_depth);
-    std::vector<OpacitySlopeKnot> knots;
-    if (low >= steepest || low == high) return knots;
-    const double top = std::min(high, steepest);
-    for (const Place& place : follow_evenly(low, top))
-        knots.push_back({(place.opacity - low) / (high - low), place.height});
-    if (top < high) knots.push_back({(top - low) / (high - low), steepest_optical_depth});
-    if (from < to) return knots;
-    std::ranges::reverse(knots);
-    for (OpacitySlopeKnot& knot : knots) knot.share = 1 - knot.share;
-    return knots;
-}
-
-namespace {
-
 using Density = GivenPoint::Density;
 
 double extinction_of(const GivenPoint& point, double unit_length) {
@@ -140,8 +110,7 @@ double extinction_of(const GivenPoint& point, double unit_length) {
                                               : point.density;
 }
 
-// Builds the knots from the first point to the last. A point gets two knots if the extinctions on
-// its sides differ.
+// A point gets two knots if the extinctions on its sides differ.
 class KnotBuilder {
   public:
     KnotBuilder(const std::vector<GivenPoint>& points, double unit_length)
@@ -184,7 +153,6 @@ class KnotBuilder {
             knots_.push_back({point.value, {point.color, above}});
     }
 
-    // Adds the knots inside the slope of opacity between two points.
     void add_between(const GivenPoint& a, const GivenPoint& b) {
         if (a.given_as != Density::opacity || b.given_as != Density::opacity) return;
         for (const OpacitySlopeKnot& knot : follow_opacity(a.density, b.density)) {
@@ -203,6 +171,21 @@ class KnotBuilder {
 };
 
 }  // namespace
+
+std::vector<OpacitySlopeKnot> follow_opacity(double from, double to) {
+    const double low = std::min(from, to), high = std::max(from, to);
+    const double steepest = -std::expm1(-steepest_optical_depth);
+    std::vector<OpacitySlopeKnot> knots;
+    if (low >= steepest || low == high) return knots;
+    const double top = std::min(high, steepest);
+    for (const Place& place : follow_evenly(low, top))
+        knots.push_back({(place.opacity - low) / (high - low), place.height});
+    if (top < high) knots.push_back({(top - low) / (high - low), steepest_optical_depth});
+    if (from < to) return knots;
+    std::ranges::reverse(knots);
+    for (OpacitySlopeKnot& knot : knots) knot.share = 1 - knot.share;
+    return knots;
+}
 
 std::vector<TransferKnot> linear_in_extinction(const std::vector<GivenPoint>& points,
                                                double unit_length) {

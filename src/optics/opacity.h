@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opacity, extinction and optical depth (LaMar 2004, equations 1 and 2; docs/numerics.md,
-// section 1).
+// Opacity, extinction, depth (LaMar 2004, equations 1 and 2; docs/numerics.md, section 1).
 #pragma once
 
 #include <cmath>
 #include <cstddef>
-#include <glm/vec3.hpp>
-#include <vector>
 
 #include "lamina/transfer_function.h"
 
@@ -19,31 +16,25 @@ inline double opacity_from_depth(double optical_depth) {
     return -std::expm1(-optical_depth);
 }
 
-// Returns the extinction per world unit that gives `opacity` in [0, 1] over `unit_length` > 0 world
-// units.
+// `opacity` in [0, 1] over `unit_length` > 0 world units.
 inline double extinction_from_opacity(double opacity, double unit_length) {
     return (opacity < 1 ? -std::log1p(-opacity) : opaque_optical_depth) / unit_length;
 }
 
-// Limit of the optical depth over unit_length next to a slope of opacity: from this depth on,
-// opacity is at least 1 - 4e-8. Opacity 1 itself has no finite depth.
+// Limit of the optical depth next to a slope of opacity, which is at least 1 - 4e-8 from there on.
 inline constexpr double steepest_optical_depth = 17;
 
-// Largest distance of the pieces from the curve, relative to its value. It changes the colours of a
-// ray, of points in 0..1, by at most half of it: .1 / 255 (docs/precision.md, "Opacity that is
-// linear").
+// Largest distance of the pieces from the curve, relative to its value: changes a ray's colours, of
+// points in 0..1, by at most half of it: .1 / 255 (docs/precision.md, "Opacity that is linear").
 inline constexpr double opacity_slope_tolerance = 7.8e-4;
 
-// A point at which two pieces meet.
 struct OpacitySlopeKnot {
     double share = 0;          // of the way from one end of the slope to the other, inside (0, 1)
     double optical_depth = 0;  // over unit_length
 };
 
-// Approximates -log1p(-opacity) by straight pieces while opacity goes linearly from `from` to `to`,
-// both in 0..1. The ends lie on the curve, or at steepest_optical_depth; the knots between them are
-// returned, in order. Their number is the smallest that keeps to the tolerance, and all pieces have
-// the same error.
+// Approximates -log1p(-opacity) by the fewest straight pieces that keep to the tolerance while
+// opacity goes linearly between two values in 0..1. Returns the knots between the ends, in order.
 std::vector<OpacitySlopeKnot> follow_opacity(double from, double to);
 
 // A point of a transfer function as a user gives it.
@@ -57,17 +48,13 @@ struct GivenPoint {
     bool smooth = false;  // as in TransferKnot; of extinction
 };
 
-// Converts the points' opacities to extinctions, one by one; extinction is linear between them.
-// Opacity 1 becomes opaque_optical_depth over unit_length (optics/opacity.h).
+// Converts opacities to extinctions, one by one; extinction is linear between them.
 std::vector<TransferKnot> linear_in_extinction(const std::vector<GivenPoint>& points,
                                                double unit_length);
 
-// Returns the knots of a function whose opacity is linear between two points that are given by
-// opacity (error: optics/opacity.h), and whose extinction is linear between others. If
-// opacity is 1 over an interval, or beyond the first or last point, the optical depth over
-// unit_length is opaque_optical_depth; next to a slope it is at most steepest_optical_depth. The
-// points must pass TransferFunction::linear() after linear_in_extinction(). Throws Error if there
-// are more knots than a scene file may have points.
+// Opacity is linear between two points that are given by it, extinction between others. The points
+// must pass TransferFunction::linear() after linear_in_extinction(). Throws Error for more knots
+// than a scene file may have points.
 std::vector<TransferKnot> linear_in_opacity(const std::vector<GivenPoint>& points,
                                             double unit_length);
 

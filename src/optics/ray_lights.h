@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <span>
-#include <vector>
 
 #include "lamina/lighting.h"
 
@@ -16,12 +13,10 @@ glm::dvec3 unit_vector(const glm::dvec3& v);
 // Lighting along one viewing ray (docs/numerics.md, section 10), in double precision.
 class RayLights {
   public:
-    // `lighting` passed scene/lighting_check.h and has its smallest gradient. `to_eye`: direction
-    // from places on the ray towards the eye, in world space, not 0.
+    // `lighting` passed scene/scene.h. `to_eye`: from the ray, in world space, not 0.
     RayLights(const Lighting& lighting, const glm::dvec3& to_eye);
 
-    // The effect of light on a colour c: the lit colour is c + weight * (c * change + highlight),
-    // component by component.
+    // The lit colour is c + weight * (c * change + highlight), component by component.
     struct Effect {
         double weight = 0;        // 0 if the gradient is 0, close to 1 if it is steep
         glm::dvec3 change{0};     // >= -1
@@ -31,19 +26,15 @@ class RayLights {
     // `gradient`: in scalar units per world unit.
     Effect effect(const glm::dvec3& gradient) const;
 
-    // Returns the largest component that light adds to, or takes from, colours with components up
-    // to `brightest`, divided by the weight.
+    // The largest component that light changes colours up to `brightest` by, over the weight.
     double largest_effect(double brightest) const;
-    // Returns the difference of the largest and the least component that light adds to colours with
-    // components up to 1.
+    // The largest less the least component that light adds to colours up to 1.
     double effect_span() const;
-    // Returns the largest factor by which light multiplies colours; it is at least 1.
     double largest_factor() const;
     // Returns the largest component of lit colours whose own components are up to `brightest`.
     double brightest_lit(double brightest) const;
 
     double smallest_gradient() const { return smallest_gradient_; }
-    // Returns the weight of a gradient of this length.
     double weight(double steepness) const;
     bool has_highlights() const { return specular_ > 0; }
     double power() const { return power_; }

@@ -2,25 +2,20 @@
 #include "optics/segment_integral.h"
 
 #include <cerf.h>
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <numbers>
 
+#include "base/arithmetic.h"
 #include "optics/opacity.h"
 #include "optics/pieces.h"
 
 namespace lamina {
-
 namespace {
 
 // Limit of a piece's optical depth, so that sums of depths stay finite.
 constexpr double largest_depth = 1e300;
 
-// docs/numerics.md, section 5, with u(x) = px + kx^2, the depth from the front to x: front = 1 - G
-// = int 1 - exp(-u) and back = G - exp(-D) = int exp(-u) (1 - exp(-(D - u))). u and D - u are
-// written without subtractions that could cancel, so every term of both sums is >= 0 and accurate
-// for every p and q, however small.
+// docs/numerics.md, section 5, u(x) = px + kx^2: front = int 1 - exp(-u), back = int exp(-u) (1 -
+// exp(-(D - u))). Neither u nor D - u is a difference: every term is >= 0 and accurate.
 PieceWeights quadrature_weights(const GaussRule& rule, double p, double q) {
     PieceWeights weights;
     for (std::size_t i = 0; i < rule.points; ++i) {
@@ -34,14 +29,12 @@ PieceWeights quadrature_weights(const GaussRule& rule, double p, double q) {
     return weights;
 }
 
-// Returns G of docs/numerics.md, section 5, for D >= 4. Neither 1 - G nor G - exp(-D) cancels
-// there.
+// G of docs/numerics.md, section 5, for D >= 4: neither 1 - G nor G - exp(-D) cancels.
 double mean_transmittance(double p, double q) {
     const double depth = p / 2 + q / 2;
     const double k = (q - p) / 2;
     const double root = std::sqrt(std::abs(k));
-    // For k -> 0 the closed forms below keep their accuracy until p / root overflows. k <= 1e-17 D
-    // changes nothing.
+    // The closed forms keep their accuracy until p / root overflows. k <= 1e-17 D changes nothing.
     if (std::abs(k) <= 1e-17 * depth) return opacity_from_depth(depth) / depth;
     const double front = p / (2 * root);
     const double back = q / (2 * root);
@@ -58,23 +51,20 @@ double place_of_depth(double wanted, double p, double q) {
     return std::min(2 * wanted / (p + root), 1.0);
 }
 
-// Adds optical depths with their rounding errors (compensated summation), so that exp(-depth) stays
-// accurate behind many pieces.
-class DepthSum {
-  public:
-    void add(double depth) {
-        const double sum = sum_ + depth;
-        const double taken = sum - sum_;
-        error_ += (sum_ - (sum - taken)) + (depth - taken);
-        sum_ = sum;
+glm::dvec3 piece_color(const LinearPiece& piece, double p, double q) {
+    // Most pieces of palettes have one colour; its weight is the opacity.
+    if (piece.at_from.color == piece.at_to.color) {
+        return opacity_from_depth(p / 2 + q / 2) * piece.at_from.color;
     }
-    double value() const { return sum_ + error_; }
-    double transmittance() const { return std::exp(-sum_) * std::exp(-error_); }
+    const PieceWeights weights = piece_weights(p, q);
+    return weights.front * piece.at_from.color + weights.back * piece.at_to.color;
+}
 
-  private:
-    double sum_ = 0;
-    double error_ = 0;
-};
+constexpr double opaque = 1e30;  // stands for the infinite optical depth of the last node.
+
+std::size_t texel_index(int column, int row) {
+    return std::size_t{FrontWeightTable::nodes} * row + column;
+}
 
 }  // namespace
 
@@ -85,8 +75,7 @@ PieceWeights piece_weights(double p, double q) {
     return {1 - g, g - std::exp(-depth)};
 }
 
-// Integration by parts gives the integral of 2 (1 - x) (1 - exp(-u)). Beyond a depth of 20, exp(-u)
-// is below 2e-9; up to there the error of 16 points is less than that.
+// By parts: the integral of 2 (1 - x) (1 - exp(-u)). exp(-u) is below 2e-9 beyond a depth of 20.
 double front_moment(double p, double q) {
     constexpr double deep = 20;
     const double depth = p / 2 + q / 2;
@@ -101,42 +90,27 @@ double front_moment(double p, double q) {
     return seen * sum + (1 - seen) * (1 - seen);
 }
 
-namespace {
-
-glm::dvec3 piece_color(const LinearPiece& piece, double p, double q) {
-    // Most pieces of palettes have one colour; its weight is the opacity.
-    if (piece.at_from.color == piece.at_to.color) {
-        return opacity_from_depth(p / 2 + q / 2) * piece.at_from.color;
-    }
-    const PieceWeights weights = piece_weights(p, q);
-    return weights.front * piece.at_from.color + weights.back * piece.at_to.color;
-}
-
-}  // namespace
-
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length) {
     SegmentIntegral result;
     if (!(length > 0)) return result;
-    DepthSum depth;
+    DoubleDouble depth;  // compensated, so that exp(-depth) stays accurate behind many pieces
     for_each_linear_piece(transfer_function.knots(), front, back, [&](const LinearPiece& piece) {
-        // Both differences are of the numbers given, so the share is accurate however close front
-        // and back are.
+        // Both differences are of numbers given: the share is accurate.
         const double share = front == back ? 1 : (piece.to - piece.from) / (back - front);
         const double part = length * share;
         const double p = std::min(part * piece.at_from.extinction, largest_depth);
         const double q = std::min(part * piece.at_to.extinction, largest_depth);
         if (p == 0 && q == 0) return;
-        const double transmittance = depth.transmittance();
+        const double transmittance = std::exp(-depth.hi) * std::exp(-depth.lo);
         if (transmittance > 0) result.color += transmittance * piece_color(piece, p, q);
-        depth.add(p / 2 + q / 2);
+        const DoubleDouble sum = exact_sum(depth.hi, p / 2 + q / 2);
+        depth = {sum.hi, depth.lo + sum.lo};
     });
-    result.optical_depth = depth.value();
+    result.optical_depth = depth.rounded();
     result.alpha = opacity_from_depth(result.optical_depth);
     return result;
 }
-
-namespace {}  // namespace
 
 // On the piece the factor is to_left + width * (1 - x), with x from 0 to 1.
 FrontParts front_parts_of(const SegmentStretch& piece) {
@@ -173,19 +147,7 @@ LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, dou
     return result;
 }
 
-namespace {
-
-constexpr double opaque = 1e30;  // stands for the infinite optical depth of the last node.
-
-std::size_t texel_index(int column, int row) {
-    return static_cast<std::size_t>(row) * FrontWeightTable::nodes +
-           static_cast<std::size_t>(column);
-}
-
-}  // namespace
-
-// Minimax polynomial of degree 3 over the triangle p, q >= 0, p + q <= 2 faint_depth, found by
-// iterated least squares.
+// Degree 3, minimax over p, q >= 0, p + q <= 2 faint_depth, by iterated least squares.
 double faint_front_weight(double p, double q) {
     const double pq = -0.07483143 + 0.01593537 * p + 0.01098378 * q;
     const double of_p = 0.33332185 + p * (-0.06649057 + p * 0.00875053) + q * pq;
@@ -193,8 +155,7 @@ double faint_front_weight(double p, double q) {
     return std::min(p * of_p + q * of_q, opacity_from_depth(p / 2 + q / 2));
 }
 
-// The minimax polynomial of degree 4 over the triangle p, q >= 0, p + q <= 2 thin_depth, found by
-// iterated least squares.
+// Degree 4, minimax over p, q >= 0, p + q <= 2 thin_depth, by iterated least squares.
 double thin_front_weight(double p, double q) {
     const double c0 = q * (0.166777794 + q * (-0.025093103 + q * (0.002890381 - q * 0.000196459)));
     const double c1 = 0.333037217 + q * (-0.074477034 + q * (0.011162302 - q * 0.000919007));

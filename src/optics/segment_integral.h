@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/vec3.hpp>
-#include <vector>
 
 #include "lamina/transfer_function.h"
 
@@ -60,17 +58,13 @@ inline constexpr GaussRule gauss16{16, gauss16_x, gauss16_weight};
 // Optical depth above which a piece has a closed form that loses no digits.
 inline constexpr double largest_gauss_depth = 4;
 
-// Returns the rule for the weights of a piece of optical depth D (optics/segment_integral.h). The
-// error of n points is about (n!)^3 / ((2n+1) (2n)!^2) |k|^n (from the k^n x^2n term) with
-// |k| <= D. At each of the limits below it is less than 1e-15 of D.
+// Returns the rule for a piece of optical depth D. The error of n points is about (n!)^3 / ((2n+1)
+// (2n)!^2) |k|^n with |k| <= D: at each limit less than 1e-15 of D.
 inline const GaussRule& gauss_rule(double depth) {
     if (depth < 0.016) return depth < 1e-3 ? gauss4 : gauss5;
     if (depth < 0.5) return depth < 0.09 ? gauss6 : gauss8;
     return gauss16;
 }
-
-// Emission and absorption along a segment on which the scalar is linear (docs/numerics.md,
-// section 5).
 
 struct SegmentIntegral {
     double optical_depth = 0;
@@ -79,30 +73,24 @@ struct SegmentIntegral {
     glm::dvec3 color{0};
 };
 
-// Weights of the colours at both ends of one linear piece with extinction * length = p at its front
-// and q at its back (>= 0, finite). The associated colour is front * c_front + back * c_back. Both
-// weights are >= 0, and front + back = 1 - exp(-(p + q) / 2).
+// Weights (>= 0) of the colours at both ends of a piece with extinction * length = p at its front
+// and q at its back (>= 0, finite). front + back = 1 - exp(-(p + q) / 2).
 struct PieceWeights {
     double front = 0;
     double back = 0;
 };
 PieceWeights piece_weights(double p, double q);
 
-// Integrates a segment on which the scalar is linear from `front` (nearer to the eye) to `back`,
-// over `length` >= 0 world units. The relative error is about 1e-13 in every component, for optical
-// depths from 1e-300 to 1e300.
+// Integrates a segment, linear from `front` (near the eye) to `back`, over `length` >= 0
+// (docs/numerics.md, section 5). Relative error about 1e-13, for depths from 1e-300 to 1e300.
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length);
 
-// Returns the integral of (1 - x)^2, weighted by visible opacity, over a piece as in PieceWeights,
-// with x from 0 at its front to 1 at its back; error 1e-8.
+// The integral of (1 - x)^2, weighted by visible opacity, x from 0 in front; error 1e-8.
 double front_moment(double p, double q);
 
-// Segments under light that changes linearly along them (docs/numerics.md, section 10; Lum, Wilson,
-// Ma 2004).
-
-// A segment's opacity and associated colour, and the share of both that remains if each of its
-// points is multiplied by a factor that falls linearly from 1 at the front to 0 at the back.
+// Under light that changes linearly (docs/numerics.md, section 10; Lum, Wilson, Ma 2004): what
+// remains of opacity and colour if a factor falls from 1 at the front to 0 at the back.
 struct FrontParts {
     double alpha = 0;
     glm::dvec3 color{0};
@@ -113,13 +101,11 @@ struct LitIntegral {
     FrontParts front;
 };
 
-// Integrates a segment on which the scalar is linear, as integrate_segment() does. The front parts
-// are accurate to about 1e-8 of the whole.
+// The front parts are accurate to about 1e-8 of the whole.
 LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length);
 
-// A part of a segment on which colour and extinction are linear. `from` and `to` are shares of the
-// segment's length.
+// A linear part of a segment. `from` and `to` are shares of its length.
 struct SegmentStretch {
     OpticalProperties front, back;
     double length = 0, from = 0, to = 1;
@@ -127,24 +113,19 @@ struct SegmentStretch {
 // Returns what the part contributes, seen from its own front.
 FrontParts front_parts_of(const SegmentStretch& piece);
 
-// Fast approximations of piece_weights(p, q).front (optics/segment_integral.h), from which the
-// colour of one linear piece follows for every transfer function. They have twins in
-// shaders/optics/linear_segment.glsl. The colour of a ray is off by at most the error given below
-// times the sum of the ray's changes of colour.
+// Fast forms of piece_weights(p, q).front, twins of shaders/optics/linear_segment.glsl. A ray is
+// off by at most the error below times the sum of its changes of colour.
 
-// A polynomial for p, q >= 0 and an optical depth (p + q) / 2 up to thin_depth. Its error is at
-// most 3e-5 there, and its value is at most the piece's opacity.
+// For (p + q) / 2 up to thin_depth: error at most 3e-5, value at most the piece's opacity.
 inline constexpr double thin_depth = 1.5;
 double thin_front_weight(double p, double q);
 
-// A shorter polynomial for optical depths up to faint_depth. Its error is at most 3e-7 there.
+// Shorter, for depths up to faint_depth. Its error is at most 3e-7 there.
 inline constexpr double faint_depth = 0.2;
 double faint_front_weight(double p, double q);
 
-// A table for all depths, interpolated bilinearly. Nodes are equally spaced in p / (1 + p) and 1 -
-// 1 / sqrt(1 + q). The weight is smooth in both, linear at 0, and approaches 1 as 1 / p and as 1 /
-// sqrt(q). The error is at most 2e-5 if p and q are below 20, and 5e-4 anywhere; for pieces of
-// small optical depth it is at most 2.2e-3 of their opacity.
+// A bilinear table, nodes equally spaced in p / (1 + p) and 1 - 1 / sqrt(1 + q). The error is at
+// most 2e-5 for p, q < 20, 5e-4 anywhere, and 2.2e-3 of the opacity of faint pieces.
 class FrontWeightTable {
   public:
     static constexpr int nodes = 256;

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "base/client.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "scene/camera.h"
-#include "scene/half_space.h"
+#include "scene/clip.h"
 #include "volume/volume_store.h"
 
 namespace lamina {

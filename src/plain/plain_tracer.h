@@ -7,7 +7,7 @@
 
 #include "lamina/image.h"
 #include "lamina/scene.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 
 namespace lamina {
 

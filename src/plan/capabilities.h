@@ -21,10 +21,8 @@ struct Capabilities {
     // Size of the largest texture. The limits that OpenGL reports are not reliable
     // (docs/numerics.md, section 2).
     std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;
-    bool exact_float_filter =
-        // As measured: linear filtering of R32F has errors below 1e-6 (true on llvmpipe, not on
-        // GPUs).
-        false;
+    // As measured: linear filtering of R32F has errors below 1e-6 (on llvmpipe, not on GPUs).
+    bool exact_float_filter = false;
     // As measured: the filters of R8, R16 and R32F are as good as weights rounded to 8 bits. Trials
     // of filters assume such weights. It matters only if exact_float_filter is false.
     bool eight_bit_filter = false;

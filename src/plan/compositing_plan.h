@@ -32,7 +32,7 @@ Dither dither_of(const DitherSettings& settings, int slabs);
 
 // How fragments are composited.
 struct CompositingPlan {
-    double unit = 1;  // world lengths times this are in the plan's units (facts/world_unit.h)
+    double unit = 1;  // world lengths times this are in the plan's units (scene/camera.h)
     Target target = Target::float32;
     std::optional<Emulation> emulation;  // for Target::emulated
     Blending blending = Blending::native;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "plan/plan.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "base/enum_words.h"
-#include "base/text.h"
+#include "base/error.h"
 #include "compositing/tree_shape.h"
-#include "plan/plan.h"
 
 namespace lamina {
 namespace {
@@ -16,17 +17,9 @@ const char* text_of(VolumeSampling sampling, const Capabilities& capabilities) {
         return "8 samples, float arithmetic";
     if (capabilities.tiles && sampling == VolumeSampling::hardware)
         return "8 samples, weights of 8 bits as graphics hardware has them";
-    switch (sampling) {
-        case VolumeSampling::none:
-            return "none";
-        case VolumeSampling::fetch:
-            return "8 fetches, float arithmetic";
-        case VolumeSampling::filtered:
-            return "linear filter of a float texture (measured exact)";
-        case VolumeSampling::hardware:
-            return "hardware linear filter";
-    }
-    unreachable_enum();
+    return word_of(sampling,
+                   {"none", "8 fetches, float arithmetic",
+                    "linear filter of a float texture (measured exact)", "hardware linear filter"});
 }
 
 std::string line(const char* what, const std::string& value) {
@@ -50,17 +43,8 @@ std::string work_and_left_out(const Plan& plan) {
 }
 
 const char* text_of(Blending blending) {
-    switch (blending) {
-        case Blending::native:
-            return "the blending unit";
-        case Blending::fetch:
-            return "framebuffer fetch";
-        case Blending::barrier:
-            return "texture barriers";
-        case Blending::tiles:
-            return "the native engine";
-    }
-    unreachable_enum();
+    return word_of(blending, {"the blending unit", "framebuffer fetch", "texture barriers",
+                              "the native engine"});
 }
 
 std::string text_of_codes(const CompositingPlan& plan) {
@@ -173,6 +157,24 @@ void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool
 
 }  // namespace
 
+const char* name_of(ErrorKind kind) {
+    return word_of(kind, {"unknown", "derived", "trials", "sampled"});
+}
+
+std::string text_of(const ErrorFigure& error) {
+    switch (error.kind) {
+        case ErrorKind::unknown:
+            return "unknown";
+        case ErrorKind::derived:
+            return fmt::format("at most {:.3g} / 255", error.value);
+        case ErrorKind::trials:
+            return fmt::format("{:.3g} / 255 by trials on {} rays", error.value, error.rays);
+        case ErrorKind::sampled:
+            return fmt::format("{:.3g} / 255, sampled on {} rays", error.value, error.rays);
+    }
+    unreachable_enum();
+}
+
 std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities) {
     std::string text = "uses\n";
     const auto row = [&](const char* what, const std::string& value) { text += line(what, value); };
@@ -191,9 +193,7 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         row("target", with_reason(name_of(slice.target), slice.target_reason));
         row("classification",
             with_reason(name_of(slice.classification), slice.classification_reason));
-        if (slice.lighting) {
-            row("light", text_of_light(slice));
-        }
+        if (slice.lighting) row("light", text_of_light(slice));
         row("order", name_of(slice.order));
         if (!slice.clip.empty()) row("clip", fmt::format("{} planes", slice.clip.size()));
         row("rays", slice.precise_rays ? "double" : "float");

@@ -2,30 +2,145 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include <set>
+#include <utility>
 
-#include "compositing/codes.h"
+#include "base/client.h"
 #include "facts/mesh_facts.h"
-#include "facts/volume_facts.h"
 #include "lamina/error_figure.h"
-#include "lamina/scene.h"
-#include "plan/brick_cuts.h"
-#include "plan/capabilities.h"
-#include "plan/classification_choice.h"
+#include "lamina/grid.h"
+#include "lamina/image.h"
+#include "lamina/project_settings.h"
+#include "plan/choices.h"
 #include "plan/compositing_plan.h"
-#include "plan/light_choice.h"
-#include "plan/omission.h"
-#include "plan/project_plan.h"
-#include "plan/slab_choice.h"
-#include "plan/tree_choice.h"
-#include "preintegration/table_cache.h"
+#include "scene/camera.h"
+#include "visibility/visibility_order.h"
+#include "volume/min_max_bricks.h"
 
 namespace lamina {
+
+// The predicted work of a frame.
+struct Work {
+    double segments = 0;  // segments of rays in slabs that are evaluated
+    double fetches = 0;   // fetches of the volume's texels by OpenGL's fragments
+    double tets = 0;      // projected tets, or cell fragments if tets are cut
+    double ordered = 0;   // tets put in visibility order
+    double passes = 0;    // layers that are composited onto images one by one
+    double bytes = 0;     // size of the volume, tables and images that are read and written
+
+    // Returns the amounts that are not 0, with their names.
+    std::vector<std::pair<const char*, double>> amounts() const;
+};
+
+Work operator-(const Work& a, const Work& b);
+
+// Returns, for example, "12.3 M segments, 4.1 kB": the amounts above 0.
+std::string to_text(const Work& work);
+
+// Work that is left out because this scene does not need it.
+struct Omission {
+    std::string name;    // as in --no-omit=NAME
+    std::string reason;  // the fact that decided
+    Work saves{};        // predicted work that it saves in a frame
+};
+
+// The omissions that the user has switched off.
+struct OmissionSwitch {
+    bool none = false;           // --no-omit: leave out nothing
+    std::set<std::string> kept;  // --no-omit=NAME
+    bool allows(const std::string& name) const { return !none && !kept.contains(name); }
+};
+std::vector<std::string> omission_names();
+
+// Collects the omissions of a planner, in the order of its choices.
+struct Omissions {
+    const OmissionSwitch& allowed;
+    std::vector<Omission> list = {};
+
+    // Returns true, and records the omission, if the scene does not need `name` and the user has
+    // not switched that off.
+    bool leave_out(bool unneeded, const std::string& name, const std::string& reason) {
+        if (!unneeded || !allowed.allows(name)) return false;
+        list.push_back({name, reason});
+        return true;
+    }
+};
+
+// A box of the volume's samples that one texture holds: samples first .. first + size - 1.
+// Neighbouring bricks share a layer of samples.
+struct TextureBrick {
+    std::array<std::int64_t, 3> first{0, 0, 0};
+    std::array<std::int64_t, 3> size{1, 1, 1};
+    // True: at the volume's border the texture holds one more layer, which repeats the border
+    // sample, so that its samples reach as far as the volume's box.
+    bool bordered = false;
+
+    friend bool operator==(const TextureBrick&, const TextureBrick&) = default;
+};
+
+// Ways to integrate the fragments of a tet between its front and its back.
+enum class SegmentSource {
+    constant,   // the transfer function is constant over the mesh: no scalar is needed
+    table,      // one look-up in a table with equally spaced scalars
+    parts,      // tets are cut at the transfer function's points. Opacity has a closed form; colour
+                // is one look-up in a table that does not depend on the transfer function
+                // (optics/segment_integral.h)
+    cut_table,  // up to three look-ups in a table whose scalar nodes lie on the transfer function's
+                // points
+    analytic,   // the linear pieces between those points, each in closed form
+    mean,       // the mean of the optics at front and back: Coloring::attenuation
+    vertices    // no integration: Coloring::vertex
+};
+
+// The picture that projection draws. Renderers prepare for it once.
+struct ProjectedPicture : CompositingPlan, LightPlan {
+    SegmentSource source = SegmentSource::table;
+    Interpolation interpolation = Interpolation::perspective;
+    Thickness thickness = Thickness::exact;
+    OrderMethod visibility = OrderMethod::exact;
+    // Tets that hide one another in rings are ordered pixel by pixel (visibility/ring_order.h).
+    bool solve_rings = false;
+    ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
+    ProjectDither dither = ProjectDither::none;
+    std::uint32_t seed = 1;     // for dithering and stochastic rounding
+    std::vector<int> tree;      // bifurcation factors of fixed-point nodes; empty: none
+    bool scattered = false;     // the tets of a tree's leaf come from all over the mesh
+    bool orthographic = false;  // rays are parallel; fragments need no division
+    bool single_color = false;  // the colour is a constant of the program
+    // the setup in float32 draws a tet if float32 can find its faces
+    bool plain = true;
+    bool draw_transparent = false;  // transparent tets are drawn, too
+    bool nothing_visible = false;   // no tet is drawn
+    bool table_filtered = false;    // tables are read through the texture unit's filter
+    // Eye-space depth of the near plane, in the plan's units, as are lengths in tables.
+    double near_depth = 0;
+    ValueRange range;  // scalars, [0, 1] in shaders; lo < hi
+    // The range is the window of visible scalars. Scalars may lie outside it; there the transfer
+    // function is constant.
+    bool windowed = false;
+    TablePlan table;  // for SegmentSource::table (uniform) and ::cut_table (knots)
+
+    // Tells whether the program, not the blending unit, rounds opacity to codes.
+    bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
+
+    friend bool operator==(const ProjectedPicture&, const ProjectedPicture&) = default;
+};
+
+// Remarks on the projection change no picture.
+struct ProjectRemarks {
+    std::string target_reason;  // for "target": "auto"
+    MeshFacts::TrialError trial_error;
+    ErrorFigure error;  // of the picture
+};
+
+struct ProjectPlan : ProjectedPicture, ProjectRemarks {
+    const ProjectedPicture& picture() const { return *this; }
+};
+
+const char* name_of(SegmentSource source);
 
 // Ways in which the slicing renderer's fragments read the scalar.
 enum class VolumeSampling {
@@ -169,5 +284,37 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
 // Returns a table for people: what runs, then what is left out and why (--explain).
 std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities);
 std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities& capabilities);
+
+// Draws frames of one scene as its plan says: by slicing or projection, with OpenGL or on the CPU.
+// Its constructor prepares the data and tables that all frames share.
+class FrameRenderer {
+  public:
+    virtual ~FrameRenderer() = default;
+
+    // Takes another plan of the same scene and size for further frames. Returns false, and changes
+    // nothing, if that plan differs in more than belongs to one view.
+    virtual bool take(const Plan& plan) = 0;
+    // Draws a frame, which is complete on return. Ctrl-C ends it between steps; `progress` advances
+    // by step_count() in all.
+    virtual void draw(const View& view, Progress* progress = nullptr) = 0;
+    virtual int step_count() const = 0;
+    // Returns the last frame: associated, linear, before the background. The one with `image` takes
+    // no memory if that has the frame's size.
+    virtual void read(Image& image) const = 0;
+    Image read() const {
+        Image image;
+        read(image);
+        return image;
+    }
+
+    // Returns the durations of preparing and of the last frame, under the names that statistics
+    // print.
+    virtual std::map<std::string, double> stages_ms() const = 0;
+    // Returns the number of fragments of the last frame; 0 with OpenGL, where queries count them.
+    virtual std::int64_t fragments() const { return 0; }
+    // Returns the host memory that the renderer takes beside the data; 0 with OpenGL, which has its
+    // own memory.
+    virtual std::int64_t byte_count() const { return 0; }
+};
 
 }  // namespace lamina

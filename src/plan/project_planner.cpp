@@ -16,13 +16,11 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
-#include "facts/world_unit.h"
 #include "optics/opacity.h"
 #include "optics/pieces.h"
 #include "optics/segment_integral.h"
-#include "plan/light_choice.h"
-#include "plan/tree_choice.h"
-#include "scene/coloring.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
 
 namespace lamina {
 namespace {
@@ -32,7 +30,7 @@ namespace {
 constexpr double near_share = 1e-6;
 
 // Error that float32 arithmetic adds to a picture, in 1/255: as much as for exact segments of
-// volumes (plan/classification_choice.h).
+// volumes (plan/choices.h).
 constexpr double float_error = 0.05;
 
 // Share of a tet's longest edge by which faces are assumed to be out of their places, at both ends
@@ -132,154 +130,150 @@ OrderMethod method_of(ProjectOrder order) {
 //   compositing    what rounds to codes, and dithering; a tree
 //   source         how a tet's segment of a ray is integrated, whether one colour or many, and,
 //                  from trial rays, the error
-class ProjectPlanner {
-  public:
-    ProjectPlanner(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
-                   const OmissionSwitch& omissions, TableCache& tables)
-        : scene_(scene),
-          settings_(scene.project),
-          facts_(facts),
-          capabilities_(capabilities),
-          omissions_{omissions},
-          tables_(tables) {
-        plan_.unit = world_unit(facts.diagonal);
-        transfer_function_ = in_units(*scene.transfer_function, plan_.unit);
-    }
+struct ProjectPlanner {
+    const Scene& scene;
+    const MeshFacts& facts;
+    const Capabilities& capabilities;
+    Omissions omissions;
+    TableCache& tables;
+    const ProjectSettings& settings = scene.project;
+    double unit = world_unit(facts.diagonal);  // of the plan
+    TransferFunction transfer_function = in_units(*scene.transfer_function, unit);
+    ValueRange drawn = drawn_range(*scene.transfer_function, facts.range);  // of scalars
+    ProjectPlan plan = {};
 
     Plan make() {
-        plan_.target = *scene_.target;
-        plan_.seed = scene_.emulate.seed;
-        plan_.thickness = settings_.thickness;
-        plan_.table_filtered = capabilities_.exact_float_filter;
-        plan_.near_depth = near_share * facts_.diagonal * plan_.unit;
-        drawn_ = drawn_range(*scene_.transfer_function, facts_.range);
-        plan_.range = drawn_;
-        static_cast<LightPlan&>(plan_) = plan_light(scene_, facts_.max_color, true);
+        plan.unit = unit;
+        plan.target = *scene.target;
+        plan.seed = scene.emulate.seed;
+        plan.thickness = settings.thickness;
+        plan.table_filtered = capabilities.exact_float_filter;
+        plan.near_depth = near_share * facts.diagonal * plan.unit;
+        plan.range = drawn;
+        static_cast<LightPlan&>(plan) = plan_light(scene, facts.max_color, true);
         check_size();
-        plan_.interpolation = interpolation();
-        plan_.geometry = geometry();
+        plan.interpolation = interpolation();
+        plan.geometry = geometry();
         choose_what_is_drawn();
-        plan_.plain = choose_precision(plan_.geometry == ProjectGeometry::triangles);
-        plan_.solve_rings =
-            is_right_order(settings_.order) ||
+        plan.plain = choose_precision(plan.geometry == ProjectGeometry::triangles);
+        plan.solve_rings =
+            is_right_order(settings.order) ||
             // `auto` takes `mpvo` for a convex mesh, for which it is right.
-            (settings_.order == ProjectOrder::mpvo && facts_.convexity != Convexity::none);
-        plan_.visibility = choose_visibility();
-        plan_.dither = choose_dither();
-        if (scene_.target == Target::emulated) plan_.emulation = scene_.emulate;
-        if (plan_.emulation || plan_.dither == ProjectDither::after_blend)
-            plan_.blending = programmable_blending(capabilities_);
-        if (settings_.tree) choose_tree();
+            (settings.order == ProjectOrder::mpvo && facts.convexity != Convexity::none);
+        plan.visibility = choose_visibility();
+        plan.dither = choose_dither();
+        if (scene.target == Target::emulated) plan.emulation = scene.emulate;
+        if (plan.emulation || plan.dither == ProjectDither::after_blend)
+            plan.blending = programmable_blending(capabilities);
+        if (settings.tree) choose_tree();
         choose_source();
         // A tree's leaves take a fixed number of tets each, so leaving out transparent tets would
         // be another picture.
-        if (plan_.source == SegmentSource::parts && settings_.tree) plan_.draw_transparent = false;
-        plan_.error = picture_error();
-        Plan plan;
-        plan.method = Method::project;
-        plan.project = std::move(plan_);
-        plan.omitted = std::move(omissions_.list);
-        return plan;
+        if (plan.source == SegmentSource::parts && settings.tree) plan.draw_transparent = false;
+        plan.error = picture_error();
+        Plan made;
+        made.method = Method::project;
+        made.project = std::move(plan);
+        made.omitted = std::move(omissions.list);
+        return made;
     }
 
-  private:
     // Products of four lengths decide the order of tets.
     void check_size() const {
         constexpr double least = 1e-60, most = 1e60;
-        if (facts_.diagonal == 0 || (facts_.diagonal >= least && facts_.diagonal <= most)) return;
+        if (facts.diagonal == 0 || (facts.diagonal >= least && facts.diagonal <= most)) return;
         fail("{}: the diagonal of the mesh is {}, expected {} to {} for method project",
-             name_of_mesh(scene_), facts_.diagonal, least, most);
+             name_of_mesh(scene), facts.diagonal, least, most);
     }
 
     // Returns `linear` for Shirley's and Tuchman's triangles: these interpolate colour and opacity
     // themselves, which belong to no depth.
     Interpolation interpolation() const {
-        return settings_.coloring == Coloring::vertex ? Interpolation::linear
-                                                      : settings_.interpolation;
+        return settings.coloring == Coloring::vertex ? Interpolation::linear
+                                                     : settings.interpolation;
     }
 
     // A silhouette cannot carry values that are interpolated between the vertices of a fan.
     ProjectGeometry geometry() const {
         const bool fan =
-            settings_.interpolation == Interpolation::linear || mixes_colors(settings_.coloring);
-        return settings_.geometry.value_or(fan ? ProjectGeometry::triangles
-                                               : ProjectGeometry::silhouette);
+            settings.interpolation == Interpolation::linear || mixes_colors(settings.coloring);
+        return settings.geometry.value_or(fan ? ProjectGeometry::triangles
+                                              : ProjectGeometry::silhouette);
     }
 
     void choose_what_is_drawn() {
-        plan_.orthographic = facts_.orthographic;  // the other geometry cannot draw such views
-        if (plan_.orthographic) {
-            omissions_.list.push_back(
+        plan.orthographic = facts.orthographic;  // the other geometry cannot draw such views
+        if (plan.orthographic) {
+            omissions.list.push_back(
                 {"perspective",
                  "parallel rays: depth is linear in the picture, nothing is divided "
                  "per fragment, with --no-omit neither"});
         }
-        const bool transparent = facts_.transparent_tets == facts_.tets;
-        if (facts_.clipped_away)
-            omissions_.list.push_back({"drawing", "the clip cuts the whole mesh away"});
-        plan_.nothing_visible =
-            facts_.clipped_away ||
-            omissions_.leave_out(transparent || !facts_.in_front, "drawing",
-                                 transparent
-                                     ? "the transfer function shows no value that the mesh has"
-                                     : "the mesh lies behind the eye");
+        const bool transparent = facts.transparent_tets == facts.tets;
+        if (facts.clipped_away)
+            omissions.list.push_back({"drawing", "the clip cuts the whole mesh away"});
+        plan.nothing_visible =
+            facts.clipped_away ||
+            omissions.leave_out(transparent || !facts.in_front, "drawing",
+                                transparent
+                                    ? "the transfer function shows no value that the mesh has"
+                                    : "the mesh lies behind the eye");
         const bool left_out =
-            omissions_.leave_out(facts_.transparent_tets > 0, "transparent_tets",
-                                 fmt::format("{} of {} tets show nothing: they are not projected",
-                                             facts_.transparent_tets, facts_.tets));
+            omissions.leave_out(facts.transparent_tets > 0, "transparent_tets",
+                                fmt::format("{} of {} tets show nothing: they are not projected",
+                                            facts.transparent_tets, facts.tets));
         // If a value is not finite, nothing can be drawn.
-        plan_.draw_transparent = !left_out && facts_.non_finite == 0;
+        plan.draw_transparent = !left_out && facts.non_finite == 0;
     }
 
     bool choose_precision(bool fan) {
-        return omissions_.leave_out(
-                   !fan && facts_.tets >= fewest_plain_tets, "double_precision",
+        return omissions.leave_out(
+                   !fan && facts.tets >= fewest_plain_tets, "double_precision",
                    fmt::format("{} tets: only where a face is seen nearly edge-on are faces "
                                "found in double",
-                               facts_.tets)) ||
+                               facts.tets)) ||
                fan;
     }
 
     OrderMethod choose_visibility() {
-        if (settings_.order.is_given()) return method_of(*settings_.order);
-        if (omissions_.leave_out(
-                scene_.target == Target::float32 && !scene_.lighting && facts_.single_color,
-                "order",
+        if (settings.order.is_given()) return method_of(*settings.order);
+        if (omissions.leave_out(
+                scene.target == Target::float32 && !scene.lighting && facts.single_color, "order",
                 "one colour: OVER gives the same whatever comes first, to float32's rounding"))
             return OrderMethod::none;
-        return facts_.convexity == Convexity::none ? OrderMethod::exact : OrderMethod::mpvo;
+        return facts.convexity == Convexity::none ? OrderMethod::exact : OrderMethod::mpvo;
     }
 
     ProjectDither choose_dither() {
-        if (is_fixed_point(*scene_.target) || settings_.dither == ProjectDither::none)
-            return settings_.dither;
-        omissions_.list.push_back(
+        if (is_fixed_point(*scene.target) || settings.dither == ProjectDither::none)
+            return settings.dither;
+        omissions.list.push_back(
             {"dither", "tets are composited in float: there is nothing to dither"});
         return ProjectDither::none;
     }
 
     void choose_tree() {
-        check_project_tree(scene_, facts_.single_color);
-        plan_.tree = given_tree(settings_.tree)->factors;
-        plan_.scattered =
-            settings_.order.is_automatic() &&
-            omissions_.leave_out(
+        check_project_tree(scene, facts.single_color);
+        plan.tree = given_tree(settings.tree)->factors;
+        plan.scattered =
+            settings.order.is_automatic() &&
+            omissions.leave_out(
                 true, "order",
                 "one colour: leaves take tets from all over the mesh, so that every ray "
                 "meets some of each leaf; codes are rounded in another order");
-        if (plan_.scattered) plan_.visibility = OrderMethod::none;
+        if (plan.scattered) plan.visibility = OrderMethod::none;
     }
 
     void choose_source() {
-        plan_.single_color = omissions_.leave_out(
-            facts_.single_color && !scene_.lighting, "color",
-            "one colour in all that can be seen: only extinction is looked up");
-        switch (settings_.coloring) {
+        plan.single_color =
+            omissions.leave_out(facts.single_color && !scene.lighting, "color",
+                                "one colour in all that can be seen: only extinction is looked up");
+        switch (settings.coloring) {
             case Coloring::vertex:
-                plan_.source = SegmentSource::vertices;
+                plan.source = SegmentSource::vertices;
                 break;
             case Coloring::attenuation:
-                plan_.source = SegmentSource::mean;
+                plan.source = SegmentSource::mean;
                 break;
             case Coloring::preintegrated:
             case Coloring::analytic:
@@ -291,66 +285,65 @@ class ProjectPlanner {
     // No error is measured of pictures that are wrong on purpose, to be studied, nor of triangles,
     // whose corners lie on a rasteriser's grid; and overlapping tets have no right picture.
     ErrorFigure picture_error() const {
-        if (plan_.nothing_visible) return {ErrorKind::derived, 0, 0};
+        if (plan.nothing_visible) return {ErrorKind::derived, 0, 0};
         const bool integrated =
-            plan_.source != SegmentSource::mean && plan_.source != SegmentSource::vertices;
+            plan.source != SegmentSource::mean && plan.source != SegmentSource::vertices;
         const bool straight =
-            plan_.geometry == ProjectGeometry::silhouette &&
-            (plan_.orthographic || plan_.interpolation == Interpolation::perspective) &&
-            plan_.thickness == Thickness::exact;
-        const bool sorted = plan_.solve_rings || plan_.single_color;
-        const bool stored = plan_.target == Target::float32 && plan_.tree.empty();
-        if (!integrated || !straight || !sorted || !stored || facts_.overlapping_tets > 0)
-            return {};
-        const MeshFacts::TrialError& found = plan_.trial_error;
+            plan.geometry == ProjectGeometry::silhouette &&
+            (plan.orthographic || plan.interpolation == Interpolation::perspective) &&
+            plan.thickness == Thickness::exact;
+        const bool sorted = plan.solve_rings || plan.single_color;
+        const bool stored = plan.target == Target::float32 && plan.tree.empty();
+        if (!integrated || !straight || !sorted || !stored || facts.overlapping_tets > 0) return {};
+        const MeshFacts::TrialError& found = plan.trial_error;
         // A picture is linear in its colours.
-        const double brightest = std::max(largest_drawn_color(scene_, facts_.max_color), 1.0);
+        const double brightest = std::max(largest_drawn_color(scene, facts.max_color), 1.0);
         const double value = brightest * float_error + sampling_margin * found.segments +
-                             found.places + plan_.light_error;
+                             found.places + plan.light_error;
         if (value > most_figure) return {};
         return {ErrorKind::sampled, value, found.rays};
     }
 
     void choose_integral() {
-        if (omissions_.leave_out(facts_.constant && facts_.non_finite == 0 && !scene_.lighting,
-                                 "scalars",
-                                 "the transfer function is constant over the mesh: opacity has a "
-                                 "closed form of the length alone")) {
-            plan_.source = SegmentSource::constant;
-            plan_.trial_error = error_of(exact_integral());
-        } else if (settings_.coloring == Coloring::analytic) {
+        if (omissions.leave_out(facts.constant && facts.non_finite == 0 && !scene.lighting,
+                                "scalars",
+                                "the transfer function is constant over the mesh: opacity has a "
+                                "closed form of the length alone")) {
+            plan.source = SegmentSource::constant;
+            plan.trial_error = error_of(exact_integral());
+        } else if (settings.coloring == Coloring::analytic) {
             take_window();
-            plan_.source = SegmentSource::analytic;
-            plan_.trial_error = error_of(exact_integral());
-        } else if (plan_.nothing_visible) {
+            plan.source = SegmentSource::analytic;
+            plan.trial_error = error_of(exact_integral());
+        } else if (plan.nothing_visible) {
             return;
-        } else if (settings_.table.is_given()) {
+        } else if (settings.table.is_given()) {
             take_window();
-            try_table(request_of(*settings_.table));
+            try_table(request_of(*settings.table));
         } else {
             choose_table();
         }
     }
 
-    TableRequest request_of(const TableSettings& settings) const {
-        return {.lo = plan_.range.lo,
-                .hi = plan_.range.hi,
-                .max_length = facts_.longest_edge * plan_.unit,
-                .scalar_nodes = settings.scalar,
-                .length_layers = settings.length,
-                .colored = !plan_.single_color,
+    TableRequest request_of(const TableSettings& asked) const {
+        return {.lo = plan.range.lo,
+                .hi = plan.range.hi,
+                .max_length = facts.longest_edge * plan.unit,
+                .scalar_nodes = asked.scalar,
+                .length_layers = asked.length,
+                .colored = !plan.single_color,
                 .kind = TableKind::uniform,
-                .mapping = settings.mapping,
-                .store = settings.store,
-                .format = settings.format,
-                .construction = settings.construction};
+                .mapping = asked.mapping,
+                .store = asked.store,
+                .format = asked.format,
+                .construction = asked.construction};
     }
 
     // Normalises scalars to the window of visible ones if that is far narrower than the range of
     // the data (docs/precision.md, "Exact segments").
     void take_window() {
-        plan_.windowed = is_far_narrower(facts_.window, drawn_);
-        if (plan_.windowed) plan_.range = facts_.window;
+        plan.windowed = is_far_narrower(facts.window, drawn);
+        if (plan.windowed) plan.range = facts.window;
     }
 
     // Returns the exact integral of a segment whose length is in the plan's units.
@@ -358,7 +351,7 @@ class ProjectPlanner {
 
     Lookup exact_integral() const {
         return [this](const MeshFacts::Run& run) {
-            return integrate_segment(*transfer_function_, run.front, run.back, run.length);
+            return integrate_segment(transfer_function, run.front, run.back, run.length);
         };
     }
 
@@ -366,11 +359,11 @@ class ProjectPlanner {
     // a way of integrating tets makes, with its scalars rounded, and the additional difference if
     // faces are not quite in their places. Without rays these are the errors found last.
     MeshFacts::TrialError error_of(const Lookup& lookup) const {
-        if (facts_.trial_rays.empty()) return facts_.last_error;
-        std::vector<RayError> errors(facts_.trial_rays.size());
+        if (facts.trial_rays.empty()) return facts.last_error;
+        std::vector<RayError> errors(facts.trial_rays.size());
         parallel_for(static_cast<std::int64_t>(errors.size()), 8, [&](std::int64_t index) {
             const auto ray = static_cast<std::size_t>(index);
-            errors[ray] = error_of_ray(facts_.trial_rays[ray], lookup);
+            errors[ray] = error_of_ray(facts.trial_rays[ray], lookup);
         });
         MeshFacts::TrialError largest{0, 0, std::ssize(errors)};
         double both = 0;
@@ -386,26 +379,26 @@ class ProjectPlanner {
         double segments = 0, both = 0;
     };
     RayError error_of_ray(const std::vector<MeshFacts::Run>& runs, const Lookup& lookup) const {
-        const double rounding = plan_.source == SegmentSource::parts
+        const double rounding = plan.source == SegmentSource::parts
                                     ? 0
-                                    : scalar_rounding * (plan_.range.hi - plan_.range.lo);
+                                    : scalar_rounding * (plan.range.hi - plan.range.lo);
         glm::dvec4 exact(0), moved(0);
         std::array<glm::dvec4, 2> found{glm::dvec4(0), glm::dvec4(0)};  // rounded down and up
         double sign = 1;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             MeshFacts::Run run = runs[i];
-            run.length *= plan_.unit;
-            append(exact, integrate_segment(*transfer_function_, run.front, run.back, run.length));
+            run.length *= plan.unit;
+            append(exact, integrate_segment(transfer_function, run.front, run.back, run.length));
             for (std::size_t way = 0; way < found.size(); ++way) {
                 for_each_run_of_window(
-                    rounded(run, way == 0 ? -rounding : rounding), plan_.range,
+                    rounded(run, way == 0 ? -rounding : rounding), plan.range,
                     [&](const MeshFacts::Run& part) { append(found[way], lookup(part)); });
             }
             // A face within the mesh takes length from one segment and gives it to the next. The
             // first and the last face of a ray move outwards.
             if (i + 1 == runs.size()) sign = 1;
-            const double change = sign * 2 * placing_share * run.edge * plan_.unit;
-            append(moved, integrate_segment(*transfer_function_, run.front, run.back,
+            const double change = sign * 2 * placing_share * run.edge * plan.unit;
+            append(moved, integrate_segment(transfer_function, run.front, run.back,
                                             std::max(run.length + change, 0.0)));
             sign = -sign;
         }
@@ -433,64 +426,63 @@ class ProjectPlanner {
 
     // Takes the table that is asked for, and measures its error.
     void try_table(const TableRequest& request) {
-        plan_.table.request = request;
-        plan_.table.built = tables_.get(*transfer_function_, request);
-        plan_.trial_error = error_of([&table = *plan_.table.built](const MeshFacts::Run& run) {
+        plan.table.request = request;
+        plan.table.built = tables.get(transfer_function, request);
+        plan.trial_error = error_of([&table = *plan.table.built](const MeshFacts::Run& run) {
             return table.lookup(run.front, run.back, run.length);
         });
     }
 
     void choose_table() {
-        const bool whole = plan_.geometry == ProjectGeometry::triangles;
+        const bool whole = plan.geometry == ProjectGeometry::triangles;
         take_window();
-        const bool few = facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets);
-        const bool narrow = has_narrow_pieces(*scene_.transfer_function, drawn_);
-        const bool cut = plan_.windowed ? few && facts_.far_tets == 0 : few || narrow;
+        const bool few = facts.parts <= most_parts * (facts.tets - facts.transparent_tets);
+        const bool narrow = has_narrow_pieces(*scene.transfer_function, drawn);
+        const bool cut = plan.windowed ? few && facts.far_tets == 0 : few || narrow;
         if (!whole && cut) {
-            plan_.windowed = false;
-            plan_.range = drawn_;
-            plan_.source = SegmentSource::parts;
-            plan_.trial_error =
-                error_of(plan_.single_color ? exact_integral() : integral_of_parts());
-        } else if (plan_.plain && !scene_.lighting && try_cut_table()) {
-            plan_.source = SegmentSource::cut_table;
+            plan.windowed = false;
+            plan.range = drawn;
+            plan.source = SegmentSource::parts;
+            plan.trial_error = error_of(plan.single_color ? exact_integral() : integral_of_parts());
+        } else if (plan.plain && !scene.lighting && try_cut_table()) {
+            plan.source = SegmentSource::cut_table;
         } else {
-            plan_.source = SegmentSource::analytic;  // slower, and right for every scene
-            plan_.trial_error = error_of(exact_integral());
+            plan.source = SegmentSource::analytic;  // slower, and right for every scene
+            plan.trial_error = error_of(exact_integral());
         }
     }
 
     // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh that
     // has a value next to one would be off by several codes.
     bool try_cut_table() {
-        if (scene_.transfer_function->knots().size() > most_table_points) return false;
-        const double depth = facts_.max_extinction * facts_.longest_edge;
+        if (scene.transfer_function->knots().size() > most_table_points) return false;
+        const double depth = facts.max_extinction * facts.longest_edge;
         const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
-        try_table({.lo = plan_.range.lo,
-                   .hi = plan_.range.hi,
-                   .max_length = facts_.longest_edge * plan_.unit,
+        try_table({.lo = plan.range.lo,
+                   .hi = plan.range.hi,
+                   .max_length = facts.longest_edge * plan.unit,
                    .scalar_nodes = 256,
-                   .length_layers = plan_.single_color ? 1 : layers,
-                   .colored = !plan_.single_color});
-        const double most = std::min(most_segment_error, scene_.max_error / 2) / sampling_margin;
-        if (plan_.trial_error.segments <= most) return true;
-        plan_.table.built.reset();
+                   .length_layers = plan.single_color ? 1 : layers,
+                   .colored = !plan.single_color});
+        const double most = std::min(most_segment_error, scene.max_error / 2) / sampling_margin;
+        if (plan.trial_error.segments <= most) return true;
+        plan.table.built.reset();
         return false;
     }
 
-    // Integrates pieces of tets as they are drawn (projection/tet_color-inl.h).
+    // Integrates pieces of tets as they are drawn (projection/tet_run-inl.h).
     Lookup integral_of_parts() const {
         return [this, &weights = FrontWeightTable::get()](const MeshFacts::Run& run) {
             SegmentIntegral segment;
             for_each_linear_piece(
-                transfer_function_->knots(), run.front, run.back, [&](const LinearPiece& piece) {
+                transfer_function.knots(), run.front, run.back, [&](const LinearPiece& piece) {
                     const double share = run.front == run.back
                                              ? 1
                                              : (piece.to - piece.from) / (run.back - run.front);
                     const double p = share * run.length * piece.at_from.extinction,
                                  q = share * run.length * piece.at_to.extinction;
                     const double alpha = opacity_from_depth(p / 2 + q / 2);
-                    const bool thin = plan_.plain && p / 2 + q / 2 <= thin_depth;
+                    const bool thin = plan.plain && p / 2 + q / 2 <= thin_depth;
                     const double weight = thin ? thin_front_weight(p, q) : weights.lookup(p, q);
                     segment.color +=
                         (1 - segment.alpha) * (alpha * piece.at_to.color +
@@ -500,16 +492,6 @@ class ProjectPlanner {
             return segment;
         };
     }
-
-    const Scene& scene_;
-    const ProjectSettings& settings_;
-    const MeshFacts& facts_;
-    const Capabilities& capabilities_;
-    Omissions omissions_;
-    TableCache& tables_;
-    std::optional<TransferFunction> transfer_function_;  // in the plan's units
-    ValueRange drawn_;                                   // of the data's scalars
-    ProjectPlan plan_;
 };
 
 }  // namespace
@@ -521,7 +503,7 @@ const char* name_of(SegmentSource source) {
 
 Plan plan_projection(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
                      const OmissionSwitch& omissions, TableCache& tables) {
-    return ProjectPlanner(scene, facts, capabilities, omissions, tables).make();
+    return ProjectPlanner{scene, facts, capabilities, {omissions}, tables}.make();
 }
 
 }  // namespace lamina

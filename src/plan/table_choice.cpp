@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan/table_choice.h"
+#include "plan/choices.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
-#include "facts/world_unit.h"
 #include "optics/pieces.h"
 #include "optics/ray_lights.h"
 #include "optics/segment_integral.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {
@@ -39,43 +39,35 @@ struct Segment {
 };
 
 // Cuts a ray at the boundaries of slabs, and at the box.
-class RayCutter {
-  public:
-    RayCutter(const ScalarRays::Ray& ray, const Facts& facts, int slabs)
-        : ray_(ray),
-          near_(facts.near_depth),
-          thickness_((facts.far_depth - facts.near_depth) / slabs),
-          range_(facts.range) {}
+struct RayCutter {
+    const ScalarRays::Ray& ray;
+    double first, thickness;  // of the slabs
+    ValueRange range;
 
     // Returns the segment in slab i; its length is <= 0 outside of the box. Its ends are moved as
     // renderers move them: to the mean of the parabola through both ends and the middle
     // (docs/precision.md).
     Segment segment(int i) const {
-        const double from = std::max(near_ + i * thickness_, ray_.near);
-        const double to = std::min(near_ + (i + 1) * thickness_, ray_.far);
+        const double from = std::max(first + i * thickness, ray.near);
+        const double to = std::min(first + (i + 1) * thickness, ray.far);
         if (!(from < to)) return {};
-        const double front = at(ray_.scalars, from), back = at(ray_.scalars, to);
-        const double bend = (2 * at(ray_.scalars, (from + to) / 2) - front - back) / 3;
-        return {std::clamp(front + bend, range_.lo, range_.hi),
-                std::clamp(back + bend, range_.lo, range_.hi), (to - from) * ray_.length_per_depth,
-                std::exp(-at(ray_.optical_depths, from))};
+        const double front = at(ray.scalars, from), back = at(ray.scalars, to);
+        const double bend = (2 * at(ray.scalars, (from + to) / 2) - front - back) / 3;
+        return {std::clamp(front + bend, range.lo, range.hi),
+                std::clamp(back + bend, range.lo, range.hi), (to - from) * ray.length_per_depth,
+                std::exp(-at(ray.optical_depths, from))};
     }
 
-  private:
     double at(const std::vector<float>& values, double depth) const {
         const auto steps = static_cast<double>(values.size() - 1);
         const double place =
-            std::clamp((depth - ray_.near) / (ray_.far - ray_.near), 0.0, 1.0) * steps;
+            std::clamp((depth - ray.near) / (ray.far - ray.near), 0.0, 1.0) * steps;
         const auto before = std::min(static_cast<std::size_t>(place), values.size() - 2);
         const double weight = place - static_cast<double>(before);
         if (weight == 0) return values[before];
         if (weight == 1) return values[before + 1];
         return (1 - weight) * values[before] + weight * values[before + 1];
     }
-
-    const ScalarRays::Ray& ray_;
-    double near_, thickness_;  // of the slabs
-    ValueRange range_;
 };
 
 double largest(const glm::dvec3& error) {
@@ -96,26 +88,22 @@ MostLight most_light(const Scene& scene) {
 
 // Adds the errors of segments one behind the other: of the unlit colour, and of light that is all
 // at the fronts of segments.
-class ErrorSum {
-  public:
-    explicit ErrorSum(const MostLight& light) : light_(light) {}
+struct ErrorSum {
+    MostLight light;
+    glm::dvec3 unlit{0}, front{0};
 
     void add(double weight, const LitIntegral& found, const LitIntegral& right) {
-        unlit_ += weight * (found.whole.color - right.whole.color);
-        front_ += weight * (light_.change * (found.front.color - right.front.color) +
-                            light_.highlight * (found.front.alpha - right.front.alpha));
+        unlit += weight * (found.whole.color - right.whole.color);
+        front += weight * (light.change * (found.front.color - right.front.color) +
+                           light.highlight * (found.front.alpha - right.front.alpha));
     }
     // Returns the largest error of four cases: without light, with light at all fronts, at all
     // backs, and everywhere. Opacity is exact.
     double largest_error() const {
-        const glm::dvec3 lit = light_.change * unlit_;
-        return std::max({largest(unlit_), largest(unlit_ + front_), largest(unlit_ + lit - front_),
-                         largest(unlit_ + lit)});
+        const glm::dvec3 lit = light.change * unlit;
+        return std::max({largest(unlit), largest(unlit + front), largest(unlit + lit - front),
+                         largest(unlit + lit)});
     }
-
-  private:
-    MostLight light_;
-    glm::dvec3 unlit_{0}, front_{0};
 };
 
 // Returns segments around places in every linear piece, of three widths up to `widest`, because few
@@ -143,21 +131,14 @@ std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_functio
     return segments;
 }
 
-// Returns the count of numbers for an entry and a length.
-double numbers_of(const TableRequest& table) {
-    return table.lit ? 7 : 3;
-}
-
-double most_nodes_of(const TableRequest& table, double knots) {
-    return 1.5 * table.scalar_nodes + 3 * (knots + 1);  // preintegration/preintegration_table.h
-}
-
 // Returns fewer layers if those wanted would take too long or too much memory.
 int affordable_layers(const TableRequest& table, double knots, double wanted) {
-    const double nodes = most_nodes_of(table, knots);
+    // At most so many (preintegration/preintegration_table.h).
+    const double nodes = 1.5 * table.scalar_nodes + 3 * (knots + 1);
     // Pairs within each of the pieces, and from point to point through all pieces between.
     const double work = nodes * nodes / (knots + 1) + knots * knots * knots / 3;
-    const double bytes = nodes * nodes * numbers_of(table) * sizeof(float);
+    const double numbers = table.lit ? 7 : 3;  // of an entry and a length
+    const double bytes = nodes * nodes * numbers * sizeof(float);
     return static_cast<int>(std::max(
         1.0, std::floor(std::min({wanted, most_table_work / work, most_table_bytes / bytes}))));
 }
@@ -193,8 +174,9 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     parallel_for(static_cast<std::int64_t>(found.size()), 8, [&](std::int64_t number) {
         Found& of_ray = found[static_cast<std::size_t>(number)];
         const ScalarRays::Ray& ray = rays[ray_stride * static_cast<std::size_t>(number)];
-        const RayCutter cutter(ray, facts, slabs);
-        ErrorSum error(light);
+        const RayCutter cutter{ray, facts.near_depth, (facts.far_depth - facts.near_depth) / slabs,
+                               facts.range};
+        ErrorSum error{light};
         double transmittance = 1;  // of the segments before, as they are drawn
         for (int i = stride / 2; i < slabs; i += stride) {
             Segment segment = cutter.segment(i);
@@ -218,7 +200,7 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     parallel_for(static_cast<std::int64_t>(single.size()), 64, [&](std::int64_t number) {
         const auto i = static_cast<std::size_t>(number);
         single[i].length = plan.request.max_length;
-        ErrorSum error(light);
+        ErrorSum error{light};
         error.add(1, looked_up(single[i]), integrated(single[i]));
         errors[i] = error.largest_error();
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan/tree_choice.h"
+#include "plan/choices.h"
 
 #include <fmt/ranges.h>
 
@@ -7,14 +7,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
-#include <vector>
 
 #include "base/enum_words.h"
 #include "base/error.h"
-#include "compositing/tree_shape.h"
-#include "plan/target_choice.h"
-#include "scene/coloring.h"
+#include "scene/scene.h"
 
 namespace lamina {
 namespace {
@@ -103,24 +99,20 @@ std::string targets_that_keep(TreeQuestion question) {
     return names.empty() ? "" : fmt::format("target {}", fmt::join(names, " or "));
 }
 
-bool more_bits_keep(TreeQuestion question) {
-    question.emulation.bits = max_code_bits;
-    return straight_error_bound(question) <= question.max_error;
-}
-
 [[noreturn]] void fail_for(const TreeQuestion& question) {
     std::vector<std::string> remedies;
     if (best_error_bound(question) <= full_scale) remedies.emplace_back("a larger max_error");
-    TreeQuestion clamped = question;
-    clamped.largest_color = std::min(question.largest_color, 1.0);
+    const auto add_if_kept = [&](const char* remedy, const TreeQuestion& other) {
+        if (best_error_bound(other) <= question.max_error) remedies.emplace_back(remedy);
+    };
     const bool clamps = is_fixed_point(question.target) && question.largest_color > 1;
-    if (clamps && best_error_bound(clamped) <= question.max_error)
-        remedies.emplace_back("colours up to 1");
-    if (question.target == Target::emulated && more_bits_keep(question))
-        remedies.emplace_back("more bits");
-    TreeQuestion one_slab = question;
+    TreeQuestion clamped = question, more_bits = question, one_slab = question;
+    clamped.largest_color = 1;
+    more_bits.emulation.bits = max_code_bits;
     one_slab.visible_slabs = 1;
-    if (best_error_bound(one_slab) <= question.max_error) remedies.emplace_back("fewer slabs");
+    if (clamps) add_if_kept("colours up to 1", clamped);
+    if (question.target == Target::emulated) add_if_kept("more bits", more_bits);
+    add_if_kept("fewer slabs", one_slab);
     if (const std::string targets = targets_that_keep(question); !targets.empty())
         remedies.push_back(targets);
     if (remedies.empty()) remedies.emplace_back("colours up to 1 and a larger max_error");

@@ -11,11 +11,9 @@
 #include <glm/vec3.hpp>
 #include <iterator>
 #include <limits>
-#include <vector>
 
 #include "base/parallel.h"
-#include "facts/rays.h"
-#include "scene/camera.h"
+#include "facts/volume_facts.h"
 #include "volume/brick_cache.h"
 
 namespace lamina {
@@ -80,11 +78,7 @@ int below_of(int count) {
 // Costs of drawing parts of a volume, in cells that rays walk through, estimated on rays all over
 // the view from the ranges of bricks alone. In each part rays end once the part by itself is
 // opaque.
-class ShareCosts {
-  public:
-    // `in_files`: the visible samples are also read from files.
-    ShareCosts(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks, bool in_files);
-
+struct ShareCosts {
     // Costs of the parts below and above a plane across an axis.
     struct Pair {
         double below = 0, above = 0;
@@ -94,9 +88,6 @@ class ShareCosts {
     // Returns the costs inside one of these parts.
     ShareCosts part(int axis, double place, bool above) const;
 
-  private:
-    ShareCosts() = default;
-
     // A part of a ray in visible bricks.
     struct Stretch {
         glm::vec3 middle;     // in index space
@@ -104,29 +95,22 @@ class ShareCosts {
         float optical_depth;  // estimated
         std::int32_t ray;
     };
-    void find_stretches(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks);
-    void find_pages(const Scene& scene, const Facts& facts);
 
-    std::vector<Stretch> stretches_;  // ray by ray, front to back
-    std::vector<glm::vec3> pages_;    // middles of the cache's bricks that are read, in index space
-    double opaque_depth_ = 0, page_cost_ = 0;
+    std::vector<Stretch> stretches;  // ray by ray, front to back
+    std::vector<glm::vec3> pages;    // middles of the cache's bricks that are read, in index space
+    double opaque_depth = 0, page_cost = 0;
 };
 
-ShareCosts::ShareCosts(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks,
-                       bool in_files)
-    : opaque_depth_(lamina::opaque_depth(scene.max_error, facts.max_color)) {
-    find_stretches(scene, facts, bricks);
-    if (in_files) find_pages(scene, facts);
-}
+namespace {
 
-void ShareCosts::find_stretches(const Scene& scene, const Facts& facts,
-                                const MinMaxBricks& bricks) {
+std::vector<ShareCosts::Stretch> find_stretches(const Scene& scene, const Facts& facts,
+                                                const MinMaxBricks& bricks) {
     const View view(*scene.camera, scene.width, scene.height);
     const int columns = columns_of(view), rows = rows_of(view);
     const int steps = static_cast<int>(
         std::clamp(facts.voxels_along_view / MinMaxBricks::edge, 8.0, double{most_steps}));
     const double step = (facts.far_depth - facts.near_depth) / steps;
-    std::vector<std::vector<Stretch>> by_row(static_cast<std::size_t>(rows));
+    std::vector<std::vector<ShareCosts::Stretch>> by_row(static_cast<std::size_t>(rows));
     parallel_for(rows, 1, [&](std::int64_t row) {
         for (int column = 0; column < columns; ++column) {
             const View::Ray ray =
@@ -151,13 +135,16 @@ void ShareCosts::find_stretches(const Scene& scene, const Facts& facts,
             }
         }
     });
-    for (const auto& row : by_row) stretches_.insert(stretches_.end(), row.begin(), row.end());
+    std::vector<ShareCosts::Stretch> all;
+    for (const auto& row : by_row) all.insert(all.end(), row.begin(), row.end());
+    return all;
 }
 
-void ShareCosts::find_pages(const Scene& scene, const Facts& facts) {
+// Adds the samples that are read from files.
+void find_pages(const Scene& scene, const Facts& facts, ShareCosts& costs) {
     constexpr double edge = BrickCache::edge;
     const View view(*scene.camera, scene.width, scene.height);
-    page_cost_ = cells_of_page * columns_of(view) / view.width * rows_of(view) / view.height;
+    costs.page_cost = cells_of_page * columns_of(view) / view.width * rows_of(view) / view.height;
     const glm::dvec3 end = facts.grid.index_max();
     for (double z = 0; z < end.z; z += edge) {
         for (double y = 0; y < end.y; y += edge) {
@@ -165,24 +152,26 @@ void ShareCosts::find_pages(const Scene& scene, const Facts& facts) {
                 const glm::dvec3 first(x, y, z), middle = first + 0.5 * edge;
                 if (in_picture(view, facts.grid.to_world(middle)) &&
                     facts.occupied_bricks.any_in(first, first + (edge - 1)))
-                    pages_.emplace_back(middle);
+                    costs.pages.emplace_back(middle);
             }
         }
     }
 }
 
+}  // namespace
+
 ShareCosts::Pair ShareCosts::of_parts(int axis, double place) const {
     double cost[2] = {0, 0}, depth[2] = {0, 0};
-    for (const glm::vec3& page : pages_) cost[page[axis] >= place ? 1 : 0] += page_cost_;
+    for (const glm::vec3& page : pages) cost[page[axis] >= place ? 1 : 0] += page_cost;
     std::int32_t last_ray[2] = {-1, -1};
-    for (const Stretch& stretch : stretches_) {
+    for (const Stretch& stretch : stretches) {
         const int part = stretch.middle[axis] >= place ? 1 : 0;
         if (last_ray[part] != stretch.ray) {
             last_ray[part] = stretch.ray;
             depth[part] = 0;
             cost[part] += cells_of_ray;
         }
-        if (depth[part] >= opaque_depth_) continue;
+        if (depth[part] >= opaque_depth) continue;
         depth[part] += stretch.optical_depth;
         cost[part] += stretch.cells;
     }
@@ -190,11 +179,9 @@ ShareCosts::Pair ShareCosts::of_parts(int axis, double place) const {
 }
 
 ShareCosts ShareCosts::part(int axis, double place, bool above) const {
-    ShareCosts result;
-    result.opaque_depth_ = opaque_depth_;
-    result.page_cost_ = page_cost_;
+    ShareCosts result{{}, {}, opaque_depth, page_cost};
     std::ranges::copy_if(
-        stretches_, std::back_inserter(result.stretches_),
+        stretches, std::back_inserter(result.stretches),
         [&](const Stretch& stretch) { return (stretch.middle[axis] >= place) == above; });
     return result;
 }
@@ -203,8 +190,10 @@ VolumeShares::VolumeShares(const Scene& scene, const Facts& facts, const MinMaxB
                            bool in_files, int count) {
     const auto& size = facts.grid.size;
     const glm::dvec3 last(size[0] - 1, size[1] - 1, size[2] - 1);
-    divide(ShareCosts(scene, facts, bricks, in_files), {glm::dvec3(-endless), glm::dvec3(endless)},
-           {glm::dvec3(0), last}, count);
+    ShareCosts costs{
+        find_stretches(scene, facts, bricks), {}, opaque_depth(scene.max_error, facts.max_color)};
+    if (in_files) find_pages(scene, facts, costs);
+    divide(costs, {glm::dvec3(-endless), glm::dvec3(endless)}, {glm::dvec3(0), last}, count);
 }
 
 void VolumeShares::divide(const ShareCosts& costs, const IndexBox& box, const IndexBox& between,

@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-class ShareCosts;
+struct ShareCosts;
 
 // A volume cut into boxes, for renderers that draw one picture together, each its own box. A box is
 // cut in two by a plane through samples, again and again.

@@ -9,9 +9,9 @@
 #include <limits>
 #include <utility>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "optics/opacity.h"
 #include "optics/pieces.h"
 #include "preintegration/preintegration_table.h"
@@ -38,9 +38,9 @@ struct Node {
     bool anchor;
 };
 
-class NodeBuilder {
-  public:
-    explicit NodeBuilder(KnotTable& table) : table_(table) {}
+struct NodeBuilder {
+    KnotTable& table;
+    std::vector<Node> nodes = {};
 
     void add_interval(const LinearPiece& piece, int wanted_cells) {
         // Points that are a few roundings apart leave no room for more nodes.
@@ -51,41 +51,37 @@ class NodeBuilder {
         const TransferKnot a{piece.from, piece.at_from}, b{piece.to, piece.at_to};
         for (int i = 1; i < cells; ++i) {
             const double value = piece.from + (piece.to - piece.from) * i / cells;
-            nodes_.push_back({value, interpolate(a, b, value), 0, 0, false});
+            nodes.push_back({value, interpolate(a, b, value), 0, 0, false});
         }
         add_anchor(piece.to, piece.at_to);
     }
 
     void add_anchor(double value, const OpticalProperties& optics) {
-        if (!nodes_.empty() && nodes_.back().value == value &&
-            nodes_.back().optics.extinction == optics.extinction &&
-            nodes_.back().optics.color == optics.color) {
+        if (!nodes.empty() && nodes.back().value == value &&
+            nodes.back().optics.extinction == optics.extinction &&
+            nodes.back().optics.color == optics.color) {
             return;  // the function is continuous here: one node for both sides
         }
-        table_.anchors.push_back({value, static_cast<int>(nodes_.size())});
-        nodes_.push_back({value, optics, 0, 0, true});
+        table.anchors.push_back({value, static_cast<int>(nodes.size())});
+        nodes.push_back({value, optics, 0, 0, true});
     }
 
     std::vector<Node> finish() {
-        const auto count = static_cast<int>(nodes_.size());
-        for (std::size_t a = 0; a + 1 < table_.anchors.size(); ++a) {
-            const int first = table_.anchors[a].node, last = table_.anchors[a + 1].node;
-            for (int n = first; n < last; ++n) nodes_[n].next_anchor = last;
-            for (int n = first + 1; n <= last; ++n) nodes_[n].previous_anchor = first;
+        const auto count = static_cast<int>(nodes.size());
+        for (std::size_t a = 0; a + 1 < table.anchors.size(); ++a) {
+            const int first = table.anchors[a].node, last = table.anchors[a + 1].node;
+            for (int n = first; n < last; ++n) nodes[n].next_anchor = last;
+            for (int n = first + 1; n <= last; ++n) nodes[n].previous_anchor = first;
         }
-        nodes_[count - 1].next_anchor = count - 1;
-        for (const Node& node : nodes_) table_.nodes.push_back(node.value);
-        return std::move(nodes_);
+        nodes[count - 1].next_anchor = count - 1;
+        for (const Node& node : nodes) table.nodes.push_back(node.value);
+        return std::move(nodes);
     }
-
-  private:
-    KnotTable& table_;
-    std::vector<Node> nodes_;
 };
 
 std::vector<Node> place_nodes(const TransferFunction& transfer_function,
                               const TableRequest& request, KnotTable& table) {
-    NodeBuilder builder(table);
+    NodeBuilder builder{table};
     if (request.lo == request.hi) {
         builder.add_anchor(request.lo, transfer_function.at(request.lo));
         return builder.finish();
@@ -133,20 +129,18 @@ void check_size(const KnotTable& table) {
     }
 }
 
-class TableBuilder {
-  public:
-    TableBuilder(KnotTable& table, const std::vector<Node>& nodes)
-        : table_(table), nodes_(nodes), count_(static_cast<int>(nodes.size())) {}
+struct TableBuilder {
+    KnotTable& table;
+    const std::vector<Node>& nodes;
 
     void fill_row(int front) {
-        const OpticalProperties& optics = nodes_[front].optics;
+        const OpticalProperties& optics = nodes[front].optics;
         const glm::dvec3 emission = optics.extinction * optics.color;
         store(front, front, {optics.extinction, emission, {optics.extinction / 2, emission / 2.0}});
         fill_half_row(front, +1);
         fill_half_row(front, -1);
     }
 
-  private:
     // Numbers per length of a segment whose length goes to 0.
     struct Limit {
         double extinction = 0;
@@ -160,14 +154,15 @@ class TableBuilder {
     void fill_half_row(int front, int direction) {
         double extinction = 0, extinction_behind = 0;
         glm::dvec3 emission(0), emission_behind(0);
-        for (int back = front + direction; back >= 0 && back < count_; back += direction) {
-            const Node& a = nodes_[back - direction];
-            const Node& b = nodes_[back];
+        for (int back = front + direction; back >= 0 && back < std::ssize(nodes);
+             back += direction) {
+            const Node& a = nodes[back - direction];
+            const Node& b = nodes[back];
             const double p = a.optics.extinction, q = b.optics.extinction;
             const glm::dvec3 &at_a = a.optics.color, &at_b = b.optics.color;
             const double step = std::abs(b.value - a.value);
-            const double before = std::abs(a.value - nodes_[front].value);
-            const double width = std::abs(b.value - nodes_[front].value);
+            const double before = std::abs(a.value - nodes[front].value);
+            const double width = std::abs(b.value - nodes[front].value);
             const double of_piece = p / 2 + q / 2;
             const glm::dvec3 emitted = at_a * (p / 3 + q / 6) + at_b * (p / 6 + q / 3);
             extinction += step * of_piece;
@@ -191,19 +186,19 @@ class TableBuilder {
     }
 
     void store(int front, int back, const Limit& limit) {
-        const std::size_t entry = static_cast<std::size_t>(back) * count_ + front;
-        table_.mean_extinction[entry] = as_float(limit.extinction);
-        if (!table_.request.colored) return;
+        const std::size_t entry = static_cast<std::size_t>(back) * nodes.size() + front;
+        table.mean_extinction[entry] = as_float(limit.extinction);
+        if (!table.request.colored) return;
         store_layer(0, entry, limit);
-        for (std::size_t layer = 1; layer < table_.lengths.size(); ++layer) {
-            const double length = table_.lengths[layer];
+        for (std::size_t layer = 1; layer < table.lengths.size(); ++layer) {
+            const double length = table.lengths[layer];
             const double alpha = opacity_from_depth(limit.extinction * length);
             // The limit is taken at length 0 (max_length = 0) and if the depth underflows.
             Limit there = limit;
             if (is_looked_up(front, back) && alpha > std::numeric_limits<double>::min()) {
                 const double scale = limit.extinction / alpha;
                 if (front != back) there.emission = color(front, back, length) * scale;
-                if (table_.request.lit) {
+                if (table.request.lit) {
                     there.front = front_parts(front, back, length);
                     there.front.alpha *= scale;
                     there.front.color *= scale;
@@ -217,16 +212,16 @@ class TableBuilder {
     // the other entries by rounding alone, with next to no weight.
     bool is_looked_up(int front, int back) const {
         const int lower = std::min(front, back), upper = std::max(front, back);
-        return upper <= nodes_[lower].next_anchor || (nodes_[lower].anchor && nodes_[upper].anchor);
+        return upper <= nodes[lower].next_anchor || (nodes[lower].anchor && nodes[upper].anchor);
     }
 
     void store_layer(std::size_t layer, std::size_t entry, const Limit& values) {
-        const std::size_t number = layer * nodes_.size() * nodes_.size() + entry;
-        for (int c = 0; c < 3; ++c) table_.emission[number * 3 + c] = as_float(values.emission[c]);
-        if (!table_.request.lit) return;
+        const std::size_t number = layer * nodes.size() * nodes.size() + entry;
+        for (int c = 0; c < 3; ++c) table.emission[number * 3 + c] = as_float(values.emission[c]);
+        if (!table.request.lit) return;
         for (int c = 0; c < 3; ++c)
-            table_.front_parts[number * 4 + c] = as_float(values.front.color[c]);
-        table_.front_parts[number * 4 + 3] = as_float(values.front.alpha);
+            table.front_parts[number * 4 + c] = as_float(values.front.color[c]);
+        table.front_parts[number * 4 + 3] = as_float(values.front.alpha);
     }
 
     // Calls visit(from, to, begin, end, share) for the linear pieces of a segment from the front
@@ -235,18 +230,18 @@ class TableBuilder {
     // visit() returns false.
     template <typename Visit>
     void for_each_piece(int front, int back, const Visit& visit) const {
-        const double start = nodes_[front].value, width = nodes_[back].value - start;
+        const double start = nodes[front].value, width = nodes[back].value - start;
         if (width == 0) {  // the same value, or both sides of a step, half the length on each
             if (visit(front, front, 0, .5, .5)) visit(back, back, .5, 1, .5);
             return;
         }
         bool more = true;
         for (int from = front; from != back && more;) {
-            const int to = front < back ? std::min(nodes_[from].next_anchor, back)
-                                        : std::max(nodes_[from].previous_anchor, back);
-            more = visit(from, to, (nodes_[from].value - start) / width,
-                         (nodes_[to].value - start) / width,
-                         (nodes_[to].value - nodes_[from].value) / width);
+            const int to = front < back ? std::min(nodes[from].next_anchor, back)
+                                        : std::max(nodes[from].previous_anchor, back);
+            more = visit(from, to, (nodes[from].value - start) / width,
+                         (nodes[to].value - start) / width,
+                         (nodes[to].value - nodes[from].value) / width);
             from = to;
         }
     }
@@ -256,7 +251,7 @@ class TableBuilder {
         glm::dvec3 sum(0);
         double transmittance = 1;
         for_each_piece(front, back, [&](int from, int to, double, double, double share) {
-            add_piece(nodes_[from], nodes_[to], length * share, transmittance, sum);
+            add_piece(nodes[from], nodes[to], length * share, transmittance, sum);
             return transmittance > least_transmittance;
         });
         return sum;
@@ -266,7 +261,7 @@ class TableBuilder {
         FrontParts sum;
         double transmittance = 1;
         for_each_piece(front, back, [&](int from, int to, double begin, double end, double share) {
-            const OpticalProperties &a = nodes_[from].optics, &b = nodes_[to].optics;
+            const OpticalProperties &a = nodes[from].optics, &b = nodes[to].optics;
             const FrontParts parts = front_parts_of({a, b, length * share, begin, end});
             sum.alpha += transmittance * parts.alpha;
             sum.color += transmittance * parts.color;
@@ -288,10 +283,6 @@ class TableBuilder {
         }
         transmittance *= std::exp(-(p / 2 + q / 2));
     }
-
-    KnotTable& table_;
-    const std::vector<Node>& nodes_;
-    int count_;
 };
 
 }  // namespace
@@ -314,7 +305,7 @@ KnotTable::KnotTable(const TransferFunction& transfer_function, const TableReque
         std::ranges::find_if(placed, [](const Node& node) { return node.optics.extinction > 0; });
     if (seen != placed.end()) single_color = seen->optics.color;
 
-    TableBuilder builder(*this, placed);
+    TableBuilder builder{*this, placed};
     const auto count = static_cast<std::int64_t>(placed.size());
     Progress progress("pre-integrating", count);
     parallel_for(count, 4, [&](std::int64_t front) {

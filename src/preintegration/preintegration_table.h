@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pre-integrated transfer functions (docs/numerics.md, section 5): tables over the scalar at the
 // front of a segment, the scalar at its back, and its length. A TableRequest says which table;
-// build_table() builds it, and a TableCache (preintegration/table_cache.h) finds it again.
+// build_table() builds it, and a TableCache finds it again.
 #pragma once
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <list>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "lamina/table_settings.h"
@@ -52,11 +54,10 @@ struct PreintegrationTable {
     explicit PreintegrationTable(const TableRequest& asked) : request(asked) {}
 };
 
-// A table whose nodes are aligned with the transfer function's knots, so that within one linear
-// piece the mean extinction is exactly bilinear, and nothing is interpolated across a step. If
-// front and back lie close on both sides of a step, no table is right; there the corner holds the
-// mean of both sides. It stores quantities that do not scale with length, so opacity is exact at
-// every length, and colour has a finite limit at length 0.
+// A table whose nodes are aligned with the transfer function's knots: within one linear piece the
+// mean extinction is exactly bilinear, and nothing is interpolated across a step (for segments
+// across it no table is right; the corner holds the mean of both sides). Its numbers do not scale
+// with length, so opacity is exact at every length, and colour has a limit at length 0.
 struct KnotTable : PreintegrationTable {
     struct Anchor {
         double value;
@@ -91,9 +92,8 @@ struct KnotTable : PreintegrationTable {
 
     // Twin of shaders/preintegration/knot_table.glsl: it interpolates bilinearly in the scalars and
     // linearly in length (clamped to max_length), then alpha = -expm1(-tbar * length) and C = alpha
-    // * E / tbar. tbar and E are smooth only within a linear piece. So a segment is cut at the
-    // first and at the last anchor between its ends and composed of at most three look-ups. Each of
-    // these is within smooth cells or, between anchors, exact in the scalars.
+    // * E / tbar. These are smooth only within a linear piece, so a segment is cut at the first and
+    // at the last anchor inside: three look-ups, in smooth cells or, between anchors, exact.
     SegmentIntegral lookup(double front, double back, double length) const override {
         return lookup_lit(front, back, length).whole;
     }
@@ -137,5 +137,67 @@ struct UniformTable : PreintegrationTable {
 // Builds what the request asks for, a KnotTable or a UniformTable.
 std::shared_ptr<const PreintegrationTable> build_table(const TransferFunction& transfer_function,
                                                        const TableRequest& request);
+
+// A plan's table. It follows from its request and from the transfer function, so plans are compared
+// by the request (and the error) alone.
+struct TablePlan {
+    TableRequest request;  // lengths in the plan's units
+    double error = 0;      // found error that it adds to the picture, in 1/255
+    // Null if nothing looks it up; else of the request's kind.
+    std::shared_ptr<const PreintegrationTable> built = nullptr;
+
+    std::shared_ptr<const KnotTable> knot_table() const {
+        return std::static_pointer_cast<const KnotTable>(built);
+    }
+    std::shared_ptr<const UniformTable> uniform_table() const {
+        return std::static_pointer_cast<const UniformTable>(built);
+    }
+
+    friend bool operator==(const TablePlan& a, const TablePlan& b) {
+        return a.request == b.request && a.error == b.error;
+    }
+};
+
+// Builds tables, and finds them again by content: transfer function and request. The cache keeps
+// the tables that were asked for last, at most 8 that take no more than `most_bytes` in all. A
+// table that it keeps no longer is still found while someone else holds it. Safe from any thread.
+class TableCache {
+  public:
+    static constexpr std::size_t most_tables = 8;
+
+    explicit TableCache(std::int64_t most_bytes = std::int64_t{1} << 30)
+        : most_bytes_(most_bytes) {}
+    TableCache(const TableCache&) = delete;
+    TableCache& operator=(const TableCache&) = delete;
+
+    // Throws what build_table() throws. Requests that differ only in values on which their table
+    // does not depend get one table: views that differ in the longest segment share a KnotTable of
+    // one layer.
+    std::shared_ptr<const PreintegrationTable> get(const TransferFunction& transfer_function,
+                                                   const TableRequest& request);
+
+  private:
+    using TablePointer = std::shared_ptr<const PreintegrationTable>;
+
+    struct Content {
+        std::vector<double> knots;
+        TableRequest request;
+        friend bool operator==(const Content&, const Content&) = default;
+    };
+    struct Known {
+        Content content;
+        std::int64_t bytes;
+        std::weak_ptr<const PreintegrationTable> table;
+        TablePointer kept;  // null if only others hold it
+    };
+
+    // The lock must be held.
+    TablePointer find(const Content& content);
+    void keep_newest();
+
+    std::int64_t most_bytes_;
+    std::mutex mutex_;
+    std::list<Known> known_;  // the one that was asked for last comes first
+};
 
 }  // namespace lamina

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preintegration/table_cache.h"
+#include "preintegration/preintegration_table.h"
 
 #include <algorithm>
 #include <utility>
@@ -44,27 +44,20 @@ std::shared_ptr<const PreintegrationTable> build_table(const TransferFunction& t
 std::shared_ptr<const PreintegrationTable> TableCache::get(
     const TransferFunction& transfer_function, const TableRequest& request) {
     Content content{numbers_of(transfer_function), without_idle_length(request)};
+    std::unique_lock lock(mutex_);
     if (auto table = find(content)) return table;
+    lock.unlock();
     Stage building("table");
     auto table = build_table(transfer_function, content.request);
     building.end();
-    return add(std::move(content), std::move(table));
-}
-
-TableCache::TablePointer TableCache::find(const Content& content) {
-    const std::lock_guard lock(mutex_);
-    return find_locked(content);
-}
-
-TableCache::TablePointer TableCache::add(Content content, TablePointer table) {
-    const std::lock_guard lock(mutex_);
-    if (auto found = find_locked(content)) return found;
+    lock.lock();
+    if (auto found = find(content)) return found;
     known_.push_front({std::move(content), table->byte_count(), table, table});
     keep_newest();
     return table;
 }
 
-TableCache::TablePointer TableCache::find_locked(const Content& content) {
+TableCache::TablePointer TableCache::find(const Content& content) {
     const auto known = std::ranges::find(known_, content, &Known::content);
     if (known == known_.end()) return nullptr;
     TablePointer table = known->table.lock();

@@ -10,9 +10,9 @@
 #include <span>
 #include <utility>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "optics/opacity.h"
 #include "optics/pieces.h"
 #include "preintegration/preintegration_table.h"
@@ -124,13 +124,11 @@ float as_float(double x) {
     return static_cast<float>(std::min<double>(x, std::numeric_limits<float>::max()));
 }
 
-class ExactLayers {
-  public:
-    ExactLayers(UniformTable& table, const TransferFunction& transfer_function, int layer_count)
-        : table_(table),
-          transfer_function_(transfer_function),
-          layer_count_(layer_count),
-          nodes_(nodes_of(table.request)) {}
+struct ExactLayers {
+    UniformTable& table;
+    const TransferFunction& transfer_function;
+    int layer_count;
+    std::vector<double> nodes;
 
     void fill_column(int front) {
         store_homogeneous(front, front);
@@ -138,18 +136,17 @@ class ExactLayers {
         fill_side(front, -1);
     }
 
-  private:
     // Fills in all nodes on one side of `front`, with running sums over the pieces between.
     void fill_side(int front, int direction) {
-        const int count = table_.request.scalar_nodes;
-        const double start = nodes_[front], end = direction > 0 ? nodes_.back() : nodes_.front();
+        const int count = table.request.scalar_nodes;
+        const double start = nodes[front], end = direction > 0 ? nodes.back() : nodes.front();
         std::vector<LinearPiece> pieces;
-        for_each_linear_piece(transfer_function_.knots(), start, end,
+        for_each_linear_piece(transfer_function.knots(), start, end,
                               [&](const LinearPiece& piece) { pieces.push_back(piece); });
         std::size_t whole = 0;
         Sums sums;
         for (int back = front + direction; back >= 0 && back < count; back += direction) {
-            const double value = nodes_[back];
+            const double value = nodes[back];
             if (value == start) {
                 store_homogeneous(front, back);
                 continue;
@@ -177,22 +174,21 @@ class ExactLayers {
     }
 
     void store_homogeneous(int front, int back) {
-        const OpticalProperties optics = transfer_function_.at(nodes_[front]);
+        const OpticalProperties optics = transfer_function.at(nodes[front]);
         store(front, back, {{}, 0, optics.extinction, optics.extinction * optics.color});
     }
 
     void store(int front, int back, const Run& run) {
-        for (int layer = 0; layer < layer_count_; ++layer) {
-            const double length = table_.length_of(layer);
+        for (int layer = 0; layer < layer_count; ++layer) {
+            const double length = table.length_of(layer);
             const double alpha = opacity_from_depth(run.extinction * length);
             // The limit is taken if the run is homogeneous, has length 0, or has a depth that
             // underflows.
             const bool at_limit = run.width == 0 || !(alpha > std::numeric_limits<double>::min());
-            const std::size_t nodes = nodes_.size();
-            float* texel =
-                &table_.texels[((layer * nodes + back) * nodes + front) * table_.channels];
-            const bool opacity = table_.request.store == TableStore::opacity;
-            if (table_.request.colored) {
+            const std::size_t count = nodes.size();
+            float* texel = &table.texels[((layer * count + back) * count + front) * table.channels];
+            const bool opacity = table.request.store == TableStore::opacity;
+            if (table.request.colored) {
                 const double per_emission =
                     run.extinction > 0 ? alpha / run.extinction : 0;  // associated colour
                 const glm::dvec3 color =
@@ -204,23 +200,7 @@ class ExactLayers {
             *texel = as_float(opacity ? alpha : run.extinction);
         }
     }
-
-    UniformTable& table_;
-    const TransferFunction& transfer_function_;
-    int layer_count_;
-    std::vector<double> nodes_;
 };
-
-// Fills layers [0, layer_count) with the closed form of every segment.
-void fill_exact(UniformTable& table, const TransferFunction& transfer_function, int layer_count) {
-    ExactLayers layers(table, transfer_function, layer_count);
-    const std::int64_t count = table.request.scalar_nodes;
-    Progress progress("pre-integrating", count);
-    parallel_for(count, 4, [&](std::int64_t front) {
-        layers.fill_column(static_cast<int>(front));
-        progress.advance();
-    });
-}
 
 // A part of a segment, from interpolated texels. Without colour, the first three are unused; with
 // TableStore::opacity, extinction and emission are.
@@ -229,48 +209,46 @@ struct Part {
     double alpha = 0, extinction = 0;
 };
 
-class IncrementalLayers {
-  public:
-    explicit IncrementalLayers(UniformTable& table)
-        : table_(table), nodes_(static_cast<std::size_t>(table.request.scalar_nodes)) {}
+struct IncrementalLayers {
+    UniformTable& table;
+    std::size_t nodes;
 
     // Weiler, Kraus, Merz, Ertl 2003, as Kraus 2004, section 3, adapts it: a segment of length 2 l
     // from its two halves of length l, with `linear` one of length (n + 1) l from its first share l
     // and the rest. Where they meet, the scalar lies between two nodes.
     void fill_row(int layer, std::size_t back) {
-        const bool doubling = table_.request.mapping != LengthMapping::linear;
+        const bool doubling = table.request.mapping != LengthMapping::linear;
         const double share = doubling ? 0.5 : 1.0 / layer;
         const int front_layer = doubling ? layer - 1 : 1;
-        for (std::size_t front = 0; front < nodes_; ++front) {
+        for (std::size_t front = 0; front < nodes; ++front) {
             const double middle =
                 static_cast<double>(front) * (1 - share) + static_cast<double>(back) * share;
-            const std::size_t below = std::min(static_cast<std::size_t>(middle), nodes_ - 2);
+            const std::size_t below = std::min(static_cast<std::size_t>(middle), nodes - 2);
             const double weight = std::clamp(middle - static_cast<double>(below), 0.0, 1.0);
             const Part first =
                 mix(texel(front_layer, below, front), texel(front_layer, below + 1, front), weight,
-                    table_.length_of(front_layer));
+                    table.length_of(front_layer));
             const Part second =
                 mix(texel(layer - 1, back, below), texel(layer - 1, back, below + 1), weight,
-                    table_.length_of(layer - 1));
-            if (table_.request.store == TableStore::opacity) {
+                    table.length_of(layer - 1));
+            if (table.request.store == TableStore::opacity) {
                 store_opacity(first, second, texel(layer, back, front));
             } else {
-                store_emission(first, second, share, table_.length_of(layer),
+                store_emission(first, second, share, table.length_of(layer),
                                texel(layer, back, front));
             }
         }
     }
 
-  private:
     float* texel(int layer, std::size_t back, std::size_t front) {
-        return &table_.texels[((layer * nodes_ + back) * nodes_ + front) * table_.channels];
+        return &table.texels[((layer * nodes + back) * nodes + front) * table.channels];
     }
 
     Part mix(const float* a, const float* b, double weight, double length) const {
         const auto channel = [&](int c) { return a[c] * (1 - weight) + b[c] * weight; };
-        const int last = table_.channels - 1;
+        const int last = table.channels - 1;
         Part part;
-        if (table_.request.store == TableStore::opacity) {
+        if (table.request.store == TableStore::opacity) {
             part.alpha = channel(last);
             for (int c = 0; c < last; ++c) part.color[c] = channel(c);
             return part;
@@ -285,10 +263,10 @@ class IncrementalLayers {
     }
 
     void store_opacity(const Part& first, const Part& second, float* texel) const {
-        for (int c = 0; c < table_.channels - 1; ++c) {
+        for (int c = 0; c < table.channels - 1; ++c) {
             texel[c] = static_cast<float>(first.color[c] + (1 - first.alpha) * second.color[c]);
         }
-        texel[table_.channels - 1] =
+        texel[table.channels - 1] =
             static_cast<float>(first.alpha + (1 - first.alpha) * second.alpha);
     }
 
@@ -298,28 +276,15 @@ class IncrementalLayers {
         const auto mean = [&](double a, double b) { return a * share + b * (1 - share); };
         const double extinction = mean(first.extinction, second.extinction);
         const double alpha = opacity_from_depth(extinction * length);
-        for (int c = 0; c < table_.channels - 1; ++c) {
+        for (int c = 0; c < table.channels - 1; ++c) {
             const double color = first.color[c] + (1 - first.alpha) * second.color[c];
             const bool at_limit = !(alpha > std::numeric_limits<double>::min());
             texel[c] = static_cast<float>(at_limit ? mean(first.emission[c], second.emission[c])
                                                    : color / alpha * extinction);
         }
-        texel[table_.channels - 1] = static_cast<float>(extinction);
+        texel[table.channels - 1] = static_cast<float>(extinction);
     }
-
-    UniformTable& table_;
-    std::size_t nodes_;
 };
-
-// Fills layers from `first_layer` >= 2 on, each from those of shorter segments.
-void fill_incremental(UniformTable& table, int first_layer) {
-    IncrementalLayers layers(table);
-    for (int layer = first_layer; layer < table.layers; ++layer) {
-        parallel_for(table.request.scalar_nodes, 4, [&](std::int64_t back) {
-            layers.fill_row(layer, static_cast<std::size_t>(back));
-        });
-    }
-}
 
 }  // namespace
 
@@ -345,8 +310,21 @@ UniformTable::UniformTable(const TransferFunction& transfer_function, const Tabl
     const bool incremental =
         request.construction == TableConstruction::incremental && request.max_length > 0;
     const int exact_layers = incremental ? std::min(layers, 2) : layers;
-    fill_exact(*this, finite, exact_layers);
-    if (exact_layers < layers) fill_incremental(*this, exact_layers);
+    ExactLayers exact{*this, finite, exact_layers, nodes_of(request)};
+    {
+        Progress progress("pre-integrating", nodes);
+        parallel_for(nodes, 4, [&](std::int64_t front) {
+            exact.fill_column(static_cast<int>(front));
+            progress.advance();
+        });
+    }
+    // Longer segments come from shorter ones.
+    IncrementalLayers others{*this, static_cast<std::size_t>(nodes)};
+    for (int layer = exact_layers; layer < layers; ++layer) {
+        parallel_for(nodes, 4, [&](std::int64_t back) {
+            others.fill_row(layer, static_cast<std::size_t>(back));
+        });
+    }
     round_to_format(*this);
 }
 

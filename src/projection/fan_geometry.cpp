@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/fan_geometry.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
-#include <glm/geometric.hpp>
 
 #include "facts/drawn_range.h"
 #include "optics/opacity.h"
@@ -13,11 +14,152 @@
 namespace lamina {
 namespace {
 
+// Distance by which polygons reach beyond the picture, because rounded corners there must not
+// uncover a pixel's centre.
+constexpr double guard = 2;  // pixels
+
+// Distance below which two corners count as one.
+constexpr double same = 1e-9;  // pixels
+
+// Shares of the corners of a face that is seen edge-on.
+constexpr glm::dvec3 nowhere(0, 0, -1);
+
 // Distance from the picture, in pixels, up to which corners of fans keep the sub-pixel digits of
 // float32 and of rasterisers.
 constexpr double farthest_beyond = 1024;
 
+constexpr double grid_steps = 4096;  // steps a pixel, sixteen times as many as in most rasterisers
+
+// An edge starts at its lesser corner, so that both of its triangles compute the same numbers. The
+// top-left rule of rasterisers whose rows run upwards decides: a point on an edge belongs to the
+// triangle to the right, on horizontal edges to the one above.
+TriangleRecord::Edge edge_of(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& inside) {
+    if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
+    const glm::dvec2 along = b - a;
+    const bool left = cross(along, inside - a) > 0;
+    const double sign = left ? 1 : -1;
+    return {a.x, a.y, -sign * along.y, sign * along.x, along.y > 0 ? !left : left};
+}
+
+// `area` is twice the triangle's area, and may be negative.
+TriangleRecord::Share share_of(const glm::dvec2& a, const glm::dvec2& b, double area) {
+    const glm::dvec2 along = (b - a) / area;
+    return {a.x, a.y, -along.y, along.x};
+}
+
 }  // namespace
+
+// The ray z (x, y, 1) of a place meets the face a, b, c if it is a positive combination of the
+// three. The share of a is det(ray, b, c) / det(a, b, c), over z (Olano and Greer 1997, section 3;
+// this holds with corners behind the eye, too). For parallel rays areas take the place of volumes.
+// right, up, forward are left-handed, so the divisor is positive for fronts.
+FacePairs::FacePairs(const WindowView& window, double near_depth, const Tet& tet,
+                     const std::array<glm::dvec3, 4>& seen, const Fronts& fronts)
+    : window_(window), near_depth_(near_depth), seen_(seen), fronts_(fronts) {
+    const bool perspective = window.perspective();
+    // All faces of the edge, in all tets, get the same numbers up to their sign.
+    const auto edge = [&](std::size_t i, std::size_t j) {
+        const double sign = tet[i] < tet[j] ? 1 : -1;
+        if (tet[i] > tet[j]) std::swap(i, j);
+        const glm::dvec3 &p = seen[i], &q = seen[j];
+        if (perspective) return sign * glm::cross(p, q);
+        return sign * glm::dvec3(p.y - q.y, q.x - p.x, p.x * q.y - p.y * q.x);
+    };
+    for (std::size_t face = 0; face < 4; ++face) {
+        const auto& [a, b, c] = face_corners[face];
+        const std::array<Linear, 3> opposite{edge(b, c), edge(c, a), edge(a, b)};
+        const glm::dvec3 at = perspective ? seen[a] : glm::dvec3(seen[a].x, seen[a].y, 1);
+        const double sign = fronts[face] ? 1 : -1, volume = sign * glm::dot(opposite[0], at);
+        // A face through the eye is not met, because rays begin inside the tet.
+        any_front_ = any_front_ || (fronts[face] && volume > 0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            shares_[face][i] = volume > 0 ? opposite[i] / volume * sign : nowhere;
+        }
+        const glm::dvec3 normal = glm::cross(seen[b] - seen[a], seen[c] - seen[a]);
+        inside_[face] = normal / glm::dot(normal, seen[face] - seen[a]);
+        inside_at_eye_[face] = -glm::dot(inside_[face], seen[a]);
+        cut_ = cut_ || seen[face].z < near_depth;
+    }
+    const glm::dvec2 lo(-guard), hi = 2.0 * window.middle() + guard;
+    picture_ = {4, {lo, glm::dvec2(hi.x, lo.y), hi, glm::dvec2(lo.x, hi.y)}};
+}
+
+glm::dvec3 FacePairs::ray_at(const glm::dvec2& place) const {
+    return {(place - window_.middle()) * window_.view().pixel, 1};
+}
+
+// Returns the part on which the function is not negative (Sutherland and Hodgman 1974).
+FacePairs::Polygon FacePairs::cut(const Polygon& polygon, const Linear& function) const {
+    Polygon part;
+    const auto add = [&](const glm::dvec2& corner) {
+        const auto near = [&](const glm::dvec2& other) {
+            return glm::distance(corner, other) < same;
+        };
+        if (part.count == 0 || !near(part.corners[part.count - 1])) part.add(corner);
+    };
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const glm::dvec2 &a = polygon.corners[i], &b = polygon.corners[(i + 1) % polygon.count];
+        const double at_a = glm::dot(function, ray_at(a)), at_b = glm::dot(function, ray_at(b));
+        if (at_a >= 0) add(a);
+        if ((at_a < 0) != (at_b < 0)) add(a + at_a / (at_a - at_b) * (b - a));
+    }
+    if (part.count > 1 && glm::distance(part.corners[0], part.corners[part.count - 1]) < same)
+        --part.count;
+    if (part.count < 3) part.count = 0;
+    return part;
+}
+
+FacePairs::Polygon FacePairs::part_of(std::size_t face, const Polygon& polygon) const {
+    Polygon part = polygon;
+    for (const Linear& share : shares_[face]) {
+        if (part.count > 0) part = cut(part, share);
+    }
+    return part;
+}
+
+// 1/z, or z of parallel rays: values below 0 are farther.
+FacePairs::Linear FacePairs::depth_of(std::size_t face) const {
+    Linear depth(0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double scale = window_.perspective() ? 1 : seen_[face_corners[face][i]].z;
+        depth += scale * shares_[face][i];
+    }
+    return depth;
+}
+
+// Returns the part in which rays meet the face behind the near plane, or in front of it.
+FacePairs::Polygon FacePairs::limited(const Polygon& polygon, std::size_t face,
+                                      bool behind_near) const {
+    if (!cut_ || polygon.count == 0) return polygon;
+    const bool perspective = window_.perspective();
+    const Linear beyond = perspective ? Linear(0, 0, 1 / near_depth_) - depth_of(face)
+                                      : depth_of(face) - Linear(0, 0, near_depth_);
+    return cut(polygon, behind_near ? beyond : -beyond);
+}
+
+FacePairs::Hit FacePairs::hit(std::size_t face, const glm::dvec2& place) const {
+    const glm::dvec3 ray = ray_at(place);
+    const bool perspective = window_.perspective();
+    Hit hit{1, near_depth_, {}};
+    if (face == near_plane) {
+        if (perspective) hit.inverse_z = 1 / near_depth_;
+        const glm::dvec3 along = perspective ? ray : glm::dvec3(ray.x, ray.y, near_depth_);
+        for (std::size_t i = 0; i < 4; ++i)
+            hit.shares[i] =
+                std::max(glm::dot(inside_[i], along) + inside_at_eye_[i] * hit.inverse_z, 0.0);
+        return hit;
+    }
+    double sum = 0, z = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t corner = face_corners[face][i];
+        hit.shares[corner] = std::max(glm::dot(shares_[face][i], ray), 0.0);
+        sum += hit.shares[corner];
+        z += hit.shares[corner] * seen_[corner].z;
+    }
+    hit.inverse_z = perspective ? sum : 1;
+    hit.z = perspective ? 1 / sum : z;
+    return hit;
+}
 
 FanGeometry::FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
                          const ProjectPlan& plan, const View& view)
@@ -280,6 +422,40 @@ TetGeometry::Written FanGeometry::write_pairs(const Owner& owner, const Corners&
         }
     });
     return written;
+}
+
+// The result is exact up to 2^44 pixels, so that edge functions below are exact up to 2^17.
+glm::dvec2 rounded_to_grid(const glm::vec2& window) {
+    const auto rounded = [](float v) {
+        return std::floor(static_cast<double>(v) * grid_steps + 0.5) / grid_steps;
+    };
+    return {rounded(window.x), rounded(window.y)};
+}
+
+bool make_triangle(const std::array<const FanVertex*, 3>& vertices, TriangleRecord& record) {
+    std::array<glm::dvec2, 3> places, exact;
+    for (std::size_t i = 0; i < 3; ++i) {
+        places[i] = rounded_to_grid(vertices[i]->position);
+        exact[i] = glm::dvec2(vertices[i]->position);
+    }
+    const auto area_of = [](const std::array<glm::dvec2, 3>& p) {
+        return cross(p[1] - p[0], p[2] - p[0]);
+    };
+    const double rounded_area = area_of(places);
+    if (!(std::abs(rounded_area) > 0) || !std::isfinite(rounded_area)) return false;
+    // Rounding widens slivers and may turn them over. Far outside their exact corners nothing can
+    // be interpolated, so interpolation is between the rounded corners.
+    const bool is_sliver = area_of(exact) * rounded_area <= 0.01 * rounded_area * rounded_area;
+    const std::array<glm::dvec2, 3>& between = is_sliver ? places : exact;
+    const double area = area_of(between);
+    for (std::size_t i = 0; i < 3; ++i) {
+        record.edges[i] = edge_of(places[(i + 1) % 3], places[(i + 2) % 3], places[i]);
+        record.shares[i] = share_of(between[(i + 1) % 3], between[(i + 2) % 3], area);
+        record.corners[i] = {vertices[i]->inverse, vertices[i]->front, vertices[i]->back};
+    }
+    record.scalars = vertices[0]->scalars;
+    record.number = vertices[0]->tet;
+    return true;
 }
 
 }  // namespace lamina

@@ -1,21 +1,92 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include <array>
-#include <cstdint>
-#include <span>
-
-#include "plan/project_plan.h"
-#include "projection/face_pairs.h"
-#include "projection/tet_geometry.h"
-#include "scene/camera.h"
-#include "scene/scene_mesh.h"
-#include "visibility/order_graph.h"
+#include "lamina/tet.h"
+#include "plan/plan.h"
+#include "projection/tet_projector.h"
+#include "scene/scene.h"
 
 namespace lamina {
+
+// A tet in one view, cut into convex polygons of the picture. On each polygon the rays enter the
+// tet by one face or at the near plane, and leave it by one other face. Unlike the fans of Kraus
+// 2004, these polygons are right if a corner lies behind the eye. None of them reaches far beyond
+// the picture, where float32 resolves window coordinates only to whole pixels.
+class FacePairs {
+  public:
+    using Fronts = std::array<bool, 4>;  // for each corner: the face opposite is a front face
+
+    // `seen`: the corners relative to the eye, along right, up and forward.
+    FacePairs(const WindowView& window, double near_depth, const Tet& tet,
+              const std::array<glm::dvec3, 4>& seen, const Fronts& fronts);
+
+    // A polygon is the picture's rectangle, cut by at most three edges of either face and by the
+    // near plane.
+    using Polygon = FewPoints<glm::dvec2, 12>;  // window coordinates
+
+    // Shares are the barycentric coordinates, with respect to the tet's corners, of the point where
+    // a ray meets a face or the near plane. In perspective views they are divided by z, so that
+    // they are linear in the picture.
+    using Shares = std::array<double, 4>;
+    struct Hit {
+        double inverse_z;  // 1 in orthographic views
+        double z;
+        Shares shares;
+    };
+    static constexpr std::size_t near_plane = 4;  // stands for the near plane instead of a face
+    Hit hit(std::size_t face, const glm::dvec2& place) const;
+
+    // Calls visit(polygon, front face or near_plane, back face).
+    template <typename Visit>
+    void for_each(const Visit& visit) const {
+        for (std::size_t back = 0; back < 4; ++back) {
+            if (fronts_[back]) continue;
+            const Polygon behind = limited(part_of(back, picture_), back, true);
+            if (behind.count == 0) continue;
+            for (std::size_t front = 0; front < 4; ++front) {
+                if (!fronts_[front]) continue;
+                const Polygon both = part_of(front, behind);
+                if (const Polygon part = limited(both, front, true); part.count > 0)
+                    visit(part, front, back);
+                if (!cut_) continue;
+                if (const Polygon part = limited(both, front, false); part.count > 0)
+                    visit(part, near_plane, back);
+            }
+            if (cut_ && !any_front_) visit(behind, near_plane, back);
+        }
+    }
+
+    // Largest number of triangles of one tet. Its polygons, at most 6, do not overlap, and their
+    // union is convex: at most two triangles for each corner inside it, and one for each corner on
+    // its border except two. Inside lie at most 4: a corner of the tet or the crossing of two
+    // edges, and points where edges meet the near plane. On the border lie at most 4 corners of the
+    // picture, 6 of the section with the near plane, and 12 ends of 6 lines that cross the union.
+    static constexpr std::size_t most_triangles = 28;
+
+  private:
+    // A linear function a.x + b.y + c of a ray's position at depth 1, or of its position if rays
+    // are parallel.
+    using Linear = glm::dvec3;
+
+    glm::dvec3 ray_at(const glm::dvec2& place) const;
+    Polygon cut(const Polygon& polygon, const Linear& function) const;
+    Polygon part_of(std::size_t face, const Polygon& polygon) const;
+    Polygon limited(const Polygon& polygon, std::size_t face, bool behind_near) const;
+    Linear depth_of(std::size_t face) const;
+
+    const WindowView& window_;
+    double near_depth_;
+    bool cut_ = false, any_front_ = false;
+    std::array<glm::dvec3, 4> seen_;
+    Fronts fronts_;
+    std::array<std::array<Linear, 3>, 4> shares_;  // of the corners of each face
+    // The shares in space: their change per x, y, z, and their values at the eye.
+    std::array<glm::dvec3, 4> inside_;
+    std::array<double, 4> inside_at_eye_;
+    Polygon picture_;
+};
 
 // A vertex of the triangles of Kraus 2004 (shaders/projection/fan.vert). It holds two points of the
 // tet that are seen at one position of the window: one on its front and one on its back.
@@ -100,5 +171,38 @@ class FanGeometry : public TetGeometry {
     FaceSigner signer_;
     bool divided_;  // values are divided by z for interpolation
 };
+
+// A triangle of Kraus 2004 (projection/fan_geometry.h) as a rasteriser treats it. Its corners are
+// rounded to 1/256 pixel, and values are interpolated linearly between them.
+struct TriangleRecord {
+    // Twice the area of the triangle of an edge and a pixel centre, >= 0 on the inner side. Two
+    // triangles that share an edge compute the same number with opposite signs.
+    struct Edge {
+        double column, row;          // a corner of the edge, window coordinates
+        double per_column, per_row;  // change of the area from that corner
+        bool has_zeros;              // pixel centres on the edge belong to this triangle
+    };
+    struct Corner {
+        glm::vec3 inverse;  // as in FanVertex
+        glm::vec4 front, back;
+    };
+    std::array<Edge, 3> edges;  // opposite the corners; these are rounded to the grid
+    // The weight of a corner in the interpolation. It is linear in the pixel between corners that
+    // are not rounded, as in rasterisers.
+    struct Share {
+        double column, row;  // place at which it is 0
+        double per_column, per_row;
+    };
+    std::array<Share, 3> shares;
+    std::array<Corner, 3> corners;
+    glm::vec2 scalars;     // as in FanVertex
+    std::uint32_t number;  // number of the tet, for dithering
+};
+
+// Fills the record. Returns false if the triangle covers nothing.
+bool make_triangle(const std::array<const FanVertex*, 3>& vertices, TriangleRecord& record);
+
+// Returns the point of the rasteriser's grid to which a corner is rounded.
+glm::dvec2 rounded_to_grid(const glm::vec2& window);
 
 }  // namespace lamina

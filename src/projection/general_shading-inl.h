@@ -10,13 +10,197 @@
 
 #include "base/enum_words.h"
 #include "executors/cpu_transfer-inl.h"
-#include "projection/analytic_segment-inl.h"
-#include "projection/fragment_output-inl.h"
-#include "projection/tet_color-inl.h"
 #include "projection/tet_drawing-inl.h"
 #include "tiles/segment_optics-inl.h"
+#include "tiles/target_pixels-inl.h"
 
 LAMINA_SIMD_BEGIN
+
+// Returns random bits for the pixels of a tile from `place` on, and the cell fragment that is
+// drawn; 0 if its output does not depend on them.
+LAMINA_INLINE Word random_of_fragments(const TetFragments& fragments, const TileGrid::Tile& area,
+                                       std::size_t place, std::uint32_t number) {
+    const bool nearest = fragments.blend.alpha_rounding != AlphaRounding::stochastic;
+    if (fragments.output == FragmentOutput::native ||
+        (fragments.output == FragmentOutput::emulated && nearest))
+        return Word(0);
+    const TileGrid::Place first = TileGrid::pixel_at(static_cast<int>(place));
+    return random_of_pixels(area.column + first.column, area.row + first.row, number,
+                            fragments.seed);
+}
+
+// Dithers as in Kraus 2004, section 4.2, but with one random number for all channels, because the
+// blending unit rounds associated colours, too.
+LAMINA_INLINE Float dithered(float largest, Float value, Float random) {
+    const Float scaled = clamp01(value) * largest;
+    const Float whole = floor(scaled);
+    const FloatMask up = random < scaled - whole;
+    return (whole + zero_unless(up, Float(1))) / largest;
+}
+
+// Returns 24 of the random bits as a number in [0, 1).
+LAMINA_INLINE Float as_share(Word random) {
+    return to_float(bits_as<Int>(shift_right<8>(random))) * 0x1p-24f;
+}
+
+LAMINA_INLINE void put_codes(const TargetBlend& target, const Fragment& fragment, Word random,
+                             Pixels& there) {
+    const FloatMask seen = fragment.alpha > 0;
+    const auto code = [&](Float color) LAMINA_LAMBDA {
+        return color_code(target, zero_unless(seen, color / fragment.alpha));
+    };
+    const Float alpha = alpha_code(target, Float64(fragment.alpha), random);
+    composite_codes(target,
+                    Pixels{code(fragment.red), code(fragment.green), code(fragment.blue), alpha},
+                    there);
+}
+
+LAMINA_INLINE void put_fragment(const TetFragments& fragments, const Fragment& fragment,
+                                Word random, Pixels& there) {
+    const TargetBlend& target = fragments.blend;
+    switch (fragments.output) {
+        case FragmentOutput::emulated:
+            put_codes(target, fragment, random, there);
+            break;
+        case FragmentOutput::stochastic:
+            composite_stochastic(target, fragment, random, there);
+            break;
+        case FragmentOutput::dithered: {
+            const Float share = as_share(random);
+            const auto code = [&](Float v)
+                                  LAMINA_LAMBDA { return dithered(target.largest, v, share); };
+            blend(target,
+                  Fragment{code(fragment.red), code(fragment.green), code(fragment.blue),
+                           code(fragment.alpha)},
+                  there);
+            break;
+        }
+        case FragmentOutput::native:
+            blend(target, fragment, there);
+            break;
+    }
+}
+
+// Puts opacity alone over `there`.
+LAMINA_INLINE Float put_opacity(const TetFragments& fragments, Float opacity, Word random,
+                                Float there) {
+    const TargetBlend& target = fragments.blend;
+    switch (fragments.output) {
+        case FragmentOutput::emulated:
+            composite_opacity(target, alpha_code(target, Float64(opacity), random), there);
+            return there;
+        case FragmentOutput::stochastic: {
+            Pixels pixels{there, there, there, there};
+            composite_stochastic(target, Fragment{opacity, opacity, opacity, opacity}, random,
+                                 pixels);
+            return pixels.alpha;
+        }
+        case FragmentOutput::dithered:
+            blend_opacity(target, dithered(target.largest, opacity, as_share(random)), there);
+            return there;
+        case FragmentOutput::native:
+            blend_opacity(target, opacity, there);
+            return there;
+    }
+    unreachable_enum();
+}
+
+// The associated colour and the optical depth of a segment.
+struct AnalyticSum {
+    Float color[3];
+    Float depth;
+};
+
+// The piece of a segment in one interval of the transfer function.
+struct AnalyticPiece {
+    const TileTransfer& transfer;
+    FloatMask counted;  // lanes that have such a piece; the depth of others is 0
+    FloatMask last;     // it ends at the end of the segment
+    Int interval;
+    Float share, next_share;    // of the interval, at the front and at the back
+    Float scalar, next_scalar;  // at the front and at the back
+    Float p, q, depth;          // extinction at the front and at the back times the piece's length;
+                                // optical depth
+
+    LAMINA_INLINE Float near(std::size_t channel) const {
+        return optics_at<Lookup::gather>(transfer, channel, interval, share);
+    }
+    LAMINA_INLINE Float far(std::size_t channel) const {
+        return optics_at<Lookup::gather>(transfer, channel, interval, next_share);
+    }
+};
+
+// The weights of an AnalyticPiece's ends in its colour. They add up to its opacity.
+struct EndWeights {
+    Float near, far;
+};
+
+// Calls visit(AnalyticPiece) for the pieces of segments, front to back. Scalars may lie outside [0,
+// 1], beyond which the first and the last interval go on.
+template <class Visit>
+LAMINA_INLINE void for_each_analytic_piece(const TileTransfer& transfer, Float front, Float back,
+                                           Float world_length, const Visit& visit) {
+    constexpr Lookup kind = Lookup::gather;
+    Int interval = find_interval<kind>(transfer, clamp01(front));
+    const Int last = find_interval<kind>(transfer, clamp01(back));
+    const FloatMask rising = !(interval > last);
+    const FloatMask one_piece = interval == last;
+    // The share of an interval at which the ray leaves it.
+    const Float end_share = zero_unless(rising, Float(1));
+    const Int to_end = zero_unless(rising, Int(1));
+    const Int step = to_end + to_end - 1;
+    const Float per_scalar = world_length / abs(back - front);
+    Int left = abs(last - interval);
+
+    Float scalar = front, share = share_of_interval<kind>(transfer, interval, front);
+    while (true) {
+        const FloatMask counted = left > -1;
+        if (none_of(counted)) return;
+        // The segment goes on to the end of this interval.
+        const FloatMask whole = left > 0;
+        const Int end = min(interval + to_end, transfer.intervals - 1);
+        const Float next_scalar = select(whole, look_up<kind>(transfer.left_end, end), back);
+        const Float next_share =
+            select(whole, end_share, share_of_interval<kind>(transfer, interval, back));
+        const Float length =
+            select(one_piece, world_length, per_scalar * abs(next_scalar - scalar));
+        const Float p = optics_at<kind>(transfer, 3, interval, share) * length,
+                    q = optics_at<kind>(transfer, 3, interval, next_share) * length;
+        const Float depth = zero_unless(counted, 0.5f * p + 0.5f * q);
+        visit(AnalyticPiece{transfer, counted, !whole, interval, share, next_share, scalar,
+                            next_scalar, p, q, depth});
+        scalar = next_scalar;
+        share = 1 - end_share;
+        interval += zero_unless(whole, step);
+        left -= 1;
+    }
+}
+
+LAMINA_INLINE EndWeights end_weights(const AnalyticPiece& piece, Float opacity) {
+    const Float near = zero_unless(piece.counted, piece_front_weight(piece.p, piece.q));
+    return {near, max(opacity - near, 0)};
+}
+
+// `colored`: otherwise only the optical depth is computed.
+LAMINA_INLINE AnalyticSum integrate_analytic(const TileTransfer& transfer, bool colored,
+                                             Float front, Float back, Float world_length) {
+    Float transmittance(1);
+    AnalyticSum sum{{0, 0, 0}, 0};
+    const auto add = [&](const AnalyticPiece& piece) LAMINA_LAMBDA {
+        sum.depth += piece.depth;
+        if (!colored) return;
+        const Float opacity = opacity_from_depth(piece.depth);
+        const EndWeights weights = end_weights(piece, opacity);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const Float shown =
+                weights.near * piece.near(channel) + weights.far * piece.far(channel);
+            sum.color[channel] += transmittance * shown;
+        }
+        transmittance *= 1 - opacity;
+    };
+    for_each_analytic_piece(transfer, front, back, world_length, add);
+    return sum;
+}
 
 LAMINA_INLINE Fragment table_color(const TetFragments& fragments, const TetRun& run) {
     const SegmentEntry entry =
@@ -105,8 +289,7 @@ LAMINA_NOINLINE inline Fragment segment_color(const TetFragments& fragments, con
 LAMINA_NOINLINE inline void put_fragments(const TetFragments& fragments, std::uint32_t number,
                                           const Fragment& fragment, const TetTile& tile,
                                           std::size_t place) {
-    const bool random = is_random(fragments.output, fragments.blend);
-    const Word bits = random ? random_of_fragments(fragments, tile.area, place, number) : Word(0);
+    const Word bits = random_of_fragments(fragments, tile.area, place, number);
     if (fragments.opacity_only) {
         float* const plane = tile.opacity->data() + place;
         store(put_opacity(fragments, fragment.alpha, bits, load<Float>(plane)), plane);

@@ -6,18 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <glm/geometric.hpp>
 #include <utility>
 
 #include "base/enum_words.h"
-#include "base/parallel.h"
 #include "base/profile.h"
 #include "executors/gl_compositing.h"
 #include "executors/gl_optics.h"
-#include "facts/world_unit.h"
+#include "executors/transfer_tables.h"
 #include "gl/api.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
 #include "projection/fan_geometry.h"
-#include "projection/tet_geometry.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -36,6 +35,46 @@ constexpr std::array fan_attributes{GlTetStream::Attribute{2, offsetof(FanVertex
                                     GlTetStream::Attribute{4, offsetof(FanVertex, back), false},
                                     GlTetStream::Attribute{2, offsetof(FanVertex, scalars), false},
                                     GlTetStream::Attribute{1, offsetof(FanVertex, tet), true}};
+
+constexpr unsigned table_unit = GlTransferTables::first_free_unit;
+
+gl::TextureFormat format_of(const UniformTable& table) {
+    const bool one = table.channels == 1;
+    switch (table.request.format) {
+        case TableFormat::fixed8:
+            return one ? gl::TextureFormat::r8 : gl::TextureFormat::rgba8;
+        case TableFormat::fixed16:
+            return one ? gl::TextureFormat::r16 : gl::TextureFormat::rgba16;
+        case TableFormat::float16:
+            return one ? gl::TextureFormat::r16f : gl::TextureFormat::rgba16f;
+        case TableFormat::float32:
+            return one ? gl::TextureFormat::r32f : gl::TextureFormat::rgba32f;
+    }
+    unreachable_enum();
+}
+
+template <typename Code>
+std::vector<Code> to_codes(const std::vector<float>& texels) {
+    constexpr double largest = std::numeric_limits<Code>::max();
+    std::vector<Code> codes(texels.size());
+    std::transform(texels.begin(), texels.end(), codes.begin(), [](float value) {
+        return static_cast<Code>(std::lround(static_cast<double>(value) * largest));
+    });
+    return codes;
+}
+
+// The leaves of a tree, drawn by a function.
+template <typename DrawLeaf>
+class TetLeaves : public TreeLeaves {
+  public:
+    explicit TetLeaves(DrawLeaf& draw_leaf) : draw_leaf_(draw_leaf) {}
+    void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override {
+        draw_leaf_(span, target, depth_scale);
+    }
+
+  private:
+    DrawLeaf& draw_leaf_;
+};
 
 bool is_fan(const ProjectPlan& plan) {
     return plan.geometry == ProjectGeometry::triangles;
@@ -89,33 +128,130 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
                                      const ProjectPlan& plan, const Capabilities& capabilities,
                                      int width, int height, std::shared_ptr<VisibilityOrder> order,
                                      std::shared_ptr<GlTetStream> stream)
-    : mesh_(mesh),
-      transfer_function_(in_units(transfer_function, plan.unit)),
-      plan_(plan),
+    : ProjectRenderer(mesh, transfer_function, plan, std::move(order)),
       margin_(margin_steps / std::exp2(capabilities.subpixel_bits)),
-      target_(gl::Texture::make_2d(color_format(plan), width, height)),
-      pieces_(transfer_function_, plan.range),
-      order_(order_for(mesh, plan, std::move(order))) {
+      target_(gl::Texture::make_2d(color_format(plan), width, height)) {
     if (plan_.nothing_visible) return;
-    tables_.emplace(transfer_function_, plan_);
+    make_tables();
     if (plan_.lighting)
         gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
     for (std::size_t i = 0; i < fragment_kinds; ++i) {
         const auto kind = static_cast<FragmentKind>(i);
-        if (has_program(plan_, kind)) programs_[i].emplace(make_program(kind));
+        if (!has_program(plan_, kind)) continue;
+        gl::Defines defines = project_defines(plan_, kind);
+        set_table_defines(defines);
+        programs_[i].emplace(is_fan() ? "projection/fan.vert" : "projection/silhouette.vert",
+                             "projection/tet.frag", defines);
     }
-    Stage cutting("visible parts");
-    parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
-                   plan_.draw_transparent);
-    cutting.end();
-    if (parts_->count() == 0) return;
+    find_visible_parts();
+    if (visible_->count() == 0) return;
     make_stream(std::move(stream));
-    if (!plan_.tree.empty()) make_tree();
+    if (plan_.tree.empty()) return;
+    // The samples of a ray are the cell fragments, as many in every view.
+    CompositingPlan nodes = plan_;
+    if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered
+    const TreeShape shape(plan_.tree, static_cast<int>(visible_->count()));
+    tree_.emplace(nodes, shape, single_color_, target_.width(), target_.height());
+}
+
+void GlProjectRenderer::make_tables() {
+    Stage stage("tables");
+    single_color_ = glm::vec3(first_color(transfer_function_, plan_.range.lo, plan_.range.hi));
+    switch (plan_.source) {
+        case SegmentSource::constant:
+            constant_ = transfer_function_.at(plan_.range.lo);
+            break;
+        case SegmentSource::table:
+            table_ = plan_.table.uniform_table();
+            upload(*table_);
+            break;
+        case SegmentSource::parts:
+            if (!plan_.single_color) {
+                constexpr int nodes = FrontWeightTable::nodes;
+                texture_ = gl::Texture::make_2d(gl::TextureFormat::r32f, nodes, nodes);
+                texture_->upload({0, 0, 0, nodes, nodes, 1},
+                                 std::span<const float>(FrontWeightTable::get().texels()));
+            }
+            break;
+        case SegmentSource::cut_table:
+            intervals_.emplace(transfer_function_, plan_.range, plan_.table.knot_table().get(),
+                               plan_.table_filtered, 0);
+            break;
+        case SegmentSource::analytic:
+            intervals_.emplace(transfer_function_, plan_.range, nullptr, false, 0);
+            break;
+        case SegmentSource::mean:
+        case SegmentSource::vertices:
+            break;
+    }
+    if (texture_ && plan_.table_filtered) texture_->set_filter(gl::TextureFilter::linear);
+    table_ms_ = stage.end();
+}
+
+void GlProjectRenderer::upload(const UniformTable& table) {
+    const int nodes = table.request.scalar_nodes;
+    const gl::TextureFormat format = format_of(table);
+    texture_ = table.layers > 1 ? gl::Texture::make_3d(format, nodes, nodes, table.layers)
+                                : gl::Texture::make_2d(format, nodes, nodes);
+    const gl::TexelBox whole{0, 0, 0, nodes, nodes, table.layers};
+    switch (table.request.format) {
+        case TableFormat::fixed8:
+            texture_->upload(whole,
+                             std::span<const std::uint8_t>(to_codes<std::uint8_t>(table.texels)));
+            break;
+        case TableFormat::fixed16:
+            texture_->upload(whole,
+                             std::span<const std::uint16_t>(to_codes<std::uint16_t>(table.texels)));
+            break;
+        case TableFormat::float16:
+        case TableFormat::float32:
+            texture_->upload(whole, std::span<const float>(table.texels));
+            break;
+    }
+}
+
+void GlProjectRenderer::set_table_defines(gl::Defines& defines) const {
+    defines.set("SOURCE", static_cast<int>(plan_.source));
+    if (!plan_.single_color) defines.set("TABLE_COLORED", 1);
+    if (plan_.table_filtered) defines.set("TABLE_FILTERED", 1);
+    if (plan_.source == SegmentSource::parts) {
+        defines.set("CUT", 1);
+        defines.set("OPTICS", plan_.single_color ? "float" : "vec4");
+        defines.set("FRONT_WEIGHT_NODES", FrontWeightTable::nodes);
+    }
+    if (intervals_) {
+        defines.set("INTERVALS", intervals_->intervals());
+        if (intervals_->nodes() > 0) defines.set("TABLE_NODES", intervals_->nodes());
+        defines.set("TABLE_LAYERS", plan_.table.request.length_layers);
+    }
+    if (!table_) return;
+    defines.set("TABLE_NODES", table_->request.scalar_nodes);
+    defines.set("TABLE_LAYERS", table_->layers);
+    defines.set("TABLE_MAPPING", static_cast<int>(table_->request.mapping));
+    defines.set("TABLE_STORE", static_cast<int>(table_->request.store));
+}
+
+void GlProjectRenderer::bind_tables(gl::Program& program) const {
+    if (plan_.source == SegmentSource::constant) {
+        const double extinction = std::min(constant_.extinction, max_shader_extinction);
+        program.set("constant_optics", glm::vec4(constant_.color, extinction));
+        return;
+    }
+    if (plan_.single_color) program.set("single_color", single_color_);
+    if (intervals_) intervals_->bind(program);
+    if (!texture_) return;
+    texture_->bind(table_unit);
+    program.set(table_ ? "uniform_table" : "front_weights", static_cast<int>(table_unit));
+    if (!table_) return;
+    program.set("table_scale", table_->scale);
+    if (table_->layers > 1) {
+        program.set("inverse_first_length", static_cast<float>(table_->inverse_first_length()));
+    }
 }
 
 void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
-    const auto parts = static_cast<std::size_t>(parts_->count());
-    const bool fan = is_fan(plan_);
+    const auto parts = static_cast<std::size_t>(visible_->count());
+    const bool fan = is_fan();
     const TetGeometry::Size size =
         fan ? FanGeometry::largest_size()
             : SilhouetteGeometry::largest_size(plan_.lighting.has_value());
@@ -127,30 +263,11 @@ void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
     stream_->set_barriers(plan_.blending == Blending::barrier);
 }
 
-// The samples of a ray are the cell fragments, as many in every view.
-void GlProjectRenderer::make_tree() {
-    CompositingPlan nodes = plan_;
-    if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered
-    const TreeShape shape(plan_.tree, static_cast<int>(parts_->count()));
-    tree_.emplace(nodes, shape, tables_->single_color(), target_.width(), target_.height());
-}
-
-gl::Program GlProjectRenderer::make_program(FragmentKind kind) const {
-    gl::Defines defines = project_defines(plan_, kind);
-    tables_->set_defines(defines);
-    return {is_fan(plan_) ? "projection/fan.vert" : "projection/silhouette.vert",
-            "projection/tet.frag", defines};
-}
-
 int GlProjectRenderer::step_count() const {
     if (tree_) return tree_->step_count();
     return stream_
-               ? static_cast<int>(stream_->batch_count(static_cast<std::size_t>(parts_->count())))
+               ? static_cast<int>(stream_->batch_count(static_cast<std::size_t>(visible_->count())))
                : 0;
-}
-
-bool GlProjectRenderer::take(const Plan& plan) {
-    return plan.project.picture() == plan_.picture();
 }
 
 void GlProjectRenderer::draw(const View& view, Progress* progress) {
@@ -161,7 +278,7 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     if (!stream_) return;
     Stage ordering("order");
     const DrawOrder<TetPart> parts =
-        parts_->sorted(*order_, view, plan_.scattered, plan_.solve_rings);
+        visible_->sorted(*order_, view, plan_.scattered, plan_.solve_rings);
     order_ms_ = ordering.end();
     Stage drawing("draw");
     for (auto& program : programs_) {
@@ -177,12 +294,12 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
 }
 
 void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
-    tables_->bind(program);
+    bind_tables(program);
     const glm::vec2 size(view.width, view.height);
     program.set("image_size", size);
     program.set("image_middle", 0.5f * size);
     program.set("pixel_size", static_cast<float>(seeing_in_units(view, plan_.unit).pixel));
-    if (!is_fan(plan_)) {
+    if (!is_fan()) {
         program.set("ray_perturbation", ray_perturbation(view));
         const double near =
             view.projection == Projection::perspective ? -1 / plan_.near_depth : plan_.near_depth;
@@ -193,10 +310,7 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
         program.set("seed", static_cast<int>(plan_.seed));
     }
     if (plan_.blending == Blending::barrier) program.set("target", target_unit);
-    if (plan_.lighting) set_light(program, view);
-}
-
-void GlProjectRenderer::set_light(gl::Program& program, const View& view) const {
+    if (!plan_.lighting) return;
     set_lights(*plan_.lighting, world_axes, program);
     const auto axis = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0); };
     const std::array axes{axis(view.right), axis(view.up), axis(view.forward)};
@@ -210,11 +324,12 @@ void GlProjectRenderer::draw_parts(const DrawOrder<TetPart>& parts, const View& 
                                    Progress* progress) {
     std::optional<FanGeometry> fans;
     std::optional<SilhouetteGeometry> silhouettes;
-    if (is_fan(plan_)) {
+    if (is_fan()) {
         fans.emplace(mesh_, transfer_function_, plan_, view);
     } else {
-        silhouettes.emplace(TetProjector(mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_,
-                                         view, plan_.near_depth, margin_, gradients_.at_points));
+        silhouettes.emplace(
+            TetProjector({mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, WindowView(view),
+                          plan_.near_depth, margin_, gradients_.at_points}));
     }
     const TetGeometry& geometry = fans ? static_cast<const TetGeometry&>(*fans) : *silhouettes;
     // A kind without a program is drawn by the next kind that has one. Fans are all plain.
@@ -226,9 +341,17 @@ void GlProjectRenderer::draw_parts(const DrawOrder<TetPart>& parts, const View& 
     }
     stream_->start_frame();
     if (tree_) {
-        GlTetLeaves leaves(plan_, *stream_, geometry, parts, parts_->count(), programs);
+        // The programs draw opacity alone (OPACITY_ONLY).
+        const auto draw_leaf = [&](const SampleSpan& span, const gl::Framebuffer& target,
+                                   double depth_scale) {
+            for (gl::Program* program : programs)
+                program->set("depth_scale", static_cast<float>(depth_scale));
+            const CompositingState state(plan_, true, target);
+            tets_drawn_ += stream_->draw(geometry, parts_of_leaf(parts, span, visible_->count()),
+                                         target.height(), programs, [] {});
+        };
+        TetLeaves leaves(draw_leaf);
         tree_->draw(leaves, target_, progress);
-        tets_drawn_ = leaves.drawn();
         return;
     }
     const CompositingState state(plan_, false, target_);
@@ -243,10 +366,11 @@ void GlProjectRenderer::read(Image& image) const {
 }
 
 std::map<std::string, double> GlProjectRenderer::stages_ms() const {
-    return {{"tables", table_ms()},
-            {"order", order_ms()},
-            {"geometry", geometry_ms()},
-            {"draw", draw_ms()}};
+    // The geometry is written while the batch before is drawn.
+    return {{"tables", table_ms_},
+            {"order", order_ms_},
+            {"geometry", stream_ ? stream_->write_ms() : 0},
+            {"draw", draw_ms_}};
 }
 
 }  // namespace lamina

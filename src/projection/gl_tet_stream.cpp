@@ -8,9 +8,7 @@
 #include "base/client.h"
 #include "base/parallel.h"
 #include "base/profile.h"
-#include "executors/gl_compositing.h"
 #include "gl/api.h"
-#include "projection/visible_parts.h"
 
 namespace lamina {
 namespace {
@@ -107,7 +105,10 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, const DrawOrder<TetP
         Stage writing("geometry");
         writing.count("parts", static_cast<double>(batch_parts.size()));
         part_indices_.assign(one_by_one ? batch_parts.size() : 0, 0);
-        write(geometry, batch_parts, batch);
+        parallel_for(static_cast<std::int64_t>(chunks_of(batch_parts.size())), 4,
+                     [&](std::int64_t chunk) {
+                         write_chunk(geometry, batch_parts, static_cast<std::size_t>(chunk), batch);
+                     });
         write_ms_ += writing.end();
         for (std::size_t i = 0; i < chunks_of(batch_parts.size()); ++i) {
             const Chunk& chunk = chunks_[i];
@@ -132,12 +133,6 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, const DrawOrder<TetP
     }
     gl::check("drawing tets");
     return drawn;
-}
-
-void GlTetStream::write(const TetGeometry& geometry, std::span<const TetPart> parts, Batch& batch) {
-    parallel_for(static_cast<std::int64_t>(chunks_of(parts.size())), 4, [&](std::int64_t chunk) {
-        write_chunk(geometry, parts, static_cast<std::size_t>(chunk), batch);
-    });
 }
 
 void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPart> parts,
@@ -170,18 +165,17 @@ void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPa
     chunk.indices = static_cast<int>(index - first * size_.indices);
 }
 
-const gl::Program* GlTetStream::program_of(const Chunk& chunk, const Programs& programs) {
-    return programs[static_cast<std::size_t>(chunk.kind)];
-}
-
 // Submits runs of chunks with the same program. Empty chunks are left out, because at a draw of no
 // indices Mesa 22.3 forgets the rest of a multi-draw.
 void GlTetStream::submit(std::size_t chunks, const Programs& programs) {
+    const auto program_of = [&](std::size_t chunk) {
+        return programs[static_cast<std::size_t>(chunks_[chunk].kind)];
+    };
     for (std::size_t chunk = 0; chunk < chunks;) {
-        const gl::Program* const program = program_of(chunks_[chunk], programs);
+        const gl::Program* const program = program_of(chunk);
         counts_.clear();
         offsets_.clear();
-        for (; chunk < chunks && program_of(chunks_[chunk], programs) == program; ++chunk) {
+        for (; chunk < chunks && program_of(chunk) == program; ++chunk) {
             if (chunks_[chunk].indices == 0) continue;
             counts_.push_back(chunks_[chunk].indices);
             offsets_.push_back(offset_of(chunk * chunk_parts * size_.indices));
@@ -200,7 +194,7 @@ void GlTetStream::submit_one_by_one(const DrawOrder<TetPart>& parts, int rows,
     for (std::size_t i = 0; i < parts.items.size(); ++i) {
         if (i % chunk_parts == 0) {
             index = i * size_.indices;
-            program_of(chunks_[i / chunk_parts], programs)->use();
+            programs[static_cast<std::size_t>(chunks_[i / chunk_parts].kind)]->use();
         }
         const int count = part_indices_[i];
         if (count == 0) continue;
@@ -213,24 +207,6 @@ void GlTetStream::submit_one_by_one(const DrawOrder<TetPart>& parts, int rows,
         index += static_cast<std::size_t>(count);
     }
     if (limit != nullptr) set_scissor(nullptr, rows);
-}
-
-GlTetLeaves::GlTetLeaves(const CompositingPlan& plan, GlTetStream& stream,
-                         const TetGeometry& geometry, const DrawOrder<TetPart>& parts,
-                         std::int64_t samples, const GlTetStream::Programs& programs)
-    : plan_(plan),
-      stream_(stream),
-      geometry_(geometry),
-      parts_(parts),
-      samples_(samples),
-      programs_(programs) {}
-
-void GlTetLeaves::draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) {
-    for (gl::Program* program : programs_)
-        program->set("depth_scale", static_cast<float>(depth_scale));
-    const CompositingState state(plan_, true, target);
-    drawn_ += stream_.draw(geometry_, parts_of_leaf(parts_, span, samples_), target.height(),
-                           programs_, [] {});
 }
 
 }  // namespace lamina

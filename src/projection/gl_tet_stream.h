@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <functional>
-#include <span>
-#include <vector>
 
-#include "executors/gl_compositing.h"
-#include "gl/buffer.h"
+#include "gl/api.h"
 #include "gl/program.h"
 #include "gl/timeline.h"
 #include "plan/compositing_plan.h"
-#include "projection/tet_geometry.h"
+#include "projection/tet_projector.h"
 #include "visibility/ring_order.h"
 
 namespace lamina {
@@ -68,10 +63,8 @@ class GlTetStream {
         // The latest kind that one of its cell fragments needs.
         FragmentKind kind = FragmentKind::thin;
     };
-    void write(const TetGeometry& geometry, std::span<const TetPart> parts, Batch& batch);
     void write_chunk(const TetGeometry& geometry, std::span<const TetPart> parts,
                      std::size_t number, const Batch& batch);
-    static const gl::Program* program_of(const Chunk& chunk, const Programs& programs);
     void submit(std::size_t chunks, const Programs& programs);
     void submit_one_by_one(const DrawOrder<TetPart>& parts, int rows,
                            const Programs& programs) const;
@@ -90,28 +83,6 @@ class GlTetStream {
     std::vector<const void*> offsets_;
     gl::Timeline timeline_;
     double write_ms_ = 0;
-};
-
-// The tets of one frame, or their cell fragments, as the samples of a compositing tree.
-class GlTetLeaves : public TreeLeaves {
-  public:
-    // `samples`: of the tree (parts_of_leaf). The programs must draw opacity alone (OPACITY_ONLY).
-    // All arguments must outlive it.
-    GlTetLeaves(const CompositingPlan& plan, GlTetStream& stream, const TetGeometry& geometry,
-                const DrawOrder<TetPart>& parts, std::int64_t samples,
-                const GlTetStream::Programs& programs);
-
-    void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override;
-    std::int64_t drawn() const { return drawn_; }
-
-  private:
-    const CompositingPlan& plan_;
-    GlTetStream& stream_;
-    const TetGeometry& geometry_;
-    DrawOrder<TetPart> parts_;
-    std::int64_t samples_;
-    const GlTetStream::Programs& programs_;
-    std::int64_t drawn_ = 0;
 };
 
 }  // namespace lamina

@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/project_renderer.h"
 
+#include "base/profile.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/tile_project_renderer.h"
+#include "scene/camera.h"
 
 namespace lamina {
 
-std::shared_ptr<VisibilityOrder> order_for(const SceneMesh& mesh, const ProjectPlan& plan,
-                                           std::shared_ptr<VisibilityOrder> ready) {
+ProjectRenderer::ProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
+                                 const ProjectPlan& plan, std::shared_ptr<VisibilityOrder> ready)
+    : mesh_(mesh),
+      transfer_function_(in_units(transfer_function, plan.unit)),
+      plan_(plan),
+      pieces_(transfer_function_, plan.range),
+      order_(std::move(ready)) {
     const OrderMethod method = plan.nothing_visible ? OrderMethod::none : plan.visibility;
-    if (ready && ready->method() == method) return ready;
-    return std::make_shared<VisibilityOrder>(mesh.mesh, method);
+    if (!order_ || order_->method() != method)
+        order_ = std::make_shared<VisibilityOrder>(mesh.mesh, method);
+}
+
+void ProjectRenderer::find_visible_parts() {
+    const Stage cutting("visible parts");
+    visible_.emplace(mesh_.mesh, mesh_.scalar.values, pieces_, plan_.source == SegmentSource::parts,
+                     plan_.draw_transparent);
 }
 
 std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,

@@ -3,11 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 
-#include "plan/frame_renderer.h"
 #include "plan/plan.h"
-#include "scene/scene_mesh.h"
+#include "projection/visible_parts.h"
+#include "scene/scene.h"
 #include "visibility/visibility_order.h"
 
 namespace lamina {
@@ -20,26 +21,41 @@ struct ProjectParts {
     std::shared_ptr<GlTetStream> stream;  // buffers of OpenGL
 };
 
-// Draws frames of a mesh. The following are about the last frame.
+// Draws frames of a mesh.
 class ProjectRenderer : public FrameRenderer {
   public:
-    virtual const OrderReport& order_report() const = 0;
-    virtual std::int64_t tets_drawn() const = 0;  // tets that cover the centre of a pixel
-
+    bool take(const Plan& plan) override { return plan.project.picture() == plan_.picture(); }
     virtual ProjectParts parts() const = 0;
+    // Of the last frame:
+    const OrderReport& order_report() const { return order_->report(); }
+    std::int64_t tets_drawn() const { return tets_drawn_; }  // that cover the centre of a pixel
 
     // Makes the mesh live as long as the renderer.
-    void keep(std::shared_ptr<const SceneMesh> mesh) { mesh_ = std::move(mesh); }
-    const SceneMesh* kept_mesh() const { return mesh_.get(); }
+    void keep(std::shared_ptr<const SceneMesh> mesh) { kept_mesh_ = std::move(mesh); }
+    const SceneMesh* kept_mesh() const { return kept_mesh_.get(); }
 
   private:
-    std::shared_ptr<const SceneMesh> mesh_;
-};
+    std::shared_ptr<const SceneMesh> kept_mesh_;
 
-// Returns an order that sorts the mesh's tets as the plan says: `ready`, of the same mesh or null,
-// if it does.
-std::shared_ptr<VisibilityOrder> order_for(const SceneMesh& mesh, const ProjectPlan& plan,
-                                           std::shared_ptr<VisibilityOrder> ready);
+  protected:
+    ProjectRenderer(const ProjectRenderer&) = delete;
+    ProjectRenderer& operator=(const ProjectRenderer&) = delete;
+    // Takes `ready`, an order of the mesh's tets or null, if it sorts as the plan says.
+    ProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
+                    const ProjectPlan& plan, std::shared_ptr<VisibilityOrder> ready);
+    void find_visible_parts();
+    bool is_fan() const { return plan_.geometry == ProjectGeometry::triangles; }
+
+    const SceneMesh& mesh_;
+    TransferFunction transfer_function_;  // in the plan's units
+    ProjectPlan plan_;
+    TetPieces pieces_;
+    std::shared_ptr<VisibilityOrder> order_;
+    std::optional<VisibleParts> visible_;  // none if nothing is visible
+    std::int64_t tets_drawn_ = 0;
+    double table_ms_ = 0;                // of building tables
+    double order_ms_ = 0, draw_ms_ = 0;  // of the last frame
+};
 
 // Makes a renderer that draws a mesh as the plan says, on the context of the capabilities: the
 // engine `cpu`, or the current OpenGL context, which must outlive it, as must the mesh. `ready`:

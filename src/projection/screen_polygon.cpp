@@ -28,10 +28,7 @@ bool are_same(const glm::dvec2& a, const glm::dvec2& b) {
     return glm::dot(a - b, a - b) < same * same;
 }
 
-struct Hull {
-    std::size_t count = 0;
-    std::array<glm::dvec2, most_points + 5> corners;
-};
+using Hull = FewPoints<glm::dvec2, most_points + 5>;
 
 // Andrew's monotone chain. The hull is counter-clockwise, without corners on straight edges.
 Hull convex_hull(std::span<const glm::dvec2> points) {
@@ -59,10 +56,10 @@ Hull convex_hull(std::span<const glm::dvec2> points) {
     Hull hull;
     for (std::size_t i = 0; i + 1 < top; ++i) {
         const bool repeated = hull.count > 0 && are_same(chain[i], hull.corners[hull.count - 1]);
-        if (!repeated) hull.corners[hull.count++] = chain[i];
+        if (!repeated) hull.add(chain[i]);
     }
     while (hull.count > 1 && are_same(hull.corners[0], hull.corners[hull.count - 1])) --hull.count;
-    if (hull.count == 0) hull.corners[hull.count++] = chain[0];
+    if (hull.count == 0) hull.add(chain[0]);
     return hull;
 }
 
@@ -74,9 +71,8 @@ Hull cut(const Hull& hull, int axis, double limit, double sign) {
         const glm::dvec2& a = hull.corners[i];
         const glm::dvec2& b = hull.corners[(i + 1) % hull.count];
         const double inside_a = sign * (limit - a[axis]), inside_b = sign * (limit - b[axis]);
-        if (inside_a >= 0) part.corners[part.count++] = a;
-        if (inside_a * inside_b < 0)
-            part.corners[part.count++] = a + inside_a / (inside_a - inside_b) * (b - a);
+        if (inside_a >= 0) part.add(a);
+        if (inside_a * inside_b < 0) part.add(a + inside_a / (inside_a - inside_b) * (b - a));
     }
     return part;
 }
@@ -116,7 +112,7 @@ ScreenPolygon enlarged(const Hull& hull, double margin) {
     const double step = margin / 2;
     Hull larger;
     const auto add = [&](const glm::dvec2& corner) {
-        larger.corners[larger.count++] = glm::floor(corner / step + 0.5) * step;
+        larger.add(glm::floor(corner / step + 0.5) * step);
     };
     glm::dvec2 in = glm::normalize(hull.corners[0] - hull.corners[hull.count - 1]);
     for (std::size_t i = 0; i < hull.count; ++i) {
@@ -132,10 +128,10 @@ ScreenPolygon enlarged(const Hull& hull, double margin) {
         }
         in = out;
     }
-    if (!is_convex(larger)) larger = convex_hull({larger.corners.data(), larger.count});
+    if (!is_convex(larger)) larger = convex_hull(larger.points());
     ScreenPolygon polygon;
-    for (std::size_t i = 0; i < larger.count; ++i)
-        polygon.corners[static_cast<std::size_t>(polygon.count++)] = glm::vec2(larger.corners[i]);
+    for (const glm::dvec2& corner : larger.points())
+        polygon.corners[static_cast<std::size_t>(polygon.count++)] = glm::vec2(corner);
     return polygon;
 }
 
@@ -164,7 +160,7 @@ ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int wi
     if (hull.count == 0) return {};
     // A rectangle may cover more than the tet: fragments beside the tet find no thickness there.
     if (hull.count == 1 || hull.count > 6)
-        return rectangle(bounds_of({hull.corners.data(), hull.count}, margin), margin / 2);
+        return rectangle(bounds_of(hull.points(), margin), margin / 2);
     return enlarged(hull, margin);
 }
 

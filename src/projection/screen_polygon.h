@@ -18,12 +18,20 @@ struct ScreenPolygon {
     std::array<glm::vec2, most_corners> corners;
 };
 
-// The points whose convex hull is the image of a convex body, in window coordinates.
-struct ScreenOutline {
+// Up to `most` points; further ones are left out.
+template <typename Point, std::size_t most>
+struct FewPoints {
     std::size_t count = 0;
-    std::array<glm::dvec2, ScreenPolygon::most_corners> corners;
-    std::span<const glm::dvec2> points() const { return {corners.data(), count}; }
+    std::array<Point, most> corners;
+
+    void add(const Point& point) {
+        if (count < most) corners[count++] = point;
+    }
+    std::span<const Point> points() const { return {corners.data(), count}; }
 };
+
+// The points whose convex hull is the image of a convex body, in window coordinates.
+using ScreenOutline = FewPoints<glm::dvec2, ScreenPolygon::most_corners>;
 
 // A rectangle of pixels, columns from the left and rows from the bottom; empty if last < first.
 struct PixelBounds {
@@ -36,10 +44,9 @@ struct PixelBounds {
 PixelBounds pixel_bounds(std::span<const glm::dvec2> points, double margin, int width, int height);
 
 // Returns a polygon around `points` (at most 8) that covers every pixel centre nearer to their
-// convex hull than half of `margin`. `margin` has to be 2 steps of the rasteriser's grid. The
-// polygon's corners lie on that grid, because rounding by the rasteriser could turn very thin
-// polygons over. The count is 0 if no pixel centre of a picture of width x height pixels can be
-// covered. Drawn as a triangle fan around a corner, it covers each pixel centre once.
+// convex hull than half of `margin`, 2 steps of the rasteriser's grid; 0 corners if none is in the
+// picture. Corners lie on that grid, because rounding could turn very thin polygons over. Drawn as
+// a triangle fan around a corner, it covers each pixel centre once.
 ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int width, int height);
 
 }  // namespace lamina

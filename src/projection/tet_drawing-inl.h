@@ -9,10 +9,375 @@
 #define LAMINA_PROJECTION_TET_DRAWING_INL_H_
 #endif
 
-#include "projection/tet_coverage-inl.h"
-#include "tiles/target_pixels-inl.h"
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "projection/tet_run-inl.h"
+#include "simd/members-inl.h"
 
 LAMINA_SIMD_BEGIN
+
+// Fragments are added as vectors of 4 x 1, 4 x 2 or 4 x 4 pixels. A cell fragment covers about half
+// of the pixels of a vector. AVX-512 packs the covered pixels of one cell fragment, so that few
+// colours are computed in vain. Each step is done for all fragments of the queue before the next
+// step, because vectors within a step do not depend on each other.
+class FragmentQueue {
+  public:
+    static constexpr std::size_t lanes = Float::lanes;
+
+    // A vector of pixels, by the TileGrid::place() of the first one, and the number in the
+    // TileBatch of the cell fragment that covers some of them.
+    struct Place {
+        std::uint16_t place, part;
+    };
+
+    bool is_full() const { return end_ >= enough; }  // another cell fragment may not fit
+    void clear() { end_ = place_count_ = 0; }
+
+    // Adds the vectors of one cell fragment.
+    class Writer {
+      public:
+        LAMINA_INLINE Writer(FragmentQueue& queue, std::size_t part)
+            : queue_(queue),
+              part_(static_cast<std::uint16_t>(part)),
+              to_(queue.values_ + position(0, queue.end_)),
+              place_(queue.places_ + queue.place_count_) {}
+
+        LAMINA_INLINE void add(std::size_t place, const SlantedRay& found, FloatMask inside) {
+            add(place, found.span, found.aside, found.slant, inside);
+        }
+        LAMINA_INLINE void add(std::size_t place, const PlacedRay& found, FloatMask inside) {
+            add(place, found.span, found.column, found.row, inside);
+        }
+        // Ends the vectors, and returns the number of fragments.
+        LAMINA_INLINE std::size_t finish() {
+            if constexpr (packs) {
+                for (std::size_t i = 0; i < values; ++i) put(i, 0);
+            }
+            const auto written = static_cast<std::size_t>(to_ - queue_.values_);
+            const std::size_t end =
+                packs ? (written + lanes - 1) / lanes * lanes : written / values;
+            // A single store is mostly enough. A branch on the number that is needed could not be
+            // predicted.
+            std::uint16_t* const parts = queue_.parts_ + queue_.end_ / lanes;
+            const std::size_t vectors = (end - queue_.end_) / lanes;
+            std::fill_n(parts, some_parts, part_);
+            if (vectors > some_parts) std::fill_n(parts + some_parts, vectors - some_parts, part_);
+            queue_.end_ = end;
+            queue_.place_count_ = static_cast<std::size_t>(place_ - queue_.places_);
+            return count_;
+        }
+
+      private:
+        // Keeps the vector if one of its pixels is `inside`. It does so without a branch, which
+        // could not be predicted. The span of pixels that are not inside becomes 0, so that the
+        // other two numbers, which keep their values, make no difference there.
+        LAMINA_INLINE void add(std::size_t place, const InsideSpan<Float>& span, Float third,
+                               Float fourth, FloatMask inside) {
+            const std::size_t count = count_of(inside), some = count > 0 ? 1 : 0;
+            *place_ = {static_cast<std::uint16_t>(place), part_};
+            if constexpr (packs) {
+                put(0, members_first(span.enter, inside));
+                put(1, members_first(span.leave, inside));
+                put(2, members_first(third, inside));
+                put(3, members_first(fourth, inside));
+                Packed& packed = queue_.packed_[place_ - queue_.places_];
+                packed.first = static_cast<std::uint16_t>(to_ - queue_.values_);
+                packed.inside = static_cast<std::uint16_t>(bits_of(inside));
+                to_ += count;
+            } else {
+                put(0, zero_unless(inside, span.enter));
+                put(1, zero_unless(inside, span.leave));
+                put(2, third);
+                put(3, fourth);
+                to_ += some * (values * lanes);
+            }
+            place_ += some;
+            count_ += count;
+        }
+        LAMINA_INLINE void put(std::size_t value, Float v) {
+            store_unaligned(v, to_ + position(value, 0));
+        }
+
+        FragmentQueue& queue_;
+        std::uint16_t part_;
+        float* to_;
+        Place* place_;
+        std::size_t count_ = 0;
+    };
+
+    // Calls visit(part, i) for each vector of fragments; `i` is the number of its first fragment.
+    template <class Visit>
+    LAMINA_INLINE void for_each_vector(const Visit& visit) const {
+        for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{parts_[i / lanes]}, i);
+    }
+    // Calls visit(Place, color) for each vector of pixels. The colour of a pixel that is not
+    // covered is 0.
+    template <class Visit>
+    LAMINA_INLINE void for_each_place(const Visit& visit) const {
+        for (std::size_t i = 0; i < place_count_; ++i) {
+            const auto channel = [&](std::size_t value) LAMINA_LAMBDA { return pixels(value, i); };
+            visit(places_[i], Fragment{channel(0), channel(1), channel(2), channel(3)});
+        }
+    }
+
+    // A fragment has four numbers at a time: those of the first step, then those of a segment
+    // unless it is lit, then those of a colour.
+    LAMINA_INLINE SlantedRay slanted(std::size_t i) const {
+        return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
+    }
+    LAMINA_INLINE PlacedRay placed(std::size_t i) const {
+        return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
+    }
+    LAMINA_INLINE void set_run(std::size_t i, const TetRun& run) {
+        put(0, i, run.front);
+        put(1, i, run.back);
+        put(2, i, run.world_length);
+    }
+    LAMINA_INLINE TetRun run(std::size_t i) const {
+        return {value(0, i), value(1, i), value(2, i)};
+    }
+    LAMINA_INLINE void set_color(std::size_t i, const Fragment& color) {
+        put(0, i, color.red);
+        put(1, i, color.green);
+        put(2, i, color.blue);
+        put(3, i, color.alpha);
+    }
+
+  private:
+    static_assert(TileBatch::most_chunks * TileBatch::chunk_parts <= 1 << 16,
+                  "numbers of cell fragments are kept in 16 bits");
+    static constexpr bool packs = packs_quickly;
+    static constexpr std::size_t values = 4, enough = 256, most = enough + TileGrid::pixels + lanes,
+                                 some_parts = 16;
+    // The position of a place's fragments in a queue that packs them.
+    struct Packed {
+        std::uint16_t first;
+        std::uint16_t inside;  // one bit a pixel
+    };
+
+    // Packed fragments begin anywhere, so each value has an array of its own. Else the values of a
+    // vector follow each other.
+    static constexpr std::size_t position(std::size_t value, std::size_t i) {
+        return packs ? value * most + i : value * lanes + i * values;
+    }
+    LAMINA_INLINE Float pixels(std::size_t number, std::size_t place) const {
+        if constexpr (!packs) return value(number, place * lanes);
+        const Packed& packed = packed_[place];
+        return expand_members(packed.inside, values_ + position(number, packed.first));
+    }
+    LAMINA_INLINE void put(std::size_t number, std::size_t i, Float v) {
+        store(v, values_ + position(number, i));
+    }
+    LAMINA_INLINE Float value(std::size_t number, std::size_t i) const {
+        return load<Float>(values_ + position(number, i));
+    }
+
+    std::size_t end_ = 0, place_count_ = 0;
+    std::uint16_t parts_[most / lanes + some_parts];  // of vectors
+    Place places_[enough + TileGrid::pixels / lanes + 1];
+    Packed packed_[packs ? enough + TileGrid::pixels / lanes + 1 : 1];
+    alignas(64) float values_[values * most];
+};
+
+// Returns the blocks of a tile that an area of the picture touches: one bit a block, row by row.
+inline std::uint64_t blocks_of(const PartArea& area, const TileGrid::Tile& tile) {
+    constexpr int a_row = TileGrid::edge / TileGrid::block;
+    const auto in_tile = [](int pixel, int first) {
+        return std::clamp(pixel - first, 0, TileGrid::edge - 1) / TileGrid::block;
+    };
+    const int first_column = in_tile(area.first_column, tile.column),
+              last_column = in_tile(area.last_column, tile.column);
+    const int first_row = in_tile(area.first_row, tile.row),
+              last_row = in_tile(area.last_row, tile.row);
+    const std::uint64_t columns =
+        (0xffull >> (a_row - 1 - last_column)) & (0xffull << first_column);
+    const std::uint64_t rows =
+        (~0ull >> a_row * (a_row - 1 - last_row)) & (~0ull << a_row * first_row);
+    return rows & (columns * 0x0101010101010101ull);
+}
+
+// Calls visit(column, row) with the first pixel of each block in the set.
+template <class Visit>
+LAMINA_INLINE void for_each_block(std::uint64_t blocks, const Visit& visit) {
+    constexpr int a_row = TileGrid::edge / TileGrid::block;
+    for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
+        const int number = std::countr_zero(left);
+        visit(number % a_row * TileGrid::block, number / a_row * TileGrid::block);
+    }
+}
+
+class TetCoverage {
+  public:
+    TetCoverage(const TetFragments& fragments, const TetTile& tile)
+        : fragments_(fragments), tile_(tile), area_(tile.area) {}
+
+    // Returns the blocks of the tile that a cell fragment may cover: one bit a block, row by row.
+    LAMINA_INLINE std::uint64_t blocks(const PartArea& area) const {
+        return blocks_of(area, area_) & blocks_within(area);
+    }
+
+    // `cut`: the cell fragment ends at planes of constant scalar. `lit`: the fragments found are
+    // lit.
+    template <bool lit>
+    LAMINA_INLINE void find(bool cut, const SilhouetteRecord& record, const PartArea& area,
+                            std::uint64_t blocks, std::size_t part, FragmentQueue& found) {
+        // Blocks at the picture's right and lower edge may stick out of it.
+        const bool whole_blocks = area_.width % block == 0 && area_.height % block == 0;
+        FragmentQueue::Writer writer(found, part);
+        if (has_exact_runs(fragments_, area)) {
+            find_in<true, true, CarefulDepths>(cut, record, area, blocks, writer);
+        } else if (area.careful) {
+            find_in<lit, true, CarefulDepths>(cut, record, area, blocks, writer);
+        } else if (area.bounded || !whole_blocks) {
+            find_in<lit, true, PlainDepths>(cut, record, area, blocks, writer);
+        } else {
+            find_in<lit, false, PlainDepths>(cut, record, area, blocks, writer);
+        }
+        count_ += static_cast<std::int64_t>(writer.finish());
+    }
+    std::int64_t fragments() const { return count_; }
+
+  private:
+    static constexpr int block = TileGrid::block, blocks_a_row = TileGrid::edge / TileGrid::block;
+
+    float from_column(const SeenTet& record) const {
+        return static_cast<float>(area_.column) + 0.5f - record.center[0];
+    }
+    float from_row(const SeenTet& record) const {
+        return static_cast<float>(fragments_.image_rows - area_.row) - 0.5f - record.center[1];
+    }
+
+    // Returns the tile's blocks within the outline of a cell fragment, one bit a block.
+    LAMINA_INLINE std::uint64_t blocks_within(const PartArea& area) const {
+        constexpr float a_block = 1.0f / block;
+        const auto pixels = [](std::int32_t from, std::int32_t to) {
+            return static_cast<float>(to - from);
+        };
+        // Bounds in blocks from the tile's first block, plus one half: rounding then gives the next
+        // whole number after the bound.
+        const Float4 per_row = load_unaligned<Float4>(area.outline.per_row.data());
+        const Float4 bound = (load_unaligned<Float4>(area.outline.at_first.data()) +
+                              per_row * pixels(area.first_row, area_.row) -
+                              pixels(area.first_column, area_.column)) *
+                                 a_block +
+                             0.5f;
+        const auto is_least = mask_of_bits<Float4::Mask>(area.outline.least);
+        constexpr float beyond = blocks_a_row;
+        alignas(16) float least[4], least_per_row[4], greatest[4], greatest_per_row[4];
+        store(zero_unless(is_least, bound), least);
+        store(zero_unless(is_least, per_row), least_per_row);
+        store(select(is_least, beyond, bound), greatest);
+        store(zero_if(is_least, per_row), greatest_per_row);
+        // The bits of a float of at least 2^23 count whole numbers.
+        const auto whole = [](Float8 v) LAMINA_LAMBDA { return bits_as<Word8>(v + 0x1p23f); };
+        const auto power = [&](Float8 v) LAMINA_LAMBDA {
+            return bits_as<Float8>(shift_left<23>(whole(v) + 127u));
+        };
+        std::uint8_t bits[blocks_a_row];
+        for (std::size_t row = 0; row < blocks_a_row; row += Float8::lanes) {
+            const Float8 rows = iota<Float8>(static_cast<float>(row));
+            Float8 first(0), end(beyond);
+            for (std::size_t i = 0; i < 4; ++i) {
+                first = max(first, least[i] + least_per_row[i] * rows);
+                end = min(end, greatest[i] + greatest_per_row[i] * rows);
+            }
+            first = min(first, beyond);
+            end = max(end, 0);
+            // 2^end - 2^first has the bits from `first` up to `end`.
+            const Float8 some = max(power(end) - power(first), 0);
+            store_low_bytes(whole(some), bits + row);
+        }
+        std::uint64_t within;
+        std::memcpy(&within, bits, sizeof(within));
+        return within;
+    }
+
+    // Prefetches the pixels of a block into the cache before its fragments are put there.
+    LAMINA_INLINE void prefetch_pixels(std::size_t first) const {
+        if (tile_.pixels == nullptr) return;
+        __builtin_prefetch(tile_.pixels->red.data() + first);
+        __builtin_prefetch(tile_.pixels->green.data() + first);
+        __builtin_prefetch(tile_.pixels->blue.data() + first);
+        __builtin_prefetch(tile_.pixels->alpha.data() + first);
+    }
+
+    // `placed`: the queue gets the places of pixels.
+    template <bool placed, bool bounded, class Depths>
+    LAMINA_INLINE void find_in(bool cut, const SilhouetteRecord& record, const PartArea& area,
+                               std::uint64_t blocks, FragmentQueue::Writer& writer) const {
+        constexpr int rows_a_vector = static_cast<int>(FragmentQueue::lanes) / block;
+        const float first_column = from_column(record.seen()), first_row = from_row(record.seen());
+        const auto column_of = [&](int pixel) {
+            return first_column + static_cast<float>(pixel - area_.column);
+        };
+        const auto row_of = [&](int pixel) {
+            return first_row - static_cast<float>(pixel - area_.row);
+        };
+        const float first_in = column_of(area.first_column), last_in = column_of(area.last_column);
+        const float highest = row_of(area.first_row), lowest = row_of(area.last_row);
+        // These are read before the loop, because for all that the compiler knows the loop's writes
+        // could overwrite the record.
+        const Float scalar_per_column(record.seen().scalar_per_column),
+            scalar_per_row(record.seen().scalar_per_row);
+        const float* const slants = tile_.slants;
+        const Depths depths(fragments_, record);
+        const PartCuts cuts(cut, record.fragment);
+        for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
+            const auto number = static_cast<std::size_t>(std::countr_zero(left));
+            prefetch_pixels(number * block * block);
+            const Float columns = first_column + load<Float>(block_columns.data() +
+                                                             number % blocks_a_row * block * block);
+            const auto at_columns = depths.at_columns(columns);
+            for (int y = 0; y < block; y += rows_a_vector) {
+                const std::size_t step = static_cast<std::size_t>(y) * block;
+                const Float rows = first_row - load<Float>(block_rows.data() + step +
+                                                           number / blocks_a_row * block * block);
+                InsideSpan<Float> span = depths.at(at_columns, rows);
+                if constexpr (bounded) span.leave = min(span.leave, area.farthest);
+                cuts.shorten(record.fragment, columns, rows, span);
+                FloatMask inside = span.leave > span.enter;
+                if constexpr (bounded) {
+                    const FloatMask in_columns = (columns >= first_in) & (columns <= last_in);
+                    const FloatMask in_rows = (rows >= lowest) & (rows <= highest);
+                    inside = inside & (in_columns & in_rows);
+                }
+                const std::size_t place = number * block * block + step;
+                if constexpr (placed) {
+                    writer.add(place, PlacedRay{span, columns, rows}, inside);
+                    continue;
+                }
+                const Float slant = slants != nullptr ? load<Float>(slants + place) : Float(1);
+                const Float aside = columns * scalar_per_column + rows * scalar_per_row;
+                writer.add(place, SlantedRay{span, aside, slant}, inside);
+            }
+        }
+    }
+
+    // One number for each pixel of the blocks in a row or a column of blocks, counted from the
+    // tile's first pixel.
+    struct alignas(64) PixelRow : std::array<float, TileGrid::edge * TileGrid::block> {};
+    static constexpr PixelRow block_columns = [] {
+        PixelRow columns{};
+        for (int i = 0; i < TileGrid::edge * block; ++i)
+            columns[static_cast<std::size_t>(i)] =
+                static_cast<float>(i / (block * block) * block + i % block);
+        return columns;
+    }();
+    static constexpr PixelRow block_rows = [] {
+        PixelRow rows{};
+        for (int i = 0; i < TileGrid::edge * block; ++i)
+            rows[static_cast<std::size_t>(i)] = static_cast<float>(i / block);
+        return rows;
+    }();
+
+    const TetFragments& fragments_;
+    const TetTile& tile_;
+    const TileGrid::Tile& area_;
+    std::int64_t count_ = 0;
+};
 
 LAMINA_INLINE Pixels load_pixels(const TilePixels& pixels, std::size_t place) {
     return {load<Float>(pixels.red.data() + place), load<Float>(pixels.green.data() + place),
@@ -86,7 +451,9 @@ class TetDrawing {
                 queue_.set_run(
                     i, find_exact_run(shader, fragments_, record, queue_.placed(i), slanted));
             } else {
-                queue_.set_run(i, find_run(shader, fragments_, record, queue_.slanted(i)));
+                const SlantedRay ray = queue_.slanted(i);
+                const TetSpan ends = find_ends(shader, fragments_, record, ray.span, ray.slant);
+                queue_.set_run(i, run_between(shader, record, ends, ray.aside));
             }
         });
         queue_.for_each_vector([&](std::size_t part, std::size_t i) LAMINA_LAMBDA {

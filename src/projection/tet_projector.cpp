@@ -3,16 +3,80 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <cstring>
 #include <limits>
 
-#include "facts/drawn_range.h"
 #include "optics/segment_integral.h"
-#include "projection/stored_gradients.h"
 #include "projection/tet_view-inl.h"
+#include "simd/vectors-inl.h"
+
+LAMINA_SIMD_BEGIN
+namespace {
+
+// The front face and the back face of each pair of one of either kind, by the number of front
+// faces.
+alignas(16) constexpr std::int32_t front_of[4][4] = {
+    {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 0, 1}, {0, 1, 2, 2}};
+alignas(16) constexpr std::int32_t back_of[4][4] = {
+    {0, 0, 0, 0}, {1, 2, 3, 3}, {2, 2, 3, 3}, {3, 3, 3, 3}};
+
+// These exceed all rounding errors of depths and of the bounds, in depth and per pixel from the
+// center, because parts that the outline leaves out must not be visible.
+constexpr float rounding = 1e-6f, least_slack = 1e-3f;
+
+// Lines along rows are made a little oblique, so that they bound columns, too.
+constexpr float oblique = 1e-4f;
+
+}  // namespace
+
+// The largest difference of depth at a corner of the square X columns and Y rows from the area's
+// first pixel is most + c X - r Y. There is a lane for each line.
+PartOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
+    constexpr float middle = 0.5f * (TileGrid::block - 1);
+    const SeenTet& seen = record.seen();
+    const float columns = static_cast<float>(area.last_column - area.first_column),
+                rows = static_cast<float>(area.last_row - area.first_row);
+    const float column = static_cast<float>(area.first_column) + 0.5f - seen.center[0] + middle,
+                row = static_cast<float>(image_rows - area.first_row) - 0.5f - seen.center[1] -
+                      middle;
+    const std::uint32_t fronts = record.front_faces() & 3u;
+    const Int4 front = load<Int4>(front_of[fronts]), back = load<Int4>(back_of[fronts]);
+    const Float4 depth = load<Float4>(seen.depth.high.data()),
+                 per_column = load<Float4>(seen.depth_per_column.high.data()),
+                 per_row = load<Float4>(seen.depth_per_row.high.data());
+    const auto difference = [&](Float4 v)
+                                LAMINA_LAMBDA { return permute(v, back) - permute(v, front); };
+    const float slack =
+        least_slack + rounding * (std::abs(column) + std::abs(row) + columns + rows + 64);
+    const Float4 slack_of_face = (abs(per_column) + abs(per_row)) * slack + abs(depth) * rounding;
+    const Float4 c = difference(per_column), r = difference(per_row);
+    const Float4 abs_c = abs(c), abs_r = abs(r);
+    const Float4 at_middle = difference(depth) + c * column + r * row;
+    const Float4 to_corner = abs_c * middle + abs_r * (middle + oblique * (columns + 8));
+    const Float4 most =
+        at_middle + to_corner + (permute(slack_of_face, back) + permute(slack_of_face, front));
+    const Float4 steepness = max(max(abs_c, abs_r * oblique), 1e-30f);
+    const auto is_least = c >= 0;
+    const Float4 divisor = select(is_least, steepness, -steepness);
+    PartOutline outline;
+    store_unaligned(-most / divisor, outline.at_first.data());
+    store_unaligned(r / divisor, outline.per_row.data());
+    outline.least = static_cast<std::uint8_t>(bits_of(is_least));
+    return outline;
+}
+
+LAMINA_SIMD_END
 
 namespace lamina {
 namespace {
+
+// Exponent of the smallest gradient in the unit, which is 2^-40 or up to twice that. Light depends
+// on the lengths of gradients relative to it, and its square, 2^-80, leaves room for those that are
+// 2^20 times as short.
+constexpr int smallest_exponent = -40;
+
+// Length, in the unit, to which longer gradients are shortened: float32 has no larger numbers.
+constexpr double longest_stored = 0x1p120;
 
 using LAMINA_LEAST(finite);
 using OneTet = LAMINA_LEAST(TetView)<double>;
@@ -69,12 +133,6 @@ std::array<float, 4> finite_floats(const std::array<double, 4>& values) {
             finite_float(values[3])};
 }
 
-void set_center(const OneTet& tet, SeenTet& record) {
-    record.center = {static_cast<float>(tet.center_x), static_cast<float>(tet.center_y)};
-    record.center_depth = static_cast<float>(tet.center_depth);
-    record.center_z = static_cast<float>(tet.center_z);
-}
-
 void set_scalars(const OneTet::Linear& linear, SeenTet& record) {
     record.scalar = finite_float(linear[0]);
     record.scalar_per_z = finite_float(linear[1]);
@@ -85,10 +143,6 @@ void set_scalars(const OneTet::Linear& linear, SeenTet& record) {
 // Returns the linear function (value - origin) * scale.
 OneTet::Linear linear(const OneTet& tet, const PartField& field, double origin, double scale) {
     return tet.linear((field.at(tet.center()) - origin) * scale, field.gradient() * scale);
-}
-
-OpticalProperties optics_at(const LinearPiece& piece, double scalar) {
-    return interpolate({piece.from, piece.at_from}, {piece.to, piece.at_to}, scalar);
 }
 
 // Only the face's own corners are used, in the order of their numbers, so that the two tets of a
@@ -173,17 +227,12 @@ void set_part(const OneTet& view, const PartField& field, const LinearPiece& pie
     if (lower_front) record.fronts |= FragmentRecord::lower_cut_is_front;
     if (upper_front) record.fronts |= FragmentRecord::upper_cut_is_front;
     const auto optics = [&](double scalar) {
-        const OpticalProperties found = optics_at(piece, scalar);
+        const OpticalProperties found =
+            interpolate({piece.from, piece.at_from}, {piece.to, piece.at_to}, scalar);
         return finite_floats({found.color.r, found.color.g, found.color.b, found.extinction});
     };
     record.low = optics(field.least());
     record.high = optics(field.largest());
-}
-
-// Returns whether no segment through the fragment is deeper than thin_depth.
-bool is_thin(const std::array<glm::dvec3, 4>& corners, const FragmentRecord& record) {
-    const double most = std::max(record.low[3], record.high[3]);
-    return LAMINA_LEAST(longest_edge)<double>(corners) * most <= thin_depth;
 }
 
 void set_gradients(const OneTet& view, const Tet& tet, std::span<const glm::vec3> gradients,
@@ -208,33 +257,74 @@ void set_gradients(const OneTet& view, const Tet& tet, std::span<const glm::vec3
 
 }  // namespace
 
-TetProjector::TetProjector(const TetMesh& mesh, std::span<const double> scalar,
-                           const ValueRange& range, const TetPieces& pieces, const View& view,
-                           double near_depth, double margin, std::span<const glm::vec3> gradients)
-    : points_(mesh.points()),
-      tets_(mesh.tets()),
-      scalar_(scalar),
-      gradients_(gradients),
-      range_(range),
-      pieces_(pieces),
-      window_(view),
-      signer_(mesh, eye_of(view)),
-      near_depth_(near_depth),
-      margin_(margin) {}
+PartField::PartField(const Corners& corners, const Values& values, const LinearPiece* piece)
+    : corners_(corners), values_(values) {
+    const auto [least, largest] = std::ranges::minmax(values);
+    least_ = least;
+    largest_ = largest;
+    if (piece != nullptr) {
+        cut_low_ = piece->from > least;
+        cut_high_ = piece->to < largest;
+        least_ = std::clamp(least, piece->from, piece->to);
+        largest_ = std::clamp(largest, piece->from, piece->to);
+    }
+    const glm::dvec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0],
+                     e3 = corners[3] - corners[0];
+    const LAMINA_LEAST(TetSlopes)<double> slopes(corners);
+    gradient_ =
+        slopes.numerator(values[1] - values[0], values[2] - values[0], values[3] - values[0]) /
+        slopes.determinant;
+    // A tet without volume is invisible, whatever its scalar.
+    const double extent = std::max({lamina::largest(e1), lamina::largest(e2), lamina::largest(e3)});
+    if (!(lamina::largest(gradient_) * extent < 1e30 * (largest - least)))
+        gradient_ = glm::dvec3(0);
+}
 
-TetProjector::VisibleCorners TetProjector::clip_near(const std::array<Seen, 4>& corners) const {
+FewPoints<glm::dvec3, 8> PartField::outline() const {
+    FewPoints<glm::dvec3, 8> outline;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (values_[i] >= least_ && values_[i] <= largest_) outline.add(corners_[i]);
+        for (std::size_t j = i + 1; j < 4; ++j) {
+            const auto crosses = [&](double level) {
+                return (values_[i] < level && values_[j] > level) ||
+                       (values_[i] > level && values_[j] < level);
+            };
+            for (const double level : {least_, largest_}) {
+                if (!crosses(level)) continue;
+                const double share = (level - values_[i]) / (values_[j] - values_[i]);
+                outline.add(corners_[i] + share * (corners_[j] - corners_[i]));
+            }
+        }
+    }
+    return outline;
+}
+
+StoredGradients::StoredGradients(std::span<const glm::dvec3> gradients, double smallest) {
+    if (smallest > 0)
+        scale = std::ldexp(1.0, std::clamp(smallest_exponent - std::ilogb(smallest), -1000, 1000));
+    at_points.reserve(gradients.size());
+    for (const glm::dvec3& g : gradients) {
+        const double length = largest(g) * scale;
+        at_points.emplace_back(length > longest_stored ? g * scale * (longest_stored / length)
+                                                       : g * scale);
+    }
+}
+
+float StoredGradients::smallest_square(const Lighting& lighting) const {
+    const double smallest = std::clamp(*lighting.smallest_gradient * scale, 1e-15, 1e15);
+    return static_cast<float>(smallest * smallest);
+}
+
+TetProjector::VisibleCorners TetProjector::clip_near(const PartField::Corners& corners) const {
     VisibleCorners visible;
-    const auto add = [&](const glm::dvec3& point) {
-        if (visible.count < visible.seen.size()) visible.seen[visible.count++] = point;
-    };
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec3& a = corners[i];
-        if (a.z >= near_depth_) add(a);
+        if (a.z >= tets_.near_depth) visible.add(a);
         for (std::size_t j = i + 1; j < 4; ++j) {
             const glm::dvec3& b = corners[j];
-            if ((a.z < near_depth_) == (b.z < near_depth_)) continue;
-            const double share = (near_depth_ - a.z) / (b.z - a.z);
-            add({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), near_depth_});
+            if ((a.z < tets_.near_depth) == (b.z < tets_.near_depth)) continue;
+            const double share = (tets_.near_depth - a.z) / (b.z - a.z);
+            visible.add({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), tets_.near_depth});
         }
     }
     return visible;
@@ -243,54 +333,94 @@ TetProjector::VisibleCorners TetProjector::clip_near(const std::array<Seen, 4>& 
 std::optional<FragmentKind> TetProjector::project(const TetPart& part, SilhouetteRecord& record,
                                                   ScreenOutline& outline,
                                                   GradientRecord* lit) const {
-    const Tet& tet = tets_[static_cast<std::size_t>(part.tet)];
-    std::array<Seen, 4> corners;
+    const Tet& tet = tets_.mesh.tets()[static_cast<std::size_t>(part.tet)];
+    PartField::Corners corners;
     PartField::Values values;
     for (std::size_t i = 0; i < 4; ++i) {
-        corners[i] = window_.see(points_[static_cast<std::size_t>(tet[i])]);
-        values[i] = scalar_[static_cast<std::size_t>(tet[i])];
+        corners[i] = tets_.window.see(tets_.mesh.points()[static_cast<std::size_t>(tet[i])]);
+        values[i] = tets_.scalar[static_cast<std::size_t>(tet[i])];
     }
     const VisibleCorners visible = clip_near(corners);
     if (visible.count == 0 || is_too_thin(corners)) return std::nullopt;
-    const LinearPiece* const piece = part.piece == TetPart::whole
-                                         ? nullptr
-                                         : &pieces_.pieces()[static_cast<std::size_t>(part.piece)];
+    const LinearPiece* const piece = tets_.piece_of(part);
     const PartField field(corners, values, piece);
-    OneTet seen(view());
-    const auto bounds = seen.place_center(std::span(visible.seen).first(visible.count));
-    set_center(seen, record.seen());
-    const bool cut = bounds.nearest <= near_depth_;
+    const View& view = tets_.view();
+    OneTet seen(view);
+    const auto bounds = seen.place_center(visible.points());
+    record.seen().center = {static_cast<float>(seen.center_x), static_cast<float>(seen.center_y)};
+    record.seen().center_depth = static_cast<float>(seen.center_depth);
+    record.seen().center_z = static_cast<float>(seen.center_z);
+    const bool cut = bounds.nearest <= tets_.near_depth;
     outline = outline_of(visible, field, cut);
     if (outline.count == 0 ||
-        pixel_bounds(outline.points(), margin_, view().width, view().height).empty())
+        pixel_bounds(outline.points(), tets_.margin, view.width, view.height).empty())
         return std::nullopt;
     const FaceSigns signs = signer_.signs(static_cast<std::size_t>(part.tet));
     bool plain = set_depths(seen, tet, signs, cut, corners, record);
     if (piece != nullptr) {
         set_part(seen, field, *piece, record.fragment);
     } else {
-        plain = set_whole(seen, field, range_, record.tet) && plain;
+        plain = set_whole(seen, field, tets_.range, record.tet) && plain;
     }
-    record.tet.number = part_number(part, tets_.size());
-    if (lit != nullptr) set_gradients(seen, tet, gradients_, corners, *lit);
+    record.tet.number = part_number(part, tets_.mesh.tets().size());
+    if (lit != nullptr) set_gradients(seen, tet, tets_.gradients, corners, *lit);
     if (!plain) return FragmentKind::careful;
-    const bool thin = piece != nullptr && is_thin(corners, record.fragment);
-    return thin ? FragmentKind::thin : FragmentKind::plain;
+    if (piece == nullptr) return FragmentKind::plain;
+    const double most = std::max(record.fragment.low[3], record.fragment.high[3]);
+    const double deepest = LAMINA_LEAST(longest_edge)<double>(corners) * most;
+    return deepest <= thin_depth ? FragmentKind::thin : FragmentKind::plain;
 }
 
 ScreenOutline TetProjector::outline_of(const VisibleCorners& visible, const PartField& field,
                                        bool cut_by_near) const {
     ScreenOutline outline;
-    const auto add = [&](const Seen& point) {
-        outline.corners[outline.count++] = window_.to_window(point);
+    const auto add = [&](const auto& corners) {
+        for (const glm::dvec3& corner : corners.points())
+            outline.add(tets_.window.to_window(corner));
     };
     if (cut_by_near || !(field.cut_low() || field.cut_high())) {
-        std::for_each_n(visible.seen.begin(), visible.count, add);
+        add(visible);
     } else {
-        const PartField::Outline corners = field.outline();
-        std::for_each_n(corners.corners.begin(), corners.count, add);
+        add(field.outline());
     }
     return outline;
+}
+
+TetGeometry::Size SilhouetteGeometry::largest_size(bool lit) {
+    constexpr std::size_t corners = ScreenPolygon::most_corners;
+    return {sizeof(SilhouetteVertex), corners, 3 * (corners - 2), true, lit};
+}
+
+TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place& place) const {
+    ScreenOutline outline;
+    SilhouetteRecord record;  // not written in place: that memory may be slow to read
+    GradientRecord gradient;
+    GradientRecord* const lit = place.gradient != nullptr ? &gradient : nullptr;
+    const std::optional<FragmentKind> kind = projector_.project(part, record, outline, lit);
+    if (!kind) return {};
+    const ScreenPolygon polygon =
+        surround(outline.points(), projector_.tets().margin, projector_.tets().view().width,
+                 projector_.tets().view().height);
+    if (polygon.count == 0) return {};
+    std::memcpy(place.record, &record, sizeof(record));
+    if (lit != nullptr) std::memcpy(place.gradient, &gradient, sizeof(gradient));
+    Written written;
+    written.kind = *kind;
+    for (int i = 0; i < polygon.count; ++i) {
+        const SilhouetteVertex vertex{polygon.corners[static_cast<std::size_t>(i)],
+                                      place.record_number};
+        std::memcpy(place.vertices + written.vertices++ * sizeof(vertex), &vertex, sizeof(vertex));
+    }
+    for (std::uint32_t i = 2; i < written.vertices; ++i) {
+        place.indices[written.indices++] = place.first_vertex;
+        place.indices[written.indices++] = place.first_vertex + i - 1;
+        place.indices[written.indices++] = place.first_vertex + i;
+    }
+    return written;
+}
+
+PartOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
+    return LAMINA_LEAST(find_outline)(record, area, image_rows);
 }
 
 }  // namespace lamina

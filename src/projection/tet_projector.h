@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "facts/drawn_range.h"
+#include "lamina/lighting.h"
 #include "mesh/tet_mesh.h"
-#include "projection/part_field.h"
+#include "optics/pieces.h"
 #include "projection/screen_polygon.h"
 #include "projection/tet_record.h"
 #include "scene/camera.h"
@@ -20,48 +24,158 @@
 
 namespace lamina {
 
+// The scalar in a tet, linear between its corners, and the region of the tet that is drawn: all of
+// it, or the cell fragment whose scalars lie in one piece of the transfer function.
+class PartField {
+  public:
+    using Corners = std::array<glm::dvec3, 4>;
+    using Values = std::array<double, 4>;  // at the corners
+
+    // `piece`: ascending; null for the whole tet. The corners must outlive it.
+    PartField(const Corners& corners, const Values& values, const LinearPiece* piece);
+
+    double least() const { return least_; }      // least scalar of the drawn region
+    double largest() const { return largest_; }  // >= least
+    bool cut_low() const { return cut_low_; }    // the tet also has smaller scalars
+    bool cut_high() const { return cut_high_; }
+    const glm::dvec3& gradient() const { return gradient_; }
+    double at(const glm::dvec3& point) const {
+        return values_[0] + glm::dot(gradient_, point - corners_[0]);
+    }
+
+    // Returns points whose convex hull is the drawn region.
+    FewPoints<glm::dvec3, 8> outline() const;
+
+  private:
+    const Corners& corners_;
+    Values values_;
+    glm::dvec3 gradient_;
+    double least_, largest_;
+    bool cut_low_ = false, cut_high_ = false;
+};
+
+inline const std::array world_axes{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
+
+// The gradients at the points of a mesh, in a unit in which float32 has room for them.
+struct StoredGradients {
+    StoredGradients() = default;  // nothing is lit
+    // `gradients`: in scalar units per world unit. `smallest`: the light's smallest gradient.
+    StoredGradients(std::span<const glm::dvec3> gradients, double smallest);
+
+    // Gradients times `scale`, which depends on the smallest gradient alone: usual ones are then
+    // far below 1. Those around a value that marks missing data may be longer: tets shorten them
+    // (scale_of_tet()).
+    std::vector<glm::vec3> at_points;
+    double scale = 1;  // a power of two
+
+    // Largest component of a tet's gradients after scaling: lengths are then below 1.
+    static constexpr double most_of_tet = 0.5;
+    // Returns the factor for all gradients of a tet, of which `largest` is the largest component.
+    // Light depends on directions, which stay. Lengths matter only near the smallest gradient: in a
+    // tet that is scaled, with gradients of 2^38 of it and more, that is less than 1e-11 of the
+    // tet.
+    static double scale_of_tet(double largest) {
+        return largest > most_of_tet ? most_of_tet / largest : 1;
+    }
+
+    // Returns the square of a smallest gradient in this unit. It is limited to the numbers that
+    // float32 can square: outside, all or nothing is lit.
+    float smallest_square(const Lighting& lighting) const;
+};
+
+// The tets of a mesh in one view, and how they are projected. The members must outlive it.
+struct TetsInView {
+    const TetMesh& mesh;
+    std::span<const double> scalar;  // one value a point
+    ValueRange range;                // the scalars that become [0, 1] in whole tets
+    const TetPieces& pieces;         // that cell fragments refer to
+    WindowView window;
+    double near_depth;
+    double margin;                         // see pixel_bounds()
+    std::span<const glm::vec3> gradients;  // at the points; empty if nothing is lit
+
+    const View& view() const { return window.view(); }
+    const LinearPiece* piece_of(const TetPart& part) const {
+        if (part.piece == TetPart::whole) return nullptr;
+        return &pieces.pieces()[static_cast<std::size_t>(part.piece)];
+    }
+};
+
 // Projects tets or cell fragments in one view. Safe from many threads.
 class TetProjector {
   public:
-    // `scalar`: one value a point. `range`: the scalars that become [0, 1] in whole tets. `pieces`:
-    // the pieces that cell fragments refer to. `margin`: see pixel_bounds(). `gradients`: at the
-    // points, for project() with `lit`. All arguments must outlive it.
-    TetProjector(const TetMesh& mesh, std::span<const double> scalar, const ValueRange& range,
-                 const TetPieces& pieces, const View& view, double near_depth, double margin,
-                 std::span<const glm::vec3> gradients = {});
+    explicit TetProjector(const TetsInView& tets)
+        : tets_(tets), signer_(tets.mesh, eye_of(tets.view())) {}
 
     // Fills the record and the outline, and returns the kind of its fragments. The outline covers
     // the cell fragment and may cover more of its tet. Returns nothing, and leaves the outputs
     // undefined, if the centre of no pixel is covered. `lit`: null if nothing is lit.
     std::optional<FragmentKind> project(const TetPart& part, SilhouetteRecord& record,
-                                        ScreenOutline& outline,
-                                        GradientRecord* lit = nullptr) const;
-    double margin() const { return margin_; }
-    const View& view() const { return window_.view(); }
+                                        ScreenOutline& outline, GradientRecord* lit) const;
+    const TetsInView& tets() const { return tets_; }
 
   private:
-    // A point relative to the eye, along right, up and forward.
-    using Seen = glm::dvec3;
-
     // The corners of the region of a tet beyond the near plane (z >= near_depth), which is the
-    // visible one; at most 6.
-    struct VisibleCorners {
-        std::size_t count = 0;
-        std::array<Seen, 6> seen;
-    };
-    VisibleCorners clip_near(const std::array<Seen, 4>& corners) const;
+    // visible one: relative to the eye, along right, up and forward.
+    using VisibleCorners = FewPoints<glm::dvec3, 6>;
+    VisibleCorners clip_near(const PartField::Corners& corners) const;
     ScreenOutline outline_of(const VisibleCorners& visible, const PartField& field,
                              bool cut_by_near) const;
 
-    std::span<const glm::dvec3> points_;
-    std::span<const Tet> tets_;
-    std::span<const double> scalar_;
-    std::span<const glm::vec3> gradients_;
-    ValueRange range_;
-    const TetPieces& pieces_;
-    WindowView window_;
+    TetsInView tets_;
     FaceSigner signer_;
-    double near_depth_, margin_;
+};
+
+// Turns the tets or cell fragments of one view into triangles for a rasteriser. Safe from many
+// threads.
+class TetGeometry {
+  public:
+    virtual ~TetGeometry() = default;
+
+    // Largest memory that one cell fragment needs.
+    struct Size {
+        std::size_t vertex_bytes;  // of one vertex
+        std::size_t vertices, indices;
+        bool has_record;
+        bool has_gradient = false;  // for a lit record
+
+        friend bool operator==(const Size&, const Size&) = default;
+    };
+
+    // The place at which a cell fragment is written.
+    struct Place {
+        std::byte* vertices;
+        std::uint32_t first_vertex;  // number of the vertex at `vertices`, for the indices
+        std::uint32_t* indices;      // of triangles
+        SilhouetteRecord* record;    // null without records
+        GradientRecord* gradient;    // null if nothing is lit
+        std::uint32_t record_number;
+    };
+    // The numbers of vertices and indices that were written; 0 if no pixel centre is covered.
+    // Triangles of one cell fragment do not overlap.
+    struct Written {
+        std::size_t vertices = 0, indices = 0;
+        FragmentKind kind = FragmentKind::thin;
+    };
+    virtual Written write(const TetPart& part, const Place& place) const = 0;
+};
+
+// A corner of the polygon around a tet (shaders/projection/silhouette.vert).
+struct SilhouetteVertex {
+    glm::vec2 position;  // window coordinates
+    std::uint32_t record;
+};
+
+// Projects each tet as one polygon around it. The fragments find the front and the back from the
+// planes of the faces.
+class SilhouetteGeometry : public TetGeometry {
+  public:
+    explicit SilhouetteGeometry(const TetProjector& projector) : projector_(projector) {}
+    static Size largest_size(bool lit);
+    Written write(const TetPart& part, const Place& place) const override;
+
+  private:
+    TetProjector projector_;
 };
 
 }  // namespace lamina

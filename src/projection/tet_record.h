@@ -10,6 +10,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+
+#include "scene/camera.h"
+#include "tiles/tile_image.h"
 
 namespace lamina {
 
@@ -115,7 +119,7 @@ static_assert(sizeof(SilhouetteRecord) == 192);
 
 // The gradient in a tet of one view, linear in space, for a lit cell fragment: beside its record,
 // as shaders/projection/silhouette.vert reads it: 3 uvec4. Gradients are in the axes of the world
-// and in units in which the longest at a point of the mesh is 1 (projection/stored_gradients.h).
+// and in units in which the longest at a point of the mesh is 1 (projection/tet_projector.h).
 struct alignas(16) GradientRecord {
     // One component: at the point of SeenTet::center, its change along the ray per unit of z, and
     // its change per pixel to the right and upwards (in perspective views, per pixel at z = 1).
@@ -133,5 +137,39 @@ inline constexpr double float_tolerance = 2e-3;
 
 // A depth beyond everything. Its product with any window coordinate is still finite.
 inline constexpr double beyond_all = -double{FragmentRecord::in_front_of_all};
+
+// The squares of TileGrid::block pixels that a tet may cover. Rays meet the tet if the depths on
+// all its front faces are less than those on all its back faces: inside three or four lines, the
+// silhouette, on which a front and a back depth are equal. Each line bounds the first column of the
+// squares in a row: by `at_first`, in pixels from the area's first column, if their first row is
+// the area's, and by `per_row` more for each row below.
+struct PartOutline {
+    static constexpr float none = std::numeric_limits<float>::infinity();
+
+    std::array<float, 4> at_first{none, none, none, none}, per_row{};
+    // A bit for each bound that is a least column; the other bounds are greatest columns.
+    std::uint8_t least = 0;
+};
+
+// A bound on the optical depth of any segment through a cell fragment, on which the cost of its
+// colour depends. thin: at most thin_depth; faint: at most faint_depth (optics/segment_integral.h).
+enum class PartDepth : std::uint8_t { any, thin, faint };
+
+// The pixels that a cell fragment may cover: columns from the left, rows from the top of the
+// picture.
+struct alignas(64) PartArea : PixelArea {
+    bool careful;     // depths on its faces are found in double precision (FragmentKind::careful)
+    PartDepth depth;  // bound for any segment through it
+    // True: pixels outside these columns and rows do not count, and no segment ends beyond
+    // `farthest`, a depth relative to the record's center. Outside a tet the planes of its faces
+    // meet at any depth, and there rounding alone may make visible segments.
+    bool bounded = true;
+    float farthest = std::numeric_limits<float>::infinity();
+    PartOutline outline = {};
+};
+
+// Returns the outline of a tet with 1 to 3 front faces whose depths are found in float32.
+// `image_rows`: number of rows of the picture.
+PartOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows);
 
 }  // namespace lamina

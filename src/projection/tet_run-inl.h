@@ -8,8 +8,11 @@
 #define LAMINA_PROJECTION_TET_RUN_INL_H_
 #endif
 
+#include "optics/segment_integral.h"
 #include "projection/tile_fragments.h"
 #include "simd/vectors-inl.h"
+#include "tiles/segment_optics-inl.h"
+#include "tiles/target_pixels-inl.h"
 
 LAMINA_SIMD_BEGIN
 
@@ -265,13 +268,6 @@ LAMINA_INLINE TetRun run_between(const Shader& shader, const SilhouetteRecord& r
     return run;
 }
 
-template <class Shader>
-LAMINA_INLINE TetRun find_run(const Shader& shader, const TetFragments& fragments,
-                              const SilhouetteRecord& record, const SlantedRay& ray) {
-    const TetSpan ends = find_ends(shader, fragments, record, ray.span, ray.slant);
-    return run_between(shader, record, ends, ray.aside);
-}
-
 // Tells whether lengths and scalars of the tet's segments are computed in double precision: of
 // careful tets that are not cut.
 LAMINA_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea& area) {
@@ -302,6 +298,50 @@ LAMINA_INLINE TetRun find_exact_run(const Shader& shader, const TetFragments& fr
         return clamp(to_float(scalar), record.tet.least, record.tet.largest);
     };
     return {within(front), within(back), zero_unless(ray.span.leave > ray.span.enter, length)};
+}
+
+LAMINA_INLINE Fragment with_color(const glm::vec3& color, Float opacity) {
+    return {color.r * opacity, color.g * opacity, color.b * opacity, opacity};
+}
+
+LAMINA_INLINE Fragment constant_color(const TetFragments& fragments, const TetRun& run) {
+    const glm::vec4& optics = fragments.constant_optics;
+    return with_color(glm::vec3(optics), opacity_from_depth(optics.a * run.world_length));
+}
+
+// `colored`: otherwise the colour is fragments.single_color. `most_depth`: a bound on the optical
+// depth of the cell fragment.
+LAMINA_INLINE Fragment part_color(bool colored, PartDepth most_depth, const TetFragments& fragments,
+                                  const FragmentRecord& record, const TetRun& run) {
+    const auto optics = [&](std::size_t i, Float place) LAMINA_LAMBDA {
+        return mix(Float(record.low[i]), Float(record.high[i]), place);
+    };
+    const Float front = optics(3, run.front), back = optics(3, run.back);
+    if (!colored) {
+        const Float mean = 0.5f * front + 0.5f * back;
+        return with_color(fragments.single_color, opacity_from_depth(mean * run.world_length));
+    }
+    const Float p = front * run.world_length, q = back * run.world_length;
+    const Float depth = 0.5f * p + 0.5f * q;
+    Float opacity, most;
+    if (most_depth == PartDepth::faint) {
+        opacity = faint_opacity(depth);
+        most = faint_front_weight(p, q);
+    } else {
+        opacity = opacity_from_depth(depth);
+        most = most_depth == PartDepth::thin
+                   ? thin_front_weight(p, q)
+                   : front_weight(fragments.front_weights, FrontWeightTable::nodes, p, q);
+    }
+    const Float weight = min(most, opacity);
+    // This is opacity * back + weight * (front - back), written with the colours at the cell
+    // fragment's ends so that no term is negative.
+    const Float of_high = (opacity - weight) * run.back + weight * run.front;
+    const Float of_low = opacity - of_high;
+    const auto channel = [&](std::size_t i) LAMINA_LAMBDA {
+        return of_low * record.low[i] + of_high * record.high[i];
+    };
+    return {channel(0), channel(1), channel(2), opacity};
 }
 
 LAMINA_SIMD_END

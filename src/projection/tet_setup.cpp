@@ -8,21 +8,277 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <type_traits>
 
+#include "facts/drawn_range.h"
 #include "optics/segment_integral.h"
-#include "projection/tet_setup-inl.h"
+#include "projection/tet_view-inl.h"
 
 LAMINA_SIMD_BEGIN
+
+// Puts the planes of front faces first, and those of others from the last place on.
+struct FacePlanes {
+    Double depth[4], per_column[4], per_row[4];
+    Double fronts;  // number of front faces so far
+
+    LAMINA_INLINE FacePlanes() : fronts(0), place_of_back_(3) {
+        for (std::size_t place = 0; place < 4; ++place)
+            depth[place] = per_column[place] = per_row[place] = 0;
+    }
+
+    LAMINA_INLINE void add(DoubleMask front, const TetView<Double>::DepthPlane& plane) {
+        const Double place = select(front, fronts, place_of_back_);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const DoubleMask here = place == static_cast<double>(i);
+            depth[i] = select(here, plane.depth, depth[i]);
+            per_column[i] = select(here, plane.per_column, per_column[i]);
+            per_row[i] = select(here, plane.per_row, per_row[i]);
+        }
+        fronts += zero_unless(front, Double(1));
+        place_of_back_ -= zero_if(front, Double(1));
+    }
+
+  private:
+    Double place_of_back_;
+};
+
+class TetVectors {
+  public:
+    TetVectors(const TetsInView& tets, SetupLanes& lanes, std::size_t first)
+        : tets_(tets), lanes_(lanes), first_(first), tet_(tets.view()) {}
+
+    void set_up(bool parts, bool lit) {
+        see();
+        place_center();
+        DoubleMask good = find_faces();
+        good = good & find_gradient();
+        if (parts) {
+            set_part();
+        } else {
+            good = good & set_whole();
+        }
+        if (lit) set_gradients();
+        put_whole(lanes_.limits[2], fronts_);
+        put(lanes_.good, zero_unless(good, Double(1)));
+        put(lanes_.visible, zero_unless(visible_, Double(1)));
+    }
+
+  private:
+    using Row = SetupLanes::Row;
+    using FloatRow = SetupLanes::FloatRow;
+    Double get(const Row& row) const { return load<Double>(row.data() + first_); }
+    void put(Row& row, Double v) const { store(v, row.data() + first_); }
+    void put(FloatRow& row, Double v) const { store_as_floats(v, row.data() + first_); }
+    // Stores whole numbers as 32-bit integers, in the bits of floats.
+    void put_whole(FloatRow& row, Double v) const { store_as_int_bits(v, row.data() + first_); }
+
+    void see() {
+        const View& view = tets_.view();
+        for (std::size_t i = 0; i < 4; ++i) {
+            const SeenPoints p{get(lanes_.x[i]) - view.eye.x, get(lanes_.y[i]) - view.eye.y,
+                               get(lanes_.z[i]) - view.eye.z};
+            const auto along = [&](const glm::dvec3& axis) LAMINA_LAMBDA {
+                return dot(p, SeenPoints{axis.x, axis.y, axis.z});
+            };
+            seen_[i] = {along(view.right), along(view.up), along(view.forward)};
+            values_[i] = get(lanes_.value[i]);
+        }
+    }
+
+    void place_center() {
+        const auto bounds = tet_.place_center(std::span<const SeenPoints>(seen_));
+        nearest_ = bounds.nearest;
+        farthest_ = bounds.farthest;
+        set_bounds(bounds.lo_x, bounds.hi_x, bounds.lo_y, bounds.hi_y);
+        put(lanes_.center[0], tet_.center_x);
+        put(lanes_.center[1], tet_.center_y);
+        put(lanes_.center[2], tet_.center_depth);
+        put(lanes_.center[3], tet_.center_z);
+    }
+
+    // Sets the bounds of the pixel centres that may be covered (pixel_bounds()).
+    void set_bounds(Double lo_x, Double hi_x, Double lo_y, Double hi_y) {
+        const double least = 0.5 + tets_.margin, most = tets_.margin - 0.5;
+        const Double first_column = max(ceil(lo_x - least), 0),
+                     first_row = max(ceil(lo_y - least), 0);
+        const Double last_column = min(floor(hi_x + most), tets_.view().width - 1);
+        const Double last_row = min(floor(hi_y + most), tets_.view().height - 1);
+        visible_ = (first_column <= last_column) & (first_row <= last_row);
+        put_whole(lanes_.pixels[0], first_column);
+        put_whole(lanes_.pixels[1], last_column);
+        const int top = tets_.view().height - 1;
+        put_whole(lanes_.pixels[2], top - last_row);
+        put_whole(lanes_.pixels[3], top - first_row);
+    }
+
+    // Returns true if the signs are certain and float32 is good enough.
+    DoubleMask find_faces() {
+        Double reach = 0, size = 0, steepest = 0, rounding = 0;
+        for (const SeenPoints& p : seen_) {
+            reach = max(reach, largest_of(p));
+            size = max(size, largest_of(p - seen_[0]));
+        }
+        const Double least_divisor =
+            doubtful_sign * (reach * reach * (tet_.perspective() ? reach : 1));
+        // The points are rounded relative to their distance `reach`, and so are their edges. The
+        // normals of slivers are small differences of products of edges.
+        const Double least_across = doubtful_sign * (reach * (size * size));
+        DoubleMask good = nearest_ > tets_.near_depth;
+        FacePlanes planes;
+        for (std::size_t face = 0; face < 4; ++face) {
+            const SeenPoints &a = seen_[face == 0 ? 1 : 0], &b = seen_[face <= 1 ? 2 : 1],
+                             &c = seen_[face == 3 ? 2 : 3];
+            const SeenPoints normal = cross(b - a, c - a);
+            const Double distance = dot(normal, a), across = dot(normal, seen_[face] - a);
+            const Double divisor = tet_.divisor(normal, distance);
+            good = good & ((abs(divisor) > least_divisor) & (abs(across) > least_across));
+            const auto plane = tet_.plane(normal, distance, divisor);
+            planes.add(divisor * across > 0, plane);
+            steepest = max(steepest, abs(plane.per_column) + abs(plane.per_row));
+            rounding = max(rounding, tet_.size_of(plane));
+        }
+        for (std::size_t place = 0; place < 4; ++place) {
+            put(lanes_.depth[place], planes.depth[place]);
+            put(lanes_.per_column[place], planes.per_column[place]);
+            put(lanes_.per_row[place], planes.per_row[place]);
+        }
+        fronts_ = planes.fronts;
+        const Double float_rounding = rounding * float_epsilon,
+                     tolerance = float_tolerance * tet_.depth_range;
+        put(lanes_.farthest, tet_.inverted(farthest_) - tet_.center_depth + tolerance);
+        good = good & (float_rounding <= tolerance);
+        // Rounding alone may make segments if its error in depth is not small, or if the horizon
+        // (depth 0) is near.
+        DoubleMask bounded = 100 * float_rounding > tolerance;
+        if (tet_.perspective()) bounded = bounded | (16 * steepest > abs(tet_.center_depth));
+        put(lanes_.bounded, zero_unless(bounded, Double(1)));
+        return good & ((fronts_ > 0) & (fronts_ < 4));
+    }
+
+    // Finds the scalar's gradient; returns true if it is a number.
+    DoubleMask find_gradient() {
+        gradient_ = gradient_of(TetSlopes<Double>(seen_), values_);
+        least_ = min(min(values_[0], values_[1]), min(values_[2], values_[3]));
+        largest_ = max(max(values_[0], values_[1]), max(values_[2], values_[3]));
+        return largest_of(gradient_) <= 1e30 * (largest_ - least_);
+    }
+    static SeenPoints gradient_of(const TetSlopes<Double>& slopes,
+                                  const std::array<Double, 4>& values) {
+        const SeenPoints numerator =
+            slopes.numerator(values[1] - values[0], values[2] - values[0], values[3] - values[0]);
+        return scaled(numerator, 1 / slopes.determinant);
+    }
+
+    Double scalar_at(const SeenPoints& point) const {
+        return values_[0] + dot(gradient_, point - seen_[0]);
+    }
+    void put_linear(SetupLanes::Group& group, Double at_center, const SeenPoints& gradient) const {
+        const auto linear = tet_.linear(at_center, gradient);
+        for (std::size_t i = 0; i < 4; ++i) put(group[i], finite(linear[i]));
+    }
+
+    // Sets the scalar as (scalar - origin) / width.
+    void set_scalars(Double origin, Double width) {
+        const Double scale = zero_unless(width > 0, 1 / width);
+        put_linear(lanes_.scalar, (scalar_at(tet_.center()) - origin) * scale,
+                   scaled(gradient_, scale));
+    }
+
+    // Sets the components of the gradient as set_scalars() sets the scalar.
+    void set_gradients() {
+        const TetSlopes<Double> slopes(seen_);
+        const SeenPoints from_corner = tet_.center() - seen_[0];
+        Double largest = 0;
+        for (const auto& corners : lanes_.gradient) {
+            for (const Row& corner : corners) largest = max(largest, abs(get(corner)));
+        }
+        // as StoredGradients::scale_of_tet() does
+        constexpr double most = StoredGradients::most_of_tet;
+        const Double scale = select(largest > most, most / largest, 1);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::array<Double, 4> values;
+            for (std::size_t i = 0; i < 4; ++i) values[i] = get(lanes_.gradient[axis][i]) * scale;
+            const SeenPoints slope = gradient_of(slopes, values);
+            put_linear(lanes_.lit[axis], values[0] + dot(slope, from_corner), slope);
+        }
+    }
+
+    // Returns true if float32 is good enough for the scalars (facts/drawn_range.h).
+    DoubleMask set_whole() {
+        const double origin = tets_.range.lo, width = tets_.range.hi - tets_.range.lo;
+        set_scalars(origin, width);
+        const Double least = (least_ - origin) / width, largest = (largest_ - origin) / width;
+        put(lanes_.limits[0], least);
+        put(lanes_.limits[1], largest);
+        const Double most = max(-least, largest - 1);
+        const DoubleMask meets = (least < 1) & (largest > 0);
+        return most <= select(meets, Double(far_for_floats), farthest_normalised);
+    }
+
+    void set_part() {
+        const Double from = get(lanes_.piece_from), to = get(lanes_.piece_to);
+        const Double low = clamp(least_, from, to), high = clamp(largest_, from, to);
+        set_scalars(low, high - low);
+        const Cut lower = cut_at(low, from > least_, true);
+        const Cut upper = cut_at(high, to < largest_, false);
+        put(lanes_.cuts[0], lower.plane.depth);
+        put(lanes_.cuts[1], lower.plane.per_column);
+        put(lanes_.cuts[2], lower.plane.per_row);
+        put(lanes_.cuts[3], upper.plane.depth);
+        put(lanes_.limits[0], upper.plane.per_column);
+        put(lanes_.limits[1], upper.plane.per_row);
+        const auto bit = [&](DoubleMask front, std::uint32_t value)
+                             LAMINA_LAMBDA { return zero_unless(front, Double(value)); };
+        fronts_ += bit(lower.front, FragmentRecord::lower_cut_is_front) +
+                   bit(upper.front, FragmentRecord::upper_cut_is_front);
+        const Double width = to - from;
+        constexpr std::size_t extinction = 3;
+        Double most = 0;
+        for (std::size_t channel = 0; channel < 4; ++channel) {
+            const Double at_from = get(lanes_.at_from[channel]), at_to = get(lanes_.at_to[channel]);
+            const auto at = [&](Double scalar) LAMINA_LAMBDA {
+                const Double sum =
+                    at_from * ((to - scalar) / width) + at_to * ((scalar - from) / width);
+                return finite(select(at_from == at_to, at_from, sum));
+            };
+            const Double at_low = at(low), at_high = at(high);
+            put(lanes_.low[channel], at_low);
+            put(lanes_.high[channel], at_high);
+            if (channel == extinction) most = max(at_low, at_high);
+        }
+        put(lanes_.largest_depth, longest_edge<Double>(seen_) * most);
+    }
+
+    // A plane of constant scalar, as in FragmentRecord.
+    struct Cut {
+        TetView<Double>::DepthPlane plane;
+        DoubleMask front;
+    };
+    Cut cut_at(Double level, DoubleMask is_cut, bool lower) const {
+        const auto found = tet_.level(gradient_, level - scalar_at({0, 0, 0}));
+        const DoubleMask front = lower ? found.front : !found.front;
+        return {
+            {select(is_cut, found.plane.depth, -beyond_all),
+             zero_unless(is_cut, found.plane.per_column), zero_unless(is_cut, found.plane.per_row)},
+            front | !is_cut};
+    }
+
+    const TetsInView& tets_;
+    SetupLanes& lanes_;
+    std::size_t first_;
+    TetView<Double> tet_;
+    std::array<SeenPoints, 4> seen_;
+    std::array<Double, 4> values_;
+    Double fronts_, nearest_, farthest_, least_, largest_;
+    SeenPoints gradient_;
+    DoubleMask visible_;
+};
 
 // Writes a group of four numbers to some records, from `offset` bytes after the start of each. They
 // are copied as bytes: some are integers.
 template <std::size_t offset, typename Record>
-LAMINA_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t count,
-                               Record* records) {
+LAMINA_INLINE void write_group(const SetupLanes::Group& rows, std::size_t count, Record* records) {
     static_assert(offset % 16 == 0 && sizeof(Record) % 16 == 0);
     constexpr std::size_t together = 4;
     for (std::size_t first = 0; first < count; first += together) {
@@ -51,7 +307,7 @@ static_assert(offsetof(FragmentRecord, fronts) == offsetof(TetRecord, fronts));
 static_assert(offsetof(FragmentRecord, number) == offsetof(TetRecord, number));
 static_assert(offsetof(FragmentRecord, upper_cut) == offsetof(FragmentRecord, lower_cut) + 12);
 
-LAMINA_INLINE void write_records(const TetSetup::Lanes& lanes, bool parts, std::size_t count,
+LAMINA_INLINE void write_records(const SetupLanes& lanes, bool parts, std::size_t count,
                                  SilhouetteRecord* records) {
     write_group<offsetof(SeenTet, depth)>(lanes.depth, count, records);
     write_group<offsetof(SeenTet, depth_per_column)>(lanes.per_column, count, records);
@@ -65,7 +321,7 @@ LAMINA_INLINE void write_records(const TetSetup::Lanes& lanes, bool parts, std::
     write_group<offsetof(FragmentRecord, high)>(lanes.high, count, records);
 }
 
-LAMINA_INLINE void write_gradients(const TetSetup::Lanes& lanes, std::size_t count,
+LAMINA_INLINE void write_gradients(const SetupLanes& lanes, std::size_t count,
                                    GradientRecord* lit) {
     constexpr std::size_t component = sizeof(GradientRecord::Component);
     write_group<0>(lanes.lit[0], count, lit);
@@ -75,10 +331,10 @@ LAMINA_INLINE void write_gradients(const TetSetup::Lanes& lanes, std::size_t cou
 
 // Sets up one vector after the other, and writes `count` records, their gradients if `lit` is not
 // null, and the pixels of areas.
-void set_up_vectors(const SetupView& view, bool parts, TetSetup::Lanes& lanes, std::size_t count,
+void set_up_vectors(const TetsInView& tets, bool parts, SetupLanes& lanes, std::size_t count,
                     SilhouetteRecord* records, GradientRecord* lit, PartArea* areas) {
     for (std::size_t first = 0; first < TetSetup::most_parts; first += Double::lanes)
-        TetVectors(view, lanes, first).set_up(parts, lit != nullptr);
+        TetVectors(tets, lanes, first).set_up(parts, lit != nullptr);
     write_records(lanes, parts, count, records);
     if (lit != nullptr) write_gradients(lanes, count, lit);
     write_group<0>(lanes.pixels, count, areas);
@@ -109,76 +365,55 @@ std::array<std::size_t, 4> sorted_corners(const Tet& tet) {
     return corners;
 }
 
-}  // namespace
-
 // The order of a view does not follow the mesh's, so the corners of the next tets, and the tets
 // after these, are prefetched while this one's are in use. It is inlined because GCC 12 drops calls
 // of a function that only prefetches, in which it sees no effect.
-void TetSetup::prefetch(std::span<const TetPart> next) const {
-    for (std::size_t i = 0; i < std::min(next.size(), most_parts); ++i) {
-        for (const std::int32_t corner : tets_[static_cast<std::size_t>(next[i].tet)]) {
-            __builtin_prefetch(&points_[static_cast<std::size_t>(corner)]);
-            __builtin_prefetch(&scalar_[static_cast<std::size_t>(corner)]);
+LAMINA_INLINE void prefetch(const TetsInView& tets, std::span<const TetPart> next) {
+    constexpr std::size_t most = TetSetup::most_parts;
+    const auto all = tets.mesh.tets();
+    for (std::size_t i = 0; i < std::min(next.size(), most); ++i) {
+        for (const std::int32_t corner : all[static_cast<std::size_t>(next[i].tet)]) {
+            __builtin_prefetch(&tets.mesh.points()[static_cast<std::size_t>(corner)]);
+            __builtin_prefetch(&tets.scalar[static_cast<std::size_t>(corner)]);
         }
     }
-    for (std::size_t i = most_parts; i < std::min(next.size(), 2 * most_parts); ++i)
-        __builtin_prefetch(&tets_[static_cast<std::size_t>(next[i].tet)]);
-}
-
-void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> next,
-                      SilhouetteRecord* records, GradientRecord* lit, Parts& result) const {
-    Lanes lanes;
-    prefetch(next);
-    load(parts, lanes);
-    if (lit != nullptr) load_gradients(parts, lanes);
-    const bool pieces = parts[0].piece != TetPart::whole;
-    const SetupView view{window_.view(), near_depth_, margin_, range_};
-    LAMINA_DISPATCH(set_up_vectors)
-    (view, pieces, lanes, parts.size(), records, lit, result.areas.data());
-    store(parts, lanes, records, result);
-}
-
-void TetSetup::load_gradients(std::span<const TetPart> parts, Lanes& lanes) const {
-    for (std::size_t lane = 0; lane < most_parts; ++lane) {
-        const TetPart& part = parts[std::min(lane, parts.size() - 1)];
-        const auto corners = sorted_corners(tets_[static_cast<std::size_t>(part.tet)]);
-        for (std::size_t i = 0; i < 4; ++i) {
-            const glm::vec3& gradient = gradients_[corners[i]];
-            for (int axis = 0; axis < 3; ++axis)
-                lanes.gradient[static_cast<std::size_t>(axis)][i][lane] =
-                    static_cast<double>(gradient[axis]);
-        }
-    }
+    for (std::size_t i = most; i < std::min(next.size(), 2 * most); ++i)
+        __builtin_prefetch(&all[static_cast<std::size_t>(next[i].tet)]);
 }
 
 // Lanes without a cell fragment repeat the last one.
-void TetSetup::load(std::span<const TetPart> parts, Lanes& lanes) const {
-    for (std::size_t lane = 0; lane < most_parts; ++lane) {
+void load(const TetsInView& tets, std::span<const TetPart> parts, bool lit, SetupLanes& lanes) {
+    const auto all = tets.mesh.tets();
+    for (std::size_t lane = 0; lane < TetSetup::most_parts; ++lane) {
         const TetPart& part = parts[std::min(lane, parts.size() - 1)];
-        const auto corners = sorted_corners(tets_[static_cast<std::size_t>(part.tet)]);
+        const auto corners = sorted_corners(all[static_cast<std::size_t>(part.tet)]);
         for (std::size_t i = 0; i < 4; ++i) {
-            const glm::dvec3& point = points_[corners[i]];
+            const glm::dvec3& point = tets.mesh.points()[corners[i]];
             lanes.x[i][lane] = point.x;
             lanes.y[i][lane] = point.y;
             lanes.z[i][lane] = point.z;
-            lanes.value[i][lane] = scalar_[corners[i]];
+            lanes.value[i][lane] = tets.scalar[corners[i]];
+            for (int axis = 0; axis < 3 && lit; ++axis)
+                lanes.gradient[static_cast<std::size_t>(axis)][i][lane] =
+                    static_cast<double>(tets.gradients[corners[i]][axis]);
         }
-        lanes.limits[3][lane] = std::bit_cast<float>(part_number(part, tets_.size()));
-        if (part.piece == TetPart::whole) continue;
-        const LinearPiece& piece = pieces_.pieces()[static_cast<std::size_t>(part.piece)];
-        lanes.piece_from[lane] = piece.from;
-        lanes.piece_to[lane] = piece.to;
+        lanes.limits[3][lane] = std::bit_cast<float>(part_number(part, all.size()));
+        const LinearPiece* const piece = tets.piece_of(part);
+        if (piece == nullptr) continue;
+        lanes.piece_from[lane] = piece->from;
+        lanes.piece_to[lane] = piece->to;
         for (int channel = 0; channel < 3; ++channel) {
-            lanes.at_from[static_cast<std::size_t>(channel)][lane] = piece.at_from.color[channel];
-            lanes.at_to[static_cast<std::size_t>(channel)][lane] = piece.at_to.color[channel];
+            lanes.at_from[static_cast<std::size_t>(channel)][lane] = piece->at_from.color[channel];
+            lanes.at_to[static_cast<std::size_t>(channel)][lane] = piece->at_to.color[channel];
         }
-        lanes.at_from[3][lane] = piece.at_from.extinction;
-        lanes.at_to[3][lane] = piece.at_to.extinction;
+        lanes.at_from[3][lane] = piece->at_from.extinction;
+        lanes.at_to[3][lane] = piece->at_to.extinction;
     }
 }
 
-void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes,
-                     const SilhouetteRecord* records, Parts& result) const {
+void store(std::span<const TetPart> parts, const SetupLanes& lanes, int image_rows,
+           const SilhouetteRecord* records, TetSetup& result) {
+    using Outcome = TetSetup::Outcome;
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         Outcome& outcome = result.outcomes[lane];
         outcome = lanes.good[lane] == 0      ? Outcome::doubtful
@@ -194,8 +429,22 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes,
                                            : PartDepth::any;
         area.bounded = lanes.bounded[lane] != 0;
         area.farthest = static_cast<float>(lanes.farthest[lane]);
-        area.outline = outline_of(records[lane], area, window_.view().height);
+        area.outline = outline_of(records[lane], area, image_rows);
     }
+}
+
+}  // namespace
+
+void set_up_tets(const TetsInView& tets, std::span<const TetPart> parts,
+                 std::span<const TetPart> next, SilhouetteRecord* records, GradientRecord* lit,
+                 TetSetup& result) {
+    SetupLanes lanes;
+    prefetch(tets, next);
+    load(tets, parts, lit != nullptr, lanes);
+    const bool pieces = parts[0].piece != TetPart::whole;
+    LAMINA_DISPATCH(set_up_vectors)
+    (tets, pieces, lanes, parts.size(), records, lit, result.areas.data());
+    store(parts, lanes, tets.view().height, records, result);
 }
 
 }  // namespace lamina

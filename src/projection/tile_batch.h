@@ -2,15 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
-#include "projection/part_area.h"
-#include "projection/tet_record.h"
-#include "projection/triangle_record.h"
+#include "projection/fan_geometry.h"
 
 namespace lamina {
 

@@ -5,7 +5,6 @@
 #define LAMINA_TARGET_FILE "projection/tile_fragments.cpp"
 #include "simd/foreach_target.h"
 
-#include "projection/tet_color-inl.h"
 #include "projection/tet_drawing-inl.h"
 
 LAMINA_SIMD_BEGIN

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include <array>
-#include <cstdint>
-
 #include "executors/lights.h"
 #include "executors/transfer_tables.h"
-#include "plan/project_plan.h"
 #include "preintegration/preintegration_table.h"
 #include "projection/tile_batch.h"
 #include "tiles/tile_image.h"

@@ -8,10 +8,13 @@
 #include <numeric>
 #include <utility>
 
+#include "base/client.h"
 #include "base/parallel.h"
 #include "base/profile.h"
 #include "executors/lights.h"
-#include "facts/world_unit.h"
+#include "executors/transfer_tables.h"
+#include "optics/pieces.h"
+#include "optics/segment_integral.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -20,18 +23,6 @@ namespace {
 // Distance from the corners' outline within which pixels are examined. It exceeds the outline's
 // rounding errors.
 constexpr double margin = 1e-3;
-
-// The chunks of a batch are enough for the tiles of all threads to find work, few enough for the
-// caches (2 MB with 800 x 600 pixels), and few enough that two batches take less memory than a
-// fourth of the mesh's cell fragments, beside 64 bytes for each tile and chunk.
-std::size_t chunks_of_batch(std::size_t parts, std::size_t parts_a_chunk) {
-    return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, TileBatch::most_chunks);
-}
-
-double farthest_corner(const TetMesh& mesh, const glm::dvec3& eye) {
-    const auto& [min, max] = mesh.bounds();
-    return glm::length(glm::max(glm::abs(min - eye), glm::abs(max - eye)));
-}
 
 FragmentOutput output_of(const ProjectPlan& plan) {
     if (plan.dither == ProjectDither::after_blend) return FragmentOutput::stochastic;
@@ -45,16 +36,11 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
                                          const TransferFunction& transfer_function,
                                          const ProjectPlan& plan, int width, int height,
                                          std::shared_ptr<VisibilityOrder> order)
-    : mesh_(mesh),
-      transfer_function_(in_units(transfer_function, plan.unit)),
-      plan_(plan),
-      pieces_(transfer_function_, plan.range),
-      order_(order_for(mesh, plan, std::move(order))),
+    : ProjectRenderer(mesh, transfer_function, plan, std::move(order)),
       image_(width, height),
       fragment_counts_(static_cast<std::size_t>(image_.grid().count())) {
     if (plan_.nothing_visible) return;
-    tables_.emplace(transfer_function_, plan_);
-    tables_->set(fragments_);
+    set_tables();
     fragments_.perspective = !plan_.orthographic;
     fragments_.colored = !plan_.single_color;
     fragments_.windowed = plan_.windowed;
@@ -63,19 +49,27 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
     fragments_.output = output_of(plan_);
     fragments_.seed = plan_.seed;
     fragments_.blend = target_blend(plan_);
-    if (plan_.lighting) set_light();
-    Stage cutting("visible parts");
-    parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
-                   plan_.draw_transparent);
-    cutting.end();
-    if (!plan_.tree.empty() && parts_->count() > 0) {
+    if (plan_.lighting) {
+        const Stage stage("gradients");
+        gradients_ = StoredGradients(gradients_of(mesh_), *plan_.lighting->smallest_gradient);
+        light_ = make_tile_light(*plan_.lighting, world_axes, plan_.most_bend, faint_share_of_tets);
+        fragments_.light = &*light_;
+        fragments_.smallest_square = gradients_.smallest_square(*plan_.lighting);
+        fragments_.slanted = fragments_.perspective && plan_.thickness == Thickness::exact;
+    }
+    find_visible_parts();
+    if (!plan_.tree.empty() && visible_->count() > 0) {
         const glm::vec3& color = fragments_.single_color;
         fragments_.opacity_only = true;
-        tree_.emplace(plan_, TreeShape(plan_.tree, static_cast<int>(parts_->count())),
+        tree_.emplace(plan_, TreeShape(plan_.tree, static_cast<int>(visible_->count())),
                       std::array{color.r, color.g, color.b}, image_.grid());
     }
+    // The chunks of a batch are enough for the tiles of all threads to find work, few enough for
+    // the caches (2 MB with 800 x 600 pixels), and few enough that two batches take less memory
+    // than a fourth of the mesh's cell fragments, beside 64 bytes for each tile and chunk.
     const std::size_t chunks =
-        chunks_of_batch(static_cast<std::size_t>(parts_->count()), parts_a_chunk());
+        std::clamp<std::size_t>(static_cast<std::size_t>(visible_->count()) / (8 * parts_a_chunk()),
+                                1, TileBatch::most_chunks);
     for (auto& batch : batches_) {
         batch = std::make_unique<TileBatch>(chunks, image_.grid().count(), is_fan(),
                                             light_.has_value());
@@ -94,7 +88,8 @@ std::size_t TileProjectRenderer::batch_count(std::size_t parts) const {
 
 int TileProjectRenderer::step_count() const {
     if (tree_) return tree_->step_count();
-    return parts_ ? static_cast<int>(batch_count(static_cast<std::size_t>(parts_->count()))) : 0;
+    return visible_ ? static_cast<int>(batch_count(static_cast<std::size_t>(visible_->count())))
+                    : 0;
 }
 
 std::int64_t TileProjectRenderer::fragments() const {
@@ -105,36 +100,32 @@ std::int64_t TileProjectRenderer::byte_count() const {
     std::int64_t bytes =
         image_.byte_count() + static_cast<std::int64_t>(slants_.size() * sizeof(TilePixels::Plane));
     for (const auto& batch : batches_) bytes += batch ? batch->byte_count() : 0;
-    if (tables_) bytes += tables_->byte_count();
+    if (table_) bytes += table_->byte_count();
+    if (transfer_) bytes += transfer_->byte_count();
     if (tree_) bytes += tree_->byte_count();
     bytes += static_cast<std::int64_t>(gradients_.at_points.size() * sizeof(glm::vec3));
     return bytes;
-}
-
-bool TileProjectRenderer::take(const Plan& plan) {
-    return plan.project.picture() == plan_.picture();
 }
 
 void TileProjectRenderer::draw(const View& view, Progress* progress) {
     order_ms_ = draw_ms_ = 0;
     tets_drawn_ = 0;
     last_tet_ = -1;
-    clear();
-    if (!parts_) return;
+    parallel_for(image_.grid().count(), 8,
+                 [&](std::int64_t tile) { image_.tile(static_cast<int>(tile)) = {}; });
+    std::ranges::fill(fragment_counts_, 0);
+    if (!visible_) return;
     Stage ordering("order");
     const DrawOrder<TetPart> parts =
-        parts_->sorted(*order_, view, plan_.scattered, plan_.solve_rings);
+        visible_->sorted(*order_, view, plan_.scattered, plan_.solve_rings);
     ordering.count("parts", static_cast<double>(parts.items.size()));
     order_ms_ = ordering.end();
     Stage drawing("draw");
     set_view(view);
     const View seen = seeing_in_units(view, plan_.unit);
-    const auto& gradients = gradients_.at_points;
-    const Projectors projectors{{mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, seen,
-                                 plan_.near_depth, margin, gradients},
-                                {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, seen,
-                                 plan_.near_depth, margin, gradients},
-                                {mesh_, transfer_function_, plan_, seen}};
+    const TetsInView tets{mesh_.mesh,       mesh_.scalar.values, plan_.range, pieces_,
+                          WindowView(seen), plan_.near_depth,    margin,      gradients_.at_points};
+    const Projectors projectors{tets, TetProjector(tets), {mesh_, transfer_function_, plan_, seen}};
     if (tree_) {
         draw_tree(projectors, parts, progress);
     } else {
@@ -158,8 +149,14 @@ void TileProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrd
     project_batch(0);
     for (std::size_t batch = 0; batch < batch_count(count); ++batch) {
         const TileBatch& projected = *batches_[batch % 2];
-        count_tets(projected);
-        parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw(projected, leaf); });
+        // Cell fragments of one tet follow each other, also from chunk to chunk.
+        for (std::size_t i = 0; i < projected.chunk_count(); ++i) {
+            const TileBatch::Chunk& chunk = projected.chunk(i);
+            if (chunk.empty()) continue;
+            tets_drawn_ += chunk.tets() - (chunk.first_tet() == last_tet_);
+            last_tet_ = chunk.last_tet();
+        }
+        parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw_batch(projected, leaf); });
         if (progress != nullptr) progress->advance();
     }
 }
@@ -170,18 +167,43 @@ void TileProjectRenderer::draw_tree(const Projectors& projectors, const DrawOrde
     const auto draw_leaf = [&](const SampleSpan& span, double depth_scale,
                                TileTetTree::Node& leaf) {
         fragments_.depth_scale = static_cast<float>(depth_scale);
-        draw_parts(projectors, parts_of_leaf(parts, span, parts_->count()), &leaf, nullptr);
+        draw_parts(projectors, parts_of_leaf(parts, span, visible_->count()), &leaf, nullptr);
     };
     tree_->draw(std::ref(draw_leaf), image_, progress);
 }
 
-void TileProjectRenderer::set_light() {
-    const Stage stage("gradients");
-    gradients_ = StoredGradients(gradients_of(mesh_), *plan_.lighting->smallest_gradient);
-    light_ = make_tile_light(*plan_.lighting, world_axes, plan_.most_bend, faint_share_of_tets);
-    fragments_.light = &*light_;
-    fragments_.smallest_square = gradients_.smallest_square(*plan_.lighting);
-    fragments_.slanted = fragments_.perspective && plan_.thickness == Thickness::exact;
+void TileProjectRenderer::set_tables() {
+    Stage stage("tables");
+    fragments_.source = plan_.source;
+    fragments_.single_color = first_color(transfer_function_, plan_.range.lo, plan_.range.hi);
+    switch (plan_.source) {
+        case SegmentSource::constant: {
+            const OpticalProperties constant = transfer_function_.at(plan_.range.lo);
+            fragments_.constant_optics =
+                glm::vec4(constant.color, std::min(constant.extinction, max_shader_extinction));
+            break;
+        }
+        case SegmentSource::table:
+            table_ = plan_.table.uniform_table();
+            fragments_.table = table_.get();
+            fragments_.inverse_first_length = static_cast<float>(table_->inverse_first_length());
+            break;
+        case SegmentSource::parts:
+            if (!plan_.single_color)
+                fragments_.front_weights = FrontWeightTable::get().texels().data();
+            break;
+        case SegmentSource::cut_table:
+            transfer_.emplace(transfer_function_, plan_.range, plan_.table.knot_table(), 0);
+            break;
+        case SegmentSource::analytic:
+            transfer_.emplace(transfer_function_, plan_.range, nullptr, 0);
+            break;
+        case SegmentSource::mean:
+        case SegmentSource::vertices:
+            break;
+    }
+    if (transfer_) fragments_.transfer = &*transfer_;
+    table_ms_ = stage.end();
 }
 
 void TileProjectRenderer::set_view(const View& view) {
@@ -192,8 +214,11 @@ void TileProjectRenderer::set_view(const View& view) {
     fragments_.near_depth =
         static_cast<float>(fragments_.perspective ? -1 / plan_.near_depth : plan_.near_depth);
     fragments_.ray_perturbation = ray_perturbation(view);
-    fragments_.one_division = !is_fixed_point(plan_.target) && plan_.near_depth > 1e-18 &&
-                              plan_.unit * farthest_corner(mesh_.mesh, view.eye) < 1e18;
+    const auto& [min, max] = mesh_.mesh.bounds();
+    const double farthest =
+        glm::length(glm::max(glm::abs(min - view.eye), glm::abs(max - view.eye)));
+    fragments_.one_division =
+        !is_fixed_point(plan_.target) && plan_.near_depth > 1e-18 && plan_.unit * farthest < 1e18;
     if (!fragments_.perspective || plan_.thickness == Thickness::dz || light_ ||
         slant_pixel_ == view.pixel)
         return;
@@ -213,12 +238,6 @@ void TileProjectRenderer::set_view(const View& view) {
             }
         }
     });
-}
-
-void TileProjectRenderer::clear() {
-    parallel_for(image_.grid().count(), 8,
-                 [&](std::int64_t tile) { image_.tile(static_cast<int>(tile)) = {}; });
-    std::ranges::fill(fragment_counts_, 0);
 }
 
 void TileProjectRenderer::project(const Projectors& projectors, const DrawOrder<TetPart>& parts,
@@ -250,11 +269,12 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
     for (std::size_t first = 0; first < parts.size(); first += TetSetup::most_parts) {
         const auto group =
             parts.subspan(first, std::min(TetSetup::most_parts, parts.size() - first));
-        TetSetup::Parts done;
+        TetSetup done;
         // Records are written in place, and moved if one before them is not drawn.
         SilhouetteRecord* const records = &chunk.next();
         GradientRecord* const lit = chunk.next_gradient();
-        projectors.setup.set_up(group, parts.subspan(first + group.size()), records, lit, done);
+        set_up_tets(projectors.tets, group, parts.subspan(first + group.size()), records, lit,
+                    done);
         for (std::size_t i = 0; i < group.size(); ++i) {
             const PixelArea* const limit = order.pixels(first + i);
             if (done.outcomes[i] == TetSetup::Outcome::done) {
@@ -332,32 +352,18 @@ void TileProjectRenderer::add(const PartArea& area, std::int32_t tet, const Pixe
     }
 }
 
-// Cell fragments of one tet follow each other, also from chunk to chunk.
-void TileProjectRenderer::count_tets(const TileBatch& batch) {
-    for (std::size_t i = 0; i < batch.chunk_count(); ++i) {
-        const TileBatch::Chunk& chunk = batch.chunk(i);
-        if (chunk.empty()) continue;
-        tets_drawn_ += chunk.tets() - (chunk.first_tet() == last_tet_);
-        last_tet_ = chunk.last_tet();
-    }
-}
-
-void TileProjectRenderer::draw(const TileBatch& batch, TileTetTree::Node* leaf) {
+void TileProjectRenderer::draw_batch(const TileBatch& batch, TileTetTree::Node* leaf) {
     const Stage drawing("tiles");
-    parallel_for(image_.grid().count(), 1, [&](std::int64_t tile) {
-        draw_tile(batch, static_cast<std::size_t>(tile), leaf);
+    parallel_for(image_.grid().count(), 1, [&](std::int64_t place) {
+        const auto tile = static_cast<std::size_t>(place);
+        if (!batch.is_drawn_by(tile)) return;
+        const int number = static_cast<int>(place);
+        const TetTile target{tile, image_.grid().tile(number),
+                             slants_.empty() ? nullptr : slants_[tile].data(), &image_.tile(number),
+                             leaf != nullptr ? &leaf->opacity[tile] : nullptr};
+        if (leaf != nullptr) leaf->touched[tile] = 1;
+        fragment_counts_[tile] += draw_tets(fragments_, batch, target);
     });
-}
-
-void TileProjectRenderer::draw_tile(const TileBatch& batch, std::size_t tile,
-                                    TileTetTree::Node* leaf) {
-    if (!batch.is_drawn_by(tile)) return;
-    const int number = static_cast<int>(tile);
-    const TetTile target{tile, image_.grid().tile(number),
-                         slants_.empty() ? nullptr : slants_[tile].data(), &image_.tile(number),
-                         leaf != nullptr ? &leaf->opacity[tile] : nullptr};
-    if (leaf != nullptr) leaf->touched[tile] = 1;
-    fragment_counts_[tile] += draw_tets(fragments_, batch, target);
 }
 
 void TileProjectRenderer::read(Image& image) const {
@@ -365,7 +371,71 @@ void TileProjectRenderer::read(Image& image) const {
 }
 
 std::map<std::string, double> TileProjectRenderer::stages_ms() const {
-    return {{"tables", table_ms()}, {"order", order_ms()}, {"draw", draw_ms()}};
+    return {{"tables", table_ms_}, {"order", order_ms_}, {"draw", draw_ms_}};
+}
+
+TileTetTree::TileTetTree(const CompositingPlan& plan, const TreeShape& shape,
+                         const std::array<float, 3>& single_color, const TileGrid& grid)
+    : shape_(shape),
+      tree_(plan, shape, single_color),
+      grid_(grid),
+      nodes_(static_cast<std::size_t>(shape.levels())) {
+    for (Node& node : nodes_) {
+        node.opacity.resize(static_cast<std::size_t>(grid.count()));
+        node.touched.resize(node.opacity.size());
+    }
+}
+
+void TileTetTree::draw(const DrawLeaf& draw_leaf, TileImage& image, Progress* progress) {
+    swizzled_ = 0;
+    evaluate(0, shape_.root(), draw_leaf, progress);
+    parallel_for(grid_.count(), 8, [&](std::int64_t tile) {
+        tree_.colorize(nodes_[0].opacity[static_cast<std::size_t>(tile)],
+                       image.tile(static_cast<int>(tile)));
+    });
+}
+
+void TileTetTree::evaluate(int level, const SampleSpan& span, const DrawLeaf& draw_leaf,
+                           Progress* progress) {
+    Node& node = nodes_[static_cast<std::size_t>(level)];
+    for (std::size_t tile = 0; tile < node.touched.size(); ++tile) {
+        if (node.touched[tile] != 0) node.opacity[tile].fill(0);
+        node.touched[tile] = 0;
+    }
+    if (shape_.is_leaf(level, span)) {
+        draw_leaf(span, static_cast<double>(shape_.samples()) / span.count, node);
+        if (progress != nullptr) progress->advance();
+        check_interrupt();
+        return;
+    }
+    const int children = shape_.factor(level);
+    for (int i = children; i-- > 0;) {  // back to front
+        const SampleSpan child = child_span(span, i, children);
+        if (child.count == 0) continue;
+        evaluate(level + 1, child, draw_leaf, progress);
+        put_into_parent(level, child, span);
+    }
+}
+
+// A sample without opacity adds none, however it is rounded.
+void TileTetTree::put_into_parent(int level, const SampleSpan& child, const SampleSpan& parent) {
+    const Node& from = nodes_[static_cast<std::size_t>(level) + 1];
+    Node& to = nodes_[static_cast<std::size_t>(level)];
+    const std::uint32_t number = swizzled_++;
+    parallel_for(grid_.count(), 8, [&](std::int64_t place) {
+        const auto tile = static_cast<std::size_t>(place);
+        if (from.touched[tile] == 0) return;
+        to.touched[tile] = 1;
+        tree_.put_into_parent(child, parent, number, grid_.tile(static_cast<int>(place)),
+                              from.opacity[tile], to.opacity[tile]);
+    });
+}
+
+std::int64_t TileTetTree::byte_count() const {
+    std::int64_t bytes = tree_.byte_count();
+    for (const Node& node : nodes_)
+        bytes += static_cast<std::int64_t>(node.opacity.size() * (sizeof(TilePlane) + 1));
+    return bytes;
 }
 
 }  // namespace lamina

@@ -11,14 +11,11 @@
 #include "base/parallel.h"
 #include "base/profile.h"
 #include "compositing/codes.h"
-#include "projection/part_field.h"
+#include "projection/tet_projector.h"
 
 namespace lamina {
-namespace {
 
 constexpr std::size_t block = 4096;  // number of tets whose cell fragments one task lists
-
-}  // namespace
 
 VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
                            const TetPieces& pieces, bool cut, bool draw_transparent)
@@ -146,12 +143,22 @@ std::size_t VisibleParts::parts_of(std::int32_t tet) const {
 }
 
 // Along every ray through a tet the scalar changes monotonically, away from the value that the
-// tet's linear field has at the eye. So the cell fragment nearest to that value hides all others.
-// Those above it hide those farther above, those below it those farther below, and no ray meets
-// both.
-std::int32_t VisibleParts::nearest_piece(std::size_t tet, const Eye& eye) const {
-    const TetPieces::Span& span = spans_[tet].span;
-    const double at_eye = scalar_at_eye(mesh_.tets()[tet], eye);
+// tet's linear field has at the eye (at infinity: below or above all scalars). So the cell fragment
+// nearest to that value hides all others. Those above it hide those farther above, those below it
+// those farther below, and no ray meets both.
+std::int32_t VisibleParts::nearest_piece(std::size_t index, const Eye& eye) const {
+    const TetPieces::Span& span = spans_[index].span;
+    const Tet& tet = mesh_.tets()[index];
+    PartField::Corners corners;
+    PartField::Values values;
+    for (std::size_t i = 0; i < 4; ++i) {
+        corners[i] = mesh_.points()[static_cast<std::size_t>(tet[i])];
+        values[i] = scalar_[static_cast<std::size_t>(tet[i])];
+    }
+    const PartField field(corners, values, nullptr);
+    const double at_eye = !eye.at_infinity                               ? field.at(eye.position)
+                          : glm::dot(field.gradient(), eye.position) > 0 ? -INFINITY
+                                                                         : INFINITY;
     std::int32_t nearest = span.first;
     while (nearest < span.last && pieces_.pieces()[static_cast<std::size_t>(nearest)].to < at_eye)
         ++nearest;
@@ -172,19 +179,6 @@ TetPart* VisibleParts::list_parts(std::int32_t tet, TetPart* next) const {
     for (std::int32_t piece = span.first; piece < nearest; ++piece) append(piece);
     append(nearest);
     return next;
-}
-
-// For an eye at infinity the scalar is below or above all scalars.
-double VisibleParts::scalar_at_eye(const Tet& tet, const Eye& eye) const {
-    PartField::Corners corners;
-    PartField::Values values;
-    for (std::size_t i = 0; i < 4; ++i) {
-        corners[i] = mesh_.points()[static_cast<std::size_t>(tet[i])];
-        values[i] = scalar_[static_cast<std::size_t>(tet[i])];
-    }
-    const PartField field(corners, values, nullptr);
-    if (!eye.at_infinity) return field.at(eye.position);
-    return glm::dot(field.gradient(), eye.position) > 0 ? -INFINITY : INFINITY;
 }
 
 DrawOrder<TetPart> parts_of_leaf(const DrawOrder<TetPart>& parts, const SampleSpan& leaf,

@@ -29,10 +29,9 @@ class VisibleParts {
     // next call, which takes no memory. Parallel.
     std::span<const TetPart> list(std::span<const std::int32_t> order, const Eye& eye);
     // Sorts the tets for this view, then lists their cell fragments. `scattered` (equal in every
-    // call): the list has a random order, equal for every view, so that cell fragments of one
-    // region come to lie in different leaves of a tree. The list of the first view then stays
-    // valid. `solve_rings`: each pixel has an order of its own if it needs one
-    // (VisibilityOrder::sort_pixels).
+    // call): in a random order, equal for every view, so that cell fragments of one region lie in
+    // different leaves of a tree; the first list stays valid. `solve_rings`: each pixel has an
+    // order of its own if it needs one (VisibilityOrder::sort_pixels).
     DrawOrder<TetPart> sorted(VisibilityOrder& order, const View& view, bool scattered,
                               bool solve_rings);
     // Returns the number of cell fragments; lists are longer if tets are listed for several parts
@@ -51,10 +50,9 @@ class VisibleParts {
     void scatter();
     std::int64_t parts_in(const TetPieces::Span& span) const;
     std::size_t parts_of(std::int32_t tet) const;
-    std::int32_t nearest_piece(std::size_t tet, const Eye& eye) const;
+    std::int32_t nearest_piece(std::size_t index, const Eye& eye) const;
     // Writes from `next` on; returns the place for the next tet's cell fragments.
     TetPart* list_parts(std::int32_t tet, TetPart* next) const;
-    double scalar_at_eye(const Tet& tet, const Eye& eye) const;
 
     const TetMesh& mesh_;
     std::span<const double> scalar_;

@@ -5,7 +5,7 @@
 #define LAMINA_TARGET_FILE "reference/cell_walk.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/transfer_intervals-inl.h"
+#include "reference/cut-inl.h"
 #include "simd/members-inl.h"
 
 LAMINA_SIMD_BEGIN
@@ -20,11 +20,6 @@ LAMINA_INLINE DoubleMask bits_at(const std::uint64_t* words, Long place) {
     return (shift_right(word, bits & 63u) & 1u) == 1u;
 }
 
-LAMINA_INLINE DoubleMask mask_of(LaneSet set, std::size_t first) {
-    return mask_of_bits<DoubleMask>(set >> first);
-}
-
-// One axis of a vector of chords.
 class AxisLanes {
   public:
     LAMINA_INLINE AxisLanes(const CellLanes::Axis& axis, std::size_t i)
@@ -51,13 +46,12 @@ class AxisLanes {
     LAMINA_INLINE Double leaving() const { return leaving_; }
     // The cell's place in its block, 0 to edge - 1.
     LAMINA_INLINE Double place_in_block() const { return cell_ - first_cell(); }
-    // Returns the distance from a cell's place to that of the next cell, if its upper neighbour's
-    // place lies `above` places from it.
+    // Returns the distance to the next cell if the upper neighbour lies `above` places away.
     LAMINA_INLINE Long stride(std::int64_t above) const {
         return select(falls_, Long(-above), above);
     }
 
-    // Some lanes go on to the next cell. Returns those that leave their block.
+    // Returns the lanes that leave their block.
     LAMINA_INLINE DoubleMask next_cell(DoubleMask lanes) {
         cell_ = select(lanes, cell_ + step_, cell_);
         crossing_ = select(lanes, next_crossing(), crossing_);
@@ -80,9 +74,8 @@ class AxisLanes {
         const Double lo = max(first, select(falls_, last_cell_, cell_));
         const Double hi = min(last, select(falls_, cell_, last_cell_));
         const Double nearest = select(falls_, hi, lo);
-        // A rounded place may lie in the cell before the right one: pass_cells() steps over that,
-        // because the chord has no length in it. It must not lie in a later one, so cells
-        // are distinguished by the crossings of their planes, as CellWalk does.
+        // A rounded place may lie in the cell before the right one, which pass_cells() steps over,
+        // but not in a later one: cells are told apart by crossings, as CellWalk does.
         const Double place = floor(fma(from, direction_, entry_));
         Double cell = clamp(place, lo, hi);
         while (true) {
@@ -133,7 +126,6 @@ struct AxisMasks {
     }
 };
 
-// A vector of chords, from lane `first` on.
 class ChordWalk {
   public:
     LAMINA_INLINE ChordWalk(CellLanes& lanes, std::size_t first, const VisibleCells& visible,
@@ -147,8 +139,8 @@ class ChordWalk {
           z_(lanes.axes[2], first),
           from_(load<Double>(lanes.from.data() + first)),
           length_(load<Double>(lanes.length.data() + first)),
-          walking_(mask_of(lanes.walking, first)),
-          in_block_(walking_ & mask_of(lanes.in_block, first)),
+          walking_(mask_of_bits<DoubleMask>(lanes.walking >> first)),
+          in_block_(walking_ & mask_of_bits<DoubleMask>(lanes.in_block >> first)),
           place_(place_of_cell()) {}
 
     LAMINA_INLINE LaneSet run() {
@@ -210,8 +202,7 @@ class ChordWalk {
         place_ = select(found, place_of_cell(), place_);
     }
 
-    // Appends the cells of those that are in a block, and goes on to the next ones. Returns the
-    // lanes whose batches are complete.
+    // Appends cells and goes on to the next ones. Returns the lanes whose batches are complete.
     LAMINA_INLINE LaneSet pass_cells(Long stride_x, Long stride_y, Long stride_z) {
         const Double least = min(x_.crossing(), min(y_.crossing(), z_.crossing()));
         const Double to = min(least, length_);
@@ -248,11 +239,9 @@ class ChordWalk {
         return complete;
     }
 
-    // Returns the block's place in VisibleCells::blocks().
     LAMINA_INLINE Long block_bit() const {
         return to_long(fma(line_of_block(), static_cast<double>(visible_.line_bits()), x_.block()));
     }
-    // Returns the cell's place in VisibleCells::cells().
     LAMINA_INLINE Long place_of_cell() const {
         const Double block =
             fma(line_of_block(), static_cast<double>(visible_.count()[0]), x_.block());
@@ -276,7 +265,6 @@ class ChordWalk {
 
 }  // namespace reference
 
-// LAMINA_EXPORT takes functions of this namespace alone.
 inline LaneSet walk_lanes_of(CellLanes& lanes, const VisibleCells& visible,
                              CellBatch* const* batches) {
     using namespace reference;
@@ -297,7 +285,7 @@ void enter_cells(CellLanes& lanes, std::size_t lane, const GridAxes& grid, const
     for (int axis = 0; axis < 3; ++axis) {
         const double p = chord.entry[axis], d = chord.direction[axis];
         const AxisStart start(grid.lowest[axis], grid.highest[axis], p, d);
-        CellLanes::Axis& rows = lanes.axes[static_cast<std::size_t>(axis)];
+        CellLanes::Axis& rows = lanes.axes[axis];
         rows.entry[lane] = p;
         rows.direction[lane] = d;
         rows.inverse[lane] = start.inverse;

@@ -10,28 +10,17 @@
 //       from = to; step to the next cell along the axis of the least crossing
 //
 // Every crossing is computed from its own plane, so errors do not accumulate. If the visible cells
-// are known (VisibleCells), a packet of chords goes side by side and first crosses blocks of
-// invisible cells, in the same way.
+// are known, a packet of chords goes side by side and crosses blocks of invisible cells likewise.
 #pragma once
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <glm/vec3.hpp>
-#include <limits>
 
 #include "lamina/grid.h"
 #include "reference/cells.h"
 #include "reference/chord.h"
-#include "reference/visible_cells.h"
 #include "simd/lane_set.h"
 
 namespace lamina {
 
-// The cell in which a chord begins, along one axis of a grid, and the last one that it can come to.
-// Numbers of cells are whole numbers.
+// The cell in which a chord begins along an axis, and the last one.
 struct AxisStart {
     double cell, last_cell;
     double inverse;  // 1 / direction, but finite, so that it gives 0 on the plane itself
@@ -47,8 +36,7 @@ struct AxisStart {
     }
 };
 
-// The cells along a chord, front to back. The first and the last cell of an axis reach to the
-// end of the box, so the lengths of all cells add up to the chord.
+// The outer cells reach to the end of the box: all lengths add up to the chord.
 class CellWalk {
   public:
     CellWalk(const Grid& grid, const Chord& chord) : chord_(chord) {
@@ -65,8 +53,7 @@ class CellWalk {
         }
     }
 
-    // Calls visit(cell, from, to) for every cell that the chord crosses, with its parameters from <
-    // to. It ends early if visit returns false.
+    // Calls visit(cell, from, to), from < to, until it returns false.
     template <typename Visit>
     void run(const Visit& visit) {
         double from = 0;
@@ -108,17 +95,14 @@ class CellWalk {
     std::array<double, 3> inverse_;  // of the direction
 };
 
-// Chords of rays on their way through cells, side by side. Each passes the same cells as CellWalk,
-// with the same parameters, except for invisible cells.
+// Chords side by side. Each passes the cells of CellWalk that may be visible.
 struct CellLanes {
     static constexpr std::size_t width = longest_vector;
-    // Numbers of cells are whole numbers in doubles, whose products and comparisons are quicker
-    // than those of 64-bit integers. Volumes in memory have less than 2^53 cells.
+    // Numbers of cells (below 2^53) are doubles, quicker than 64-bit integers.
     struct Axis {
         LaneRow entry, direction;
         LaneRow cell, last_cell, inverse;  // AxisStart
-        // The parameter at which the chord leaves the cell along this axis, in lanes that are in a
-        // block.
+        // The chord leaves the cell here along this axis, in lanes that are in a block.
         LaneRow crossing;
     };
 
@@ -130,11 +114,10 @@ struct CellLanes {
     void stop(std::size_t lane) { walking &= ~lane_bit(lane); }
 };
 
-// Gives a lane the cell in which its chord, of length > 0, begins. The lane walks from then on.
+// Lets a lane walk along a chord of length > 0.
 void enter_cells(CellLanes& lanes, std::size_t lane, const GridAxes& grid, const Chord& chord);
 
-// Appends cells that may be visible to the lanes' batches, until a batch is complete or some chords
-// have ended. Returns those lanes; none if none walks. `visible` must not be empty.
+// Appends cells to the batches until one is complete or a chord has ended. Returns those lanes.
 LaneSet walk_cells(CellLanes& lanes, const VisibleCells& visible,
                    const std::array<CellBatch*, CellLanes::width>& batches);
 

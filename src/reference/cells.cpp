@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/cells.h"
 
+#include <bit>
+#include <cstring>
+
+#include "base/parallel.h"
+
 #undef LAMINA_TARGET_FILE
 #define LAMINA_TARGET_FILE "reference/cells.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/cubic-inl.h"
-#include "reference/transfer_intervals-inl.h"
+#include "reference/cut-inl.h"
 #include "simd/members-inl.h"
 
 LAMINA_SIMD_BEGIN
 namespace reference {
-
-// Returns a x + b.
-LAMINA_INLINE Double sum(Double a, Double x, Double b) {
-    return fma(a, x, b);
-}
 
 struct CornerLanes {
     Double v[8];
@@ -36,7 +35,7 @@ struct CornerLanes {
     }
 };
 
-// The chord inside cells, in the cells' coordinates: start + t * step, 0 <= t <= 1.
+// start + t * step, 0 <= t <= 1, in the cells' coordinates.
 struct PathLanes {
     Double start[3], step[3], along;
 
@@ -62,13 +61,13 @@ LAMINA_INLINE Cubics field_along(const CornerLanes& corners, const PathLanes& pa
     const auto& [u, w, q] = path.start;
     const auto& [du, dw, dq] = path.step;
     // The field's derivatives at the start, by each axis and by pairs of them.
-    const Double by_xy = sum(q, xyz, xy), by_xz = sum(w, xyz, xz), by_yz = sum(u, xyz, yz);
-    const Double by_x = sum(w, by_xy, sum(q, xz, x)), by_y = sum(u, by_xy, sum(q, yz, y));
-    const Double by_z = sum(u, by_xz, sum(w, yz, z));
+    const Double by_xy = fma(q, xyz, xy), by_xz = fma(w, xyz, xz), by_yz = fma(u, xyz, yz);
+    const Double by_x = fma(w, by_xy, fma(q, xz, x)), by_y = fma(u, by_xy, fma(q, yz, y));
+    const Double by_z = fma(u, by_xz, fma(w, yz, z));
     Cubics field;
-    field.c[0] = sum(u, by_x, sum(w, sum(q, yz, y), sum(q, z, v[0])));
-    field.c[1] = sum(du, by_x, sum(dw, by_y, dq * by_z));
-    field.c[2] = sum(du * dw, by_xy, sum(du * dq, by_xz, dw * dq * by_yz));
+    field.c[0] = fma(u, by_x, fma(w, fma(q, yz, y), fma(q, z, v[0])));
+    field.c[1] = fma(du, by_x, fma(dw, by_y, dq * by_z));
+    field.c[2] = fma(du * dw, by_xy, fma(du * dq, by_xz, dw * dq * by_yz));
     field.c[3] = du * dw * (dq * xyz);
     return field;
 }
@@ -105,12 +104,166 @@ LAMINA_SIMD_END
 
 #if LAMINA_ONCE
 namespace lamina {
+namespace {
+
+// Number of ranges of visible values above which they are taken as one from the first to the last.
+constexpr std::size_t most_ranges = 8;
+
+// A range of values in the type of the samples, no smaller than the one it is made of.
+template <typename Sample>
+class SampleRange {
+  public:
+    SampleRange(double from, double to) {
+        if constexpr (std::is_integral_v<Sample>) {
+            from = std::ceil(from);
+            to = std::floor(to);
+        }
+        constexpr double least = std::numeric_limits<Sample>::lowest();
+        constexpr double most = std::numeric_limits<Sample>::max();
+        out_of_reach_ = to < least || most < from;
+        lo_ = static_cast<Sample>(std::clamp(from, least, most));
+        hi_ = static_cast<Sample>(std::clamp(to, least, most));
+        if constexpr (std::is_floating_point_v<Sample>) {
+            lo_ = std::nextafter(lo_, std::numeric_limits<Sample>::lowest());
+            hi_ = std::nextafter(hi_, std::numeric_limits<Sample>::max());
+        }
+    }
+
+    // Tells whether all samples are on one side. A cell may meet a range without a sample inside.
+    bool out_of_reach() const { return out_of_reach_; }
+    // Bit 0: not below the range, bit 1: not above it.
+    std::uint8_t sides(Sample value) const {
+        return static_cast<std::uint8_t>((value >= lo_ ? 1 : 0) | (value <= hi_ ? 2 : 0));
+    }
+
+  private:
+    Sample lo_, hi_;
+    bool out_of_reach_;
+};
+
+// The rows of samples at the corners of a line of blocks along x; the border repeats.
+template <typename Sample>
+class SampleRows {
+  public:
+    static constexpr std::int64_t edge = VisibleCells::edge;
+
+    SampleRows(const Sample* samples, const std::array<std::int64_t, 3>& size, std::int64_t y,
+               std::int64_t z)
+        : samples_(samples), size_(size), y_(y), z_(z), width_(size[0] / edge * edge + edge) {
+        sides_.resize(static_cast<std::size_t>((edge + 1) * (edge + 1) * (width_ + 1)));
+    }
+
+    // Sets the bits of cells that may have a value of the range. NaN sets none.
+    void mark(const SampleRange<Sample>& range, std::uint8_t* rows) {
+        for (std::int64_t z = 0; z <= edge; ++z) {
+            for (std::int64_t y = 0; y <= edge; ++y) find_sides(range, y, z);
+            for (std::int64_t y = 0; y < edge; ++y) join(at(y, z), at(y + 1, z));
+        }
+        for (std::int64_t z = 0; z < edge; ++z) {
+            for (std::int64_t y = 0; y < edge; ++y) {
+                join(at(y, z), at(y, z + 1));
+                mark_row(at(y, z), rows + z * edge + y);
+            }
+        }
+    }
+
+  private:
+    std::uint8_t* at(std::int64_t y, std::int64_t z) {
+        return sides_.data() + (z * (edge + 1) + y) * (width_ + 1);
+    }
+    void join(std::uint8_t* sides, const std::uint8_t* others) const {
+        for (std::int64_t x = 0; x < width_; ++x) sides[x] |= others[x];
+    }
+
+    // Sets the sides of each pair of samples along x, of which the first is the border's twice.
+    void find_sides(const SampleRange<Sample>& range, std::int64_t y, std::int64_t z) {
+        const std::int64_t row = std::clamp<std::int64_t>(y_ + y, 0, size_[1] - 1);
+        const std::int64_t slice = std::clamp<std::int64_t>(z_ + z, 0, size_[2] - 1);
+        const Sample* const values = samples_ + (slice * size_[1] + row) * size_[0];
+        std::uint8_t* const sides = at(y, z);
+        sides[0] = range.sides(values[0]);
+        for (std::int64_t x = 0; x < size_[0]; ++x) sides[x + 1] = range.sides(values[x]);
+        std::fill(sides + size_[0] + 1, sides + width_ + 1, sides[size_[0]]);
+        for (std::int64_t x = 0; x < width_; ++x) sides[x] |= sides[x + 1];
+    }
+
+    void mark_row(const std::uint8_t* sides, std::uint8_t* row) const {
+        for (std::int64_t x = 0; x < width_; x += edge, row += edge * edge) {
+            std::uint64_t eight;  // the lowest byte is of the first
+            static_assert(std::endian::native == std::endian::little && edge == sizeof eight);
+            std::memcpy(&eight, sides + x, sizeof eight);
+            const std::uint64_t both = eight & eight >> 1 & 0x0101010101010101;
+            *row |=
+                static_cast<std::uint8_t>(both * 0x0102040810204080 >> 56);  // a bit of each byte
+        }
+    }
+
+    const Sample* samples_;
+    std::array<std::int64_t, 3> size_;
+    std::int64_t y_, z_, width_;
+    std::vector<std::uint8_t> sides_;  // SampleRange::sides(), row by row
+};
+
+template <typename Sample>
+std::vector<SampleRange<Sample>> sample_ranges(const IntervalColumns& columns) {
+    std::vector<SampleRange<Sample>> ranges;
+    const auto add = [&](double lo, double hi) {
+        if (const SampleRange<Sample> range(lo, hi); !range.out_of_reach()) ranges.push_back(range);
+    };
+    const std::size_t count = columns.visible_count;
+    if (count > most_ranges) {
+        add(columns.visible_lo[0], columns.visible_hi[count - 1]);
+    } else {
+        for (std::size_t i = 0; i < count; ++i) add(columns.visible_lo[i], columns.visible_hi[i]);
+    }
+    return ranges;
+}
+
+}  // namespace
 
 LAMINA_EXPORT(make_segments_of);
 
 void make_segments(const CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
                    SegmentBatch& segments) {
     LAMINA_DISPATCH(make_segments_of)(cells, chord, intervals, segments);
+}
+
+std::array<std::int64_t, 3> VisibleCells::blocks_of(const Grid& grid) {
+    std::array<std::int64_t, 3> blocks;
+    for (std::size_t axis = 0; axis < 3; ++axis) blocks[axis] = grid.size[axis] / edge + 1;
+    return blocks;
+}
+
+std::uint64_t VisibleCells::bytes_for(const Grid& grid) {
+    const std::array<std::int64_t, 3> count = blocks_of(grid);
+    return 8 * static_cast<std::uint64_t>(count[1] * count[2]) *
+           (static_cast<std::uint64_t>(count[0]) * words_of_block + (count[0] + 63) / 64);
+}
+
+VisibleCells::VisibleCells(const Volume& volume, const TransferIntervals& transfer)
+    : count_(blocks_of(volume.grid())), line_words_((count_[0] + 63) / 64) {
+    const std::int64_t lines = count_[1] * count_[2];
+    const auto blocks_of_line = static_cast<std::size_t>(count_[0]);
+    blocks_.resize(static_cast<std::size_t>(lines * line_words_));
+    cells_.resize(static_cast<std::size_t>(lines) * blocks_of_line * words_of_block);
+    volume.visit([&](const auto* samples) {
+        using Sample = std::remove_cvref_t<decltype(*samples)>;
+        const auto ranges = sample_ranges<Sample>(transfer.columns());
+        parallel_for(lines, 1, [&](std::int64_t line) {
+            const std::int64_t y = line % count_[1] * edge - 1, z = line / count_[1] * edge - 1;
+            std::uint64_t* cells =
+                cells_.data() + static_cast<std::size_t>(line) * blocks_of_line * words_of_block;
+            SampleRows<Sample> line_of_blocks(samples, volume.grid().size, y, z);
+            for (const auto& range : ranges)
+                line_of_blocks.mark(range, reinterpret_cast<std::uint8_t*>(cells));
+            std::uint64_t* const blocks = blocks_.data() + line * line_words_;
+            for (std::size_t block = 0; block < blocks_of_line; ++block, cells += words_of_block) {
+                const bool shows =
+                    std::any_of(cells, cells + words_of_block, [](auto word) { return word != 0; });
+                blocks[block / 64] |= std::uint64_t{shows} << block % 64;
+            }
+        });
+    });
 }
 
 }  // namespace lamina

@@ -7,33 +7,24 @@
 //           touches has extinction: the cell is invisible
 //       otherwise it has a segment: the length, the range of v, and the cubic s(t) along it   (9.1)
 //
-// Lit segments have the field's gradient, too, whose components are such cubics (docs/numerics.md,
-// section 10.2).
+// Lit segments have the gradient, too, whose components are such cubics (docs/numerics.md, section
+// 10.2).
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 #include <type_traits>
 
-#include "lamina/grid.h"
+#include "lamina/volume.h"
 #include "reference/chord.h"
-#include "reference/cubic.h"
 #include "reference/cut.h"
 #include "reference/transfer_intervals.h"
 #include "volume/volume_store.h"
 
 namespace lamina {
 
-// Cell i of an axis lies between samples i and i+1. On `cell` axes the cells -1 and size-1 are the
-// half voxels outside the samples.
+// Cell i of an axis lies between samples i and i+1; -1 and size-1 are half voxels of `cell` axes.
 using CellIndex = std::array<std::int64_t, 3>;
 
-// Consecutive cells of a chord, front to back.
 struct CellBatch {
     static constexpr std::size_t capacity = SegmentBatch::capacity;
 
@@ -43,7 +34,7 @@ struct CellBatch {
     std::size_t count = 0;
     std::size_t wanted = capacity;  // number of cells with which the batch is complete
 
-    // The samples at the corners, at index x + 2y + 4z. CellSamples::fetch() sets them.
+    // Samples at index x + 2y + 4z. CellSamples::fetch() sets them.
     alignas(64) double corners[8][capacity];
 
     bool complete() const { return count >= wanted; }
@@ -55,9 +46,8 @@ struct CellBatch {
     }
 };
 
-// Sets the segments to those of the chord, in the trilinear field, inside the cells that may be
-// visible. Cells with a NaN or infinite corner are transparent. It works on vectors;
-// CellCorners::along() computes a single one.
+// Sets the segments to those of the chord inside the cells that may be visible. Cells with a NaN or
+// infinite corner are transparent. CellCorners::along() computes a single one.
 void make_segments(const CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
                    SegmentBatch& segments);
 
@@ -65,9 +55,8 @@ void make_segments(const CellBatch& cells, const Chord& chord, const IntervalCol
 struct CellCorners {
     std::array<double, 8> v;
 
-    // Returns the trilinear field along from + t * step, 0 <= t <= 1, in coordinates of the cell
-    // (0..1). It is computed from differences of corners, so that a constant cell is exactly
-    // constant and a linear one exactly linear.
+    // Returns the field along from + t * step, 0 <= t <= 1, in the cell's coordinates (0..1), from
+    // differences of corners: constant cells stay exactly constant, linear ones linear.
     Cubic along(const glm::dvec3& from, const glm::dvec3& step) const {
         const double x = v[1] - v[0], y = v[2] - v[0], z = v[4] - v[0];
         const double xy = (v[3] - v[2]) - x, xz = (v[5] - v[4]) - x, yz = (v[6] - v[4]) - y;
@@ -86,8 +75,7 @@ struct CellCorners {
     }
 };
 
-// Access to the cells of a volume, whose samples are behind a pointer or SamplesInFiles. Outside
-// the samples the border value repeats.
+// Access to the cells of a volume, behind a pointer or SamplesInFiles. The border value repeats.
 template <typename Samples>
 class CellSamples {
   public:
@@ -107,7 +95,6 @@ class CellSamples {
                 at(x0 + y0 + z1), at(x1 + y0 + z1), at(x0 + y1 + z1), at(x1 + y1 + z1)};
     }
 
-    // Fills in the corners.
     void fetch(CellBatch& cells) const {
         for (std::size_t i = 0; i < cells.count; ++i) {
             const CellIndex cell{cells.cell[0][i], cells.cell[1][i], cells.cell[2][i]};
@@ -135,7 +122,6 @@ class CellSamples {
         for (std::size_t i = 0; i < 8; ++i) found.v[i] = static_cast<double>(samples[i]);
         return found;
     }
-    // Tells whether all corners are samples.
     bool inside(const CellIndex& cell) const {
         const auto number = [](std::int64_t i) { return static_cast<std::uint64_t>(i); };
         return number(cell[0]) < number(last_[0]) && number(cell[1]) < number(last_[1]) &&
@@ -158,8 +144,7 @@ class CellSamples {
     std::int64_t row_, slice_;
 };
 
-// The gradient field of a volume (docs/numerics.md, section 10): differences of neighbours at the
-// samples, trilinear between them, in scalar units per world unit.
+// The gradient (docs/numerics.md, section 10), trilinear, in scalar units per world unit.
 template <typename Samples>
 class GradientSamples {
   public:
@@ -170,8 +155,7 @@ class GradientSamples {
             axes_[axis] = grid.step[axis] / glm::dot(grid.step[axis], grid.step[axis]);
     }
 
-    // Returns the field in a cell along from + t * step, 0 <= t <= 1, in coordinates of the cell
-    // (0..1). Outside the samples the border's gradient repeats.
+    // Returns it along from + t * step, 0 <= t <= 1, in the cell's coordinates (0..1).
     GradientAlong along(const CellIndex& cell, const glm::dvec3& from,
                         const glm::dvec3& step) const {
         std::array<CellCorners, 3> corners;
@@ -179,8 +163,7 @@ class GradientSamples {
             const glm::dvec3 gradient = at({cell[0] + static_cast<std::int64_t>(corner & 1),
                                             cell[1] + static_cast<std::int64_t>(corner >> 1 & 1),
                                             cell[2] + static_cast<std::int64_t>(corner >> 2)});
-            for (int c = 0; c < 3; ++c)
-                corners[static_cast<std::size_t>(c)].v[corner] = gradient[c];
+            for (int c = 0; c < 3; ++c) corners[c].v[corner] = gradient[c];
         }
         return {corners[0].along(from, step), corners[1].along(from, step),
                 corners[2].along(from, step)};
@@ -199,8 +182,7 @@ class GradientSamples {
         return gradient;
     }
 
-    // Returns the difference per step of the axis, from the neighbours on both sides; from one side
-    // if the other is outside or no number; 0 if both are.
+    // Returns the difference per step, from the neighbours that are numbers; 0 if none is.
     double difference(std::int64_t offset, std::int64_t index, std::size_t axis) const {
         const auto value = [&](std::int64_t steps) {
             return static_cast<double>(samples_[offset + steps * stride_[axis]]);
@@ -216,6 +198,35 @@ class GradientSamples {
     Samples samples_;
     std::array<std::int64_t, 3> size_, stride_;
     std::array<glm::dvec3, 3> axes_;
+};
+
+// The cells of a volume in memory that may be visible, and the blocks of edge^3 cells that have
+// one. Block n begins at cell n * edge - 1. It must not use MinMaxBricks, which it judges.
+class VisibleCells {
+  public:
+    static constexpr std::int64_t edge = 8;
+
+    VisibleCells() = default;
+    VisibleCells(const Volume& volume, const TransferIntervals& transfer);  // parallel
+    static std::uint64_t bytes_for(const Grid& grid);
+
+    bool empty() const { return cells_.empty(); }
+
+    const std::array<std::int64_t, 3>& count() const { return count_; }
+    // A bit for each block, 1 if it has such a cell: x fastest, in lines of line_bits().
+    const std::uint64_t* blocks() const { return blocks_.data(); }
+    std::int64_t line_bits() const { return line_words_ * 64; }
+    // A bit for each cell, block by block (x fastest), x fastest in a block.
+    const std::uint64_t* cells() const { return cells_.data(); }
+
+  private:
+    static constexpr std::size_t words_of_block = edge * edge * edge / 64;
+    static std::array<std::int64_t, 3> blocks_of(const Grid& grid);
+
+    std::array<std::int64_t, 3> count_{};
+    std::int64_t line_words_ = 0;
+    std::vector<std::uint64_t> blocks_;
+    std::vector<std::uint64_t> cells_;
 };
 
 }  // namespace lamina

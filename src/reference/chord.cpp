@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/chord.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-
-#include "reference/clip.h"
 
 #undef LAMINA_TARGET_FILE
 #define LAMINA_TARGET_FILE "reference/chord.cpp"
@@ -22,13 +18,11 @@ struct Coordinates {
     DoubleDoubles position, slope;
 };
 
-// Ranges of rays, as RaySpan.
 struct RaySpans {
     DoubleDoubles from, to;
 };
 
-// Returns the dot product, in twice the precision of double. Axes of most grids are along the
-// world's.
+// Axes of most grids are along the world's.
 LAMINA_INLINE DoubleDoubles dot(const DoubleDoubles (&a)[3], const glm::dvec3& b) {
     DoubleDoubles sum = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -41,7 +35,6 @@ LAMINA_INLINE DoubleDoubles in_all_lanes(DoubleDouble value) {
     return {Double(value.hi), Double(value.lo)};
 }
 
-// Projects on one (orthogonal) grid axis.
 LAMINA_INLINE DoubleDoubles project(const DoubleDoubles (&vector)[3], const GridAxes::Axis& axis) {
     return dot(vector, axis.scaled) * in_all_lanes(axis.inverse_square) *
            DoubleDoubles(axis.unscale);
@@ -61,7 +54,6 @@ LAMINA_INLINE RaySpans meet(const Coordinates& rays, double first, double second
             select(whole, met.to, to_second / rays.slope)};
 }
 
-// A vector of rays on their way to their chords.
 class RayLanes {
   public:
     LAMINA_INLINE RayLanes(const GridAxes& grid, std::span<const View::Ray> rays)
@@ -81,8 +73,7 @@ class RayLanes {
             valid_ = axis == 0 ? finite : valid_ & finite;
             steepest = max(steepest, abs(along.slope.hi));
         }
-        // A slope that moves the ray by less than 1e-30 voxels while it crosses the box has no
-        // effect but a risk of overflow.
+        // A slope that moves the ray by less than 1e-30 voxels in the box might overflow.
         for (Coordinates& along : along_) {
             const DoubleMask none = abs(along.slope.hi) < 1e-40 * steepest;
             along.slope = select(none, DoubleDoubles(0.0), along.slope);
@@ -181,7 +172,6 @@ class RayLanes {
 
 }  // namespace reference
 
-// LAMINA_EXPORT takes functions of this namespace alone.
 inline void clip_rays(const GridAxes& grid, std::span<const View::Ray> rays,
                       std::span<const HalfSpace> clip, std::span<Chord> chords) {
     using namespace reference;
@@ -197,7 +187,6 @@ LAMINA_SIMD_END
 
 #if LAMINA_ONCE
 namespace lamina {
-
 namespace {
 
 GridAxes::Axis scaled_axis(const glm::dvec3& step) {
@@ -229,6 +218,35 @@ LAMINA_EXPORT(clip_rays);
 void clip_to_box(const GridAxes& grid, std::span<const View::Ray> rays,
                  std::span<const HalfSpace> clip, std::span<Chord> chords) {
     LAMINA_DISPATCH(clip_rays)(grid, rays, clip, chords);
+}
+
+void clip_span(std::span<const HalfSpace> clip, const View::Ray& ray, RaySpan& span) {
+    for (const HalfSpace& half : clip) {
+        DoubleDouble distance, slope;  // of the ray's origin, and its change with z
+        for (int axis = 0; axis < 3; ++axis) {
+            const DoubleDouble normal{half.normal[axis], 0};
+            distance = distance + normal * exact_sum(ray.origin[axis], -half.point[axis]);
+            slope = slope + normal * DoubleDouble{ray.direction[axis], 0};
+        }
+        if (slope.hi == 0) {
+            if (distance < DoubleDouble{}) span.to = span.from;
+            continue;
+        }
+        const DoubleDouble at = -distance / slope;
+        if (!at.finite()) {  // the ray is nearly parallel to the plane
+            if (distance < DoubleDouble{}) span.to = span.from;
+        } else if (slope.hi > 0) {
+            if (span.from < at) span.from = at;
+        } else {
+            if (at < span.to) span.to = at;
+        }
+    }
+}
+
+SeenRange seen_range(std::span<const HalfSpace> clip, const View::Ray& ray) {
+    RaySpan span{{0, 0}, {INFINITY, 0}};
+    clip_span(clip, ray, span);
+    return {span.from.rounded(), span.to.hi == INFINITY ? INFINITY : span.to.rounded()};
 }
 
 Chord clip_to_box(const GridAxes& grid, const View::Ray& ray, std::span<const HalfSpace> clip) {

@@ -1,28 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chords: the parts of viewing rays in a grid's box, and in the half-spaces of a clip. Places in
-// the box are computed in twice the precision of double, because eyes may be far away.
+// Chords: the parts of viewing rays in a grid's box and in a clip, computed in twice the precision
+// of double, because eyes may be far away.
 //
 //   for each axis of the grid, with position p and slope q of the ray along it, in index space:
 //       the ray is inside between the z at which p + q z meets the box's two faces      (9.7)
-//   cut the range of z that is left by the clip (clip.h)
+//   for each half-space of the clip, with place and direction relative to its plane:
+//       cut the range of z at -place / direction; nothing is left if the ray is parallel and
+//       outside
 //   entry = the place of its front end, exactly on the face by which the ray enters
 #pragma once
 
-#include <array>
 #include <glm/common.hpp>
-#include <glm/vec3.hpp>
 #include <span>
 
 #include "base/arithmetic.h"
 #include "lamina/grid.h"
 #include "scene/camera.h"
-#include "scene/half_space.h"
+#include "scene/clip.h"
 
 namespace lamina {
 
-// Values of a grid that clip_to_box() needs, computed once for all rays.
+// The range from <= z <= to of a viewing ray. It is empty if !(from < to).
+struct RaySpan {
+    DoubleDouble from, to;
+};
+
+// Cuts away everything outside the half-spaces, whose numbers are exact. A ray in a plane is kept.
+void clip_span(std::span<const HalfSpace> clip, const View::Ray& ray, RaySpan& span);
+
+// The range of a ray in front of the eye, or of the eye's plane, that a clip keeps.
+struct SeenRange {
+    double from, to;
+};
+SeenRange seen_range(std::span<const HalfSpace> clip, const View::Ray& ray);
+
 struct GridAxes {
-    // A step of the grid, scaled by a power of two so that its square does not underflow.
+    // A step, scaled so that its square does not underflow.
     struct Axis {
         glm::dvec3 scaled;
         DoubleDouble inverse_square;  // of the scaled one
@@ -36,13 +49,11 @@ struct GridAxes {
     std::array<Axis, 3> axes;
 };
 
-// The range of a viewing ray (z >= 0) inside a grid's box: entry + s * direction, 0 <= s <=
-// length_z, in index space. Because it starts at the entry, the distance of a far eye does not
-// enter later rounding.
+// The range of a viewing ray inside a grid's box: entry + s * direction, 0 <= s <= length_z. The
+// distance of a far eye does not enter later rounding.
 struct Chord {
     glm::dvec3 entry{0};  // index space, inside the closed box
-    // Change in index space per unit of z. It is exactly 0 along axes to which the ray is
-    // perpendicular.
+    // per unit of z; exactly 0 along axes to which the ray is perpendicular
     glm::dvec3 direction{0};
     double length_z = 0;     // 0 if the ray misses the box or only touches it in a point
     double world_per_z = 0;  // world length per unit of z
@@ -54,16 +65,14 @@ struct Chord {
     }
 };
 
-// Clips a ray to the box, and to the half-spaces of a clip. The numbers of ray and grid are taken
-// as exact. length_z has a relative error of 1e-15, also for very short chords at an edge of the
-// box that is seen from far away. The box is closed: a ray in a face is inside.
-// Rays are clipped together, in vectors. There must be as many chords as rays.
+// Clips rays, in vectors, to the closed box and the half-spaces. Their numbers are taken as exact.
+// length_z has a relative error of 1e-15, also at an edge of a box that is far away.
 void clip_to_box(const GridAxes& grid, std::span<const View::Ray> rays,
                  std::span<const HalfSpace> clip, std::span<Chord> chords);
 Chord clip_to_box(const GridAxes& grid, const View::Ray& ray, std::span<const HalfSpace> clip = {});
 Chord clip_to_box(const Grid& grid, const View::Ray& ray, std::span<const HalfSpace> clip = {});
 
-// Returns the world length of the ray of pixel (column, row) (fractions allowed) inside the box.
+// The world length of the ray of a pixel (fractions allowed) inside the box.
 double chord_length(const Grid& grid, const View& view, double column, double row);
 
 }  // namespace lamina

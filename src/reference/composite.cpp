@@ -2,17 +2,14 @@
 #include "reference/composite.h"
 
 #include <glm/common.hpp>
-#include <limits>
 
 #include "optics/opacity.h"
 #include "reference/integrate.h"
-#include "reference/light.h"
 
 namespace lamina {
 namespace {
 
-// Share of the tolerance that early termination may cost. The rest of the ray's colour is at most
-// its transmittance times the brightest colour.
+// Share of the tolerance that early termination may cost.
 constexpr double termination_share = 1e-3;
 
 // Number of pieces that are integrated together, so that vectors are full.
@@ -52,9 +49,8 @@ double CompositedRay::alpha() const {
     return opacity_from_depth(depth_.value());
 }
 
-// The errors allowed to pieces, by their share of the length and by their share of the opacity, add
-// up to half of the tolerance, because the shares of either kind add up to at most 1. Those allowed
-// to light add up to half of that.
+// Shares of either kind (length, opacity) add up to at most 1, so their errors add up to half of
+// the tolerance, and those of light to half of that.
 RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance)
     : transfer_(transfer), tolerance_(tolerance), error_per_opacity_(tolerance / 4) {
     batch_.error_of_opacity = error_per_opacity_;
@@ -69,7 +65,7 @@ void RayIntegrator::begin(double ray_length, const RayLights* lights) {
     batch_.count = 0;
 }
 
-void RayIntegrator::add(const SegmentBatch& segments, const GradientOf* gradient_of) {
+void RayIntegrator::add(const SegmentBatch& segments, const GradientOf& gradient_of) {
     const std::size_t first = batch_.count;
     std::int64_t lit_segment = -1;
     GradientAlong gradient;
@@ -82,10 +78,9 @@ void RayIntegrator::add(const SegmentBatch& segments, const GradientOf* gradient
         batch_.before[piece] = hidden ? hidden_depth : before;
         if (hidden) continue;
         ++pieces_;
-        if (gradient_of != nullptr) {
+        if (gradient_of) {
             const std::int64_t segment = batch_.segment[piece];
-            if (segment != lit_segment)
-                gradient = (*gradient_of)(static_cast<std::size_t>(segment));
+            if (segment != lit_segment) gradient = gradient_of(segment);
             lit_segment = segment;
             add_light(piece, gradient);
         }
@@ -151,13 +146,6 @@ void SegmentSum::begin(const RayLights* lights) {
     segments_ = 0;
 }
 
-// Records the change of the result if the scalar of a nearly constant segment were elsewhere in
-// [lo, hi]: its rounding may choose the side of a step of the transfer function.
-void SegmentSum::note_side_error(double lo, double hi, double length) {
-    side_errors_[waiting_.count] = side_error(lo, hi, length);
-    has_side_errors_ = true;
-}
-
 void SegmentSum::finish() {
     pieces_.count = 0;
     append_linear_pieces(waiting_, intervals_.columns(), pieces_);
@@ -205,7 +193,7 @@ void SegmentSum::add_colors() {
         if (intervals_.columns().color_span[interval] > 0)
             sum += transmittance * pieces_.change[i] * change;
         // If an end is off, this much depth moves from one side of it to the other.
-        const double length = waiting_.length[static_cast<std::size_t>(pieces_.segment[i])];
+        const double length = waiting_.length[pieces_.segment[i]];
         const double moved = std::min(1.0, 2 * place_error_ * pieces_.depth[i] / length);
         error += transmittance * (piece_error * pieces_.opacity[i] + moved);
     }
@@ -217,24 +205,21 @@ void SegmentSum::add_colors() {
 void SegmentSum::add_lit(double front, double back, const GradientAlong& gradient, double length,
                          double slack) {
     const auto [lo, hi] = std::minmax(front, back);
-    if (intervals_.visible(lo, hi)) add_light(front, back, gradient, length);
+    if (intervals_.visible(lo, hi)) {
+        finish();
+        constexpr double unknown_length = std::numeric_limits<double>::infinity();
+        light_.begin(unknown_length, lights_);
+        SegmentBatch alone;
+        alone.add({{front, back - front}}, lo, hi, length);
+        light_.add(alone, [&](std::size_t) { return gradient; });
+        const double transmittance = std::exp(-depth_.value());
+        color_ += transmittance * light_.light();
+        error_ += transmittance * light_.light_error();
+    }
     add(front, back, length, slack);
 }
 
-void SegmentSum::add_light(double front, double back, const GradientAlong& gradient,
-                           double length) {
-    finish();
-    constexpr double unknown_length = std::numeric_limits<double>::infinity();
-    light_.begin(unknown_length, lights_);
-    const auto [lo, hi] = std::minmax(front, back);
-    SegmentBatch alone;
-    alone.add({{front, back - front}}, lo, hi, length);
-    light_.add_lit(alone, [&](std::size_t) { return gradient; });
-    const double transmittance = std::exp(-depth_.value());
-    color_ += transmittance * light_.light();
-    error_ += transmittance * light_.light_error();
-}
-
+// Returns the change of the result if a nearly constant scalar were elsewhere in [lo, hi].
 double SegmentSum::side_error(double lo, double hi, double length) const {
     const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
     const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);

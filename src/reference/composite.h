@@ -4,21 +4,15 @@
 //   depth = 0; color = 0
 //   for each piece of the segments (cut.h), while exp(-depth) is not lost:
 //       color += exp(-depth) * (opacity * colour at x = 0 + integral * change of the colour) (9.3)
-//       if it is lit: light += exp(-depth) * the light on it (light.h)
+//       if it is lit: light += exp(-depth) * the light on it (integrate.h)
 //       depth += the piece's optical depth
 //   alpha = 1 - exp(-depth)
 //
-// The errors of the integrals, of the places of ends, and of everything left out, are summed up
-// beside the colours. RayIntegrator does this for the cells of a volume, whose scalars are cubics,
-// and SegmentSum for tets, whose scalars are linear.
+// Errors of integrals, of places of ends, and of everything left out, are summed up beside the
+// colours. RayIntegrator has cubic scalars (cells), SegmentSum linear ones (tets).
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <glm/vec3.hpp>
 
 #include "base/arithmetic.h"
 #include "lamina/transfer_function.h"
@@ -28,19 +22,16 @@
 
 namespace lamina {
 
-// The composite of a ray up to a depth.
 class CompositedRay {
   public:
-    // Tells whether everything that follows is known to be hidden, so that it need not be added.
+    // Tells whether everything that follows is hidden.
     bool opaque() const { return depth_.value() >= depth_limit_; }
     double alpha() const;
 
   protected:
-    // Begins a ray. Light from behind `least_transmittance`, times the brightest colour, may be
-    // lost.
+    // Light from behind `least_transmittance`, times the brightest colour, may be lost.
     void begin(const TransferIntervals& transfer, const RayLights* lights,
                double least_transmittance);
-    // Returns the error of leaving out hidden segments.
     double hidden() const { return opaque() ? brightest_ * std::exp(-depth_.value()) : 0; }
 
     const RayLights* lights_ = nullptr;
@@ -51,8 +42,7 @@ class CompositedRay {
     double depth_limit_ = 0;  // depth behind which everything is hidden
 };
 
-// Composites cubic segments. Optical depth is exact up to rounding. Colour is integrated to a
-// tolerance, with an estimate of its error.
+// Composites cubic segments: optical depth exactly, colour to a tolerance.
 class RayIntegrator : public CompositedRay {
   public:
     // Returns the gradient along a segment of a batch, from its front to its back in world space.
@@ -61,28 +51,22 @@ class RayIntegrator : public CompositedRay {
     // `tolerance`: largest error of every channel of a whole ray, as a share of full scale.
     RayIntegrator(const TransferIntervals& transfer, double tolerance);
 
-    // Begins the next ray. `ray_length` > 0: world length of all segments; infinite if it is not
-    // known. `lights`: for segments that are lit, must outlive the ray.
+    // `ray_length` > 0: world length of all segments, or infinite. `lights` must outlive the ray.
     void begin(double ray_length, const RayLights* lights = nullptr);
 
-    // Adds the next segments; hidden ones may be among them.
-    void add(const SegmentBatch& segments) { add(segments, nullptr); }
-    // Adds segments that are lit. `gradient_of` is called for the visible ones.
-    void add_lit(const SegmentBatch& segments, const GradientOf& gradient_of) {
-        add(segments, &gradient_of);
-    }
+    // Adds segments; hidden ones may be among them. Those with `gradient_of` are lit.
+    void add(const SegmentBatch& segments, const GradientOf& gradient_of = {});
 
     glm::dvec3 color();  // associated
     double optical_depth() const { return depth_.value(); }
     double error_estimate();  // of the worst channel, from quadrature and early termination
     std::int64_t pieces() const { return pieces_; }
 
-    // These are the shares of light in color(), which may be negative, and in error_estimate().
+    // Shares of light in color(), perhaps negative, and in error_estimate().
     const glm::dvec3& light() const { return light_; }
     double light_error() const { return light_error_ + hidden(); }
 
   private:
-    void add(const SegmentBatch& segments, const GradientOf* gradient_of);
     void add_light(std::size_t piece, const GradientAlong& gradient);
     void finish_batch();
 
@@ -96,35 +80,33 @@ class RayIntegrator : public CompositedRay {
     PieceBatch batch_;  // the last pieces, which are not in color_ and error_
 };
 
-// Composites linear segments, some at a time.
 class SegmentSum : public CompositedRay {
   public:
-    // `place_error`: bound on the error of every end of a segment, in world units.
-    // `transfer_function` and `intervals` are the same function, and must outlive the sum.
-    // `tolerance`: for add_lit(), largest error of the light of all segments of a ray together.
+    // `place_error`: bound on the error of every end, in world units. The functions are the same
+    // and must outlive the sum. `tolerance`: largest error of the light of a ray.
     SegmentSum(const TransferFunction& transfer_function, const TransferIntervals& intervals,
                double place_error, double tolerance = 1);
 
-    // Begins the next ray. `lights`: for add_lit(), must outlive the ray.
     void begin(const RayLights* lights = nullptr);
 
-    // Adds the next segment: the scalar is linear from `front` to `back` over `length` world units.
-    // Both scalars may have errors up to `slack`. `length` > 0. The caller leaves out segments that
-    // are not visible (TransferIntervals::visible()): they would only be counted.
+    // Adds a segment: the scalar is linear from `front` to `back`, with errors up to `slack`, over
+    // `length` > 0 world units. The caller leaves out those that are not visible.
     void add(double front, double back, double length, double slack) {
         ++segments_;
-        if (slack > 0 && std::abs(back - front) <= slack)
-            note_side_error(std::min(front, back) - slack, std::max(front, back) + slack, length);
+        // The rounding of a nearly constant scalar may choose the side of a step.
+        if (slack > 0 && std::abs(back - front) <= slack) {
+            side_errors_[waiting_.count] =
+                side_error(std::min(front, back) - slack, std::max(front, back) + slack, length);
+            has_side_errors_ = true;
+        }
         waiting_.add(front, back, length);
         if (waiting_.count < together_) return;
         finish();
         together_ = std::min(2 * together_, LinearSegments::capacity);
     }
-    // Adds a segment that is lit, with its gradient from front to back in world space.
     void add_lit(double front, double back, const GradientAlong& gradient, double length,
                  double slack);
-    // Must be called before color(), alpha() and error_estimate(): until then these lack the last
-    // segments.
+    // Must be called before color(), alpha() and error_estimate().
     void finish();
 
     const glm::dvec3& color() const { return color_; }  // associated
@@ -136,8 +118,6 @@ class SegmentSum : public CompositedRay {
     void sum_depths();
     void add_colors();
     void add_side_errors(double depth, std::size_t& segment, std::size_t end);
-    void add_light(double front, double back, const GradientAlong& gradient, double length);
-    void note_side_error(double lo, double hi, double length);
     double side_error(double lo, double hi, double length) const;
 
     const TransferFunction& transfer_function_;

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/cut.h"
 
-#include <limits>
+#include <cmath>
 
 #undef LAMINA_TARGET_FILE
 #define LAMINA_TARGET_FILE "reference/cut.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/cubic-inl.h"
-#include "reference/transfer_intervals-inl.h"
+#include "reference/cut-inl.h"
 #include "simd/members-inl.h"
 
 LAMINA_SIMD_BEGIN
 namespace reference {
 
-// Takes a vector of segments to their ends, step by step. Returns the number of steps.
 template <typename Segments, typename Steps>
 LAMINA_INLINE std::size_t take_steps(Segments& segments, Steps& steps) {
     std::size_t count = 0;
@@ -25,8 +23,7 @@ LAMINA_INLINE std::size_t take_steps(Segments& segments, Steps& steps) {
     return count;
 }
 
-// Appends the pieces of some steps, one segment after the other. store(i, step, lane) stores the
-// values of a piece beside the common columns at place i.
+// store(i, step, lane) stores what a piece has beside the common columns.
 template <typename Pieces, typename Store>
 LAMINA_INLINE void append_steps(std::size_t count, std::size_t first_segment, Pieces& pieces,
                                 const Store& store) {
@@ -35,8 +32,7 @@ LAMINA_INLINE void append_steps(std::size_t count, std::size_t first_segment, Pi
     pieces.make_room(pieces.count + lanes * count);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         for (std::size_t number = 0; number < count; ++number) {
-            // A piece that is not kept is overwritten by the next: a branch would often be
-            // mispredicted.
+            // A piece that is not kept is overwritten: branches would be mispredicted.
             const auto& step = steps[number];
             const std::size_t i = pieces.count;
             pieces.segment[i] = static_cast<std::int64_t>(first_segment + lane);
@@ -61,8 +57,7 @@ class SegmentLanes {
           at_(0) {
         for (std::size_t power = 0; power < 4; ++power)
             scalar_.c[power] = given(segments.scalar[power] + first);
-        // A segment in one interval is one piece. A constant may be a step's knot: there the value
-        // itself decides the side.
+        // A constant may be a step's knot: there the value itself decides the side.
         lowest_ = search_.above(lo_);
         const DoubleMask whole = (hi_ <= search_.upper(lowest_)) & !scalar_.constant();
         const Turns turns = turns_of(scalar_);
@@ -75,7 +70,6 @@ class SegmentLanes {
 
     LAMINA_INLINE bool active() const { return any_of(active_); }
 
-    // Goes on to the next knots or turns. The step gets the pieces up to there.
     LAMINA_INLINE void advance(CubicStep& step) {
         const Double knot = search_.knot_ahead(interval_, rises_);
         const DoubleMask before_turn =
@@ -138,8 +132,7 @@ class SegmentLanes {
     Long lowest_, interval_;                // those of lo_, and of the piece that is next
 };
 
-// Sets the optics of a vector of pieces. Extinction is computed from the nearer knot, so that few
-// digits are lost if a steep interval ends at extinction 0.
+// Extinction is computed from the nearer knot: few digits are lost at a steep end.
 LAMINA_INLINE void set_optics(const SegmentBatch& segments, const IntervalColumns& columns,
                               double error_per_length, std::size_t i, PieceBatch& pieces) {
     const IntervalSearch search(columns);
@@ -184,7 +177,6 @@ constexpr double largest_depth = 1e300;
 // Limit of scalars: differences of larger ones might overflow.
 constexpr double largest_scalar = std::numeric_limits<double>::max() / 4;
 
-// A vector of linear segments on their way from front to back.
 class LinearLanes {
   public:
     LAMINA_INLINE LinearLanes(const LinearSegments& segments, std::size_t first,
@@ -200,12 +192,10 @@ class LinearLanes {
 
     LAMINA_INLINE bool active() const { return any_of(active_); }
 
-    // Goes on to the next knots or ends. The step gets the pieces up to there.
     LAMINA_INLINE void advance(LinearStep& step) {
         const Double knot = search_.knot_ahead(interval_, rises_);
         const Double end = select(rises_, min(knot, back_), max(knot, back_));
-        // Both differences are of the given doubles, so the share is accurate however close front
-        // and back are.
+        // Both differences are of given doubles: the share is accurate.
         const Double share = (end - value_) / (back_ - front_);
         const DoubleMask has_length = constant_ | (end != value_);
         const DoubleMask kept = active_ & search_.shows(interval_) & has_length;
@@ -245,7 +235,6 @@ LAMINA_INLINE void append_step(const LinearStep& step, std::size_t first_segment
     pieces.count += kept.count();
 }
 
-// The share of the way from an interval's lower knot to its upper one, and the rest of it.
 struct PlaceLanes {
     Double from_lo, from_hi;
 
@@ -284,7 +273,6 @@ LAMINA_INLINE void set_depths(const LinearSegments& segments, const IntervalColu
 
 }  // namespace reference
 
-// LAMINA_EXPORT takes functions of this namespace alone.
 inline void append_pieces_of(const SegmentBatch& segments, const IntervalColumns& columns,
                              double error_per_length, PieceBatch& pieces) {
     using namespace reference;
@@ -325,6 +313,70 @@ LAMINA_SIMD_END
 
 #if LAMINA_ONCE
 namespace lamina {
+
+CubicTurns turns_of(const Cubic& cubic) {
+    // Derivative a t^2 + 2 b t + c, scaled so that no square of a coefficient underflows; the
+    // quotient form has no cancellation (Press et al., Numerical Recipes, 5.6).
+    double a = 3 * cubic.c[3], b = cubic.c[2], c = cubic.c[1];
+    const double largest = std::max({std::abs(a), std::abs(b), std::abs(c)});
+    a /= largest;
+    b /= largest;
+    c /= largest;
+    const double discriminant = b * b - a * c;
+    CubicTurns turns;
+    if (!(discriminant > 0)) return turns;
+    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+    const auto [first, second] = std::minmax({q / a, c / q});  // infinite if a = 0: not kept
+    for (const double root : {first, second}) {
+        if (!(root > turns.t[turns.count - 1] && root < 1)) continue;
+        turns.t[turns.count] = root;
+        turns.t[++turns.count] = 1;
+    }
+    return turns;
+}
+
+// Newton's method in a bracket, which is bisected if a step would leave it or shrinks it too
+// slowly. The last step's error is less than a rounding of t.
+double solve_monotone(const Cubic& cubic, double value, double from, double to) {
+    Cubic shifted = cubic;
+    shifted.c[0] -= value;
+    double below = from, above = to;  // there the shifted cubic is negative, and positive
+    const double at_from = shifted(from), at_to = shifted(to);
+    if (at_from > at_to) std::swap(below, above);
+    double t = from + (to - from) * (at_from / (at_from - at_to));  // as if it were straight
+    if (!(t > from && t < to)) t = 0.5 * (from + to);
+    double step = std::abs(to - from), previous_step = step;
+    const double bend = std::abs(cubic.c[2]) + 3 * std::abs(cubic.c[3]);
+    for (int i = 0; i < most_newton_steps; ++i) {
+        const double f = shifted(t), slope = shifted.slope(t);
+        if (f == 0) return t;
+        (f < 0 ? below : above) = t;
+        const double newton = t - f / slope;
+        const bool inside = newton > std::min(below, above) && newton < std::max(below, above);
+        const bool fast = std::abs(2 * f) <= std::abs(previous_step * slope);
+        const bool by_newton = inside && fast;
+        const double next = by_newton ? newton : 0.5 * (below + above);
+        previous_step = step;
+        step = std::abs(next - t);
+        t = next;
+        const double rounding = root_precision * std::abs(t);
+        const double bent = bend / std::abs(slope) * step;
+        const bool straight = bent * step <= rounding && 8 * bent <= 1;
+        if (step <= rounding || (by_newton && straight)) break;
+    }
+    return t;
+}
+
+Cubic restricted(const Cubic& cubic, double from, double to, double start, double end) {
+    const double h = to - from;
+    Cubic inside;
+    inside.c[0] = start;
+    inside.c[1] = cubic.slope(from) * h;
+    inside.c[2] = (cubic.c[2] + 3 * cubic.c[3] * from) * h * h;
+    inside.c[3] = cubic.c[3] * h * h * h;
+    inside.c[1] += (end - start) - (inside.c[1] + inside.c[2] + inside.c[3]);
+    return inside;
+}
 
 LAMINA_EXPORT(append_pieces_of);
 LAMINA_EXPORT(append_linear_pieces_of);

@@ -10,23 +10,57 @@
 //       if the interval has extinction and t < to: append the piece t .. to
 //       t = to; interval = the one behind the knot, if s crosses it
 //
-// Cells have a cubic s, whose crossings Newton's method finds. Tets have a linear s, which does not
-// turn. Vectors have a segment in each lane, and each step takes a piece of all of them.
+// Cells have a cubic s, tets a linear one. Vectors have a segment in each lane.
+//
+// A scalar along a ray in a cell is a cubic (docs/numerics.md, section 9.1). This finds the places
+// at which it turns, and those at which it has a value:
+//
+//   turns: the roots of the derivative inside (0, 1), in the form that does not cancel
+//
+//   solve(value, from, to), between two turns:
+//       t = the place in from .. to as if the cubic were straight
+//       loop: keep the bracket's end whose sign is that of f = cubic(t) - value at t
+//           next = t - f / slope, by Newton; the bracket's middle if that is outside or too slow
+//           end if the error of the step, bend / slope * step^2 / 2, is below a rounding of t
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <initializer_list>
-#include <vector>
+#include <limits>
 
-#include "reference/cubic.h"
 #include "reference/transfer_intervals.h"
 #include "simd/lane_set.h"
 
 namespace lamina {
 
-// Consecutive segments of one ray, front to back, on each of which the scalar is a cubic.
+// c[0] + c[1] t + c[2] t^2 + c[3] t^3 on 0 <= t <= 1: a trilinear field along a straight line.
+struct Cubic {
+    std::array<double, 4> c{};
+
+    double operator()(double t) const { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
+    double slope(double t) const { return c[1] + t * (2 * c[2] + t * (3 * c[3])); }
+    bool constant() const { return c[1] == 0 && c[2] == 0 && c[3] == 0; }
+};
+
+using GradientAlong = std::array<Cubic, 3>;
+
+// t[0] = 0 < ... < t[count] = 1: the cubic is monotone between two of them.
+struct CubicTurns {
+    std::array<double, 4> t{0, 1, 1, 1};
+    int count = 1;
+};
+CubicTurns turns_of(const Cubic& cubic);
+
+// Largest number of steps of Newton's method, and the share of t to which it finds t.
+inline constexpr int most_newton_steps = 200;
+inline constexpr double root_precision = 0.5 * std::numeric_limits<double>::epsilon();
+
+// Returns the t in [from, to] at which the monotone cubic equals `value`, to full precision.
+double solve_monotone(const Cubic& cubic, double value, double from, double to);
+
+// Returns the cubic between `from` and `to` on [0, 1], from `start` exactly to about `end`.
+Cubic restricted(const Cubic& cubic, double from, double to, double start, double end);
+
+// Consecutive segments of a ray with cubic scalars.
 struct SegmentBatch {
     static constexpr std::size_t capacity = 32;
 
@@ -34,7 +68,7 @@ struct SegmentBatch {
     alignas(64) double lo[capacity];         // the scalar stays inside [lo, hi] up to rounding
     alignas(64) double hi[capacity];
     alignas(64) double length[capacity];  // > 0, in world units
-    // Number of the cell in the CellBatch that make_segments() made it from.
+    // in the CellBatch of make_segments()
     alignas(64) std::int64_t cell[capacity];
     std::size_t count = 0;
 
@@ -47,8 +81,7 @@ struct SegmentBatch {
     }
 };
 
-// A piece of a ray, on which extinction and colour are linear functions of one position x. With t
-// from 0 (towards the eye) to 1, x(t) and the optical depth per unit of t are cubics.
+// Extinction and colour are linear functions of x(t); t goes from 0 (towards the eye) to 1.
 struct EmissionPiece {
     Cubic position;    // 0 <= x <= 1 up to rounding
     Cubic extinction;  // extinction times the length of the piece, >= 0 up to rounding
@@ -60,7 +93,7 @@ struct EmissionPiece {
     }
 };
 
-// A piece of each segment of a vector (PieceColumns), in lanes that have a bit in `kept`.
+// A piece of each segment (PieceColumns), in the lanes `kept`.
 struct CutStep {
     alignas(64) std::int64_t interval[longest_vector];
     alignas(64) double start[longest_vector];
@@ -75,7 +108,6 @@ struct LinearStep : CutStep {
     alignas(64) double share[longest_vector];
 };
 
-// Pieces of one ray's segments, front to back, on each of which the transfer function is linear.
 struct PieceColumns {
     using Column = std::vector<double>;
 
@@ -88,8 +120,7 @@ struct PieceColumns {
     std::size_t count = 0;
 
   protected:
-    // Makes sure that columns have room for so many pieces, and a vector of doubles more: vectors
-    // read and write beyond the last piece, and find valid numbers there.
+    // Has room for a vector more: vectors read and write beyond the last piece.
     void make_room(std::size_t pieces, std::initializer_list<Column*> others) {
         if (pieces + longest_vector <= start.size()) return;
         const std::size_t room = std::max(2 * start.size(), pieces + longest_vector);
@@ -101,13 +132,11 @@ struct PieceColumns {
     }
 };
 
-// Pieces of cubic segments (SegmentBatch).
 struct PieceBatch : PieceColumns {
     Column from, to;                    // parameters of the segment, 0 <= from < to <= 1
     Column position[4], extinction[4];  // EmissionPiece, coefficient by coefficient
     Column color_span;                  // largest change of a colour
-    // Errors that are allowed to a channel of the ray: to each piece by its length, and to all of
-    // them by their visible opacity.
+    // Errors allowed to a channel: by a piece's length, and to all by their visible opacity.
     Column error_of_length;
     double error_of_opacity = 0;
     Column value, error;  // results: EmissionIntegral
@@ -131,12 +160,10 @@ struct PieceBatch : PieceColumns {
     }
 };
 
-// Appends the pieces that have extinction, front to back. It sets neither `before` nor the results.
-// `error_per_length`: allowed to a channel of the ray.
+// Appends the pieces that have extinction, without `before` and the results.
 void append_pieces(const SegmentBatch& segments, const TransferIntervals& transfer,
                    double error_per_length, PieceBatch& pieces);
 
-// Consecutive segments of one ray, front to back, on each of which the scalar is linear.
 struct LinearSegments {
     static constexpr std::size_t capacity = 32;
 
@@ -153,13 +180,11 @@ struct LinearSegments {
     }
 };
 
-// Pieces of linear segments. Extinction and colour are linear on them, too.
 struct LinearPieces : PieceColumns {
     Column share;                   // of the segment's length
     Column start_place, end_place;  // in the interval, 0 at its lower knot, 1 at its upper one
     Column p, q;                    // extinction * length there
-    // The result beside `opacity`, which is the weight of the colour of the interval's lower knot:
-    // the weight of the change from there to the upper one (TransferIntervals::color()).
+    // beside `opacity`, the weight of the lower knot's colour: that of its change
     Column change;
 
     std::vector<LinearStep> steps;  // memory of append_linear_pieces()

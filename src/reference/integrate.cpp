@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/integrate.h"
 
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "optics/segment_integral.h"
 
 #undef LAMINA_TARGET_FILE
 #define LAMINA_TARGET_FILE "reference/integrate.cpp"
 #include "simd/foreach_target.h"
 
-#include "reference/cubic-inl.h"
+#include "reference/cut-inl.h"
 #include "simd/math-inl.h"
 
 LAMINA_SIMD_BEGIN
@@ -49,12 +53,10 @@ struct ShortDepth {
     }
 };
 
-// Largest depth that counts as short.
 constexpr std::size_t most_terms = 10;
 constexpr double short_depth = series_limit<most_terms>;
 
-// Transmittance and opacity of depths that are short in some lanes. Each lane's result does not
-// depend on the other lanes.
+// Short in some lanes. A lane's result does not depend on the others.
 struct MixedDepth {
     DoubleMask is_short;
 
@@ -84,10 +86,6 @@ struct RuleSum {
     }
 };
 
-LAMINA_INLINE RuleSum no_sum() {
-    return {0, 0};
-}
-
 template <typename Depth>
 class PieceLanes {
   public:
@@ -100,7 +98,6 @@ class PieceLanes {
             mean_depth_.c[power] = extinction_.c[power] / static_cast<double>(power + 1);
     }
 
-    // Sets w and x w to their sums over a pair of nodes.
     LAMINA_INLINE void evaluate(int pair, Double& w, Double& xw) const {
         const double distance = patterson::node[pair];
         w = weight_at(0.5 - distance);
@@ -132,7 +129,6 @@ LAMINA_INLINE DoubleMask given(const PieceBatch& batch, std::size_t i) {
     return first_lanes<DoubleMask>(batch.count - i);
 }
 
-// Returns the lanes that a rule has integrated.
 template <typename Depth>
 LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const Depth& kind) {
     using namespace patterson;
@@ -147,7 +143,7 @@ LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const
     const Double enough = max(allowed, emission_rounding * depth);
 
     Double w[8], xw[8];
-    RuleSum three = no_sum(), seven = no_sum(), fifteen = no_sum();
+    RuleSum three{0, 0}, seven{0, 0}, fifteen{0, 0};
     for (int pair = 0; pair < 4; ++pair) {
         pieces.evaluate(pair, w[pair], xw[pair]);
         if (pair < 2) three.add(weight3[pair], w[pair], xw[pair]);
@@ -177,7 +173,6 @@ LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const
     return done | faint | beyond;
 }
 
-// A piece that the rules on the whole of it do not integrate.
 inline void integrate_bisected(PieceBatch& batch, std::size_t i) {
     if (!(batch.color_span[i] > 0) || !(batch.transmittance[i] > 0)) return;
     const double reach = batch.transmittance[i] * batch.color_span[i];
@@ -192,7 +187,7 @@ struct WeightLanes {
     Double front, back;
 };
 
-// Vector form of the sums in optics/segment_integral.cpp, which gives the reasons for their form.
+// The sums of optics/segment_integral.cpp, which gives the reasons for their form.
 template <typename Depth>
 LAMINA_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Double p, Double q,
                                           const Depth& kind) {
@@ -249,7 +244,6 @@ LAMINA_INLINE void weigh(LinearPieces& pieces, std::size_t i) {
 
 }  // namespace reference
 
-// LAMINA_EXPORT takes functions of this namespace alone.
 inline void integrate_batch(PieceBatch& batch) {
     using namespace reference;
     const std::size_t lanes = Double::lanes;
@@ -277,8 +271,124 @@ LAMINA_SIMD_END
 namespace lamina {
 namespace {
 
-// The position x of a piece, which lies in [0, 1]: any of its values is within an interval's
-// opacity of the integral.
+// Sums, over a pair of nodes or over those of a rule, of w and of f w.
+template <typename Value>
+struct WeightedSum {
+    double w = 0;
+    Value value{0};
+};
+
+struct QuantityRange {
+    double bound;  // of |f|, and of |f| of any component
+    bool smooth;   // no dip and no peak of f fits between the nodes of a rule
+};
+
+// The integral of w is known in closed form, which shows if a rule misses a boundary layer.
+//
+//   Value at(t)                                  f
+//   QuantityRange over(from, to)
+//   bool is_faint(opacity, allowed, bound)       any value of f will do for the interval's
+//   double spread(opacity, bound)                largest error in that case
+//   double rounding(in_front, depth_to, bound)   of a rule's sums; in_front: transmittance
+//   double largest(Value)                        absolute value, of the largest component
+template <class Quantity>
+class NestedIntegral {
+  public:
+    using Value = typename Quantity::Value;
+
+    // `most_intervals`: all intervals beyond these get any value.
+    NestedIntegral(const EmissionPiece& piece, const Quantity& quantity, double error_per_t,
+                   double error_per_opacity, int most_intervals)
+        : piece_(piece),
+          quantity_(quantity),
+          error_per_t_(error_per_t),
+          error_per_opacity_(error_per_opacity),
+          budget_(most_intervals) {}
+
+    // Adds the integral over an interval, with the depths in front of its ends.
+    void add(double from, double to, double depth_from, double depth_to) {
+        const double in_front = std::exp(-depth_from);
+        const double opacity = in_front * -std::expm1(depth_from - depth_to);
+        const double allowed = error_per_t_ * (to - from) + error_per_opacity_ * opacity;
+        const double middle = 0.5 * (from + to);
+        const QuantityRange range = quantity_.over(from, to);
+        const bool exhausted = --budget_ <= 0 || !(from < middle && middle < to);
+        if (quantity_.is_faint(opacity, allowed, range.bound) || exhausted) {
+            return accept(quantity_.at(middle) * opacity, quantity_.spread(opacity, range.bound));
+        }
+        if (range.smooth && depth_to - depth_from < resolvable_depth) {
+            const double rounding = quantity_.rounding(in_front, depth_to, range.bound);
+            if (try_rules(from, to, opacity, range.bound, std::max(allowed, rounding))) return;
+        }
+        const double depth_middle = piece_.depth(middle);
+        add(from, middle, depth_from, depth_middle);
+        add(middle, to, depth_middle, depth_to);
+    }
+
+    const Integral<Value>& result() const { return result_; }
+
+  private:
+    using Sum = WeightedSum<Value>;
+
+    void accept(const Value& value, double error) {
+        result_.value += value;
+        result_.error += error;
+    }
+
+    bool try_rules(double from, double to, double opacity, double bound, double allowed) {
+        Sum nodes[8];
+        evaluate(from, to, 0, 4, nodes);
+        const Sum three = by_rule(patterson::weight3, nodes, to - from);
+        const Sum seven = by_rule(patterson::weight7, nodes, to - from);
+        double error = difference(seven, three, opacity, bound);
+        if (error <= allowed) {
+            accept(seven.value, error);
+            return true;
+        }
+        evaluate(from, to, 4, 8, nodes);
+        const Sum fifteen = by_rule(patterson::weight15, nodes, to - from);
+        error = difference(fifteen, seven, opacity, bound);
+        if (error > allowed) return false;
+        accept(fifteen.value, error);
+        return true;
+    }
+
+    void evaluate(double from, double to, int first, int last, Sum (&nodes)[8]) const {
+        const double middle = 0.5 * (from + to), length = to - from;
+        for (int i = first; i < last; ++i) {
+            const double offset = patterson::node[i] * length;
+            for (const double t : {middle - offset, middle + offset}) {
+                const double w = piece_.extinction(t) * std::exp(-piece_.depth(t));
+                nodes[i].w += w;
+                nodes[i].value += w * quantity_.at(t);
+                if (i == 0) break;  // both are the centre
+            }
+        }
+    }
+
+    template <int count>
+    static Sum by_rule(const double (&weights)[count], const Sum (&nodes)[8], double length) {
+        Sum sum;
+        for (int i = 0; i < count; ++i) {
+            sum.w += weights[i] * nodes[i].w;
+            sum.value += weights[i] * nodes[i].value;
+        }
+        return {sum.w * length, sum.value * length};
+    }
+
+    double difference(const Sum& fine, const Sum& coarse, double opacity, double bound) const {
+        return std::max(quantity_.largest(fine.value - coarse.value),
+                        bound * std::abs(fine.w - opacity));
+    }
+
+    const EmissionPiece& piece_;
+    const Quantity& quantity_;
+    double error_per_t_, error_per_opacity_;
+    int budget_;  // intervals
+    Integral<Value> result_;
+};
+
+// Any x in [0, 1] is within an interval's opacity of the integral.
 struct PiecePosition {
     using Value = double;
     const EmissionPiece& piece;
@@ -295,6 +405,113 @@ struct PiecePosition {
     double largest(double x) const { return std::abs(x); }
 };
 
+double largest_component(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+glm::dvec3 value_at(const GradientAlong& gradient, double t) {
+    return {gradient[0](t), gradient[1](t), gradient[2](t)};
+}
+
+Cubic dot(const GradientAlong& gradient, const glm::dvec3& direction) {
+    Cubic sum;
+    for (std::size_t i = 0; i < 4; ++i) {
+        sum.c[i] = gradient[0].c[i] * direction.x + gradient[1].c[i] * direction.y +
+                   gradient[2].c[i] * direction.z;
+    }
+    return sum;
+}
+
+struct GradientBall {
+    glm::dvec3 center;
+    double radius;
+};
+
+// The ball holds the four Bernstein coefficients, in whose convex hull a polynomial stays.
+GradientBall ball_of(const GradientAlong& gradient, double from, double to) {
+    const double h = to - from;
+    const glm::dvec3 start = value_at(gradient, from), end = value_at(gradient, to);
+    glm::dvec3 second, third;
+    for (int c = 0; c < 3; ++c) {
+        const Cubic& component = gradient[c];
+        second[c] = start[c] + component.slope(from) * h / 3;
+        third[c] = end[c] - component.slope(to) * h / 3;
+    }
+    const glm::dvec3 center = value_at(gradient, 0.5 * (from + to));
+    return {center, std::max({glm::distance(start, center), glm::distance(second, center),
+                              glm::distance(third, center), glm::distance(end, center)})};
+}
+
+// Largest distance of gradients from the middle one, as a share of their length: the effect's
+// singularities are then at least half an interval away.
+constexpr double most_growth = 0.5;
+// Width of a highlight's peak, in units of 1 / sqrt(power), the angle at which it falls to
+// exp(-1/2). Three nodes on six of these units have one within 1.2 units of any peak.
+constexpr double peak_widths = 3;
+
+class LightEffect {
+  public:
+    using Value = glm::dvec3;
+
+    LightEffect(const LitPiece& piece, const RayLights& lights)
+        : piece_(piece),
+          lights_(lights),
+          largest_effect_(lights.largest_effect(
+              largest_component(glm::max(piece.color, piece.color + piece.color_change)))),
+          most_turn_(lights.has_highlights()
+                         ? std::min(most_growth, peak_widths / std::sqrt(lights.power()))
+                         : most_growth) {}
+
+    // Returns 0, the kinks in order, and 1.
+    std::vector<double> smooth_intervals() const {
+        std::vector<double> ends{0, 1};
+        for (const RayLights::Direction& direction : lights_.directions()) {
+            append_roots(direction.light, ends);
+            if (lights_.has_highlights()) append_roots(direction.halfway, ends);
+        }
+        std::sort(ends.begin(), ends.end());
+        ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+        return ends;
+    }
+
+    glm::dvec3 at(double t) const {
+        const glm::dvec3 color = piece_.color + piece_.emission.position(t) * piece_.color_change;
+        return lights_.effect(value_at(piece_.gradient, t)).on(color);
+    }
+    QuantityRange over(double from, double to) const {
+        const GradientBall ball = ball_of(piece_.gradient, from, to);
+        const double steepness = glm::length(ball.center);
+        return {largest_effect_ * lights_.weight(steepness + ball.radius),
+                ball.radius <= most_turn_ * steepness};
+    }
+    // The effect is between -bound and bound, and so is its value in the middle.
+    bool is_faint(double opacity, double allowed, double bound) const {
+        return 2 * bound * opacity <= allowed;
+    }
+    double spread(double opacity, double bound) const { return 2 * bound * std::max(opacity, 0.0); }
+    double rounding(double in_front, double depth_to, double bound) const {
+        return 1e-15 * bound * in_front * (depth_to + 1);
+    }
+    double largest(const glm::dvec3& effect) const { return largest_component(glm::abs(effect)); }
+
+  private:
+    void append_roots(const glm::dvec3& direction, std::vector<double>& roots) const {
+        const Cubic cosine = dot(piece_.gradient, direction);
+        const CubicTurns turns = turns_of(cosine);
+        for (int i = 0; i < turns.count; ++i) {
+            const double from = turns.t[i], to = turns.t[i + 1];
+            const double start = cosine(from), end = cosine(to);
+            if (!(std::min(start, end) < 0 && std::max(start, end) > 0)) continue;
+            roots.push_back(std::clamp(solve_monotone(cosine, 0, from, to), from, to));
+        }
+    }
+
+    const LitPiece& piece_;
+    const RayLights& lights_;
+    double largest_effect_;
+    double most_turn_;  // as a share of the gradient's length
+};
+
 }  // namespace
 
 EmissionIntegral integrate_emission(const EmissionPiece& piece, double error_per_t,
@@ -304,6 +521,21 @@ EmissionIntegral integrate_emission(const EmissionPiece& piece, double error_per
     const PiecePosition position{piece};
     NestedIntegral integral(piece, position, error_per_t, error_per_opacity, most_intervals);
     integral.add(0, 1, 0, piece.depth(1));
+    return integral.result();
+}
+
+LightIntegral integrate_light(const LitPiece& piece, const RayLights& lights, double error_per_t,
+                              double error_per_opacity) {
+    constexpr int most_intervals = 20000;
+    const LightEffect effect(piece, lights);
+    NestedIntegral integral(piece.emission, effect, error_per_t, error_per_opacity, most_intervals);
+    const std::vector<double> ends = effect.smooth_intervals();
+    double depth_from = 0;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        const double depth_to = piece.emission.depth(ends[i + 1]);
+        integral.add(ends[i], ends[i + 1], depth_from, depth_to);
+        depth_from = depth_to;
+    }
     return integral.result();
 }
 

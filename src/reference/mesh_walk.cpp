@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/mesh_walk.h"
 
-#include <limits>
-
 #include "mesh/tet_mesh.h"
 
 #undef LAMINA_TARGET_FILE
 #define LAMINA_TARGET_FILE "reference/mesh_walk.cpp"
 #include "simd/foreach_target.h"
 
+#include "reference/cut-inl.h"
 #include "simd/double_doubles-inl.h"
 
 LAMINA_SIMD_BEGIN
 namespace reference {
 
-// Takes a step as RayWalk::step() (mesh/ray_walk.cpp), with the same numbers rounded in the same
-// way.
+// As RayWalk::step() (mesh/ray_walk.cpp), rounded in the same way.
 class WalkStep {
   public:
     WalkStep(WalkLanes& lanes, std::size_t first) : lanes_(lanes), first_(first) {}
@@ -23,8 +21,7 @@ class WalkStep {
     LAMINA_INLINE void run() {
         const Seen top = see_top();
         const Double to_top[3] = {area_to(0, top), area_to(1, top), area_to(2, top)};
-        // The line leaves between the corners whose edges to the top change from negative to
-        // positive; the third is left behind.
+        // Leaves between the corners whose edges to the top change from negative to positive.
         const DoubleMask left[3] = {changes(to_top[1], to_top[2]), changes(to_top[2], to_top[0]),
                                     changes(to_top[0], to_top[1])};
         settled_ = settled_ & (left[0] | (left[1] | left[2]));
@@ -52,7 +49,6 @@ class WalkStep {
     LAMINA_INLINE Long get(const WalkLanes::Numbers& row) const {
         return load<Long>(row.data() + first_);
     }
-    // Sets the lanes that are settled.
     LAMINA_INLINE void put(Row& row, Double values) const {
         store(select(settled_, values, get(row)), row.data() + first_);
     }
@@ -69,8 +65,7 @@ class WalkStep {
                 RayWalk::place_error * distance};
     }
 
-    // Returns twice the area of the triangle of the line and the edge from a corner to the top. A
-    // lane in which its sign is not certain is not settled.
+    // Twice the area of the line and an edge to the top. Unsure lanes are not settled.
     LAMINA_INLINE Double area_to(std::size_t corner, const Seen& top) {
         const WalkLanes::Corner& row = lanes_.front[corner];
         const Double x = get(row.x), y = get(row.y), reach = get(row.reach);
@@ -111,7 +106,6 @@ class WalkStep {
         store(select(replaced, get(lanes_.top_point), point), row.point.data() + first_);
     }
 
-    // Finds the crossing as RayWalk::crossing() does.
     LAMINA_INLINE void cross(const Double (&areas)[3]) const {
         WalkLanes::Crossing& out = lanes_.out();
         const Double sum = areas[0] + areas[1] + areas[2];
@@ -131,19 +125,54 @@ class WalkStep {
 
     WalkLanes& lanes_;
     std::size_t first_;
-    // The lanes that are done. No lane is settled without fused multiplication and addition: areas
-    // are then less accurate than those of RayWalk.
+    // None without fused multiplication: areas are then less accurate than those of RayWalk.
     DoubleMask settled_ = DoubleMask(fuses);
 };
 
+// Cuts a vector of segments as seen_segment() does. Returns a bit for each lane that is visible.
+LAMINA_INLINE LaneSet find_seen_from(const WalkLanes& walk, const VisibleRanges& visible,
+                                     std::size_t lane, SeenLanes& seen) {
+    const auto get = [&](const WalkLanes::Row& row)
+                         LAMINA_LAMBDA { return load<Double>(row.data() + lane); };
+    const auto put = [&](WalkLanes::Row& row, Double values)
+                         LAMINA_LAMBDA { store(values, row.data() + lane); };
+    const Double enter = get(walk.in().at), leave = get(walk.out().at);
+    const Double at_enter = get(walk.in().value), at_leave = get(walk.out().value);
+    const Double first = get(seen.first), last = get(seen.last);
+    const Double slope = (at_leave - at_enter) / (leave - enter);
+    const DoubleMask cut_first = (enter < first), cut_last = (leave > last);
+    const Double from = select(cut_first, first, enter), to = select(cut_last, last, leave);
+    const Double front = select(cut_first, at_enter + slope * (first - enter), at_enter);
+    const Double back = select(cut_last, at_leave - slope * (leave - last), at_leave);
+    const Double least = get(walk.least), most = get(walk.most);
+    const Double bound =
+        scalar_epsilons * std::numeric_limits<double>::epsilon() * max(abs(least), abs(most));
+    const Double slack = zero_if(least == most, bound);
+    put(seen.from, from);
+    put(seen.to, to);
+    put(seen.front, front);
+    put(seen.back, back);
+    put(seen.length, (to - from) * get(seen.world_per_z));
+    put(seen.slack, slack);
+    const DoubleMask shows = visible.meet(min(front, back) - slack, max(front, back) + slack);
+    return bits_of(shows & (from < to));
+}
+
 }  // namespace reference
 
-// Takes every line through its tet: from `front`, `top` and in() to out(), and to `front` behind.
 // Lanes in which floats do not decide the face keep their values.
 inline void step_lanes_of(WalkLanes& lanes) {
     using namespace reference;
     for (std::size_t first = 0; first < WalkLanes::width; first += Double::lanes)
         WalkStep(lanes, first).run();
+}
+
+inline void find_seen_of(const WalkLanes& walk, const IntervalColumns& intervals, SeenLanes& seen) {
+    using namespace reference;
+    const VisibleRanges visible(intervals);
+    seen.shown = 0;
+    for (std::size_t lane = 0; lane < WalkLanes::width; lane += Double::lanes)
+        seen.shown |= find_seen_from(walk, visible, lane, seen) << lane;
 }
 
 LAMINA_SIMD_END
@@ -153,12 +182,40 @@ namespace lamina {
 namespace {
 
 void set_vector(std::array<WalkLanes::Row, 3>& rows, std::size_t lane, const glm::dvec3& v) {
-    for (int axis = 0; axis < 3; ++axis) rows[static_cast<std::size_t>(axis)][lane] = v[axis];
+    for (int axis = 0; axis < 3; ++axis) rows[axis][lane] = v[axis];
 }
 
 }  // namespace
 
 LAMINA_EXPORT(step_lanes_of);
+LAMINA_EXPORT(find_seen_of);
+
+SeenSegment seen_segment(const SeenSegment& whole, const SeenRange& seen) {
+    if (whole.from >= seen.from && whole.to <= seen.to) return whole;
+    if (whole.to <= seen.from || whole.from >= seen.to || seen.from >= seen.to) return {0, 0, 0, 0};
+    SeenSegment cut = whole;
+    const double slope = (cut.back - cut.front) / (cut.to - cut.from);
+    if (cut.to > seen.to) {
+        cut.back -= slope * (cut.to - seen.to);
+        cut.to = seen.to;
+    }
+    if (cut.from < seen.from) {
+        cut.front += slope * (seen.from - cut.from);
+        cut.from = seen.from;
+    }
+    return cut;
+}
+
+SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
+                         std::span<const double> scalar) {
+    return seen_segment({segment.in.at, segment.out.at, segment.in.interpolate(scalar),
+                         segment.out.interpolate(scalar)},
+                        seen);
+}
+
+void find_seen(const WalkLanes& walk, const IntervalColumns& intervals, SeenLanes& seen) {
+    LAMINA_DISPATCH(find_seen_of)(walk, intervals, seen);
+}
 
 PacketWalk::PacketWalk(const TetMesh& mesh, const FaceTree& open_faces,
                        std::span<const double> values)
@@ -193,7 +250,7 @@ std::int32_t PacketWalk::tet_behind(std::size_t lane) const {
     const Tet& tet = mesh_.tets()[number];
     const auto left = static_cast<std::int32_t>(lanes_.left_behind[lane]);
     const int face = (tet[1] == left) + 2 * (tet[2] == left) + 3 * (tet[3] == left);
-    return mesh_.neighbors()[number][static_cast<std::size_t>(face)];
+    return mesh_.neighbors()[number][face];
 }
 
 // Each tet is passed at most once. The limit ends walks in meshes that are not valid.
@@ -203,8 +260,8 @@ void PacketWalk::move(std::size_t lane, std::int32_t tet) {
     const auto in_front = [&](std::size_t i) {
         return static_cast<std::int32_t>(lanes_.front[i].point[lane]);
     };
-    const std::int32_t top = corner_opposite(mesh_.tets()[static_cast<std::size_t>(tet)],
-                                             in_front(0), in_front(1), in_front(2));
+    const std::int32_t top =
+        corner_opposite(mesh_.tets()[tet], in_front(0), in_front(1), in_front(2));
     const auto point = static_cast<std::size_t>(top);
     set_vector(lanes_.top, lane, mesh_.points()[point]);
     lanes_.top_value[lane] = values_[point];
@@ -213,8 +270,7 @@ void PacketWalk::move(std::size_t lane, std::int32_t tet) {
 
 // Takes a step that vectors of floats did not decide.
 std::int32_t PacketWalk::step_alone(std::size_t lane) {
-    const auto [least, most] =
-        range_in(values_, mesh_.tets()[static_cast<std::size_t>(tets_[lane])]);
+    const auto [least, most] = range_in(values_, mesh_.tets()[tets_[lane]]);
     lanes_.least[lane] = least;
     lanes_.most[lane] = most;
     TetSegment segment{tets_[lane], crossing(lanes_.in(), lane), {}};
@@ -268,7 +324,7 @@ void PacketWalk::set_front(std::size_t lane, const RayFront& front) {
         rows.y[lane] = corner.y;
         rows.at[lane] = corner.at;
         rows.reach[lane] = corner.reach;
-        rows.value[lane] = values_[static_cast<std::size_t>(corner.point)];
+        rows.value[lane] = values_[corner.point];
         lanes_.areas[i][lane] = front.areas[i];
     }
 }

@@ -9,23 +9,21 @@
 //       the line leaves by the top and the two corners between which area_to turns from - to +
 //       replace the third corner in front by the top; out = the crossing of this face
 //
-// A lane in which floats do not decide the sign of an area takes its step by RayWalk::step(), which
-// is exact. Both find the same digits.
+// Lanes in which floats do not decide the sign of an area take RayWalk::step(), which is exact.
+//
+//   for each segment (enter, leave) of the ray in a tet, in which the scalar is linear:
+//       cut it to the range that the clip keeps, and interpolate the scalar at its new ends
+//       it is visible if an interval of the transfer function that its scalars touch has extinction
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "mesh/ray_walk.h"
+#include "reference/chord.h"
+#include "reference/transfer_intervals.h"
 #include "simd/lane_set.h"
 
 namespace lamina {
 
-// The memory of PacketWalk: a number a line in each row. Lines are as in LineFrame, faces as in
-// RayFront and FaceCrossing.
+// A number a line in each row (LineFrame, RayFront, FaceCrossing).
 struct WalkLanes {
     static constexpr std::size_t width = longest_vector;
     using Row = LaneRow;
@@ -63,9 +61,8 @@ struct WalkLanes {
     Numbers settled;      // not 0: the step is done; 0: floats do not decide it
 };
 
-// Walks some lines through a mesh side by side, so that one waits for memory while others are
-// computed. Each passes the tets that RayWalk::follow() takes it through, with the same crossings.
-// Each thread needs its own object.
+// Walks lines side by side, so that one waits for memory while others are computed. Each passes the
+// tets of RayWalk::follow(), with the same crossings. Each thread needs its own object.
 class PacketWalk {
   public:
     static constexpr std::size_t width = WalkLanes::width;
@@ -75,16 +72,13 @@ class PacketWalk {
 
     // Returns a lane's line, to be aimed before the lane enters.
     RayWalk& ray(std::size_t lane) { return rays_[lane]; }
-    // Lets the lane's line enter the mesh. step() moves it on until it leaves or stops.
+    // Lets the line enter. step() moves it until it leaves or stops.
     void enter(std::size_t lane, const RayWalk::Entry& entry);
     void stop(std::size_t lane) { walking_ &= ~lane_bit(lane); }
     LaneSet walking() const { return walking_; }
 
-    // Takes every line that walks through one more tet.
     void step();
 
-    // Results of the last step: the tets that the lines passed, and the places at which they
-    // entered and left them.
     std::int32_t tet(std::size_t lane) const { return passed_[lane]; }
     const WalkLanes& lanes() const { return lanes_; }
     TetSegment segment(std::size_t lane) const;
@@ -106,5 +100,37 @@ class PacketWalk {
     LaneSet walking_ = 0;
     WalkLanes lanes_{};
 };
+
+// The visible part of a tet's segment, linear between both scalars; empty if !(from < to).
+struct SeenSegment {
+    double from, to;
+    double front, back;
+};
+// `whole`: the segment from the ray's entry into the tet to its exit.
+SeenSegment seen_segment(const SeenSegment& whole, const SeenRange& seen);
+SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
+                         std::span<const double> scalar);
+
+struct SeenLanes {
+    using Row = LaneRow;
+
+    Row first, last;  // SeenRange
+    Row world_per_z;  // world length per unit of the parameter
+
+    Row from, to, front, back;  // SeenSegment
+    Row length;                 // in world units
+    Row slack;                  // scalar_slack()
+    LaneSet shown = 0;          // lanes that are not empty and may be visible
+};
+
+// Returns the largest error of interpolated scalars in a tet. Constant scalars are exact.
+inline constexpr double scalar_epsilons = 64;
+inline double scalar_slack(double least, double most) {
+    if (least == most) return 0;
+    return scalar_epsilons * std::numeric_limits<double>::epsilon() *
+           std::max(std::abs(least), std::abs(most));
+}
+
+void find_seen(const WalkLanes& walk, const IntervalColumns& intervals, SeenLanes& seen);
 
 }  // namespace lamina

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/order_pixels.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <limits>
-
 #include "base/parallel.h"
 #include "mesh/ray_walk.h"
 
@@ -13,7 +9,6 @@ namespace {
 
 constexpr double visible = 1e-12;  // share of the ray's way: see the header
 
-// A segment of a ray in a tet, in front of the eye.
 struct DrawnSegment {
     std::int32_t tet;
     double in, out;
@@ -23,15 +18,13 @@ struct DrawnSegment {
 struct Judged {
     const VisibilityOrder* order;
     std::vector<std::int32_t> places;
-    std::int32_t place(const DrawnSegment& segment) const {
-        return places[static_cast<std::size_t>(segment.tet)];
-    }
+    std::int32_t place(const DrawnSegment& segment) const { return places[segment.tet]; }
 };
 
 Judged judged(const VisibilityOrder* order) {
     Judged result{order, std::vector<std::int32_t>(order->order().size())};
     for (std::size_t i = 0; i < result.places.size(); ++i)
-        result.places[static_cast<std::size_t>(order->order()[i])] = static_cast<std::int32_t>(i);
+        result.places[order->order()[i]] = static_cast<std::int32_t>(i);
     return result;
 }
 
@@ -39,8 +32,7 @@ class PixelJudge {
   public:
     PixelJudge(const TetMesh& mesh, const FaceTree& open_faces) : walk_(mesh, open_faces) {}
 
-    // Collects the tets on the ray in front of the eye, by the places at which it enters them.
-    // Returns whether there are any.
+    // Returns whether the ray meets tets in front of the eye.
     bool look(const View::Ray& ray) {
         walk_.aim(ray.origin, ray.direction);
         walk_.list(listed_);
@@ -59,8 +51,7 @@ class PixelJudge {
         return !segments_.empty();
     }
 
-    // Returns whether a tet is drawn before one that lies wholly behind it. One pass is enough: of
-    // all tets that the ray has left so far, it keeps the one that is drawn first.
+    // Returns whether a tet is drawn before one that lies wholly behind it.
     bool wrong(const Judged& judged) const {
         std::int32_t first_drawn = std::numeric_limits<std::int32_t>::max();
         std::size_t left = 0;
@@ -107,7 +98,7 @@ std::vector<OrderPixels> judge_pixels(const TetMesh& mesh, const FaceTree& open_
     for (const VisibilityOrder* order : orders) all.push_back(judged(order));
     std::vector<std::vector<OrderPixels>> rows(static_cast<std::size_t>(view.height));
     parallel_for(view.height, 1, [&](std::int64_t row) {
-        std::vector<OrderPixels>& found = rows[static_cast<std::size_t>(row)];
+        std::vector<OrderPixels>& found = rows[row];
         found.resize(all.size());
         PixelJudge judge(mesh, open_faces);
         for (int column = 0; column < view.width; ++column) {

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/tiles.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <limits>
 #include <mutex>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "mesh/face_tree.h"
 #include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
@@ -27,8 +22,7 @@ constexpr double widest = 1e3;
 constexpr double place_error = 64 * std::numeric_limits<double>::epsilon(), spare_pixels = 1e-6;
 constexpr double least_error = 64 * std::numeric_limits<double>::denorm_min();
 
-// Returns how far the view's axes are from orthonormal: 1e-8 if `up` is nearly parallel to the view
-// direction.
+// Returns how far the view's axes are from orthonormal (1e-8 if `up` is nearly along the view).
 double skew_of(const View& view) {
     const auto off = [](const glm::dvec3& a, const glm::dvec3& b, double expected) {
         return std::abs(glm::dot(a, b) - expected);
@@ -72,30 +66,40 @@ std::vector<PictureTile> tiles_to_trace(int width, int height) {
     return tiles;
 }
 
-void trace_tiles(const std::vector<PictureTile>& tiles,
-                 const std::function<void(const PictureTile&, std::size_t, const RowDone&)>& trace,
-                 const PreciseImage& picture, const TileDone& done) {
+void TraceTotals::add(const TraceTotals& other) {
+    error_estimate = std::max(error_estimate, other.error_estimate);
+    segments += other.segments;
+    overlapping_rays += other.overlapping_rays;
+}
+
+TraceResult trace_tiles(
+    const View& view,
+    const std::function<TraceTotals(const PictureTile&, PreciseImage&, const RowDone&)>& trace,
+    const TileDone& done) {
+    TraceResult result{{}, PreciseImage(view.width, view.height)};
+    const std::vector<PictureTile> tiles = tiles_to_trace(view.width, view.height);
     std::int64_t rows = 0;
     for (const PictureTile& tile : tiles) rows += tile.height;
     Progress progress("tracing", rows);
     std::atomic<std::size_t> next{0};  // the loop's own numbers come in no order
     std::mutex telling;
-    parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t) {
-        const std::size_t number = next++;
-        // Rows are counted, because a tile of thousands of lit segments a ray takes minutes. Those
-        // without anything visible are left out.
-        std::int64_t left = tiles[number].height;
-        trace(tiles[number], number, [&] {
+    parallel_for(std::ssize(tiles), 1, [&](std::int64_t) {
+        const PictureTile& tile = tiles[next++];
+        // Rows are counted, because a tile may take minutes. Empty ones are left out.
+        std::int64_t left = tile.height;
+        const TraceTotals totals = trace(tile, result.image, [&] {
             if (left == 0) return;
             --left;
             progress.advance();
         });
-        if (done) {
+        {
             const std::lock_guard lock(telling);
-            done(tiles[number], picture);
+            result.add(totals);
+            if (done) done(tile, result.image);
         }
         progress.advance(left);
     });
+    return result;
 }
 
 TileSight::TileSight(const View& view, const PictureTile& tile)
@@ -152,8 +156,7 @@ bool TileFaces::list(const PictureTile& tile) {
         return count <= most_listed && !sight.around(box_corners(box.min, box.max)).empty();
     };
     const auto add = [&](std::int32_t face) {
-        const SeenPixels pixels =
-            sight.around(mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(face)]));
+        const SeenPixels pixels = sight.around(mesh_.corners(mesh_.open_faces()[face]));
         if (pixels.empty()) return;
         faces_.push_back({face, pixels});
         const glm::ivec2 size = pixels.last - pixels.first + 1;

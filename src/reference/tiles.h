@@ -9,22 +9,15 @@
 //       report that the tile is done
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <optional>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include "base/client.h"
 #include "lamina/image.h"
 #include "lamina/lighting.h"
 #include "lamina/picture_tile.h"
 #include "scene/camera.h"
-#include "scene/half_space.h"
+#include "scene/clip.h"
 
 namespace lamina {
 
@@ -35,36 +28,51 @@ struct TraceOptions {
     // Largest error of every channel, as a share of full scale (1.0); 1e-12 .. 1. For meshes it
     // bounds the error of light: everything else is in closed form.
     double tolerance = 1e-5;
-    // Must pass scene/lighting_check.h. Throws Error without its smallest gradient.
+    // Must pass check_lighting(). Throws Error without its smallest gradient.
     std::optional<Lighting> lighting = {};
     std::vector<HalfSpace> clip = {};  // the half-spaces in all of which drawn points lie
 
     static constexpr double smallest_tolerance = 1e-12;  // below it rounding dominates
 };
 
-// Throws Error for options out of range.
+// Sums over rays.
+struct TraceTotals {
+    // The largest error over all pixels and channels, as a share of full scale: of a volume without
+    // rounding (some 1e-14); of a mesh a bound on the rounding of segments and of the places where
+    // rays cross faces, and on that of light.
+    double error_estimate = 0;
+    // Number of pieces of rays with extinction that were integrated, each inside one cell and one
+    // interval of the transfer function, or of ray segments inside one tet.
+    std::int64_t segments = 0;
+    // Number of rays on which a mesh overlaps itself. There its tets are composited one after the
+    // other, in the order in which the ray enters them.
+    std::int64_t overlapping_rays = 0;
+
+    void add(const TraceTotals& other);
+};
+struct TraceResult : TraceTotals {
+    PreciseImage image;  // associated RGBA in linear light, before any background
+};
+
 void check(const TraceOptions& options);
 
-// Called when a row of pixels is done.
 using RowDone = std::function<void()>;
 
-// Called when a tile of the picture is complete, by one thread at a time; the other pixels of the
-// picture have no meaning yet, or are being written.
+// Called by one thread at a time; other pixels have no meaning yet.
 using TileDone = std::function<void(const PictureTile&, const PreciseImage&)>;
 
-// Returns tiles of 32 x 32 pixels, and smaller ones at the edges, those nearest the middle first.
+// Tiles of 32 x 32 pixels, smaller at the edges, those nearest the middle first.
 std::vector<PictureTile> tiles_to_trace(int width, int height);
 
-// Calls trace(tile, its number, row done) for each of them on all cores, in their order, and then
-// `done`.
-void trace_tiles(const std::vector<PictureTile>& tiles,
-                 const std::function<void(const PictureTile&, std::size_t, const RowDone&)>& trace,
-                 const PreciseImage& picture, const TileDone& done);
+// Calls trace(tile, picture, row done) for each tile on all cores, in order, and then `done`.
+TraceResult trace_tiles(
+    const View& view,
+    const std::function<TraceTotals(const PictureTile&, PreciseImage&, const RowDone&)>& trace,
+    const TileDone& done);
 
-// Returns the pixels of a rectangle, row by row. It throws when the user interrupts.
+// The pixels of a rectangle, row by row. Throws when the user interrupts.
 class PixelsInTurn {
   public:
-    // `first` and `last` are the rectangle's corners.
     PixelsInTurn(const glm::ivec2& first, const glm::ivec2& last, RowDone row_done)
         : first_(first), last_(last), next_(first), row_done_(std::move(row_done)) {}
 
@@ -89,13 +97,11 @@ struct SeenPixels {
     bool empty() const { return first.x > last.x || first.y > last.y; }
 };
 
-// Finds the pixels of a tile that may see something.
 class TileSight {
   public:
     TileSight(const View& view, const PictureTile& tile);
 
-    // Returns the pixels whose lines, which go on behind the eye, may meet the convex hull of some
-    // points: all of them, and perhaps others.
+    // Returns the pixels whose lines, also behind the eye, may meet the hull of some points.
     SeenPixels around(std::span<const glm::dvec3> points) const;
 
   private:
@@ -106,8 +112,7 @@ class TileSight {
     double eye_norm_;
 };
 
-// The open faces that the lines of a tile's pixels may meet: they are found once for the tile, so
-// that each line need not search the tree.
+// The open faces that a tile's lines may meet, found once so that lines need not search the tree.
 class TileFaces {
   public:
     TileFaces(const TetMesh& mesh, const FaceTree& open_faces, const View& view)
@@ -116,8 +121,7 @@ class TileFaces {
     // Lists the faces of a tile. Returns false if there are too many to be listed.
     bool list(const PictureTile& tile);
 
-    // Returns indices into the mesh's open faces, for a pixel of the picture in the tile that was
-    // listed.
+    // Returns indices into the mesh's open faces, for a pixel of the picture in that tile.
     std::span<const std::int32_t> of(const glm::ivec2& pixel) const;
 
   private:

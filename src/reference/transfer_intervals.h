@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <glm/vec3.hpp>
-#include <vector>
 
 #include "lamina/transfer_function.h"
 
 namespace lamina {
 
-// The intervals of TransferIntervals, field by field, for vectors. In interval i extinction is
-// linear in the position x = (value - lo) * inverse_width, 0 <= x <= 1; outside the outermost knots
-// it is constant (change = 0). Columns have room for the longest vector at least.
+// Field by field, for vectors. In interval i extinction is linear in x = (value - lo) *
+// inverse_width, 0 <= x <= 1; outside the knots it is constant. Columns hold a longest vector.
 struct IntervalColumns {
     // Interval i lies between bounds[i] and bounds[i + 1]: the knots, -infinity before them, and
     // infinity behind them, at least as often as to make the knots and one more a power of two.
@@ -29,20 +26,17 @@ struct IntervalColumns {
     std::size_t visible_count = 0;
 };
 
-// The colour of a transfer function between two neighbouring knots, by the position x of
-// IntervalColumns: color + x * change.
+// The colour between two knots: color + x * change.
 struct IntervalColor {
     glm::dvec3 color{0};
     glm::dvec3 change{0};
 };
 
-// A transfer function as a list of intervals. The interval of a value is decided once for each
-// piece of a ray, from the values on the piece, so that each side of a step has its own properties.
+// The interval is decided once a piece of a ray, so that a step's sides have their own properties.
 class TransferIntervals {
   public:
     explicit TransferIntervals(const TransferFunction& transfer_function);
 
-    // Interval i lies between knots i-1 and i.
     const IntervalColor& color(std::size_t interval) const { return colors_[interval]; }
     const IntervalColumns& columns() const { return columns_; }
 
@@ -53,7 +47,7 @@ class TransferIntervals {
         if (columns_.visible_count == 1) return lows[0] <= hi && lo <= highs[0];
         const auto end = highs.begin() + static_cast<std::ptrdiff_t>(columns_.visible_count);
         const auto range = std::lower_bound(highs.begin(), end, lo);
-        return range != end && lows[static_cast<std::size_t>(range - highs.begin())] <= hi;
+        return range != end && lows[range - highs.begin()] <= hi;
     }
     double brightest() const { return brightest_; }  // largest colour component of all
 

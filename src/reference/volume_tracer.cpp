@@ -9,18 +9,11 @@
 //
 // If the visible cells are known, a packet of rays walks side by side. A lane whose ray ends takes
 // the tile's next ray.
-#include "reference/volume_tracer.h"
+#include "reference/tracer.h"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <optional>
-
+#include "base/client.h"
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "mesh/predicates.h"
 #include "optics/ray_lights.h"
 #include "reference/cell_walk.h"
@@ -28,23 +21,14 @@
 #include "reference/chord.h"
 #include "reference/composite.h"
 #include "reference/transfer_intervals.h"
-#include "reference/visible_cells.h"
 #include "simd/lane_set.h"
 
 namespace lamina {
 namespace {
 
 // The result of a ray.
-struct TracedRay {
+struct TracedRay : TraceTotals {
     glm::dvec4 rgba{0};  // associated
-    double error_estimate = 0;
-    std::int64_t segments = 0;
-};
-
-// Totals over the rays of a volume's picture.
-struct VolumeTotals {
-    double error_estimate = 0;  // the largest
-    std::int64_t segments = 0;
 };
 
 // Data that all rays of a picture share. `Samples` are as in CellSamples.
@@ -60,13 +44,11 @@ struct TracedVolume {
           transfer(intervals),
           visible(visible_cells),
           options(how) {
-        // Margin, as a share of the diagonal, for axes that are not quite orthogonal (by 1e-5 at
-        // most, volume_files/grid_check.cpp), and for rounding.
+        // Spare for axes that are not quite orthogonal (by 1e-5, volume_files/grid_check.cpp).
         const double spare =
             1e-4 * glm::distance(grid.to_world(axes.lowest), grid.to_world(axes.highest));
         glm::dvec3 steps;
-        for (int axis = 0; axis < 3; ++axis)
-            steps[axis] = spare / glm::length(grid.step[static_cast<std::size_t>(axis)]);
+        for (int axis = 0; axis < 3; ++axis) steps[axis] = spare / glm::length(grid.step[axis]);
         corners = box_corners(axes.lowest - steps, axes.highest + steps);
         for (glm::dvec3& corner : corners) corner = grid.to_world(corner);
     }
@@ -81,8 +63,7 @@ struct TracedVolume {
     const TraceOptions& options;
 };
 
-// One ray through a volume, whose cells are integrated some at a time: the first are few, because
-// they may hide the others. It is used for one ray after the other.
+// One ray, whose first cells are few, because they may hide the others. It is used again.
 template <typename Samples>
 class VolumeRay {
   public:
@@ -98,8 +79,7 @@ class VolumeRay {
         cells_.wanted = first_together;
     }
 
-    // The caller adds the cells along the chord here, front to back, and calls integrate() as soon
-    // as they are complete().
+    // The caller adds cells, front to back, and calls integrate() as soon as they are complete().
     CellBatch& cells() { return cells_; }
 
     // Returns whether anything behind may be visible.
@@ -107,7 +87,7 @@ class VolumeRay {
         traced_.samples.fetch(cells_);
         make_segments(cells_, chord_, traced_.transfer.columns(), segments_);
         if (traced_.options.lighting)
-            integrator_.add_lit(segments_, [&](std::size_t segment) {
+            integrator_.add(segments_, [&](std::size_t segment) {
                 return gradient(static_cast<std::size_t>(segments_.cell[segment]));
             });
         else
@@ -119,11 +99,10 @@ class VolumeRay {
 
     TracedRay finish() {
         integrate();
-        return {glm::dvec4(integrator_.color(), integrator_.alpha()), integrator_.error_estimate(),
-                integrator_.pieces()};
+        const glm::dvec4 rgba(integrator_.color(), integrator_.alpha());
+        return {{integrator_.error_estimate(), integrator_.pieces()}, rgba};
     }
 
-    // Traces a ray through all of its cells.
     TracedRay trace(const View::Ray& ray) {
         const Chord chord = clip_to_box(traced_.axes, ray, traced_.options.clip);
         if (!(chord.length_z > 0)) return {};
@@ -155,7 +134,6 @@ class VolumeRay {
     SegmentBatch segments_;
 };
 
-// Traces one tile of a volume's picture.
 template <typename Samples>
 class VolumeTile {
   public:
@@ -166,7 +144,7 @@ class VolumeTile {
           image_(image),
           pixels_(pixels_of(tile, TileSight(view, tile).around(traced.corners), row_done)) {}
 
-    VolumeTotals trace() {
+    TraceTotals trace() {
         if (!pixels_.any()) return {};
         if (traced_.visible.empty()) {
             trace_one_by_one();
@@ -244,8 +222,7 @@ class VolumeTile {
     void add(const glm::ivec2& pixel, const TracedRay& ray) {
         for (int channel = 0; channel < 4; ++channel)
             image_.pixel(pixel.x, pixel.y)[channel] = ray.rgba[channel];
-        totals_.error_estimate = std::max(totals_.error_estimate, ray.error_estimate);
-        totals_.segments += ray.segments;
+        totals_.add(ray);
     }
 
     const TracedVolume<Samples>& traced_;
@@ -261,12 +238,11 @@ class VolumeTile {
     std::array<View::Ray, width> clipped_{};
     std::array<Chord, width> chords_;
     std::size_t clipped_count_ = 0, begun_ = 0;
-    VolumeTotals totals_;
+    TraceTotals totals_;
 };
 
-// Tells whether finding visible cells, which reads every sample, is worth the time. It is if rays
-// meet as many cells: one through a cube meets about as many as an edge of it has, and rays through
-// thin volumes fewer.
+// Tells whether reading every sample for visible cells is worth it: if rays meet as many cells. One
+// through a cube meets about as many as an edge has.
 bool worth_visible_cells(const Volume& volume, const View& view) {
     const std::int64_t pixels = std::int64_t{view.width} * view.height;
     const std::int64_t cells_a_ray = std::ranges::min(volume.grid().size);
@@ -279,25 +255,19 @@ bool worth_visible_cells(const Volume& volume, const View& view) {
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
                          const View& view, const TraceOptions& options, const TileDone& tile_done) {
     check(options);
-    TraceResult result{PreciseImage(view.width, view.height)};
     const TransferIntervals transfer(transfer_function);
     const VisibleCells cells =
         worth_visible_cells(volume, view) ? VisibleCells(volume, transfer) : VisibleCells();
-    const std::vector<PictureTile> tiles = tiles_to_trace(view.width, view.height);
-    std::vector<VolumeTotals> totals(tiles.size());
+    TraceResult result;
     visit_samples(volume, [&](const auto& first_sample) {
         const TracedVolume traced(volume, first_sample, transfer, cells, options);
-        const auto trace = [&](const PictureTile& tile, std::size_t number,
+        const auto trace = [&](const PictureTile& tile, PreciseImage& image,
                                const RowDone& row_done) {
-            totals[number] = VolumeTile(traced, view, tile, result.image, row_done).trace();
+            return VolumeTile(traced, view, tile, image, row_done).trace();
         };
-        trace_tiles(tiles, trace, result.image, tile_done);
+        result = trace_tiles(view, trace, tile_done);
     });
     check_unchanged(volume);
-    for (const VolumeTotals& tile : totals) {
-        result.error_estimate = std::max(result.error_estimate, tile.error_estimate);
-        result.segments += tile.segments;
-    }
     return result;
 }
 
@@ -307,7 +277,7 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
     check(options);
     const TransferIntervals transfer(transfer_function);
     std::vector<TracedRay> rays(pixels.size());
-    Progress progress("tracing trial rays", static_cast<std::int64_t>(pixels.size()));
+    Progress progress("tracing trial rays", std::ssize(pixels));
     visit_samples(volume, [&](const auto& first_sample) {
         const VisibleCells all;
         const TracedVolume traced(volume, first_sample, transfer, all, options);

@@ -2,12 +2,28 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "gl/context.h"
+#include "lamina/auto.h"
+#include "lamina/context_choice.h"
 #include "plan/capabilities.h"
-#include "render/context_choice.h"
 
 namespace lamina {
+
+const char* name_of(ContextChoice choice);
+
+// Tells whether `word` names a context or is "auto".
+bool is_context(const std::string& word);
+// Lists these words for messages.
+std::string context_words();
+// Returns the choice of a word. Throws UsageError if the word is unknown.
+Auto<ContextChoice> context_choice(const std::string& word);
+
+// Restricts the engine `cpu` to the instruction set that the environment variable
+// LAMINA_INSTRUCTIONS names, if it is set. This is for checks. Throws UsageError if the machine
+// does not have these instructions.
+void restrict_instructions_as_asked();
 
 // The context that draws pictures: one of OpenGL, or the engine `cpu`, for which no OpenGL library
 // is loaded.

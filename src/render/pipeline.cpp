@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/client.h"
+#include "base/error.h"
+#include "base/memory.h"
 #include "base/profile.h"
 #include "choice/field.h"
 #include "facts/mesh_facts.h"
@@ -12,11 +14,57 @@
 #include "gl/api.h"
 #include "gl/timeline.h"
 #include "mesh/tet_mesh.h"
-#include "render/context_choice.h"
+#include "plain/plain_tracer.h"
+#include "reference/scene_tracer.h"
 #include "render/warnings.h"
 #include "scene/given_transfer.h"
 
 namespace lamina {
+namespace {
+
+// Returns the context for a volume that stays in its files: the engine `cpu` alone. Throws Error if
+// OpenGL is chosen.
+ContextChoice context_for_files(const Auto<ContextChoice>& choice) {
+    if (choice.value_or(ContextChoice::cpu) != ContextChoice::cpu) {
+        fail(
+            "--context {}: the volume does not fit the memory limit of {} bytes, and OpenGL draws "
+            "volumes in memory alone: expected cpu, or more memory (--memory)",
+            name_of(choice), memory_limit());
+    }
+    return ContextChoice::cpu;
+}
+
+}  // namespace
+
+Scene as_trace(Scene scene, TraceOf of) {
+    scene.method = Method::trace;
+    scene.trace_of = of;
+    return scene;
+}
+
+TracedPicture trace_picture(const Scene& scene, SceneData& data, const TileDone& tile_done) {
+    if (scene.draws_mesh()) {
+        const SceneMesh& mesh = *data.mesh(scene);
+        const FaceTree& open_faces = data.open_faces(scene);
+        const Stage tracing("trace");
+        MeshTraceResult traced = trace(scene, mesh, open_faces, tile_done);
+        return {std::move(traced.image), traced.error_estimate, traced.segments,
+                traced.overlapping_rays};
+    }
+    const Volume& volume = data.volume(scene)->volume;
+    const Stage tracing("trace");
+    TraceResult traced = trace(scene, volume, tile_done);
+    return {std::move(traced.image), traced.error_estimate, traced.segments, 0};
+}
+
+TracedPicture plainly_traced_picture(const Scene& scene, SceneData& data) {
+    const auto trace = [&](const auto& drawn) {
+        const Stage tracing("trace");
+        PlainPicture traced = trace_plainly(scene, drawn);
+        return TracedPicture{std::move(traced.image), traced.error_estimate, traced.segments, 0};
+    };
+    return scene.draws_mesh() ? trace(*data.mesh(scene)) : trace(data.volume(scene)->volume);
+}
 
 Pipeline::Pipeline(Scene scene, SceneData data, PipelineOptions options)
     : asked_(std::move(scene)),
@@ -46,27 +94,23 @@ void Pipeline::drop_frames() {
 
 // --- data and choices
 
-Choices Pipeline::choose_now() {
-    const Wishes& wishes = options_.wishes;
-    if (const auto ramp = opaque_ramp(asked_)) warn(*ramp);
-    Scene scene = asked_;
-    if (has_open_colormap(scene)) close_colormap(scene, data_.range(scene));
-    if (!leaves_something_open(scene) && !wishes.transfer_function() && !wishes.camera())
-        return {std::move(scene), {}};
-    const bool by_volume = !scene.draws_mesh() || data_.makes_mesh(scene);
-    std::unique_ptr<Field> field;
-    if (by_volume)
-        field = std::make_unique<VolumeField>(*data_.volume(scene));
-    else
-        field = std::make_unique<MeshField>(*data_.mesh(scene));
-    Stage choosing("choose");
-    Choices result = choose(std::move(scene), *field, wishes);
-    stages_ms_["choose"] = choosing.end();
-    return result;
-}
-
 Choices Pipeline::chosen() {
-    return keep_warnings(choice_warnings_, [&] { return choose_now(); });
+    return keep_warnings(choice_warnings_, [&]() -> Choices {
+        const Wishes& wishes = options_.wishes;
+        if (const auto ramp = opaque_ramp(asked_)) warn(*ramp);
+        Scene scene = asked_;
+        if (has_open_colormap(scene)) close_colormap(scene, data_.range(scene));
+        if (!leaves_something_open(scene) && !wishes.transfer_function() && !wishes.camera())
+            return {std::move(scene), {}};
+        // A mesh that is made from the volume leaves the choices to the volume.
+        const std::unique_ptr<Field> field =
+            data_.makes_mesh(scene) ? std::make_unique<VolumeField>(*data_.volume(scene))
+                                    : data_.field(scene);
+        Stage choosing("choose");
+        Choices result = choose(std::move(scene), *field, wishes);
+        stages_ms_["choose"] = choosing.end();
+        return result;
+    });
 }
 
 const Scene& Pipeline::scene() {
@@ -398,25 +442,6 @@ FrameStatistics Pipeline::trace_statistics() {
         found.counts["overlapping_rays"] = traced_->overlapping_rays;
     }
     return found;
-}
-
-Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities,
-                    std::shared_ptr<TableCache> tables) {
-    Pipeline pipeline(scene, std::move(data),
-                      {.capabilities = capabilities, .tables = std::move(tables)});
-    Image picture;
-    pipeline.draw_frame();
-    pipeline.read(picture);
-    return picture;
-}
-
-Choices chosen_by_volume(const Scene& scene) {
-    Scene of_volume = scene;
-    of_volume.method = Method::slice;
-    Pipeline pipeline(std::move(of_volume));
-    Choices result{pipeline.scene(), pipeline.reasons()};
-    result.scene.method = scene.method;
-    return result;
 }
 
 }  // namespace lamina

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma once
+
 // The way from a scene to its picture: data, choices, plan, renderer or tracer, statistics and
 // warnings. Everything that draws is a client of it.
-#pragma once
 
 #include <cstdint>
 #include <functional>
@@ -15,15 +16,34 @@
 #include "lamina/context_choice.h"
 #include "lamina/frame_statistics.h"
 #include "lamina/image.h"
+#include "lamina/scene.h"
 #include "reference/tiles.h"
 #include "render/draw_context.h"
-#include "render/frames.h"
-#include "render/picture_share.h"
 #include "render/scene_data.h"
 #include "render/scene_renderer.h"
-#include "render/traced_picture.h"
 
 namespace lamina {
+
+// A picture of the reference tracer, or of its plain twin.
+struct TracedPicture {
+    PreciseImage image;  // associated RGBA, before any background
+    // The largest error over all pixels and channels, as a share of full scale, as the tracer
+    // estimates it.
+    double error_estimate = 0;
+    std::int64_t segments = 0;          // of rays, with extinction
+    std::int64_t overlapping_rays = 0;  // that meet tets of a mesh that overlap
+};
+
+// Returns the scene as one to be traced: its volume or its mesh.
+Scene as_trace(Scene scene, TraceOf of);
+
+// Traces the data that the scene draws, whatever its method, to its trace_tolerance. Nothing in the
+// scene's transfer function and camera may be automatic.
+TracedPicture trace_picture(const Scene& scene, SceneData& data, const TileDone& tile_done = {});
+
+// Traces with the plain twin of the tracer (plain/plain_tracer.h), which counts no overlapping rays
+// and takes no tolerance.
+TracedPicture plainly_traced_picture(const Scene& scene, SceneData& data);
 
 struct PipelineOptions;
 
@@ -115,7 +135,6 @@ class Pipeline {
         std::string explanation;
     };
 
-    Choices choose_now();
     Choices chosen();
     bool changes_mesh(const Scene& next) const;
     void take(Choices next);
@@ -146,13 +165,5 @@ class Pipeline {
     int frames_drawn_ = 0;
     double frame_ms_ = 0, trace_ms_ = 0;
 };
-
-// Draws one picture of a scene of method slice or project, without warnings. `capabilities` and
-// `tables`: as in PipelineOptions.
-Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities,
-                    std::shared_ptr<TableCache> tables);
-
-// Returns the scene with transfer function and camera chosen from its volume, whatever it draws.
-Choices chosen_by_volume(const Scene& scene);
 
 }  // namespace lamina

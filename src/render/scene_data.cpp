@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/scene_data.h"
 
-#include <utility>
-
 #include "base/profile.h"
-#include "choice/field.h"
 #include "mesh/tet_mesh.h"
-#include "scene/scene_mesh.h"
 
 namespace lamina {
 namespace {

@@ -14,7 +14,7 @@
 #include "lamina/scene.h"
 #include "mesh/face_tree.h"
 #include "render/warnings.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 #include "volume/volume_data.h"
 
 namespace lamina {

@@ -1,25 +1,91 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma once
+
 // Draws one scene and its data, from the first picture to the last: all pictures but those of the
 // reference tracers are drawn by a SceneRenderer.
-#pragma once
 
 #include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "lamina/frame_statistics.h"
 #include "lamina/image.h"
+#include "lamina/scene.h"
 #include "plan/capabilities.h"
 #include "plan/plan.h"
-#include "render/drawing.h"
-#include "render/frames.h"
-#include "render/picture_share.h"
-#include "scene/scene_mesh.h"
+#include "render/warnings.h"
+#include "scene/scene.h"
 #include "volume/volume_data.h"
 
 namespace lamina {
+
+// The part of a volume that one of several renderers draws, which draw one picture together.
+struct PictureShare {
+    int number = 0;  // 0 .. count - 1
+    int count = 1;
+};
+
+// Names the automatic keys that the scene's method needs. Tables are left out: they are chosen with
+// each view. So is the order of tets below a tree: its leaves take tets from all over the mesh,
+// which no word for an order says.
+std::vector<std::string> open_keys(const Scene& scene);
+
+// A scene in which everything that its method needs was chosen: it has no open_keys(). Only a
+// Drawing makes one from a plan. Later views are planned, and pictures drawn, from it.
+class Resolved {
+  public:
+    explicit Resolved(Scene scene);
+
+    const Scene& scene() const { return scene_; }
+    // Calls change_scene(scene), which must leave nothing open.
+    template <typename Change>
+    void change(const Change& change_scene) {
+        change_scene(scene_);
+    }
+
+  private:
+    Scene scene_;
+};
+
+// Draws one scene of method slice or project again and again while it changes. What is automatic is
+// chosen for the first picture and kept until set_scene().
+class Frames {
+  public:
+    virtual ~Frames() = default;
+
+    virtual const Scene& scene() const = 0;  // as asked for, with "auto"
+    // Replaces the scene by another one with the same data and method.
+    virtual void set_scene(Scene scene) = 0;
+    virtual void set_camera(const Camera& camera) = 0;
+    // These may keep more than set_scene() does.
+    virtual void set_size(int width, int height);
+    virtual void set_transfer_function(const TransferFunction& transfer_function);
+    virtual void set_clip(const Clip& clip);
+
+    virtual const Resolved& resolved() = 0;  // with the choices in place of "auto"
+    virtual const Plan& plan() = 0;
+    virtual std::string explanation() = 0;
+    // Returns sentences for people about the data, the plan and, once a frame was drawn, about the
+    // frame.
+    virtual Warnings warnings() = 0;
+
+    // Makes what a frame needs. draw() calls it if necessary.
+    virtual void set_up() = 0;
+    // Draws a frame, which is complete on return. Throws Interrupted once a stop is requested; the
+    // next frame is then drawn from the start.
+    virtual void draw(std::stop_token stop = {}) = 0;
+    // Returns the last frame: associated, linear, before the background. It takes no memory if
+    // `picture` has the frame's size.
+    virtual void read(Image& picture) const = 0;
+    // Adds times and counts of plan, set-up and last frame.
+    virtual void add_to(FrameStatistics& statistics) = 0;
+};
+
+class Drawing;
 
 // Draws a scene of method slice or project again and again while the scene changes. When a picture
 // or a plan is next asked for, it repeats only the steps that the changes make necessary:
@@ -52,6 +118,7 @@ class SceneRenderer : public Frames {
     SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,
                   const Capabilities& capabilities, OmissionSwitch omissions = {},
                   std::shared_ptr<TableCache> tables = std::make_shared<TableCache>());
+    ~SceneRenderer() override;
     SceneRenderer(const SceneRenderer&) = delete;
     SceneRenderer& operator=(const SceneRenderer&) = delete;
 

@@ -9,13 +9,11 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>
-#include <utility>
 
-#include "base/client.h"
-#include "base/text.h"
+#include "base/error.h"
 #include "mesh/tet_mesh.h"
 #include "scene/camera.h"
-#include "scene/half_space.h"
+#include "scene/clip.h"
 
 namespace lamina {
 namespace {

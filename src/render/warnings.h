@@ -12,7 +12,7 @@
 #include "lamina/image.h"
 #include "lamina/scene.h"
 #include "plan/plan.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 #include "visibility/visibility_order.h"
 #include "volume/volume_data.h"
 

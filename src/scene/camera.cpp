@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/camera.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include <glm/geometric.hpp>
 #include "base/enum_words.h"
 #include "base/error.h"
 
@@ -15,8 +13,7 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
-// Returns the unit vector of v, or zero for zero. v is scaled first, so that tiny and huge cameras
-// neither underflow nor overflow.
+// Returns the unit vector, or zero, of v, scaled first: cameras may be tiny or huge.
 glm::dvec3 direction_of(const glm::dvec3& v) {
     const double scale = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return scale > 0 ? glm::normalize(v / scale) : glm::dvec3(0);
@@ -58,8 +55,7 @@ Camera turned(const Camera& camera, double degrees) {
     return result;
 }
 
-// Places the camera so that the sphere around the box just fits between the upper and the lower
-// edge of the picture.
+// Places the camera so that the sphere around the box just fits the height of the picture.
 Camera orbit(const Grid::Bounds& box, double azimuth, double elevation, double fov_y) {
     const double a = azimuth * radians_per_degree, e = elevation * radians_per_degree;
     const glm::dvec3 toward(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
@@ -70,6 +66,30 @@ Camera orbit(const Grid::Bounds& box, double azimuth, double elevation, double f
     camera.up = {-std::sin(a) * std::sin(e), std::cos(e), -std::cos(a) * std::sin(e)};
     camera.fov_y = fov_y;
     return camera;
+}
+
+double world_unit(double diagonal) {
+    return diagonal > 0 ? std::scalbn(1.0, -std::ilogb(diagonal)) : 1;
+}
+
+double box_diagonal(const Grid& grid) {
+    return glm::distance(grid.to_world(grid.index_min()), grid.to_world(grid.index_max()));
+}
+
+Grid in_units(Grid grid, double unit) {
+    grid.origin *= unit;
+    for (glm::dvec3& step : grid.step) step *= unit;
+    return grid;
+}
+
+View in_units(View view, double unit) {
+    view.eye *= unit;
+    if (view.projection == Projection::orthographic) view.pixel *= unit;
+    return view;
+}
+
+TransferFunction in_units(const TransferFunction& transfer_function, double unit) {
+    return transfer_function.attenuated(1 / unit);
 }
 
 }  // namespace lamina

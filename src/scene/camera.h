@@ -3,19 +3,20 @@
 
 #include <algorithm>
 #include <cstdint>
-
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
 #include "lamina/camera.h"
+#include "lamina/grid.h"
+#include "lamina/transfer_function.h"
 #include "mesh/predicates.h"
 
 namespace lamina {
 
-// The viewing rays of an image. The centre of pixel (i, j), row 0 at the top, has the image-plane
-// coordinates x(i), y(j). The parameter along a ray is eye-space depth z, the distance from the
-// eye's plane. So the forward component of the direction is 1, and a point of the ray is origin + z
-// * direction. There is no near plane: z starts at 0.
+// The viewing rays of an image. Pixel (i, j), row 0 at the top, has its centre at the image-plane
+// coordinates x(i), y(j). A point of a ray is origin + z * direction; z >= 0 is eye-space depth,
+// the distance from the eye's plane, so the forward component of the direction is 1.
 struct View {
     View(const Camera& camera, int width_pixels,
          int height_pixels);  // throws Error when the camera is singular
@@ -43,16 +44,14 @@ inline Eye eye_of(const View& view) {
 // Degrees by which the camera turns between timed frames (--frames; studies: docs/study.md).
 inline constexpr double degrees_per_frame = 0.1;
 
-// Returns the view with axes of length `unit`: it takes points of the world and gives eye-space
-// coordinates in the renderer's units (facts/world_unit.h).
+// Returns the view with axes of length `unit`: from points of the world to units of eye space.
 inline View seeing_in_units(View view, double unit) {
     for (glm::dvec3* const axis : {&view.right, &view.up, &view.forward}) *axis *= unit;
     if (view.projection == Projection::orthographic) view.pixel *= unit;
     return view;
 }
 
-// Converts points to eye space and to window coordinates: pixels to the right and upwards from the
-// picture's lower left corner.
+// Converts points to eye space and to pixels, right and up from the picture's lower left corner.
 class WindowView {
   public:
     explicit WindowView(const View& view)
@@ -84,15 +83,13 @@ inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Pixels by which the ray perturbation moves rays that run along faces. A larger number changes
-// pictures of thin opaque tets: the optical depth 1e4 of a needle by .03 / 255. A smaller one is
-// lost along z: there it is 3e-12 pixels, and two floats side by side hold 3.5e-15 of a pixel's
-// number.
+// Pixels by which the ray perturbation moves rays that run along faces. More would change pictures
+// of thin opaque tets: the optical depth 1e4 of a needle by .03 / 255. Less is lost along z: there
+// it is 3e-12 pixels, and two floats side by side hold 3.5e-15 of a pixel's number.
 inline constexpr double tie_pixels = 3e-8;
 
-// Returns the perturbation along right, up and forward. It goes in the direction in which the
-// tracer moves rays that meet edges and corners (mesh/ray_walk.cpp): along the world's x, y and z,
-// each far less than the one before.
+// Returns the perturbation along right, up and forward. It goes where the tracer moves rays on
+// edges and corners (mesh/ray_walk.cpp): along the world's x, y and z, each far less than the last.
 inline glm::dvec3 ray_perturbation(const View& view) {
     const glm::dvec3 direction(1, 1e-2, 1e-4);
     const bool perspective = view.projection == Projection::perspective;
@@ -100,8 +97,7 @@ inline glm::dvec3 ray_perturbation(const View& view) {
                                    perspective ? glm::dot(view.forward, direction) : 0);
 }
 
-// A rectangle of pixels: columns from the left, rows from the top of the picture. It is empty if a
-// last number is below its first.
+// A rectangle of pixels, rows from the top; empty if a last number is below its first.
 struct PixelArea {
     std::int32_t first_column, last_column, first_row, last_row;
 
@@ -113,10 +109,7 @@ struct PixelArea {
     // Becomes the smallest rectangle around itself and another one; empty ones do not count.
     void add(const PixelArea& other) {
         if (other.empty()) return;
-        if (empty()) {
-            *this = other;
-            return;
-        }
+        if (empty()) *this = other;
         first_column = std::min(first_column, other.first_column);
         last_column = std::max(last_column, other.last_column);
         first_row = std::min(first_row, other.first_row);
@@ -129,5 +122,18 @@ inline PixelArea common_pixels(const PixelArea& a, const PixelArea& b) {
     return {std::max(a.first_column, b.first_column), std::min(a.last_column, b.last_column),
             std::max(a.first_row, b.first_row), std::min(a.last_row, b.last_row)};
 }
+
+// Lengths are measured in a unit in which the scene has about size 1, because worlds may be atoms
+// or galaxies, and float32 overflows at the square of 1e20. It is a power of two: a world twice as
+// large, with half the extinction, gives the same picture bit for bit.
+
+// Returns the factor to these units, by which `diagonal` becomes 1 to 2; 1 if it is 0.
+double world_unit(double diagonal);
+double box_diagonal(const Grid& grid);
+
+Grid in_units(Grid grid, double unit);
+View in_units(View view, double unit);
+// Converts extinctions, which are per length.
+TransferFunction in_units(const TransferFunction& transfer_function, double unit);
 
 }  // namespace lamina

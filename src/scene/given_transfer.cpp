@@ -8,7 +8,6 @@
 
 #include "base/enum_words.h"
 #include "optics/colormap.h"
-#include "optics/opacity.h"
 
 namespace lamina {
 namespace {

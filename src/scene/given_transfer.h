@@ -19,8 +19,7 @@ namespace lamina {
 enum class PointInterpolation { linear, extinction, nearest };
 const char* name_of(PointInterpolation interpolation);
 
-// A transfer function as a scene file gives it (docs/scene.md): points, with colours of their own
-// or with those of a colour map.
+// A transfer function as a scene file gives it (docs/scene.md): points, perhaps with a colour map.
 struct GivenTransfer {
     double unit_length = 1;  // world units that opacities refer to, > 0
     PointInterpolation interpolation = PointInterpolation::linear;
@@ -36,8 +35,7 @@ struct GivenTransfer {
     std::filesystem::path colormap_file() const;
 };
 
-// Something is wrong with a given transfer function. `key`: which of its keys; the text has no
-// place.
+// Something is wrong with `key` of a given transfer function; the text has no place.
 class GivenTransferError : public Error {
   public:
     GivenTransferError(std::string which, const std::string& text)
@@ -48,25 +46,21 @@ class GivenTransferError : public Error {
 // Differences of scalars beyond this are not finite (lamina/transfer_function.h).
 inline constexpr double largest_map_value = 1e300;
 
-// Makes the function that is given. `data`: the range of the data, which an open map is stretched
-// over; data of one value have it in the middle of the map. Throws GivenTransferError if points and
-// map make no function.
+// Makes the function. `data`: the range that an open map is stretched over; a single value lies in
+// its middle. Throws GivenTransferError if points and map make no function.
 TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRange& data = {});
 
 // Tells whether the scene's transfer function is chosen from the data.
 bool chooses_transfer_function(const Scene& scene);
 // Tells whether the scene's colours are those of a map that is stretched over the data.
 bool has_open_colormap(const Scene& scene);
-// Stretches an open colour map over data of this range: then the scene's transfer function is
-// known. Throws Error, which names file and key.
+// Stretches an open colour map over data of this range. Throws Error, which names file and key.
 void close_colormap(Scene& scene, const ValueRange& data);
 
 // The file of the scene's colour map; empty if there is none.
 std::filesystem::path colormap_file_of(const Scene& scene);
 
-// Says which opacity of 1 was replaced by an optical depth, if extinction rises to it in
-// proportion: the number is arbitrary, so a user should know it. If opacity is linear on the way,
-// nothing is arbitrary.
+// Says which opacity of 1 an optical depth replaced, if extinction rises to it in proportion.
 std::optional<std::string> opaque_ramp(const Scene& scene);
 std::optional<std::string> opaque_ramp(const GivenTransfer& given);
 

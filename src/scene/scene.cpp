@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamina/scene.h"
+#include "scene/scene.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 
 #include "base/client.h"
-#include "base/enum_words.h"
 #include "base/error.h"
-#include "scene/scene_mesh.h"
+#include "base/profile.h"
+#include "mesh_files/mesh_file.h"
+#include "meshing/volume_mesh.h"
 #include "volume/generate.h"
 #include "volume_files/volume_file.h"
 
@@ -14,6 +19,96 @@ namespace {
 const VolumeFile& file_of_volume(const Scene& scene) {
     if (const VolumeFile* const file = scene.volume_file()) return *file;
     fail("no volume was given, and the scene names none");
+}
+
+std::string vector_text(const glm::dvec3& v) {
+    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
+
+class Check {
+  public:
+    void number(const char* key, double found, double lo, double hi) {
+        if (!(found >= lo && found <= hi))
+            add(key, fmt::format("found {}, expected a number from {:g} to {:g}", found, lo, hi));
+    }
+
+    void light(std::size_t number, const Light& light) {
+        const std::string path = fmt::format("lights.{}.", number);
+        if (light.direction && !is_direction(*light.direction)) {
+            add(path + "direction",
+                fmt::format("found {}, expected \"headlight\" or a vector [x, y, z] that is not 0, "
+                            "of coordinates up to 1e100",
+                            vector_text(*light.direction)));
+        }
+        for (int c = 0; c < 3; ++c) {
+            if (!(light.color[c] >= 0 && light.color[c] <= Lighting::largest_term)) {
+                add(path + "color", fmt::format("found {}, expected components from 0 to {:g}",
+                                                vector_text(light.color), Lighting::largest_term));
+            }
+        }
+    }
+
+    void add(const std::string& key, const std::string& message) {
+        if (!first_) first_ = {key, message};
+    }
+
+    const std::optional<LightingMistake>& first() const { return first_; }
+
+  private:
+    static bool is_direction(const glm::dvec3& v) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(v[axis]) <= largest_scene_coordinate)) return false;
+        }
+        return v != glm::dvec3(0);
+    }
+
+    std::optional<LightingMistake> first_;
+};
+
+std::string list_names(const MeshData& data) {
+    std::string names;
+    for (const auto* scalars : {&data.point_scalars, &data.cell_scalars}) {
+        for (const MeshScalar& scalar : *scalars)
+            names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", scalar.name);
+    }
+    return names.empty() ? "none" : names;
+}
+
+// Tells whether a scalar has this name, or the name and ".magnitude" if it is a vector's length.
+bool is_called(const MeshScalar& scalar, const std::vector<MeshScalar>& all,
+               const std::string& name) {
+    if (scalar.name == name) return true;
+    return name == scalar.name + ".magnitude" &&
+           std::ranges::count(all, scalar.name + ".x", &MeshScalar::name) > 0;
+}
+
+// Takes the scalar out of the data and drops all others.
+MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
+    const std::string file = name_of_mesh(scene);
+    const auto find = [&](std::vector<MeshScalar>& scalars) {
+        return std::find_if(scalars.begin(), scalars.end(), [&](const MeshScalar& scalar) {
+            return scene.scalar.empty() || is_called(scalar, scalars, scene.scalar);
+        });
+    };
+    MeshScalar taken;
+    if (const auto point = find(data.point_scalars); point != data.point_scalars.end()) {
+        taken = std::move(*point);
+    } else if (const auto cell = find(data.cell_scalars);
+               cell != data.cell_scalars.end() && !scene.scalar.empty()) {
+        taken = average_to_points(data.points.size(), data.tets, *cell);
+        averaged = true;
+    } else if (scene.scalar.empty()) {
+        fail(
+            "{}: has no point scalars; expected one, or \"scalar\" in the scene to name an array "
+            "of the file: {}",
+            file, list_names(data));
+    } else {
+        fail("{}: scalar: found \"{}\", expected one that the file has: {}", file, scene.scalar,
+             list_names(data));
+    }
+    data.point_scalars.clear();
+    data.cell_scalars.clear();
+    return taken;
 }
 
 }  // namespace
@@ -118,6 +213,81 @@ Volume open_volume(const Scene& scene) {
     return open_volume(
         file.path, file.selection,
         {.residence = VolumeUse::Residence::as_fits, .lit = scene.lighting.has_value()});
+}
+
+std::optional<LightingMistake> mistake_in(const Lighting& lighting) {
+    Check check;
+    check.number("ambient", lighting.ambient, 0, Lighting::largest_term);
+    check.number("diffuse", lighting.diffuse, 0, Lighting::largest_term);
+    check.number("specular", lighting.specular, 0, Lighting::largest_term);
+    check.number("power", lighting.power, 1, Lighting::largest_power);
+    if (lighting.smallest_gradient.is_given()) {
+        check.number("smallest_gradient", *lighting.smallest_gradient, Lighting::least_gradient,
+                     Lighting::largest_gradient);
+    }
+    const std::size_t lights = lighting.lights.size();
+    if (lights < 1 || lights > Lighting::most_lights) {
+        check.add("lights",
+                  fmt::format("found {} lights, expected 1 to {}", lights, Lighting::most_lights));
+    }
+    for (std::size_t i = 0; i < lights; ++i) check.light(i, lighting.lights[i]);
+    return check.first();
+}
+
+void check_lighting(const Scene& scene) {
+    if (!scene.lighting) return;
+    if (const auto mistake = mistake_in(*scene.lighting))
+        fail("{}: lighting.{}: {}", scene.file.string(), mistake->key, mistake->message);
+}
+
+std::vector<glm::dvec3> gradients_of(const SceneMesh& mesh) {
+    if (!mesh.gradients_before_clip.empty()) return mesh.gradients_before_clip;
+    return point_gradients(mesh.mesh, mesh.scalar.values);
+}
+
+MeshSettings mesh_settings(const Scene& scene) {
+    const MeshSettings* const given = scene.made_mesh();
+    return given != nullptr ? *given : MeshSettings{};
+}
+
+std::string name_of_mesh(const Scene& scene) {
+    if (const MeshFile* const file = scene.mesh_file()) return file->path.string();
+    return scene.file.empty() ? "mesh" : scene.file.string() + ": mesh";
+}
+
+SceneMesh scene_mesh(const Scene& scene, MeshData data) {
+    bool averaged = false;
+    MeshScalar scalar = take_scalar(data, scene, averaged);
+    const Stage matching("neighbours");
+    return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), averaged, {}};
+}
+
+SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
+    MeshReport report;
+    MeshData data;
+    try {
+        const Stage making("make mesh");
+        data = make_volume_mesh(volume, mesh_settings(scene), &*scene.transfer_function, report);
+    } catch (const Error& error) {
+        fail("{}: {}", name_of_mesh(scene), error.what());
+    }
+    MeshScalar scalar = std::move(data.point_scalars.front());
+    data.point_scalars.clear();
+    const Stage matching("neighbours");
+    return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), false, report};
+}
+
+SceneMesh load_mesh(const Scene& scene) {
+    if (const MeshFile* const file = scene.mesh_file()) {
+        Stage reading("read file");
+        MeshData data = read_mesh(file->path, file->time);
+        reading.end();
+        return scene_mesh(scene, std::move(data));
+    }
+    Stage loading("load volume");
+    const Volume volume = load_volume(scene);
+    loading.end();
+    return scene_mesh(scene, volume);
 }
 
 }  // namespace lamina

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_files/data_keys.h"
+#include "scene_files/scene_keys.h"
 
 #include "base/value_type.h"
-#include "scene_files/keys.h"
 #include "volume/generate.h"
 
 namespace lamina {
@@ -55,61 +54,50 @@ Alternative<Scene> object_alternative(Source Scene::*source,
 
 // --- volume
 
-const KeyTable<GeneratorRequest>& generator_keys() {
-    static const auto table = [] {
-        KeyTable<GeneratorRequest> keys;
-        std::vector<std::pair<const char*, SampleType>> types;  // generated_grid() knows no others
-        for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32})
-            types.emplace_back(name_of(type), type);
-        Form<std::string> name = text_form();
-        name.schema = {{"enum", generator_names()}};
-        keys.key("generate", &GeneratorRequest::name, name).required();
-        keys.key("type", &GeneratorRequest::type, words_form<SampleType>(types));
-        keys.key("size", &GeneratorRequest::size,
-                 optional_form(sizes_form(
-                     largest_generated_axis,
-                     fmt::format("three whole numbers from 1 to {}", largest_generated_axis))));
-        keys.check([](JsonReader& reader, GeneratorRequest& request) {
-            try {
-                generated_grid(request);
-            } catch (const Error& error) {
-                reader.fail_at("generate", error.what());
-            }
-        });
-        return keys;
-    }();
-    return table;
+void generator_keys(KeyTable<GeneratorRequest>& keys) {
+    std::vector<std::pair<const char*, SampleType>> types;  // generated_grid() knows no others
+    for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32})
+        types.emplace_back(name_of(type), type);
+    Form<std::string> name = text_form();
+    name.schema = {{"enum", generator_names()}};
+    keys.key("generate", &GeneratorRequest::name, name).required();
+    keys.key("type", &GeneratorRequest::type, words_form<SampleType>(types));
+    keys.key("size", &GeneratorRequest::size,
+             optional_form(sizes_form(
+                 largest_generated_axis,
+                 fmt::format("three whole numbers from 1 to {}", largest_generated_axis))));
+    keys.check([](JsonReader& reader, GeneratorRequest& request) {
+        try {
+            generated_grid(request);
+        } catch (const Error& error) {
+            reader.fail_at("generate", error.what());
+        }
+    });
 }
 
-const KeyTable<RawLayout>& raw_keys() {
-    static const auto table = [] {
-        KeyTable<RawLayout> keys;
-        keys.key("size", &RawLayout::size,
-                 sizes_form(largest_number, "three whole numbers above 0"),
-                 "Samples of a file without a header.")
-            .required();
-        Form<std::string> type = checked(
-            text_form(), [](const std::string& word) { return value_type_of(word); },
-            "one of " + value_type_list());
-        type.schema = {{"enum", value_type_words}};
-        keys.key("type", &RawLayout::type, type).required();
-        keys.key("offset", &RawLayout::offset, whole_form<std::int64_t>(0, largest_number),
-                 "Bytes before the first sample.");
-        keys.key("endian", &RawLayout::big_endian,
-                 words_form<bool>({{"little", false}, {"big", true}}));
-        return keys;
-    }();
-    return table;
+void raw_keys(KeyTable<RawLayout>& keys) {
+    keys.key("size", &RawLayout::size, sizes_form(largest_number, "three whole numbers above 0"),
+             "Samples of a file without a header.")
+        .required();
+    Form<std::string> type = checked(
+        text_form(), [](const std::string& word) { return value_type_of(word); },
+        "one of " + value_type_list());
+    type.schema = {{"enum", value_type_words}};
+    keys.key("type", &RawLayout::type, type).required();
+    keys.key("offset", &RawLayout::offset, whole_form<std::int64_t>(0, largest_number),
+             "Bytes before the first sample.");
+    keys.key("endian", &RawLayout::big_endian,
+             words_form<bool>({{"little", false}, {"big", true}}));
 }
 
 // The keys of a raw file, which stand beside the others: each of them needs the size and the type.
 void add_raw_keys(KeyTable<VolumeRequest>& keys) {
     const auto any_given = [](JsonReader& reader) {
         bool any = false;
-        for (const Key<RawLayout>& key : raw_keys().keys()) any |= reader.has(key.name);
+        for (const Key<RawLayout>& key : table_of<raw_keys>().keys()) any |= reader.has(key.name);
         return any;
     };
-    for (const Key<RawLayout>& key : raw_keys().keys()) {
+    for (const Key<RawLayout>& key : table_of<raw_keys>().keys()) {
         keys.add({key.name, key.schema, false,
                   [key, any_given](JsonReader& reader, VolumeRequest& request) {
                       if (!any_given(reader)) return;
@@ -122,17 +110,11 @@ void add_raw_keys(KeyTable<VolumeRequest>& keys) {
     }
 }
 
-const KeyTable<VolumeFile>& volume_file_keys() {
-    static const auto table = [] {
-        KeyTable<VolumeFile> keys;
-        keys.key("path", &VolumeFile::path, path_form()).required();
-        keys.part(&VolumeFile::selection, volume_selection_keys());
-        keys.also(
-            "dependentRequired",
-            {{"size", {"type"}}, {"type", {"size"}}, {"offset", {"size"}}, {"endian", {"size"}}});
-        return keys;
-    }();
-    return table;
+void volume_file_keys(KeyTable<VolumeFile>& keys) {
+    keys.key("path", &VolumeFile::path, path_form()).required();
+    keys.part(&VolumeFile::selection, table_of<volume_selection_keys>());
+    keys.also("dependentRequired",
+              {{"size", {"type"}}, {"type", {"size"}}, {"offset", {"size"}}, {"endian", {"size"}}});
 }
 
 void add_volume(KeyTable<Scene>& keys) {
@@ -142,8 +124,10 @@ void add_volume(KeyTable<Scene>& keys) {
     keys.variant(
         "volume",
         {path_alternative<VolumeFile>(&Scene::volume),
-         object_alternative<GeneratorRequest>(&Scene::volume, is_generated, generator_keys),
-         object_alternative<VolumeFile>(&Scene::volume, has_key("path"), volume_file_keys)},
+         object_alternative<GeneratorRequest>(&Scene::volume, is_generated,
+                                              table_of<generator_keys>),
+         object_alternative<VolumeFile>(&Scene::volume, has_key("path"),
+                                        table_of<volume_file_keys>)},
         "",
         "Path of a file or folder (relative to the scene; ${LAMINA_DATA} expands), with what of it "
         "is drawn, or a generated volume.");
@@ -151,40 +135,31 @@ void add_volume(KeyTable<Scene>& keys) {
 
 // --- mesh
 
-const KeyTable<MeshFile>& mesh_file_keys() {
-    static const auto table = [] {
-        KeyTable<MeshFile> keys;
-        keys.key("path", &MeshFile::path, path_form()).required();
-        keys.key("time", &MeshFile::time, whole_form<std::int64_t>(0, most_steps),
-                 "Step of a .pvd, counted from 0 in the order of time.");
-        return keys;
-    }();
-    return table;
+void mesh_file_keys(KeyTable<MeshFile>& keys) {
+    keys.key("path", &MeshFile::path, path_form()).required();
+    keys.key("time", &MeshFile::time, whole_form<std::int64_t>(0, most_steps),
+             "Step of a .pvd, counted from 0 in the order of time.");
 }
 
-const KeyTable<MeshSettings>& mesh_keys() {
-    static const auto table = [] {
-        KeyTable<MeshSettings> keys;
-        keys.key("tolerance", &MeshSettings::tolerance,
-                 number_form({.above = 0, .up_to = 1},
-                             "a number above 0 and up to 1 (of the range of values)"),
-                 "Largest difference from the trilinear field, of the volume's range of values.");
-        keys.key("max_tets", &MeshSettings::max_tets, whole_form<std::int64_t>(6, most_tets),
-                 "The making of the mesh stops at so many.");
-        keys.key("kuhn", &MeshSettings::kuhn, flag_form(), "Every sample, six tets a cell.");
-        return keys;
-    }();
-    return table;
+void mesh_keys(KeyTable<MeshSettings>& keys) {
+    keys.key("tolerance", &MeshSettings::tolerance,
+             number_form({.above = 0, .up_to = 1},
+                         "a number above 0 and up to 1 (of the range of values)"),
+             "Largest difference from the trilinear field, of the volume's range of values.");
+    keys.key("max_tets", &MeshSettings::max_tets, whole_form<std::int64_t>(6, most_tets),
+             "The making of the mesh stops at so many.");
+    keys.key("kuhn", &MeshSettings::kuhn, flag_form(), "Every sample, six tets a cell.");
 }
 
 void add_mesh(KeyTable<Scene>& keys) {
-    keys.variant("mesh",
-                 {path_alternative<MeshFile>(&Scene::mesh),
-                  object_alternative<MeshFile>(&Scene::mesh, has_key("path"), mesh_file_keys),
-                  object_alternative<MeshSettings>(&Scene::mesh, is_any, mesh_keys)},
-                 "",
-                 "Path of a mesh (.vtu, .pvtu, .pvd, legacy .vtk, TetGen .node with its .ele; "
-                 "relative to the scene; ${LAMINA_DATA} expands), or one made from the volume.");
+    keys.variant(
+        "mesh",
+        {path_alternative<MeshFile>(&Scene::mesh),
+         object_alternative<MeshFile>(&Scene::mesh, has_key("path"), table_of<mesh_file_keys>),
+         object_alternative<MeshSettings>(&Scene::mesh, is_any, table_of<mesh_keys>)},
+        "",
+        "Path of a mesh (.vtu, .pvtu, .pvd, legacy .vtk, TetGen .node with its .ele; "
+        "relative to the scene; ${LAMINA_DATA} expands), or one made from the volume.");
     keys.check([](JsonReader& reader, Scene& read) {
         if (read.made_mesh() != nullptr && !has_volume(reader, read))
             reader.reject("volume", "a volume, which \"mesh\" is made from");
@@ -201,28 +176,21 @@ bool has_mesh(const JsonReader& reader, const Scene& scene) {
     return reader.context.mesh_given || scene.has_mesh();
 }
 
-const KeyTable<VolumeRequest>& volume_selection_keys() {
-    static const auto table = [] {
-        KeyTable<VolumeRequest> keys;
-        const auto number = optional_form(whole_form<std::int64_t>(0, largest_number));
-        keys.key("array", &VolumeRequest::array, text_form(),
-                 "By its name; the first unless told.");
-        keys.key("level", &VolumeRequest::level, number, "Of a pyramid.").otherwise(0);
-        keys.key("channel", &VolumeRequest::channel, number).otherwise(0);
-        keys.key("time", &VolumeRequest::time, number).otherwise(0);
-        Form<glm::dvec3> spacing = checked(
-            vector_form(), [](const glm::dvec3& v) { return v.x > 0 && v.y > 0 && v.z > 0; },
-            "three numbers above 0");
-        spacing.schema = vector_schema();
-        spacing.schema["items"]["exclusiveMinimum"] = 0;
-        keys.key("spacing", &VolumeRequest::spacing, optional_form(spacing),
-                 "In place of the file's.");
-        keys.key("origin", &VolumeRequest::origin, optional_form(vector_form()),
-                 "The first sample, in place of the file's.");
-        add_raw_keys(keys);
-        return keys;
-    }();
-    return table;
+void volume_selection_keys(KeyTable<VolumeRequest>& keys) {
+    const auto number = optional_form(whole_form<std::int64_t>(0, largest_number));
+    keys.key("array", &VolumeRequest::array, text_form(), "By its name; the first unless told.");
+    keys.key("level", &VolumeRequest::level, number, "Of a pyramid.").otherwise(0);
+    keys.key("channel", &VolumeRequest::channel, number).otherwise(0);
+    keys.key("time", &VolumeRequest::time, number).otherwise(0);
+    Form<glm::dvec3> spacing = checked(
+        vector_form(), [](const glm::dvec3& v) { return v.x > 0 && v.y > 0 && v.z > 0; },
+        "three numbers above 0");
+    spacing.schema = vector_schema();
+    spacing.schema["items"]["exclusiveMinimum"] = 0;
+    keys.key("spacing", &VolumeRequest::spacing, optional_form(spacing), "In place of the file's.");
+    keys.key("origin", &VolumeRequest::origin, optional_form(vector_form()),
+             "The first sample, in place of the file's.");
+    add_raw_keys(keys);
 }
 
 void add_data_keys(KeyTable<Scene>& scene) {
@@ -247,7 +215,7 @@ void add_data_keys(KeyTable<Scene>& scene) {
 KeyJson volume_selection_json(const std::string& path, const VolumeRequest& selection) {
     if (selection == VolumeRequest{}) return path;
     KeyJson json{{"path", path}};
-    volume_selection_keys().write(selection, json);
+    table_of<volume_selection_keys>().write(selection, json);
     return json;
 }
 

@@ -1,26 +1,106 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
-
 // Keys of JSON objects, from one table a struct (docs/architecture.md, "Keys"), and the forms of
 // their values: the reader, the writer and the schema come from them.
+#pragma once
+
+#include <fmt/format.h>
 #include <array>
 #include <cassert>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-#include <glm/vec3.hpp>
-#include <nlohmann/json.hpp>
 #include "base/enum_words.h"
+#include "base/error.h"
+#include "base/json_text.h"
 #include "lamina/auto.h"
-#include "scene_files/json_reader.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina {
+
+// A key of a JSON file, by its path ("render.slice.samples"), is missing, unknown or bad.
+class KeyError : public Error {
+  public:
+    KeyError(std::string path, const std::string& message) : Error(message), key(std::move(path)) {}
+    std::string key;
+};
+
+// A key for which no reader asked.
+class UnknownKeyError : public KeyError {
+  public:
+    using KeyError::KeyError;
+};
+
+// Settings that the meaning of values depends on, beside their own text.
+struct JsonContext {
+    ImageColorSpace color_space = ImageColorSpace::linear;  // the space of colours
+    bool volume_given = false, mesh_given = false;  // data in memory, which no key needs to name
+};
+
+// Reads one JSON object key by key; close() rejects keys that nobody asked for and suggests the
+// nearest known one. Every error names file and key, and says what was found and expected.
+class JsonReader {
+  public:
+    // `file`: for messages and relative paths. Object and file must outlive the reader.
+    JsonReader(const nlohmann::json& object, const std::filesystem::path& file,
+               std::string path = "", const JsonContext& given_context = {});
+
+    JsonContext context;  // readers of inner objects begin with the same one
+
+    bool has(const std::string& key);
+    JsonReader object(const std::string& key);  // an empty object when absent
+    std::vector<JsonReader> objects(const std::string& key);
+    // Throws KeyError if the key is missing.
+    const nlohmann::json& value(const std::string& key);
+
+    double number(const std::string& key);
+    std::int64_t whole(const std::string& key, std::int64_t lo, std::int64_t hi);
+    bool flag(const std::string& key);
+    std::string text(const std::string& key);
+    glm::dvec3 vector(const std::string& key);
+    // Returns a path: ${LAMINA_DATA} expands, and relative paths start at the file's folder.
+    std::filesystem::path path_of(const std::string& key);
+
+    // Returns the value of one of the listed words, or of the first word if the key is absent.
+    template <typename Choice>
+    Choice choice(const std::string& key,
+                  const std::vector<std::pair<const char*, Choice>>& choices) {
+        if (!has(key)) return choices.front().second;
+        std::string words;
+        for (const auto& [word, chosen] : choices) {
+            if (value(key) == word) return chosen;
+            words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", word);
+        }
+        reject(key, "one of " + words);
+    }
+
+    void close() const;  // throws UnknownKeyError for a key that nobody asked for
+    [[noreturn]] void reject(const std::string& key, const std::string& expected);
+    [[noreturn]] void fail_at(const std::string& key, const std::string& message) const;
+
+    const std::filesystem::path& file() const { return file_; }
+    // Returns file and path of the object, as messages begin: "scene.json: render.slice".
+    std::string place() const;
+
+  private:
+    std::string path_to(const std::string& key) const;
+
+    const nlohmann::json& object_;
+    const std::filesystem::path& file_;
+    std::string path_;
+    std::set<std::string> asked_;
+};
+
+// Reads a colour (docs/scene.md): three numbers of the reader's colour space, or display values,
+// which are converted to it: "#rrggbb", a CSS name, or {"srgb": [r, g, b]}. Throws KeyError.
+glm::dvec3 read_color(JsonReader& reader, const std::string& key);
 
 using KeyJson = nlohmann::ordered_json;
 
@@ -104,8 +184,7 @@ class KeyTable {
         return add(std::move(added));
     }
 
-    // Adds an object with the keys of a table. It may be left out; its rules are checked
-    // nevertheless. It is always written.
+    // Adds an object, which may be left out, though its rules are checked, and is always written.
     template <typename Access, typename Part>
     KeyTable& object(const std::string& name, const Access& access,
                      const KeyTable<Part>& (*table)(), const std::string& description = "") {
@@ -211,8 +290,7 @@ class KeyTable {
         all.update(schema);
         return all;
     }
-    // Tells whether a default stands for the whole value: an object or a list has the defaults of
-    // its own keys.
+    // Tells whether a default is a whole value: objects and lists have those of their own keys.
     static bool is_default(const KeyJson& value) {
         return !value.is_null() && !value.is_object() && !(value.is_array() && value.empty());
     }
@@ -221,7 +299,20 @@ class KeyTable {
     std::vector<std::pair<std::string, KeyJson>> more_;
 };
 
-// The form of a struct: an object with the keys of a table. `table` makes it at the first use.
+// Returns the table to which `add` adds its keys at the first use: a void add(KeyTable<Struct>&).
+template <typename Struct>
+Struct struct_of(void (*add)(KeyTable<Struct>&));
+template <auto add>
+const KeyTable<decltype(struct_of(add))>& table_of() {
+    static const auto table = [] {
+        KeyTable<decltype(struct_of(add))> keys;
+        add(keys);
+        return keys;
+    }();
+    return table;
+}
+
+// The form of a struct: an object with the keys of a table.
 template <typename Struct>
 Form<Struct> object_form(const KeyTable<Struct>& (*table)()) {
     return {[table](JsonReader& reader, const std::string& key) {
@@ -265,8 +356,7 @@ struct Limits {
                !(up_to && !(number <= *up_to)) && !(below && !(number < *below));
     }
 };
-// A number within limits, with what messages expect; without that text a rule of the table checks
-// it.
+// A number within limits, with what messages expect; without it a rule of the table checks it.
 Form<double> number_form(const Limits& limits = {}, const std::string& expected = "");
 
 template <typename Whole>

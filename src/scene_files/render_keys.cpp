@@ -3,8 +3,7 @@
 
 #include "compositing/codes.h"
 #include "compositing/tree_shape.h"
-#include "scene/coloring.h"
-#include "scene_files/data_keys.h"
+#include "scene/scene.h"
 #include "scene_files/keys.h"
 #include "scene_files/scene_keys.h"
 
@@ -51,29 +50,24 @@ Form<std::vector<int>> factors_form() {
             {{"oneOf", KeyJson::array({list, reference_to("factor"), text})}}};
 }
 
-const KeyTable<TreeSettings>& tree_keys() {
-    static const auto table = [] {
-        KeyTable<TreeSettings> keys;
-        keys.key("factors", &TreeSettings::factors, factors_form(),
-                 "Bifurcation factors from the root to the leaves.")
-            .required();
-        keys.key("nodes", &TreeSettings::nodes, words_form<NodeArithmetic>());
-        keys.key("code", &TreeSettings::code, words_form<NodeCode>());
-        Form<int> bits{[](JsonReader& reader, const std::string& key) {
-                           const nlohmann::json& value = reader.value(key);
-                           if (value != 8 && value != 16) reader.reject(key, "8 or 16");
-                           return value.get<int>();
-                       },
-                       [](const int& value) { return KeyJson(value); },
-                       {{"enum", {8, 16}}}};
-        keys.key("alpha_bits", &TreeSettings::alpha_bits, bits);
-        return keys;
-    }();
-    return table;
+void tree_keys(KeyTable<TreeSettings>& keys) {
+    keys.key("factors", &TreeSettings::factors, factors_form(),
+             "Bifurcation factors from the root to the leaves.")
+        .required();
+    keys.key("nodes", &TreeSettings::nodes, words_form<NodeArithmetic>());
+    keys.key("code", &TreeSettings::code, words_form<NodeCode>());
+    Form<int> bits{[](JsonReader& reader, const std::string& key) {
+                       const nlohmann::json& value = reader.value(key);
+                       if (value != 8 && value != 16) reader.reject(key, "8 or 16");
+                       return value.get<int>();
+                   },
+                   [](const int& value) { return KeyJson(value); },
+                   {{"enum", {8, 16}}}};
+    keys.key("alpha_bits", &TreeSettings::alpha_bits, bits);
 }
 
 Form<Auto<TreeSettings>> tree_form() {
-    auto form = automatic_form(object_form(tree_keys), &nlohmann::json::is_object,
+    auto form = automatic_form(object_form(table_of<tree_keys>), &nlohmann::json::is_object,
                                "an object {\"factors\": ...}, or \"auto\"");
     form.schema = reference_to("tree");
     return form;
@@ -81,34 +75,23 @@ Form<Auto<TreeSettings>> tree_form() {
 
 // --- slice
 
-const KeyTable<DitherSettings>& dither_keys() {
-    static const auto table = [] {
-        KeyTable<DitherSettings> keys;
-        keys.key("seed", &DitherSettings::seed, seed_form());
-        keys.key("color", &DitherSettings::color, flag_form());
-        keys.key("increment", &DitherSettings::increment, whole_form<int>(1, 128),
-                 "Between the two codes.");
-        keys.key("period", &DitherSettings::period,
-                 automatic_form(
-                     whole_form<int>(1, max_dither_period), &nlohmann::json::is_number,
-                     fmt::format("a whole number from 1 to {}, or \"auto\"", max_dither_period)),
-                 "Slabs after which the pattern repeats; auto: N.");
-        return keys;
-    }();
-    return table;
+void dither_keys(KeyTable<DitherSettings>& keys) {
+    keys.key("seed", &DitherSettings::seed, seed_form());
+    keys.key("color", &DitherSettings::color, flag_form());
+    keys.key("increment", &DitherSettings::increment, whole_form<int>(1, 128),
+             "Between the two codes.");
+    keys.key(
+        "period", &DitherSettings::period,
+        automatic_form(whole_form<int>(1, max_dither_period), &nlohmann::json::is_number,
+                       fmt::format("a whole number from 1 to {}, or \"auto\"", max_dither_period)),
+        "Slabs after which the pattern repeats; auto: N.");
 }
 
-const KeyTable<SliceTableSettings>& slice_table_keys() {
-    static const auto table = [] {
-        KeyTable<SliceTableSettings> keys;
-        keys.key("scalar", &SliceTableSettings::scalars, whole_form<int>(2, 4096));
-        keys.key("length", &SliceTableSettings::lengths, whole_form<int>(1, 64));
-        keys.key("max_length", &SliceTableSettings::max_length,
-                 number_form({.from = 0}, "a length of 0 or more"),
-                 "Longest segment, world units.");
-        return keys;
-    }();
-    return table;
+void slice_table_keys(KeyTable<SliceTableSettings>& keys) {
+    keys.key("scalar", &SliceTableSettings::scalars, whole_form<int>(2, 4096));
+    keys.key("length", &SliceTableSettings::lengths, whole_form<int>(1, 64));
+    keys.key("max_length", &SliceTableSettings::max_length,
+             number_form({.from = 0}, "a length of 0 or more"), "Longest segment, world units.");
 }
 
 // Leaves out a table that the plan chooses.
@@ -122,53 +105,38 @@ Form<Auto<Table>> table_form(const KeyTable<Table>& (*table)()) {
     return form;
 }
 
-const KeyTable<SliceSettings>& slice_keys() {
-    static const auto table = [] {
-        KeyTable<SliceSettings> keys;
-        keys.key("samples", &SliceSettings::samples,
-                 automatic_form(whole_form<int>(1, max_slabs), &nlohmann::json::is_number,
-                                fmt::format("a whole number from 1 to {}, or \"auto\"", max_slabs)),
-                 "Slabs N, or auto: the fewest that keep render.max_error.");
-        keys.key("classification", &SliceSettings::classification,
-                 automatic_words_form(SliceSettings().classification));
-        keys.key("order", &SliceSettings::order, words_form<Order>());
-        keys.key("filter", &SliceSettings::filter, automatic_words_form(SliceSettings().filter));
-        keys.key("dither", &SliceSettings::dither, optional_form(object_form(dither_keys)),
-                 "Along depth, of the codes of fixed-point slabs.");
-        keys.key("tree", &SliceSettings::tree, optional_form(tree_form()));
-        keys.key("table", &SliceSettings::table, table_form(slice_table_keys),
-                 "Pre-integration table; auto: the plan chooses it for the view.");
-        return keys;
-    }();
-    return table;
+void slice_keys(KeyTable<SliceSettings>& keys) {
+    keys.key("samples", &SliceSettings::samples,
+             automatic_form(whole_form<int>(1, max_slabs), &nlohmann::json::is_number,
+                            fmt::format("a whole number from 1 to {}, or \"auto\"", max_slabs)),
+             "Slabs N, or auto: the fewest that keep render.max_error.");
+    keys.key("classification", &SliceSettings::classification,
+             automatic_words_form(SliceSettings().classification));
+    keys.key("order", &SliceSettings::order, words_form<Order>());
+    keys.key("filter", &SliceSettings::filter, automatic_words_form(SliceSettings().filter));
+    keys.key("dither", &SliceSettings::dither, optional_form(object_form(table_of<dither_keys>)),
+             "Along depth, of the codes of fixed-point slabs.");
+    keys.key("tree", &SliceSettings::tree, optional_form(tree_form()));
+    keys.key("table", &SliceSettings::table, table_form(table_of<slice_table_keys>),
+             "Pre-integration table; auto: the plan chooses it for the view.");
 }
 
-const KeyTable<Emulation>& emulation_keys() {
-    static const auto table = [] {
-        KeyTable<Emulation> keys;
-        keys.key("bits", &Emulation::bits, whole_form<int>(1, max_code_bits), "Of a code.");
-        keys.key("alpha", &Emulation::alpha, words_form<AlphaRounding>());
-        keys.key("over", &Emulation::over, words_form<OverRounding>());
-        keys.key("seed", &Emulation::seed, seed_form());
-        return keys;
-    }();
-    return table;
+void emulation_keys(KeyTable<Emulation>& keys) {
+    keys.key("bits", &Emulation::bits, whole_form<int>(1, max_code_bits), "Of a code.");
+    keys.key("alpha", &Emulation::alpha, words_form<AlphaRounding>());
+    keys.key("over", &Emulation::over, words_form<OverRounding>());
+    keys.key("seed", &Emulation::seed, seed_form());
 }
 
 // --- project
 
-const KeyTable<TableSettings>& project_table_keys() {
-    static const auto table = [] {
-        KeyTable<TableSettings> keys;
-        keys.key("scalar", &TableSettings::scalar, whole_form<int>(2, 4096));
-        keys.key("length", &TableSettings::length, whole_form<int>(1, 64));
-        keys.key("mapping", &TableSettings::mapping, words_form<LengthMapping>());
-        keys.key("store", &TableSettings::store, words_form<TableStore>());
-        keys.key("format", &TableSettings::format, words_form<TableFormat>());
-        keys.key("construction", &TableSettings::construction, words_form<TableConstruction>());
-        return keys;
-    }();
-    return table;
+void project_table_keys(KeyTable<TableSettings>& keys) {
+    keys.key("scalar", &TableSettings::scalar, whole_form<int>(2, 4096));
+    keys.key("length", &TableSettings::length, whole_form<int>(1, 64));
+    keys.key("mapping", &TableSettings::mapping, words_form<LengthMapping>());
+    keys.key("store", &TableSettings::store, words_form<TableStore>());
+    keys.key("format", &TableSettings::format, words_form<TableFormat>());
+    keys.key("construction", &TableSettings::construction, words_form<TableConstruction>());
 }
 
 // Rejects colourings that interpolate between the vertices of a fan with one polygon around a tet.
@@ -182,50 +150,40 @@ void check_geometry(JsonReader& reader, const ProjectSettings& project) {
     }
 }
 
-const KeyTable<ProjectSettings>& project_keys() {
-    static const auto table = [] {
-        KeyTable<ProjectSettings> keys;
-        keys.key("coloring", &ProjectSettings::coloring, words_form<Coloring>());
-        keys.key("interpolation", &ProjectSettings::interpolation, words_form<Interpolation>());
-        keys.key("thickness", &ProjectSettings::thickness, words_form<Thickness>());
-        keys.key("order", &ProjectSettings::order, automatic_words_form(ProjectSettings().order));
-        keys.key("geometry", &ProjectSettings::geometry,
-                 automatic_words_form(ProjectSettings().geometry));
-        keys.key("dither", &ProjectSettings::dither, words_form<ProjectDither>());
-        keys.key("table", &ProjectSettings::table, table_form(project_table_keys),
-                 "Pre-integration table; auto: the cheapest that keeps its error under max_error / "
-                 "2 and .5 / 255.");
-        keys.check(check_geometry);
-        keys.key("tree", &ProjectSettings::tree, optional_form(tree_form()), "Of nodes fixed.");
-        return keys;
-    }();
-    return table;
+void project_keys(KeyTable<ProjectSettings>& keys) {
+    keys.key("coloring", &ProjectSettings::coloring, words_form<Coloring>());
+    keys.key("interpolation", &ProjectSettings::interpolation, words_form<Interpolation>());
+    keys.key("thickness", &ProjectSettings::thickness, words_form<Thickness>());
+    keys.key("order", &ProjectSettings::order, automatic_words_form(ProjectSettings().order));
+    keys.key("geometry", &ProjectSettings::geometry,
+             automatic_words_form(ProjectSettings().geometry));
+    keys.key("dither", &ProjectSettings::dither, words_form<ProjectDither>());
+    keys.key("table", &ProjectSettings::table, table_form(table_of<project_table_keys>),
+             "Pre-integration table; auto: the cheapest that keeps its error under max_error / "
+             "2 and .5 / 255.");
+    keys.check(check_geometry);
+    keys.key("tree", &ProjectSettings::tree, optional_form(tree_form()), "Of nodes fixed.");
 }
 
 // --- trace, and what all methods have
 
-const KeyTable<Scene>& trace_keys() {
-    static const auto table = [] {
-        KeyTable<Scene> keys;
-        keys.key("of", &Scene::trace_of, words_form<TraceOf>(), "The volume if the scene has one.")
-            .without_default();
-        keys.check([](JsonReader& reader, Scene& scene) {
-            const bool volume = has_volume(reader, scene), mesh = has_mesh(reader, scene);
-            if (!reader.has("of")) {
-                scene.trace_of = volume ? TraceOf::volume : TraceOf::mesh;
-            } else if (scene.trace_of == TraceOf::volume && !volume) {
-                reader.reject("of", "\"mesh\": the scene has no volume");
-            } else if (scene.trace_of == TraceOf::mesh && !mesh) {
-                reader.reject("of", "\"volume\": the scene has no mesh");
-            }
-        });
-        // Below 1e-12 the tracer's own rounding would be larger than the tolerance.
-        keys.key("tolerance", &Scene::trace_tolerance,
-                 number_form({.from = 1e-12, .up_to = 1}, "a number from 1e-12 to 1"),
-                 "Error bound, of full scale.");
-        return keys;
-    }();
-    return table;
+void trace_keys(KeyTable<Scene>& keys) {
+    keys.key("of", &Scene::trace_of, words_form<TraceOf>(), "The volume if the scene has one.")
+        .without_default();
+    keys.check([](JsonReader& reader, Scene& scene) {
+        const bool volume = has_volume(reader, scene), mesh = has_mesh(reader, scene);
+        if (!reader.has("of")) {
+            scene.trace_of = volume ? TraceOf::volume : TraceOf::mesh;
+        } else if (scene.trace_of == TraceOf::volume && !volume) {
+            reader.reject("of", "\"mesh\": the scene has no volume");
+        } else if (scene.trace_of == TraceOf::mesh && !mesh) {
+            reader.reject("of", "\"volume\": the scene has no mesh");
+        }
+    });
+    // Below 1e-12 the tracer's own rounding would be larger than the tolerance.
+    keys.key("tolerance", &Scene::trace_tolerance,
+             number_form({.from = 1e-12, .up_to = 1}, "a number from 1e-12 to 1"),
+             "Error bound, of full scale.");
 }
 
 void check_method(JsonReader& reader, Scene& scene) {
@@ -244,37 +202,28 @@ void check_method(JsonReader& reader, Scene& scene) {
 }  // namespace
 
 KeyJson tree_schema() {
-    return {{"oneOf", KeyJson::array({{{"const", "auto"}}, tree_keys().schema()})}};
+    return {{"oneOf", KeyJson::array({{{"const", "auto"}}, table_of<tree_keys>().schema()})}};
 }
 
-KeyJson factor_schema() {
-    return whole_form<int>(1, max_tree_factor).schema;
-}
-
-const KeyTable<Scene>& render_keys() {
-    static const auto table = [] {
-        KeyTable<Scene> keys;
-        keys.key("method", &Scene::method, words_form<Method>(),
-                 "Left out: slice for scenes with a volume, project for others.")
-            .without_default();
-        keys.check([](JsonReader& reader, Scene& scene) {
-            if (!reader.has("method"))
-                scene.method = has_volume(reader, scene) ? Method::slice : Method::project;
-        });
-        keys.key("target", &Scene::target, automatic_words_form(Scene().target));
-        keys.object("emulate", &Scene::emulate, emulation_keys,
-                    "Fixed-point compositing step by step, for target emulated.");
-        keys.key("max_error", &Scene::max_error,
-                 number_form({.above = 0, .up_to = 255},
-                             "a number above 0 and up to 255 (in 1/255 of full scale)"),
-                 "Bound for what is automatic, in 1/255 of full scale.");
-        keys.object("slice", &Scene::slice, slice_keys, "Slices of a volume.");
-        keys.object("project", &Scene::project, project_keys, "Projected tetrahedra.");
-        keys.object("trace", trace_keys, "The reference tracer.");
-        keys.check(check_method);
-        return keys;
-    }();
-    return table;
+void render_keys(KeyTable<Scene>& keys) {
+    keys.key("method", &Scene::method, words_form<Method>(),
+             "Left out: slice for scenes with a volume, project for others.")
+        .without_default();
+    keys.check([](JsonReader& reader, Scene& scene) {
+        if (!reader.has("method"))
+            scene.method = has_volume(reader, scene) ? Method::slice : Method::project;
+    });
+    keys.key("target", &Scene::target, automatic_words_form(Scene().target));
+    keys.object("emulate", &Scene::emulate, table_of<emulation_keys>,
+                "Fixed-point compositing step by step, for target emulated.");
+    keys.key("max_error", &Scene::max_error,
+             number_form({.above = 0, .up_to = 255},
+                         "a number above 0 and up to 255 (in 1/255 of full scale)"),
+             "Bound for what is automatic, in 1/255 of full scale.");
+    keys.object("slice", &Scene::slice, table_of<slice_keys>, "Slices of a volume.");
+    keys.object("project", &Scene::project, table_of<project_keys>, "Projected tetrahedra.");
+    keys.object("trace", table_of<trace_keys>, "The reference tracer.");
+    keys.check(check_method);
 }
 
 }  // namespace lamina

@@ -3,22 +3,12 @@
 
 #include <cmath>
 
-#include "scene_files/data_keys.h"
-#include "scene_files/keys.h"
-#include "scene_files/transfer_keys.h"
+#include "compositing/tree_shape.h"
 
 namespace lamina {
 namespace {
 
 constexpr std::size_t columns = 160;  // width of the schema's text
-
-Key<Scene> version_key() {
-    return {"version",
-            {{"const", 1}},
-            true,
-            [](JsonReader& reader, Scene&) { reader.whole("version", 1, 1); },
-            [](const Scene&, KeyJson& json) { json["version"] = 1; }};
-}
 
 // Reads the colour space ahead of its turn: the colours before it depend on it.
 void read_color_space(JsonReader& reader, Scene& /*scene*/) {
@@ -29,10 +19,10 @@ void read_color_space(JsonReader& reader, Scene& /*scene*/) {
 KeyJson scene_schema() {
     KeyJson schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                    {"title", "lamina scene, version 1"}};
-    schema.update(scene_keys().schema());
+    schema.update(table_of<scene_keys>().schema());
     schema["$defs"] = {{"tree", tree_schema()},
                        {"seed", whole_form<std::uint32_t>(0, 0xffffffff).schema},
-                       {"factor", factor_schema()},
+                       {"factor", whole_form<int>(1, max_tree_factor).schema},
                        {"vector", vector_schema()},
                        {"color", color_schema()}};
     return schema;
@@ -73,19 +63,18 @@ void write_folded(const KeyJson& json, std::size_t depth, std::size_t used, std:
 
 }  // namespace
 
-const KeyTable<Scene>& scene_keys() {
-    static const auto table = [] {
-        KeyTable<Scene> keys;
-        keys.add(version_key());
-        add_data_keys(keys);
-        keys.check(read_color_space);
-        add_transfer_function(keys);
-        add_view_keys(keys);
-        keys.object("render", render_keys);
-        keys.also("anyOf", KeyJson::array({{{"required", {"volume"}}}, {{"required", {"mesh"}}}}));
-        return keys;
-    }();
-    return table;
+void scene_keys(KeyTable<Scene>& keys) {
+    keys.add({"version",
+              {{"const", 1}},
+              true,
+              [](JsonReader& reader, Scene&) { reader.whole("version", 1, 1); },
+              [](const Scene&, KeyJson& json) { json["version"] = 1; }});
+    add_data_keys(keys);
+    keys.check(read_color_space);
+    add_transfer_function(keys);
+    add_view_keys(keys);
+    keys.object("render", table_of<render_keys>);
+    keys.also("anyOf", KeyJson::array({{{"required", {"volume"}}}, {{"required", {"mesh"}}}}));
 }
 
 std::string scene_schema_text() {

@@ -2,7 +2,6 @@
 #include "scene_files/scene_reader.h"
 
 #include <algorithm>
-#include <string>
 
 #include <nlohmann/json.hpp>
 #include "base/client.h"
@@ -10,12 +9,9 @@
 #include "base/input_file.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
-#include "base/text.h"
-#include "lamina/scene.h"
 #include "mesh_files/mesh_file.h"
 #include "scene/camera.h"
-#include "scene_files/data_keys.h"
-#include "scene_files/json_reader.h"
+#include "scene_files/keys.h"
 #include "scene_files/scene_keys.h"
 #include "volume_files/volume_file.h"
 
@@ -62,11 +58,11 @@ nlohmann::ordered_json transfer_function_json(const TransferFunction& transfer_f
 }
 
 nlohmann::ordered_json camera_json(const Camera& camera) {
-    return camera_keys().json(camera);
+    return table_of<camera_keys>().json(camera);
 }
 
 nlohmann::ordered_json scene_json(const Scene& scene) {
-    return scene_keys().json(scene);
+    return table_of<scene_keys>().json(scene);
 }
 
 namespace {
@@ -112,7 +108,7 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     reader.context.mesh_given = given == GivenData::mesh;
     Scene scene;
     scene.file = file;
-    scene_keys().read(reader, scene);
+    table_of<scene_keys>().read(reader, scene);
     try {
         if (scene.camera.is_given()) View(*scene.camera, scene.width, scene.height);
     } catch (const Error& error) {

@@ -16,8 +16,7 @@ nlohmann::json scene_document(const std::filesystem::path& file, const VolumeReq
 
 // Returns a scene file (docs/scene.md) with every key written out, from which read_scene() makes an
 // equal scene: paths are absolute, numbers have all their digits, and the transfer function is its
-// points, whatever they were made from, except for a colour map that is to be stretched over the
-// data. save_scene() writes it.
+// points, except for a colour map that is to be stretched over the data.
 nlohmann::ordered_json scene_json(const Scene& scene);
 
 // Return the values of the keys "transfer_function" and "camera".
@@ -27,18 +26,15 @@ nlohmann::ordered_json camera_json(const Camera& camera);
 // Data in memory, which a scene draws instead of what it names.
 enum class GivenData { none, volume, mesh };
 
-// Reads the scene in `document`. `file` is for messages and relative paths. Throws KeyError
-// (scene_files/json_reader.h).
+// Reads the scene in `document`. `file`: for messages and relative paths. Throws KeyError.
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
                  GivenData given = GivenData::none);
 
-// Sets `key` ("render.slice.samples", list elements by number) to `value`, which is JSON if it
-// parses as JSON, else a string; null removes the key. Throws UsageError if the path leads through
-// a value that is neither an object nor a list.
+// Sets `key` ("render.slice.samples", list elements by number) to `value`, JSON or else a string;
+// null removes the key. Throws UsageError if the path leads through a value without members.
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value);
 
-// Removes `key` from the object that contains it. A document without the key stays as it is. Throws
-// UsageError if the key has an empty component.
+// Removes `key`, if it is there. Throws UsageError if it has an empty component.
 void remove_key(nlohmann::json& document, const std::string& key);
 
 }  // namespace lamina

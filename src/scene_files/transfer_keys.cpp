@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_files/transfer_keys.h"
+#include "scene_files/scene_keys.h"
 
 #include <cmath>
 #include <memory>
@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 #include <glm/vector_relational.hpp>
 #include "optics/colormap.h"
-#include "scene_files/keys.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
@@ -203,26 +202,23 @@ Key<GivenTransfer> points_key() {
     return {"points", schema, false, read_points_of, write};
 }
 
-}  // namespace
-
-const KeyTable<GivenTransfer>& transfer_keys() {
-    static const auto table = [] {
-        KeyTable<GivenTransfer> keys;
-        keys.key("unit_length", &GivenTransfer::unit_length,
-                 number_form({.above = 0}, "a number > 0"), "World length that opacity refers to.");
-        keys.key("interpolation", &GivenTransfer::interpolation, words_form<PointInterpolation>(),
-                 "linear: opacity between two points given by opacity, else extinction; "
-                 "extinction: extinction everywhere; nearest: the nearest point.");
-        keys.add(colormap_key()).add(range_key()).add(points_key());
-        return keys;
-    }();
-    return table;
+double read_scalar(JsonReader& reader, const std::string& key) {
+    const double scalar = reader.number(key);
+    if (!(std::abs(scalar) <= 1e300)) reader.reject(key, "a number between -1e300 and 1e300");
+    return scalar;
 }
 
+// A given transfer function, and what it means: none if its colour map is open.
+struct ReadTransfer {
+    GivenTransfer given;
+    std::optional<TransferFunction> function;
+};
+
+// Reads and closes the object. Throws KeyError, also if points and map make no function.
 ReadTransfer read_transfer_function(JsonReader reader) {
     ReadTransfer read;
     read.given.place = reader.place();
-    transfer_keys().read(reader, read.given);
+    table_of<transfer_keys>().read(reader, read.given);
     if (read.given.open()) return read;
     try {
         read.function = transfer_function_of(read.given);
@@ -230,6 +226,17 @@ ReadTransfer read_transfer_function(JsonReader reader) {
         reader.fail_at(error.key, error.what());
     }
     return read;
+}
+
+}  // namespace
+
+void transfer_keys(KeyTable<GivenTransfer>& keys) {
+    keys.key("unit_length", &GivenTransfer::unit_length, number_form({.above = 0}, "a number > 0"),
+             "World length that opacity refers to.");
+    keys.key("interpolation", &GivenTransfer::interpolation, words_form<PointInterpolation>(),
+             "linear: opacity between two points given by opacity, else extinction; "
+             "extinction: extinction everywhere; nearest: the nearest point.");
+    keys.add(colormap_key()).add(range_key()).add(points_key());
 }
 
 void add_transfer_function(KeyTable<Scene>& scene) {
@@ -245,28 +252,18 @@ void add_transfer_function(KeyTable<Scene>& scene) {
         if (found.function) into.transfer_function = std::move(*found.function);
     };
     const auto write = [](const Scene& written) {
-        return has_open_colormap(written) ? transfer_keys().json(*written.given_transfer)
+        return has_open_colormap(written) ? table_of<transfer_keys>().json(*written.given_transfer)
                                           : transfer_function_json(*written.transfer_function);
     };
     const Alternative<Scene> given{[](const nlohmann::json& value) { return value.is_object(); },
                                    read, [](const Scene&) { return true; }, write,
-                                   transfer_keys().schema()};
+                                   table_of<transfer_keys>().schema()};
     scene.check([](JsonReader&, Scene& into) { into.transfer_function = automatic; });
     scene
         .variant("transfer_function", {chosen, given}, "an object {...}, or \"auto\"",
                  "auto: chosen from the data (docs/first-picture.md).")
         .otherwise("auto");
 }
-
-namespace {
-
-double read_scalar(JsonReader& reader, const std::string& key) {
-    const double scalar = reader.number(key);
-    if (!(std::abs(scalar) <= 1e300)) reader.reject(key, "a number between -1e300 and 1e300");
-    return scalar;
-}
-
-}  // namespace
 
 IntegrationCase read_integration_case(JsonReader reader) {
     ReadTransfer read = read_transfer_function(reader.object("transfer_function"));

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cassert>
 
-#include "base/sparse_bytes.h"
+#include "base/memory.h"
 #include "executors/lights.h"
 #include "executors/transfer_tables.h"
 #include "facts/bricks.h"

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "base/progress.h"
+#include "base/client.h"
 #include "compositing/tree_shape.h"
-#include "gl/buffer.h"
+#include "gl/api.h"
 #include "gl/framebuffer.h"
 #include "slicing/gl_slab_source.h"
 

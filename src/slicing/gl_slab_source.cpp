@@ -9,19 +9,19 @@
 #include <span>
 #include <utility>
 
+#include "base/client.h"
 #include "base/enum_words.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/profile.h"
-#include "base/progress.h"
 #include "executors/gl_optics.h"
 #include "executors/lights.h"
 #include "executors/transfer_tables.h"
 #include "facts/drawn_range.h"
-#include "facts/world_unit.h"
 #include "gl/api.h"
 #include "optics/pieces.h"
+#include "scene/camera.h"
 #include "slicing/gradient_map.h"
 #include "slicing/slab_geometry.h"
 

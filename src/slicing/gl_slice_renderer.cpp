@@ -8,8 +8,8 @@
 
 #include "base/client.h"
 #include "base/profile.h"
-#include "facts/world_unit.h"
 #include "gl/api.h"
+#include "scene/camera.h"
 #include "slicing/slab_geometry.h"
 
 namespace lamina {

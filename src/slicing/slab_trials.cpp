@@ -9,11 +9,10 @@
 #include <limits>
 #include <memory>
 
+#include "base/client.h"
 #include "base/profile.h"
-#include "base/progress.h"
 #include "image/difference.h"
-#include "plan/classification_choice.h"
-#include "plan/light_choice.h"
+#include "plan/choices.h"
 #include "plan/planners.h"
 #include "slicing/slice_renderer.h"
 #include "slicing/trial_truth.h"

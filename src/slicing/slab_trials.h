@@ -4,8 +4,8 @@
 #include "facts/volume_facts.h"
 #include "lamina/volume.h"
 #include "plan/capabilities.h"
-#include "plan/slab_choice.h"
-#include "preintegration/table_cache.h"
+#include "plan/choices.h"
+#include "preintegration/preintegration_table.h"
 
 namespace lamina {
 

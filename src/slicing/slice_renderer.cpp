@@ -12,8 +12,8 @@
 #include "executors/lights.h"
 #include "executors/transfer_tables.h"
 #include "facts/drawn_range.h"
-#include "facts/world_unit.h"
 #include "optics/pieces.h"
+#include "scene/camera.h"
 #include "slicing/cpu_volume.h"
 #include "slicing/gl_slice_renderer.h"
 

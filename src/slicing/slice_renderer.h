@@ -5,11 +5,11 @@
 #include <memory>
 #include <optional>
 
-#include "base/progress.h"
+#include "base/client.h"
 #include "executors/fixed_tree.h"
 #include "lamina/image.h"
 #include "lamina/volume.h"
-#include "plan/frame_renderer.h"
+#include "plan/plan.h"
 #include "slicing/cpu_slabs.h"
 
 namespace lamina {

@@ -9,7 +9,7 @@
 #include "lamina/image.h"
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
-#include "reference/volume_tracer.h"
+#include "reference/tracer.h"
 #include "scene/camera.h"
 #include "volume/min_max_bricks.h"
 

@@ -6,30 +6,24 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <set>
 
 #include "base/client.h"
 #include "base/profile.h"
-#include "study/study_frames.h"
 #include "study/time_left.h"
 
 namespace lamina::study {
 namespace {
 
 double product(const Difference& a, const Difference& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.e.size(); ++i) sum += a.e[i] * b.e[i];
-    return sum;
+    return std::inner_product(a.e.begin(), a.e.end(), b.e.begin(), 0.0);
 }
 
 double sign_of(const ErrorBudget::Part& part) {
     return part.key == "slicing" ? -1 : 1;
-}
-
-void subtract(const Difference& other, Difference& from) {
-    for (std::size_t i = 0; i < from.e.size(); ++i) from.e[i] -= other.e[i];
 }
 
 std::vector<ErrorBudget::Part> parts_of(const FourPictures& pictures) {
@@ -40,57 +34,10 @@ std::vector<ErrorBudget::Part> parts_of(const FourPictures& pictures) {
         {"projection", "PT method", difference(pictures.projected, pictures.traced_mesh), {}, 0}};
     if (pictures.unlit_mesh.rgba.empty()) return parts;
     const Difference unlit = difference(pictures.unlit_mesh, pictures.unlit_volume);
-    subtract(unlit, mesh);
+    for (std::size_t i = 0; i < mesh.e.size(); ++i) mesh.e[i] -= unlit.e[i];
     parts[0].e = unlit;
     parts.push_back({"gradients", "gradients", mesh, {}, 0});
     return parts;
-}
-
-}  // namespace
-
-const ErrorBudget::Part& ErrorBudget::dominant() const {
-    return *std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
-        return a.error.all.l2 < b.error.all.l2;
-    });
-}
-
-ErrorBudget error_budget(const FourPictures& pictures) {
-    ErrorBudget budget;
-    budget.parts = parts_of(pictures);
-    budget.raw = difference(pictures.projected, pictures.sliced);
-    budget.raw_error = measure(budget.raw);
-    const double whole = product(budget.raw, budget.raw);
-    for (ErrorBudget::Part& part : budget.parts) {
-        part.error = measure(part.e);
-        part.share = whole > 0 ? sign_of(part) * product(part.e, budget.raw) / whole : 0;
-    }
-    for (std::size_t i = 0; i < budget.raw.e.size(); ++i) {
-        double sum = 0;
-        for (const ErrorBudget::Part& part : budget.parts) sum += sign_of(part) * part.e.e[i];
-        budget.residual = std::max(budget.residual, std::abs(budget.raw.e[i] - sum));
-    }
-    return budget;
-}
-
-namespace {
-
-Scene slicing_scene(const Scene& scene, int samples) {
-    Scene sliced = scene;
-    sliced.method = Method::slice;
-    sliced.slice.samples = samples;
-    return sliced;
-}
-
-Scene projection_scene(const Scene& scene, double tolerance, std::int64_t max_tets) {
-    Scene projected = scene;
-    projected.method = Method::project;
-    if (projected.mesh_file() == nullptr) {
-        MeshSettings settings = mesh_settings(scene);
-        settings.tolerance = tolerance;
-        settings.max_tets = max_tets;
-        projected.mesh = settings;
-    }
-    return projected;
 }
 
 // Draws step by step, coarse to fine, and keeps all renderers ready to be timed.
@@ -132,13 +79,11 @@ class Crosschecker {
 
   private:
     std::vector<int> all_samples() {
-        std::vector<int> samples = settings_.samples;
         made_.samples =
             scene_.slice.samples.is_given() ? *scene_.slice.samples : automatic_samples();
-        samples.push_back(made_.samples);
-        std::sort(samples.begin(), samples.end());
-        samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
-        return samples;
+        std::set<int> samples(settings_.samples.begin(), settings_.samples.end());
+        samples.insert(made_.samples);
+        return {samples.begin(), samples.end()};
     }
     int automatic_samples() {
         Scene sliced = scene_;
@@ -155,12 +100,10 @@ class Crosschecker {
     std::vector<double> all_tolerances() {
         if (scene_.mesh_file() != nullptr) return {0.0};
         made_.tolerance = mesh_settings(scene_).tolerance;
-        std::vector<double> tolerances;
-        if (makes_meshes(scene_)) tolerances = settings_.tolerances;
-        tolerances.push_back(made_.tolerance);
-        std::sort(tolerances.begin(), tolerances.end(), std::greater<>());
-        tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
-        return tolerances;
+        std::set<double, std::greater<>> tolerances{made_.tolerance};
+        if (makes_meshes(scene_))
+            tolerances.insert(settings_.tolerances.begin(), settings_.tolerances.end());
+        return {tolerances.begin(), tolerances.end()};
     }
 
     // A mesh that the scene does not state has a bound, unless the ladder was asked for.
@@ -200,8 +143,11 @@ class Crosschecker {
 
     void slice(int samples) {
         check_interrupt();
-        StudyFrames& frames = *frames_.emplace_back(std::make_unique<StudyFrames>(
-            slicing_scene(scene_, samples), data_, capabilities_, tables_));
+        Scene sliced = scene_;
+        sliced.method = Method::slice;
+        sliced.slice.samples = samples;
+        StudyFrames& frames = *frames_.emplace_back(
+            std::make_unique<StudyFrames>(sliced, data_, capabilities_, tables_));
         Crosscheck::Slicing& made = made_.slicings.emplace_back();
         made.samples = samples;
         made.picture = frames.picture();
@@ -210,7 +156,15 @@ class Crosschecker {
     }
 
     Scene mesh_scene(double tolerance) const {
-        return projection_scene(scene_, tolerance, most_tets(tolerance));
+        Scene projected = scene_;
+        projected.method = Method::project;
+        if (projected.mesh_file() == nullptr) {
+            MeshSettings settings = mesh_settings(scene_);
+            settings.tolerance = tolerance;
+            settings.max_tets = most_tets(tolerance);
+            projected.mesh = settings;
+        }
+        return projected;
     }
 
     void project(double tolerance) {
@@ -322,6 +276,30 @@ class Crosschecker {
 };
 
 }  // namespace
+
+const ErrorBudget::Part& ErrorBudget::dominant() const {
+    return *std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
+        return a.error.all.l2 < b.error.all.l2;
+    });
+}
+
+ErrorBudget error_budget(const FourPictures& pictures) {
+    ErrorBudget budget;
+    budget.parts = parts_of(pictures);
+    budget.raw = difference(pictures.projected, pictures.sliced);
+    budget.raw_error = measure(budget.raw);
+    const double whole = product(budget.raw, budget.raw);
+    for (ErrorBudget::Part& part : budget.parts) {
+        part.error = measure(part.e);
+        part.share = whole > 0 ? sign_of(part) * product(part.e, budget.raw) / whole : 0;
+    }
+    for (std::size_t i = 0; i < budget.raw.e.size(); ++i) {
+        double sum = 0;
+        for (const ErrorBudget::Part& part : budget.parts) sum += sign_of(part) * part.e.e[i];
+        budget.residual = std::max(budget.residual, std::abs(budget.raw.e[i] - sum));
+    }
+    return budget;
+}
 
 bool makes_meshes(const Scene& scene) {
     return scene.mesh_file() == nullptr && !mesh_settings(scene).kuhn;

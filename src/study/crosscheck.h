@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,8 @@
 #include "lamina/image.h"
 #include "lamina/image_color_space.h"
 #include "plan/capabilities.h"
-#include "study/frame_times.h"
-#include "study/reference_store.h"
+#include "study/data_store.h"
+#include "study/study_frames.h"
 
 namespace lamina::study {
 
@@ -112,5 +113,32 @@ bool makes_meshes(const Scene& scene);
 // is made from it, or the finest of the ladder, if that ends before. Throws Error.
 Crosscheck crosscheck(const Scene& scene, const CrosscheckSettings& settings,
                       const Capabilities& capabilities);
+
+// "1 slab", "64 slabs".
+std::string slabs_text(int count);
+
+// "99.9 %": the part's share of the difference.
+std::string share_text(const ErrorBudget::Part& part);
+
+// Facts that a report states beside the results of a cross-check.
+struct CrosscheckSubject {
+    std::string name;                    // name of the scene
+    double wanted = 1;                   // largest error that counts as agreement, Linf in 1/255
+    nlohmann::ordered_json environment;  // machine and version, for the report
+};
+
+// Returns the contents of budget.json: the error budget of the four pictures, and all results of
+// both methods.
+nlohmann::ordered_json budget_json(const Crosscheck& crosscheck, const ErrorBudget& budget,
+                                   const CrosscheckSubject& subject);
+
+// Returns the document that the page shows (docs/study.md).
+nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const ErrorBudget& budget,
+                                         const CrosscheckSubject& subject);
+
+// Returns the findings as sentences, for stdout and the page.
+std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,
+                                             const ErrorBudget& budget,
+                                             const CrosscheckSubject& subject);
 
 }  // namespace lamina::study

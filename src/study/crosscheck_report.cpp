@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/crosscheck_report.h"
+#include "study/crosscheck.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "image/difference_picture.h"
-#include "study/report_figures.h"
-#include "study/result_files.h"
+#include "image/difference.h"
+#include "study/report_files.h"
 #include "study/study_results.h"
 
 namespace lamina::study {
@@ -177,69 +176,6 @@ Json ladder_json(const Crosscheck& crosscheck) {
     return ladder;
 }
 
-}  // namespace
-
-std::string slabs_text(int count) {
-    return fmt::format("{} slab{}", count, count == 1 ? "" : "s");
-}
-
-std::string share_text(const ErrorBudget::Part& part) {
-    const double percent = std::round(1000 * part.share) / 10;
-    return fmt::format("{:.1f} %", percent == 0 ? 0 : percent);  // no "-0.0"
-}
-
-nlohmann::ordered_json budget_json(const Crosscheck& crosscheck, const ErrorBudget& budget,
-                                   const CrosscheckSubject& subject) {
-    Json parts;
-    for (const ErrorBudget::Part& part : budget.parts) {
-        parts[part.key] = error_json(part.error);
-        parts[part.key]["share"] = part.share;
-    }
-    return {{"scene", subject.name},
-            {"samples", crosscheck.samples},
-            {"tolerance", crosscheck.tolerance},
-            {"reference_error", crosscheck.reference_error},
-            {"wanted", subject.wanted},
-            {"parts", parts},
-            {"raw", error_json(budget.raw_error)},
-            {"residual", budget.residual},
-            {"dominant", budget.dominant().key},
-            {"findings", crosscheck_findings(crosscheck, budget, subject)},
-            {"environment", subject.environment},
-            {"ladder", ladder_json(crosscheck)}};
-}
-
-nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const ErrorBudget& budget,
-                                         const CrosscheckSubject& subject) {
-    const double scale = std::max(budget.raw_error.all.linf / 2, 1e-6);
-    const Image& traced = crosscheck.pictures.traced_volume;
-    const int step = reduction(traced.width, traced.height);
-    const Json reference{
-        {"id", "volume"},
-        {"of", "volume"},
-        {"error_estimate", crosscheck.reference_error},
-        {"ms", crosscheck.reference_ms},
-        {"width", traced.width},
-        {"height", traced.height},
-        {"image", data_uri(shown(reduced(traced, step), crosscheck.pictures.space))}};
-    Json comparison{{"scene", subject.name},
-                    {"baseline", slicing_name(crosscheck.slicings.front().samples)},
-                    {"difference_scale", scale},
-                    {"references", Json::array({reference})},
-                    {"runs", runs_json(crosscheck, scale)},
-                    {"plots", plots_json(crosscheck)},
-                    {"pictures", pictures_json(crosscheck, budget, scale)}};
-    return {{"title", fmt::format("Projected tetrahedra (PT) against slicing: {}", subject.name)},
-            {"kind", "crosscheck"},
-            {"findings", crosscheck_findings(crosscheck, budget, subject)},
-            {"environment", subject.environment},
-            {"swept", {"method", "render.slice.samples", "mesh.tolerance", "tets"}},
-            {"comparisons", Json::array({comparison})},
-            {"dropped", Json::array()}};
-}
-
-namespace {
-
 constexpr const char* part_names[] = {"mesh discretisation", "the slicing method", "the PT method"};
 
 std::string dominance_of(const ErrorBudget::Part& part) {
@@ -339,6 +275,65 @@ std::string agreement(const Crosscheck& crosscheck, double wanted,
 }
 
 }  // namespace
+
+std::string slabs_text(int count) {
+    return fmt::format("{} slab{}", count, count == 1 ? "" : "s");
+}
+
+std::string share_text(const ErrorBudget::Part& part) {
+    const double percent = std::round(1000 * part.share) / 10;
+    return fmt::format("{:.1f} %", percent == 0 ? 0 : percent);  // no "-0.0"
+}
+
+nlohmann::ordered_json budget_json(const Crosscheck& crosscheck, const ErrorBudget& budget,
+                                   const CrosscheckSubject& subject) {
+    Json parts;
+    for (const ErrorBudget::Part& part : budget.parts) {
+        parts[part.key] = error_json(part.error);
+        parts[part.key]["share"] = part.share;
+    }
+    return {{"scene", subject.name},
+            {"samples", crosscheck.samples},
+            {"tolerance", crosscheck.tolerance},
+            {"reference_error", crosscheck.reference_error},
+            {"wanted", subject.wanted},
+            {"parts", parts},
+            {"raw", error_json(budget.raw_error)},
+            {"residual", budget.residual},
+            {"dominant", budget.dominant().key},
+            {"findings", crosscheck_findings(crosscheck, budget, subject)},
+            {"environment", subject.environment},
+            {"ladder", ladder_json(crosscheck)}};
+}
+
+nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const ErrorBudget& budget,
+                                         const CrosscheckSubject& subject) {
+    const double scale = std::max(budget.raw_error.all.linf / 2, 1e-6);
+    const Image& traced = crosscheck.pictures.traced_volume;
+    const int step = reduction(traced.width, traced.height);
+    const Json reference{
+        {"id", "volume"},
+        {"of", "volume"},
+        {"error_estimate", crosscheck.reference_error},
+        {"ms", crosscheck.reference_ms},
+        {"width", traced.width},
+        {"height", traced.height},
+        {"image", data_uri(shown(reduced(traced, step), crosscheck.pictures.space))}};
+    Json comparison{{"scene", subject.name},
+                    {"baseline", slicing_name(crosscheck.slicings.front().samples)},
+                    {"difference_scale", scale},
+                    {"references", Json::array({reference})},
+                    {"runs", runs_json(crosscheck, scale)},
+                    {"plots", plots_json(crosscheck)},
+                    {"pictures", pictures_json(crosscheck, budget, scale)}};
+    return {{"title", fmt::format("Projected tetrahedra (PT) against slicing: {}", subject.name)},
+            {"kind", "crosscheck"},
+            {"findings", crosscheck_findings(crosscheck, budget, subject)},
+            {"environment", subject.environment},
+            {"swept", {"method", "render.slice.samples", "mesh.tolerance", "tets"}},
+            {"comparisons", Json::array({comparison})},
+            {"dropped", Json::array()}};
+}
 
 // Each pair of settings is told once: the coarsest and the finest may be the scene's own.
 std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,

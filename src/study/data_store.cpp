@@ -6,19 +6,21 @@
 
 #include <cassert>
 #include <glm/vec3.hpp>
-#include <utility>
 
 #include "base/content_hash.h"
+#include "base/enum_words.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
 #include "base/profile.h"
 #include "choice/choose.h"
+#include "image/npy.h"
 #include "mesh_files/mesh_file.h"
+#include "scene/clip.h"
 #include "scene/given_transfer.h"
-#include "scene/half_space.h"
-#include "scene_files/data_keys.h"
-#include "study/result_files.h"
+#include "scene_files/keys.h"
+#include "scene_files/scene_keys.h"
+#include "study/report_files.h"
 #include "volume/generate.h"
 #include "volume/volume_store.h"
 
@@ -37,6 +39,113 @@ void add(ContentHash& hash, const Lighting& lighting) {
         add(hash, light.direction.value_or(glm::dvec3(0)));
         add(hash, light.color);
     }
+}
+
+nlohmann::ordered_json facts_of(const SceneMesh& mesh, double ms) {
+    const MeshReport& report = mesh.report.value();
+    return {{"mesh", content_of(mesh)},
+            {"ms", ms},
+            {"points", report.points},
+            {"tets", report.tets},
+            {"kuhn_tets", report.kuhn_tets},
+            {"rounds", report.rounds},
+            {"range", report.range},
+            {"error", report.error},
+            {"within_tolerance", report.within_tolerance},
+            {"stopped_by_max_tets", report.stopped_by_max_tets}};
+}
+
+MeshReport report_from(const nlohmann::json& facts) {
+    MeshReport report;
+    facts.at("points").get_to(report.points);
+    facts.at("tets").get_to(report.tets);
+    facts.at("kuhn_tets").get_to(report.kuhn_tets);
+    facts.at("rounds").get_to(report.rounds);
+    facts.at("range").get_to(report.range);
+    facts.at("error").get_to(report.error);
+    facts.at("within_tolerance").get_to(report.within_tolerance);
+    facts.at("stopped_by_max_tets").get_to(report.stopped_by_max_tets);
+    return report;
+}
+
+// Returns nothing if the folder has no such mesh, or if its files are damaged.
+std::optional<MadeMesh> find_mesh(const std::filesystem::path& folder, const std::string& id,
+                                  const Scene& scene) {
+    const std::filesystem::path facts_file = folder / (id + ".json");
+    if (!std::filesystem::exists(facts_file)) return std::nullopt;
+    try {
+        const nlohmann::json facts = load_json(facts_file);
+        Scene whole = scene;
+        whole.scalar.clear();  // the file has one
+        MadeMesh made{SceneData(whole, read_mesh(folder / (id + ".vtu")), report_from(facts)),
+                      facts.at("ms").get<double>()};
+        if (content_of(*made.data.mesh(whole)) != facts.at("mesh").get<std::string>())
+            return std::nullopt;
+        return made;
+    } catch (const Error&) {
+    } catch (const nlohmann::json::exception&) {
+    }
+    return std::nullopt;
+}
+
+// The mesh is written before the facts: a mesh with a .json is complete.
+void keep_mesh(const std::filesystem::path& folder, const std::string& id, MadeMesh& made) {
+    const SceneMesh& drawn = *made.data.mesh({});
+    const TetMesh& tets = drawn.mesh;
+    MeshData data;
+    data.points.assign(tets.points().begin(), tets.points().end());
+    data.tets.assign(tets.tets().begin(), tets.tets().end());
+    data.point_scalars = {drawn.scalar};
+    AtomicFile mesh(folder / (id + ".vtu"));
+    write_vtu(mesh, data);
+    mesh.commit();
+    write_text(folder / (id + ".json"), json_text(facts_of(drawn, made.ms)) + "\n");
+}
+
+constexpr double units = 255;  // of errors, in full scale
+
+std::string key_of(const Scene& scene, TraceOf of, DataStore& data) {
+    ContentHash hash;
+    hash.add(picture_key(scene));
+    if (of == TraceOf::volume) {
+        hash.add(data.volume(scene).content);
+        hash.add(scene.trace_tolerance);
+    } else {
+        hash.add(data.mesh(scene).content);
+    }
+    return hash.hex();
+}
+
+Reference traced(const Scene& scene, TraceOf of, DataStore& data) {
+    const Stopwatch watch;
+    const auto made = [&](auto result) {
+        return Reference{
+            {}, of, units * result.error_estimate, watch.milliseconds(), std::move(result.image)};
+    };
+    if (of == TraceOf::mesh) return made(data.mesh(scene).data.trace(scene));
+    SceneData volume(data.volume(scene).data);
+    return made(trace_picture(as_trace(scene, TraceOf::volume), volume));
+}
+
+std::string content_of(const PreciseImage& image) {
+    ContentHash hash;
+    hash.add(static_cast<double>(image.width));
+    hash.add(image.rgba.data(), image.rgba.size() * sizeof(image.rgba[0]));
+    return hash.hex();
+}
+
+// Loads all but the picture, and returns what names the picture.
+std::pair<Reference, std::string> load_facts(const std::filesystem::path& folder,
+                                             const std::string& id) {
+    const std::filesystem::path file = folder / (id + ".json");
+    const nlohmann::json document = load_json(file);
+    JsonReader reader(document, file);
+    Reference reference;
+    reference.id = id;
+    reference.of = reader.choice<TraceOf>("of", enum_words<TraceOf>());
+    reference.error_estimate = reader.number("error_estimate");
+    reference.ms = reader.number("ms");
+    return {std::move(reference), reader.text("picture")};
 }
 
 }  // namespace
@@ -132,68 +241,6 @@ const PreciseImage& TracedMesh::exact(const Scene& scene) {
     return traced_.emplace(key, trace(scene).image).first->second;
 }
 
-namespace {
-
-nlohmann::ordered_json facts_of(const SceneMesh& mesh, double ms) {
-    const MeshReport& report = mesh.report.value();
-    return {{"mesh", content_of(mesh)},
-            {"ms", ms},
-            {"points", report.points},
-            {"tets", report.tets},
-            {"kuhn_tets", report.kuhn_tets},
-            {"rounds", report.rounds},
-            {"range", report.range},
-            {"error", report.error},
-            {"within_tolerance", report.within_tolerance},
-            {"stopped_by_max_tets", report.stopped_by_max_tets}};
-}
-
-MeshReport report_from(const nlohmann::json& facts) {
-    MeshReport report;
-    facts.at("points").get_to(report.points);
-    facts.at("tets").get_to(report.tets);
-    facts.at("kuhn_tets").get_to(report.kuhn_tets);
-    facts.at("rounds").get_to(report.rounds);
-    facts.at("range").get_to(report.range);
-    facts.at("error").get_to(report.error);
-    facts.at("within_tolerance").get_to(report.within_tolerance);
-    facts.at("stopped_by_max_tets").get_to(report.stopped_by_max_tets);
-    return report;
-}
-
-}  // namespace
-
-std::optional<MadeMesh> KeptMeshes::find(const std::string& id, const Scene& scene) const {
-    if (!std::filesystem::exists(file(id, ".json"))) return std::nullopt;
-    try {
-        const nlohmann::json facts = load_json(file(id, ".json"));
-        Scene whole = scene;
-        whole.scalar.clear();  // the file has one
-        MadeMesh made{SceneData(whole, read_mesh(file(id, ".vtu")), report_from(facts)),
-                      facts.at("ms").get<double>()};
-        if (content_of(*made.data.mesh(whole)) != facts.at("mesh").get<std::string>())
-            return std::nullopt;
-        return made;
-    } catch (const Error&) {
-    } catch (const nlohmann::json::exception&) {
-    }
-    return std::nullopt;
-}
-
-// The mesh is written before the facts: a mesh with a .json is complete.
-void KeptMeshes::keep(const std::string& id, MadeMesh& made) const {
-    const SceneMesh& drawn = *made.data.mesh({});
-    const TetMesh& tets = drawn.mesh;
-    MeshData data;
-    data.points.assign(tets.points().begin(), tets.points().end());
-    data.tets.assign(tets.tets().begin(), tets.tets().end());
-    data.point_scalars = {drawn.scalar};
-    AtomicFile mesh(file(id, ".vtu"));
-    write_vtu(mesh, data);
-    mesh.commit();
-    write_text(file(id, ".json"), json_text(facts_of(drawn, made.ms)) + "\n");
-}
-
 std::string volume_name(const Scene& scene) {
     if (const VolumeFile* const file = scene.volume_file()) {
         const std::string path = file->path.string();
@@ -248,14 +295,14 @@ MadeMesh DataStore::read_or_make(const Scene& scene) {
         data.mesh(scene);
         return MadeMesh{std::move(data), watch.milliseconds()};
     };
-    if (!kept_ || scene.mesh_file() != nullptr) return make();
+    if (kept_.empty() || scene.mesh_file() != nullptr) return make();
     // Data of the volume's name may change between two processes.
     ContentHash id;
     id.add(volume(scene).content);
     id.add(mesh_name(scene));
-    if (std::optional<MadeMesh> found = kept_->find(id.hex(), scene)) return std::move(*found);
+    if (std::optional<MadeMesh> found = find_mesh(kept_, id.hex(), scene)) return std::move(*found);
     MadeMesh made = make();
-    kept_->keep(id.hex(), made);
+    keep_mesh(kept_, id.hex(), made);
     return made;
 }
 
@@ -277,6 +324,66 @@ Scene DataStore::closed(Scene scene) {
 void DataStore::clear() {
     volumes_.clear();
     meshes_.clear();
+}
+
+Reference ReferenceStore::load(const std::filesystem::path& folder, const std::string& id) {
+    auto [reference, content] = load_facts(folder, id);
+    const std::filesystem::path file = folder / (id + ".npy");
+    reference.image = read_npy(file);
+    const std::string found = content_of(reference.image);
+    if (found != content) {
+        fail("{}: found a picture of hash {}, expected {} as {}.json says", file.string(), found,
+             content, id);
+    }
+    return std::move(reference);
+}
+
+double ReferenceStore::error_estimate(const std::filesystem::path& folder, const std::string& id) {
+    return load_facts(folder, id).first.error_estimate;
+}
+
+// Returns nothing if the reference cannot be read, which is said once.
+std::optional<Reference> ReferenceStore::find(const std::string& id) {
+    if (lost_.contains(id)) return std::nullopt;
+    try {
+        return load(folder_, id);
+    } catch (const Error& error) {
+        say_(fmt::format("{}: the reference is traced again", error.what()));
+        lost_.insert(id);
+        return std::nullopt;
+    }
+}
+
+bool ReferenceStore::is_kept(const std::string& id) {
+    return find(id).has_value();
+}
+
+Reference ReferenceStore::make(const std::string& id, const Scene& scene, TraceOf of,
+                               DataStore& data) const {
+    std::optional<AtomicFile> picture;  // first: a file that cannot be written fails at once
+    if (!folder_.empty()) picture.emplace(folder_ / (id + ".npy"));
+    Reference reference = traced(scene, of, data);
+    reference.id = id;
+    if (!picture) return reference;
+    // The picture is written before the facts, so that a reference with a .json is complete.
+    write_npy(*picture, reference.image);
+    picture->commit();
+    const nlohmann::ordered_json facts{{"of", name_of(reference.of)},
+                                       {"error_estimate", reference.error_estimate},
+                                       {"ms", reference.ms},
+                                       {"picture", content_of(reference.image)}};
+    write_text(folder_ / (id + ".json"), json_text(facts) + "\n");
+    return reference;
+}
+
+const Reference& ReferenceStore::get(const Scene& scene, TraceOf of, DataStore& data) {
+    const std::string id = key_of(scene, of, data);
+    const auto known = references_.find(id);
+    if (known != references_.end()) return known->second;
+    std::optional<Reference> reference;
+    if (!folder_.empty() && std::filesystem::exists(folder_ / (id + ".json"))) reference = find(id);
+    if (!reference) reference = make(id, scene, of, data);
+    return references_.emplace(id, std::move(*reference)).first->second;
 }
 
 }  // namespace lamina::study

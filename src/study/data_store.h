@@ -2,18 +2,21 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
+#include "lamina/image.h"
 #include "lamina/scene.h"
 #include "lamina/volume.h"
 #include "optics/colormap.h"
+#include "render/pipeline.h"
 #include "render/scene_data.h"
-#include "render/traced_picture.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 #include "volume/volume_data.h"
 
 namespace lamina::study {
@@ -56,25 +59,6 @@ struct MadeMesh {
     double ms = 0;
 };
 
-// Meshes made from volumes, kept in a folder as ID.vtu and ID.json. `id` identifies all that a mesh
-// depends on. Later processes find there the same numbers, bit for bit.
-class KeptMeshes {
-  public:
-    explicit KeptMeshes(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-    // Returns nothing if the folder has no such mesh, or if its files are damaged.
-    std::optional<MadeMesh> find(const std::string& id, const Scene& scene) const;
-    // Throws Error if the files cannot be written.
-    void keep(const std::string& id, MadeMesh& made) const;
-
-  private:
-    std::filesystem::path file(const std::string& id, const char* extension) const {
-        return folder_ / (id + extension);
-    }
-
-    std::filesystem::path folder_;
-};
-
 // Return names of data: paths, or the formulas of generated data.
 std::string volume_name(const Scene& scene);
 std::string mesh_name(const Scene& scene);
@@ -100,15 +84,60 @@ class DataStore {
     Scene closed(Scene scene);
     void clear();
 
-    // Keeps meshes that are made from volumes in this folder from now on, and finds them there.
-    void keep_meshes(const std::filesystem::path& folder) { kept_.emplace(folder); }
+    // Keeps meshes that are made from volumes in this folder from now on, and finds them there, as
+    // ID.vtu and ID.json. Later processes find there the same numbers, bit for bit.
+    void keep_meshes(const std::filesystem::path& folder) { kept_ = folder; }
 
   private:
     MadeMesh read_or_make(const Scene& scene);
 
-    std::optional<KeptMeshes> kept_;
+    std::filesystem::path kept_;  // empty: meshes are not kept
     std::map<std::string, std::unique_ptr<StoredVolume>> volumes_;
     std::map<std::string, std::unique_ptr<StoredMesh>> meshes_;
+};
+
+// A tracer's picture of a scene.
+struct Reference {
+    // Hash of all that it depends on: data, transfer function, camera, size, tolerance.
+    std::string id;
+    TraceOf of = TraceOf::volume;
+    double error_estimate = 0;  // the tracer's own estimate, in 1/255
+    double ms = 0;              // time that tracing took
+    PreciseImage image;
+};
+
+// Traced pictures, each made once. With a folder they are kept there as ID.npy and ID.json, for
+// later studies of the same content. Damaged files are made again.
+class ReferenceStore {
+  public:
+    using Say = std::function<void(const std::string&)>;
+
+    ReferenceStore() = default;  // keeps references in memory only
+    // `say` gets a message for each reference that is made again.
+    ReferenceStore(std::filesystem::path folder, Say say)
+        : folder_(std::move(folder)), say_(std::move(say)) {}
+
+    // The reference for the scene's volume or its mesh, as `of` says. Throws Error. The result is
+    // valid until clear().
+    const Reference& get(const Scene& scene, TraceOf of, DataStore& data);
+    void clear() { references_.clear(); }  // from memory
+
+    // Returns true if the folder has an intact reference that was made before. If not, it will be
+    // made again.
+    bool is_kept(const std::string& id);
+
+    // Loads a reference from `folder`. Throws Error if it is missing or was changed.
+    static Reference load(const std::filesystem::path& folder, const std::string& id);
+    static double error_estimate(const std::filesystem::path& folder, const std::string& id);
+
+  private:
+    std::optional<Reference> find(const std::string& id);
+    Reference make(const std::string& id, const Scene& scene, TraceOf of, DataStore& data) const;
+
+    std::filesystem::path folder_;
+    Say say_;
+    std::set<std::string> lost_;  // references whose loss was reported
+    std::map<std::string, Reference> references_;
 };
 
 }  // namespace lamina::study

@@ -134,6 +134,22 @@ std::size_t find_baseline(const StudyFile& file, const RunList& list, std::size_
     return found.front();
 }
 
+using Json = nlohmann::ordered_json;
+
+Settings settings_from(const nlohmann::json& json) {
+    Settings settings;
+    for (const auto& [key, value] : json.items()) settings.emplace_back(key, value);
+    return settings;
+}
+
+// Reads what all runs share. A list of an earlier version does not say it.
+void read_shared_settings(const nlohmann::json& document, RunList& list) {
+    list.base = settings_from(document.value("base", nlohmann::json::object()));
+    for (const nlohmann::json& each : document.value("own", nlohmann::json::array()))
+        list.own.push_back(settings_from(each));
+    list.own.resize(list.scenes.size());
+}
+
 }  // namespace
 
 std::string run_name(const Settings& settings) {
@@ -210,26 +226,6 @@ RunList list_runs(const StudyFile& file) {
         list.baselines.push_back(find_baseline(file, list, scene));
     return list;
 }
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-Settings settings_from(const nlohmann::json& json) {
-    Settings settings;
-    for (const auto& [key, value] : json.items()) settings.emplace_back(key, value);
-    return settings;
-}
-
-// Reads what all runs share. A list of an earlier version does not say it.
-void read_shared_settings(const nlohmann::json& document, RunList& list) {
-    list.base = settings_from(document.value("base", nlohmann::json::object()));
-    for (const nlohmann::json& each : document.value("own", nlohmann::json::array()))
-        list.own.push_back(settings_from(each));
-    list.own.resize(list.scenes.size());
-}
-
-}  // namespace
 
 nlohmann::ordered_json settings_json(const Settings& settings) {
     Json json = Json::object();

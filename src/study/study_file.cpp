@@ -12,7 +12,6 @@
 #include "base/enum_words.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "base/text.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina::study {
@@ -88,64 +87,6 @@ bool is_list_of_whole_numbers(const nlohmann::json& value) {
            std::all_of(value.begin(), value.end(),
                        [](const nlohmann::json& each) { return each.is_number_integer(); });
 }
-
-}  // namespace
-
-const nlohmann::json* find_setting(const Settings& settings, const std::string& key) {
-    const auto found = std::find_if(settings.begin(), settings.end(),
-                                    [&](const auto& setting) { return setting.first == key; });
-    return found == settings.end() ? nullptr : &found->second;
-}
-
-std::uint64_t SweepGrid::count() const {
-    constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
-    std::uint64_t product = 1;
-    for (const SweepAxis& axis : axes) {
-        if (product > most / axis.values.size()) return most;
-        product *= axis.values.size();
-    }
-    return product;
-}
-
-Settings SweepGrid::settings(std::uint64_t n) const {
-    Settings settings(axes.size());
-    for (std::size_t i = axes.size(); i-- > 0;) {
-        const SweepAxis& axis = axes[i];
-        settings[i] = {axis.key, axis.values[n % axis.values.size()]};
-        n /= axis.values.size();
-    }
-    return settings;
-}
-
-std::vector<SweepGrid> read_sweep(JsonReader& study) {
-    const nlohmann::json& found = study.value("sweep");
-    std::vector<SweepGrid> grids;
-    std::size_t listed = 0;
-    if (found.is_array() && !found.empty()) {
-        for (const nlohmann::json& grid : found)
-            grids.push_back(read_grid(study, fmt::format("sweep.{}", grids.size()), grid, listed));
-    } else {
-        grids.push_back(read_grid(study, "sweep", found, listed));
-    }
-    return grids;
-}
-
-std::vector<std::vector<int>> factorizations(int of, int levels) {
-    std::vector<std::vector<int>> all;
-    std::vector<int> factors;
-    for (int length = 1; length <= levels; ++length)
-        append_factorizations(of, length, factors, all);
-    return all;
-}
-
-std::string setting_text(const nlohmann::json& value) {
-    if (value.is_string()) return value.get<std::string>();
-    if (is_list_of_whole_numbers(value))
-        return fmt::format("{}", fmt::join(value.get<std::vector<std::int64_t>>(), "x"));
-    return value.is_null() ? "" : json_text(value);
-}
-
-namespace {
 
 constexpr std::size_t most_drops = 1000;  // each is held against every run
 
@@ -225,25 +166,23 @@ void read_scenes(JsonReader& study, const Settings& base, StudyFile& file) {
     skip_scenes_without_data(file);
 }
 
-// The keys that a study sweeps, for comparison with other keys.
-class SweptKeys {
-  public:
-    explicit SweptKeys(const StudyFile& file) {
-        for (const SweepGrid& grid : file.sweep)
-            for (const SweepAxis& axis : grid.axes) keys_.insert(axis.key);
-    }
-    void check(JsonReader& reader, const std::string& field, const std::string& key) const {
-        if (!keys_.contains(key)) {
-            reader.fail_at(field, fmt::format("\"{}\" is not swept, expected a key of \"sweep\"",
-                                              shortened(key)));
-        }
-    }
+using Keys = std::set<std::string>;
 
-  private:
-    std::set<std::string> keys_{"scene"};
-};
+Keys keys_to_match(const StudyFile& file) {
+    Keys keys{"scene"};
+    for (const SweepGrid& grid : file.sweep)
+        for (const SweepAxis& axis : grid.axes) keys.insert(axis.key);
+    return keys;
+}
 
-void read_drops(JsonReader& study, const SweptKeys& swept, StudyFile& file) {
+void check_swept(const Keys& swept, JsonReader& reader, const std::string& field,
+                 const std::string& key) {
+    if (swept.contains(key)) return;
+    reader.fail_at(field,
+                   fmt::format("\"{}\" is not swept, expected a key of \"sweep\"", shortened(key)));
+}
+
+void read_drops(JsonReader& study, const Keys& swept, StudyFile& file) {
     if (!study.has("drop")) return;
     std::vector<JsonReader> readers = study.objects("drop");
     if (readers.size() > most_drops) {
@@ -254,7 +193,7 @@ void read_drops(JsonReader& study, const SweptKeys& swept, StudyFile& file) {
         StudyFile::Drop drop;
         drop.because = reader.text("because");
         for (auto& [key, value] : read_settings(reader, "where")) {
-            swept.check(reader, "where", key);
+            check_swept(swept, reader, "where", key);
             // A list stands for its elements and also for itself, because bifurcation factors are a
             // list.
             std::vector<nlohmann::json> values{value};
@@ -267,13 +206,67 @@ void read_drops(JsonReader& study, const SweptKeys& swept, StudyFile& file) {
     }
 }
 
-void read_baseline(JsonReader& study, const SweptKeys& swept, StudyFile& file) {
+void read_baseline(JsonReader& study, const Keys& swept, StudyFile& file) {
     if (!study.has("baseline")) return;
     file.baseline = read_settings(study, "baseline");
-    for (const auto& [key, value] : *file.baseline) swept.check(study, "baseline", key);
+    for (const auto& [key, value] : *file.baseline) check_swept(swept, study, "baseline", key);
 }
 
 }  // namespace
+
+const nlohmann::json* find_setting(const Settings& settings, const std::string& key) {
+    const auto found = std::find_if(settings.begin(), settings.end(),
+                                    [&](const auto& setting) { return setting.first == key; });
+    return found == settings.end() ? nullptr : &found->second;
+}
+
+std::uint64_t SweepGrid::count() const {
+    constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
+    std::uint64_t product = 1;
+    for (const SweepAxis& axis : axes) {
+        if (product > most / axis.values.size()) return most;
+        product *= axis.values.size();
+    }
+    return product;
+}
+
+Settings SweepGrid::settings(std::uint64_t n) const {
+    Settings settings(axes.size());
+    for (std::size_t i = axes.size(); i-- > 0;) {
+        const SweepAxis& axis = axes[i];
+        settings[i] = {axis.key, axis.values[n % axis.values.size()]};
+        n /= axis.values.size();
+    }
+    return settings;
+}
+
+std::vector<SweepGrid> read_sweep(JsonReader& study) {
+    const nlohmann::json& found = study.value("sweep");
+    std::vector<SweepGrid> grids;
+    std::size_t listed = 0;
+    if (found.is_array() && !found.empty()) {
+        for (const nlohmann::json& grid : found)
+            grids.push_back(read_grid(study, fmt::format("sweep.{}", grids.size()), grid, listed));
+    } else {
+        grids.push_back(read_grid(study, "sweep", found, listed));
+    }
+    return grids;
+}
+
+std::vector<std::vector<int>> factorizations(int of, int levels) {
+    std::vector<std::vector<int>> all;
+    std::vector<int> factors;
+    for (int length = 1; length <= levels; ++length)
+        append_factorizations(of, length, factors, all);
+    return all;
+}
+
+std::string setting_text(const nlohmann::json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (is_list_of_whole_numbers(value))
+        return fmt::format("{}", fmt::join(value.get<std::vector<std::int64_t>>(), "x"));
+    return value.is_null() ? "" : json_text(value);
+}
 
 void apply_settings(const Settings& settings, nlohmann::json& document) {
     for (const auto& [key, value] : settings) {
@@ -305,7 +298,7 @@ StudyFile load_study(const std::filesystem::path& path) {
         study.reject("sweep", "an object {\"render.slice.samples\": [256, 512]}");
     file.sweep = read_sweep(study);
     read_scenes(study, base, file);
-    const SweptKeys swept(file);
+    const Keys swept = keys_to_match(file);
     read_drops(study, swept, file);
     read_baseline(study, swept, file);
     if (study.has("reference")) {

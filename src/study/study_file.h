@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lamina/scene.h"
-#include "scene_files/json_reader.h"
+#include "scene_files/keys.h"
 
 namespace lamina::study {
 

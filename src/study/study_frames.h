@@ -5,13 +5,38 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "render/draw_context.h"
 #include "render/pipeline.h"
 #include "study/data_store.h"
 
 namespace lamina::study {
+
+// A kind of frame to time. `draw` draws one frame and returns when it is complete; `warm_up`
+// prepares it.
+struct TimedFrame {
+    std::string name;
+    std::function<void()> warm_up, draw;
+};
+
+struct FrameTimes {
+    double ms = 0;            // median, by the clock
+    double cpu_ms = 0;        // median, of all threads of the process
+    double min = 0, max = 0;  // ms, by the clock
+    std::size_t count = 0;
+};
+
+// Times frames in rounds A B C, A B C, ..., so that a slow phase of the machine affects all of
+// them. There must be at least three rounds.
+std::vector<FrameTimes> time_interleaved(const std::string& label,
+                                         const std::vector<TimedFrame>& frames, int rounds);
+
+// Returns {machine, processors, date}: the processor's name, how many of them this process may run
+// on, and today (UTC).
+nlohmann::ordered_json describe_machine();
 
 // Contexts by their words (--context), made when first asked for. Of those with OpenGL only one is
 // there at a time, current in the thread that asked for it.

@@ -3,14 +3,19 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "study/reference_store.h"
+#include "study/data_store.h"
 #include "study/run_list.h"
-#include "study/study_folder.h"
+#include "study/study_results.h"
 
 namespace lamina::study {
+
+// Returns the contents of results.json (docs/study.md): all that the page of a study shows, except
+// for its pictures.
+nlohmann::ordered_json report_of(const StudyResults& results);
 
 // Copies the journals, references and pictures of shards of one study into a folder. Throws Error
 // if they belong to different studies or drew different data, if two of them are the same shard, or

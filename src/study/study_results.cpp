@@ -1,42 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_results.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 #include "base/arithmetic.h"
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
-#include "scene_files/json_reader.h"
-#include "study/result_files.h"
-#include "study/study_folder.h"
+#include "scene_files/keys.h"
+#include "study/report_files.h"
 
 namespace lamina::study {
+namespace {
 
-std::vector<bool> pareto_front(const std::vector<CostAndError>& points) {
-    std::vector<std::size_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        if (points[a].cost != points[b].cost) return points[a].cost < points[b].cost;
-        return points[a].error < points[b].error;
-    });
-    std::vector<bool> front(points.size(), false);
-    CostAndError last{-INFINITY, INFINITY};  // of the front, at the largest cost so far
-    for (const std::size_t i : order) {
-        const CostAndError& point = points[i];
-        const bool equal = point.cost == last.cost && point.error == last.error;
-        if (!equal && point.error >= last.error) continue;
-        front[i] = true;
-        last = point;
+struct CompleteLines {
+    std::vector<nlohmann::json> records;
+    std::int64_t bytes = 0;
+};
+
+// Returns null if the line is not JSON that the program reads.
+nlohmann::json record_of(const std::string& line) {
+    try {
+        return parse_json(line);
+    } catch (const Error&) {
+        return nullptr;
     }
-    return front;
 }
 
-namespace {
+CompleteLines read_lines(const std::filesystem::path& path) {
+    std::istringstream stream(read_file_bytes(path));
+    CompleteLines lines;
+    std::string line;
+    // getline() meets the end of the file if the newline is missing: that line is incomplete.
+    while (std::getline(stream, line) && !stream.eof()) {
+        lines.records.push_back(record_of(line));
+        if (!lines.records.back().is_object()) {
+            fail("{}: line {}: found \"{}\", expected a record that lamina study wrote",
+                 path.string(), lines.records.size(), one_line(shortened(line)));
+        }
+        lines.bytes += static_cast<std::int64_t>(line.size()) + 1;
+    }
+    return lines;
+}
 
 using Json = nlohmann::ordered_json;
 using Records = std::vector<nlohmann::json>;
@@ -167,37 +183,6 @@ Json environment_of(const std::vector<Records>& journals, const std::vector<RunR
     return json;
 }
 
-}  // namespace
-
-StudyResults read_results(const StudyFolder& folder) {
-    StudyResults results;
-    results.list = run_list_from(load_json(folder.run_list()), folder.run_list());
-    std::vector<Records> records;
-    std::vector<JournalRecords> journals;
-    for (const auto& path : folder.journals()) records.push_back(Journal::read(path));
-    try {
-        for (const Records& each : records) journals.push_back(by_run(each));
-        for (std::size_t run = 0; run < results.list.runs.size(); ++run)
-            add_result(results.list, run, journals, results.runs);
-    } catch (const Error& error) {
-        fail("{}: a journal holds what lamina study did not write: {}", folder.path.string(),
-             error.what());
-    } catch (const std::exception&) {
-        fail("{}: a journal holds what lamina study did not write: {}", folder.path.string(),
-             strange_record);
-    }
-    for (RunResult& run : results.runs) {
-        if (run.failed.empty())
-            run.reference_error =
-                ReferenceStore::error_estimate(folder.references(), run.reference);
-    }
-    find_fronts(results);
-    results.environment = environment_of(records, results.runs);
-    return results;
-}
-
-namespace {
-
 const std::vector<std::string> channel_names{"R", "G", "B", "A"};
 
 // All digits are written, so that the members of a front can be checked.
@@ -261,6 +246,129 @@ std::vector<std::string> cells_of(const RunList& list, const RunResult& result,
 }
 
 }  // namespace
+
+std::vector<std::string> StudyFolder::names() {
+    std::vector<std::string> all = results();
+    for (const std::string& folder : folders()) all.push_back(folder);
+    return all;
+}
+
+std::filesystem::path StudyFolder::journal(int shard, int shards) const {
+    return path / fmt::format("journal-{}-of-{}.jsonl", shard, shards);
+}
+
+std::vector<std::filesystem::path> StudyFolder::journals() const {
+    std::vector<std::filesystem::path> found;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("journal-") && name.ends_with(".jsonl")) found.push_back(entry.path());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::vector<std::filesystem::path> StudyFolder::kept() const {
+    std::vector<std::filesystem::path> found = journals();
+    found.push_back(run_list());
+    for (const std::string& folder : folders()) {
+        std::error_code error;
+        for (const auto& entry : std::filesystem::directory_iterator(path / folder, error))
+            found.push_back(entry.path());
+    }
+    return found;
+}
+
+void StudyFolder::make() const {
+    own().add(folders());
+    for (const auto& folder : {path, references(), pictures()}) make_folder(folder);
+}
+
+Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path_, ignored)) expect_regular_file(path_);
+    descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
+    try {
+        // Some file systems have no locks. There nothing keeps two processes apart.
+        if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            fail("{}: another lamina study is writing it", path_.string());
+        CompleteLines lines = read_lines(path_);
+        if (ftruncate(descriptor_, lines.bytes) != 0)
+            fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
+        found_ = std::move(lines.records);
+    } catch (...) {
+        close(descriptor_);
+        throw;
+    }
+}
+
+Journal::~Journal() {
+    close(descriptor_);
+}
+
+void Journal::append(const nlohmann::ordered_json& record) {
+    const std::string line = json_text(record) + "\n";
+    std::size_t written = 0;
+    while (written < line.size()) {
+        const ssize_t count = write(descriptor_, line.data() + written, line.size() - written);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
+        written += static_cast<std::size_t>(count);
+    }
+    if (fdatasync(descriptor_) != 0)
+        fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
+}
+
+std::vector<nlohmann::json> Journal::read(const std::filesystem::path& path) {
+    return read_lines(path).records;
+}
+
+std::vector<bool> pareto_front(const std::vector<CostAndError>& points) {
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        if (points[a].cost != points[b].cost) return points[a].cost < points[b].cost;
+        return points[a].error < points[b].error;
+    });
+    std::vector<bool> front(points.size(), false);
+    CostAndError last{-INFINITY, INFINITY};  // of the front, at the largest cost so far
+    for (const std::size_t i : order) {
+        const CostAndError& point = points[i];
+        const bool equal = point.cost == last.cost && point.error == last.error;
+        if (!equal && point.error >= last.error) continue;
+        front[i] = true;
+        last = point;
+    }
+    return front;
+}
+
+StudyResults read_results(const StudyFolder& folder) {
+    StudyResults results;
+    results.list = run_list_from(load_json(folder.run_list()), folder.run_list());
+    std::vector<Records> records;
+    std::vector<JournalRecords> journals;
+    for (const auto& path : folder.journals()) records.push_back(Journal::read(path));
+    try {
+        for (const Records& each : records) journals.push_back(by_run(each));
+        for (std::size_t run = 0; run < results.list.runs.size(); ++run)
+            add_result(results.list, run, journals, results.runs);
+    } catch (const Error& error) {
+        fail("{}: a journal holds what lamina study did not write: {}", folder.path.string(),
+             error.what());
+    } catch (const std::exception&) {
+        fail("{}: a journal holds what lamina study did not write: {}", folder.path.string(),
+             strange_record);
+    }
+    for (RunResult& run : results.runs) {
+        if (run.failed.empty())
+            run.reference_error =
+                ReferenceStore::error_estimate(folder.references(), run.reference);
+    }
+    find_fronts(results);
+    results.environment = environment_of(records, results.runs);
+    return results;
+}
 
 std::string csv_of(const StudyResults& results) {
     const std::vector<std::string> columns = columns_of(results.list);

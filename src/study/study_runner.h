@@ -7,14 +7,39 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "study/reference_store.h"
-#include "study/run_data.h"
-#include "study/study_folder.h"
+#include "base/client.h"
+#include "lamina/scene.h"
+#include "study/data_store.h"
+#include "study/run_list.h"
 #include "study/study_frames.h"
+#include "study/study_results.h"
 #include "study/time_left.h"
 
 namespace lamina::study {
+
+// A volume, a mesh or a colour map that runs of a study draw.
+struct StudyData {
+    enum class Kind { volume, mesh, colormap };
+    Kind kind;
+    std::string name;   // its path, or its formula
+    std::size_t scene;  // number of the scene in the study
+    Scene drawn;        // scene of a run that draws it
+
+    // Tells whether both are the same data of the same scene.
+    bool operator==(const StudyData& other) const {
+        return kind == other.kind && scene == other.scene && name == other.name;
+    }
+};
+
+// Reads every run's scene and checks that its files exist. Throws Error if a file is missing, a
+// key is unknown, or no run of a scene can be drawn. Other errors of single runs are found when
+// these are run. Returns the data that the runs draw, each once.
+std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);
+
+// Adds the data to the list, with the hashes of their contents. A hash is empty if the data
+// cannot be read; the runs that need them report this. Each is read once. Data of a single scene
+// stay in the store.
+void list_data(const std::vector<StudyData>& data, DataStore& store, RunList& list);
 
 // The runs of a list that a process does: those whose number leaves the remainder `number` - 1 when
 // divided by `count`.

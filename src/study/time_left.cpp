@@ -9,6 +9,27 @@
 #include <cmath>
 
 namespace lamina::study {
+namespace {
+
+constexpr double steps = 1e6;  // the line from 0 to 100 % has so many
+constexpr std::chrono::milliseconds pause(500);
+
+// Work that goes on takes at least this share of its time so far, whatever was predicted.
+constexpr double least_left = 0.02;
+
+// Seconds of one processor that a tet takes: TetGen and the search for the largest errors take most
+// of it (.00022 on an EPYC with AVX2, 2026-11).
+constexpr double usual_seconds_a_tet = 2.5e-4;
+
+// Tets over 1 / tolerance. A field with second derivatives needs points in proportion to the power
+// 1.5, noise nearly to the power 3.
+constexpr double least_power = 1.5, usual_power = 2.5, largest_power = 3.5;
+
+// All meshes of a ladder that halves its tolerances have so many times the tets of the last one:
+// 1 + 2^-1.5 + 2^-3 + ...
+constexpr double sum_of_ladder = 1.55;
+
+}  // namespace
 
 void TimeLeft::add_first(double seconds, double timing) {
     ++first_visits_;
@@ -42,16 +63,6 @@ std::string duration_text(double seconds) {
     return fmt::format("{} days", whole(seconds / 86400));
 }
 
-namespace {
-
-constexpr double steps = 1e6;  // the line from 0 to 100 % has so many
-constexpr std::chrono::milliseconds pause(500);
-
-// Work that goes on takes at least this share of its time so far, whatever was predicted.
-constexpr double least_left = 0.02;
-
-}  // namespace
-
 TimedProgress::TimedProgress(const std::string& label)
     : progress_(label, static_cast<std::int64_t>(steps)),
       thread_([this](const std::stop_token& stop) { keep_showing(stop); }) {}
@@ -78,22 +89,6 @@ void TimedProgress::show() {
     progress_.advance(done - shown_);
     shown_ = done;
 }
-
-namespace {
-
-// Seconds of one processor that a tet takes: TetGen and the search for the largest errors take most
-// of it (.00022 on an EPYC with AVX2, 2026-11).
-constexpr double usual_seconds_a_tet = 2.5e-4;
-
-// Tets over 1 / tolerance. A field with second derivatives needs points in proportion to the power
-// 1.5, noise nearly to the power 3.
-constexpr double least_power = 1.5, usual_power = 2.5, largest_power = 3.5;
-
-// All meshes of a ladder that halves its tolerances have so many times the tets of the last one:
-// 1 + 2^-1.5 + 2^-3 + ...
-constexpr double sum_of_ladder = 1.55;
-
-}  // namespace
 
 void LadderCost::add(double tolerance, std::int64_t tets, double seconds) {
     const Made made{tolerance, static_cast<double>(std::max<std::int64_t>(tets, 1))};

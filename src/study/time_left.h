@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
+#include "base/client.h"
 #include "base/profile.h"
-#include "base/progress.h"
 
 namespace lamina::study {
 

@@ -13,6 +13,10 @@ namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using RunPointers = std::vector<const RunResult*>;
+
+constexpr const char* factors_key = "render.slice.tree.factors";
+constexpr const char* target_key = "render.target";
 
 struct TreePoint {
     double height = 0, irregularity = 1, error = 0, ms = 0;
@@ -34,55 +38,26 @@ Json plot(const Series& series, const char* title, const char* x_label, bool x_l
     return json;
 }
 
-}  // namespace
-
+// Returns the bifurcation factors of a run, from the root to the leaves. Empty if no tree is swept
+// or the run failed.
 std::vector<int> factors_of(const RunList& list, const RunResult& result) {
     const nlohmann::json* const found = find_setting(list.runs[result.run].settings, factors_key);
     if (found == nullptr || !found->is_array() || !result.failed.empty()) return {};
     return found->get<std::vector<int>>();
 }
 
+// Returns a name of the run's other settings: "fixed8".
 std::string name_without_factors(const StudyRun& run) {
     Settings others = run.settings;
     std::erase_if(others, [](const auto& setting) { return setting.first == factors_key; });
     return run_name(others);
 }
 
+// Returns the largest factor over the smallest: 1 for a regular tree.
 double irregularity(const std::vector<int>& factors) {
     const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
     return static_cast<double>(*most) / *least;
 }
-
-nlohmann::ordered_json tree_plots(const RunList& list, const std::vector<const RunResult*>& runs) {
-    Series series;
-    for (const RunResult* const run : runs) {
-        const std::vector<int> factors = factors_of(list, *run);
-        if (factors.empty()) continue;
-        series[name_without_factors(list.runs[run->run])].push_back(
-            {static_cast<double>(factors.size()), irregularity(factors), run->all.l2,
-             median(run->frame_ms), list.runs[run->run].id});
-    }
-    if (series.empty()) return Json::array();
-    constexpr const char* height = "levels of the tree";
-    constexpr const char* shape = "largest factor / smallest (1: regular)";
-    constexpr const char* error = "L2 error (1/255)";
-    constexpr const char* ms = "ms a frame";
-    return {plot(series, "Error over the height of the tree", height, false, error,
-                 &TreePoint::height, &TreePoint::error),
-            plot(series, "Time over the height of the tree", height, false, ms, &TreePoint::height,
-                 &TreePoint::ms),
-            plot(series, "Error over the irregularity of the tree", shape, true, error,
-                 &TreePoint::irregularity, &TreePoint::error),
-            plot(series, "Time over the irregularity of the tree", shape, true, ms,
-                 &TreePoint::irregularity, &TreePoint::ms)};
-}
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-using RunPointers = std::vector<const RunResult*>;
-
-constexpr const char* target_key = "render.target";
 
 bool drawn_in_floats(const RunList& list, const StudyRun& run) {
     for (const Settings* const settings : {&run.settings, &list.own[run.scene], &list.base}) {
@@ -189,6 +164,30 @@ void add_answers(AnswerRows& rows, const RunList& list, const std::string& scene
 }
 
 }  // namespace
+
+nlohmann::ordered_json tree_plots(const RunList& list, const std::vector<const RunResult*>& runs) {
+    Series series;
+    for (const RunResult* const run : runs) {
+        const std::vector<int> factors = factors_of(list, *run);
+        if (factors.empty()) continue;
+        series[name_without_factors(list.runs[run->run])].push_back(
+            {static_cast<double>(factors.size()), irregularity(factors), run->all.l2,
+             median(run->frame_ms), list.runs[run->run].id});
+    }
+    if (series.empty()) return Json::array();
+    constexpr const char* height = "levels of the tree";
+    constexpr const char* shape = "largest factor / smallest (1: regular)";
+    constexpr const char* error = "L2 error (1/255)";
+    constexpr const char* ms = "ms a frame";
+    return {plot(series, "Error over the height of the tree", height, false, error,
+                 &TreePoint::height, &TreePoint::error),
+            plot(series, "Time over the height of the tree", height, false, ms, &TreePoint::height,
+                 &TreePoint::ms),
+            plot(series, "Error over the irregularity of the tree", shape, true, error,
+                 &TreePoint::irregularity, &TreePoint::error),
+            plot(series, "Time over the irregularity of the tree", shape, true, ms,
+                 &TreePoint::irregularity, &TreePoint::ms)};
+}
 
 std::int64_t nodes_of(const std::vector<int>& factors) {
     std::int64_t nodes = 0, of_level = 1;

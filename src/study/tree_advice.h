@@ -12,18 +12,6 @@
 
 namespace lamina::study {
 
-constexpr const char* factors_key = "render.slice.tree.factors";
-
-// Returns the bifurcation factors of a run, from the root to the leaves. Empty if no tree is swept
-// or the run failed.
-std::vector<int> factors_of(const RunList& list, const RunResult& result);
-
-// Returns a name of the run's other settings: "fixed8".
-std::string name_without_factors(const StudyRun& run);
-
-// Returns the largest factor over the smallest: 1 for a regular tree.
-double irregularity(const std::vector<int>& factors);
-
 // The report's `plots` for runs of one scene with trees: L2 error and frame time over the tree's
 // height and over its irregularity (LaMar 2004, section 6.3, asks for both). There is one series
 // for each setting of the other swept keys. Empty if no run has a tree.

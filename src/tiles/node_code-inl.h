@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of compositing/node_code.h on vectors of floats, as
+// Vector form of compositing/codes.h on vectors of floats, as
 // shaders/compositing/node_code.glsl computes it.
 #if defined(LAMINA_TILES_NODE_CODE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_NODE_CODE_INL_H_
@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "base/enum_words.h"
-#include "compositing/node_code.h"
+#include "compositing/codes.h"
 #include "simd/math-inl.h"
 #include "tiles/segment_optics-inl.h"
 

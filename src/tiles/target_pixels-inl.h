@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a target composites fragments. Functions take and return vectors of a tile's planes
-// (tiles/tile_image.h). Vector forms of compositing/over.h and compositing/codes.h, bit for bit.
+// (tiles/tile_image.h). Vector forms of compositing/codes.h and compositing/codes.h, bit for bit.
 #if defined(LAMINA_TILES_TARGET_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_TARGET_PIXELS_INL_H_
 #undef LAMINA_TILES_TARGET_PIXELS_INL_H_
@@ -9,7 +9,7 @@
 #endif
 
 #include "base/enum_words.h"
-#include "compositing/over.h"
+#include "compositing/codes.h"
 #include "simd/vectors-inl.h"
 #include "tiles/tile_image.h"
 
@@ -257,7 +257,7 @@ LAMINA_INLINE Float color_code(const TargetBlend& target, Float color) {
 }
 
 // OVER in real arithmetic on stored codes. The result is rounded at random, with one random number
-// for all channels (compositing/over.h).
+// for all channels (compositing/codes.h).
 LAMINA_INLINE void composite_stochastic(const TargetBlend& target, const Fragment& fragment,
                                         Word random, Pixels& there) {
     const Float64 chance(random), alpha(fragment.alpha);

@@ -1,20 +1,117 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "visibility/open_face_constraints.h"
 
-#include <algorithm>
 #include <atomic>
 
-#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include "base/client.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "mesh/face_tree.h"
-#include "mesh/predicates.h"
-#include "visibility/seen_shapes.h"
+#include "visibility/order_graph.h"
 
 namespace lamina {
-
 namespace {
+
+std::size_t after(std::size_t corner) {
+    return corner == 2 ? 0 : corner + 1;
+}
+
+// A triangle cut by three planes has at most six corners.
+struct Polygon {
+    std::array<glm::dvec3, 6> corners;  // from the eye; at infinity from any common origin
+    std::size_t count = 0;
+    void add(const glm::dvec3& corner) {
+        if (count < corners.size()) corners[count++] = corner;
+    }
+};
+
+// Van Oosterom and Strackee, The solid angle of a plane triangle, 1983, equation 8.
+double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    const double determinant = glm::dot(a, glm::cross(b, c));
+    const double rest =
+        la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la;
+    return 2 * std::abs(std::atan2(std::abs(determinant), rest));
+}
+
+double area(const Eye& eye, const Polygon& polygon) {
+    double sum = 0;
+    for (std::size_t i = 2; i < polygon.count; ++i) {
+        const glm::dvec3 &a = polygon.corners[0], &b = polygon.corners[i - 1],
+                         &c = polygon.corners[i];
+        sum +=
+            eye.at_infinity
+                ? 0.5 * std::abs(glm::dot(glm::normalize(eye.position), glm::cross(b - a, c - a)))
+                : solid_angle(a, b, c);
+    }
+    return sum;
+}
+
+Polygon from_eye(const Eye& eye, const Triangle& triangle, const glm::dvec3& origin) {
+    Polygon polygon;
+    for (const glm::dvec3& corner : triangle)
+        polygon.add(corner - (eye.at_infinity ? origin : eye.position));
+    return polygon;
+}
+
+// Boxes around triangles on one side of the eye: across the rays and along them. Triangles in
+// disjoint boxes are disjoint. One that is not well on that side has a box of everything.
+class SeenBoxes {
+  public:
+    // Makes boxes for the side of the eye towards `center`.
+    SeenBoxes(const Eye& eye, const glm::dvec3& center);
+
+    FaceTree::Box of(const Triangle& triangle) const;
+
+  private:
+    bool at_infinity_;
+    glm::dvec3 origin_;
+    glm::dmat3 axes_;  // columns: two across the rays, one along them
+};
+
+// Tells whether some ray may meet a triangle in `exit` and then one in `entry`.
+inline bool may_show(const FaceTree::Box& exit, const FaceTree::Box& entry) {
+    return entry.max.x >= exit.min.x && entry.min.x <= exit.max.x && entry.max.y >= exit.min.y &&
+           entry.min.y <= exit.max.y && entry.max.z >= exit.min.z;
+}
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// Tangent of the angle from the middle of the view above which points count as behind the eye.
+constexpr double widest = 1e3;
+
+SeenBoxes::SeenBoxes(const Eye& eye, const glm::dvec3& center)
+    : at_infinity_(eye.at_infinity), origin_(eye.at_infinity ? center : eye.position) {
+    const glm::dvec3 towards = eye.at_infinity ? eye.position : center - eye.position;
+    const glm::dvec3 size = glm::abs(towards);
+    const double largest = std::max({size.x, size.y, size.z});
+    const glm::dvec3 along = largest > 0 ? glm::normalize(towards / largest) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 other = size.x < largest ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 across = glm::normalize(glm::cross(other, along));
+    axes_ = {across, glm::cross(along, across), along};
+}
+
+// A coordinate is off by at most 4 epsilon of the distance (1-norm; axes need not be exactly across
+// one another). A quotient is off by that of both, as a share of the depth.
+FaceTree::Box SeenBoxes::of(const Triangle& triangle) const {
+    FaceTree::Box box = FaceTree::nothing();
+    for (const glm::dvec3& corner : triangle) {
+        const glm::dvec3 from = corner - origin_;
+        const double distance = norm1(from);
+        glm::dvec3 seen(glm::dot(from, axes_[0]), glm::dot(from, axes_[1]),
+                        glm::dot(from, axes_[2]));
+        glm::dvec3 slack(8 * epsilon * distance);
+        if (!at_infinity_) {
+            if (!(seen.z * widest > distance)) return {glm::dvec3(-INFINITY), glm::dvec3(INFINITY)};
+            const double share = distance / seen.z;
+            seen.x /= seen.z;
+            seen.y /= seen.z;
+            slack.x = slack.y = 16 * epsilon * share * (1 + share);
+        }
+        box.add({seen - slack, seen + slack});
+    }
+    return box;
+}
 
 // Faces that may be examined for each face, on average. Real meshes need far fewer.
 constexpr std::size_t looks_a_face = 100;
@@ -26,7 +123,7 @@ class Search {
           tree_(mesh, mesh.open_faces()),
           bounds_{mesh.bounds().min, mesh.bounds().max},
           left_(looks_a_face * mesh.open_faces().size()),
-          outside_(mesh.points()[static_cast<std::size_t>(mesh.tets()[0][0])]) {}
+          outside_(mesh.points()[mesh.tets()[0][0]]) {}
 
     std::vector<std::int32_t> find() {
         std::vector<char> outermost(mesh_.open_faces().size());
@@ -40,18 +137,15 @@ class Search {
                 continue;
             }
             // One face of a flat side of the mesh is enough.
-            for (const std::int32_t other : in_plane_)
-                outermost[static_cast<std::size_t>(other)] = true;
+            for (const std::int32_t other : in_plane_) outermost[other] = true;
         }
         return found;
     }
 
   private:
-    Triangle triangle(std::int32_t face) const {
-        return mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(face)]);
-    }
+    Triangle triangle(std::int32_t face) const { return mesh_.corners(mesh_.open_faces()[face]); }
 
-    // Tells whether a face is outermost. Then `in_plane_` has all other faces of its plane.
+    // Then `in_plane_` has all other faces of its plane.
     bool is_outermost(std::int32_t face) {
         const Triangle corners = triangle(face);
         const RoundedPlane plane(corners[1] - corners[0], corners[2] - corners[0]);
@@ -103,14 +197,6 @@ class Search {
     std::vector<std::int32_t> in_plane_;
 };
 
-}  // namespace
-
-std::vector<std::int32_t> gap_faces(const TetMesh& mesh) {
-    return Search(mesh).find();
-}
-
-namespace {
-
 constexpr std::int64_t faces_per_task = 256;
 constexpr std::size_t faces_per_run = 32;       // exits whose pairs are one task
 constexpr std::size_t most_pairs = 10'000'000;  // some seconds, and 200 MB with the order's lists
@@ -119,19 +205,159 @@ constexpr std::size_t most_looks = 200'000'000;
 std::vector<TetFace> faces_of(const TetMesh& mesh, std::span<const std::int32_t> open_faces) {
     std::vector<TetFace> faces;
     faces.reserve(open_faces.size());
-    for (const std::int32_t face : open_faces)
-        faces.push_back(mesh.open_faces()[static_cast<std::size_t>(face)]);
+    for (const std::int32_t face : open_faces) faces.push_back(mesh.open_faces()[face]);
     return faces;
 }
 
 }  // namespace
 
-OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh)
-    : OpenFaceConstraints(mesh, gap_faces(mesh)) {}
+SeenTriangle::SeenTriangle(const Eye& eye, const Triangle& corners) : corners_(corners) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3& from = corners[i];
+        edges_[i] = RoundedPlane(eye.at_infinity ? eye.position : from - eye.position,
+                                 corners[after(i)] - from);
+    }
+    face_ = RoundedPlane(corners[1] - corners[0], corners[2] - corners[0]);
+    sign_ = edge_sign(eye, 0, corners[2]);
+}
 
-OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh, std::vector<std::int32_t> gap_faces)
+int SeenTriangle::edge_sign(const Eye& eye, std::size_t corner, const glm::dvec3& point) const {
+    const glm::dvec3 &from = corners_[corner], &to = corners_[after(corner)];
+    if (const int sign = edges_[corner].sign(point - from)) return sign;
+    // Most triangles that meet here share a corner.
+    if (point == from || point == to) return 0;
+    return sign_as_seen(eye, from, to, point);
+}
+
+// Returns 1 if all corners are on or outside this plane, -1 on or inside, 0 on both sides.
+int SeenTriangle::all_on_one_side(const SeenTriangle& other) const {
+    bool outside = false, inside = false;
+    for (const glm::dvec3& point : other.corners_) {
+        const int sign = side_of(corners_, face_, point);
+        outside |= sign > 0;
+        inside |= sign < 0;
+    }
+    return !inside ? 1 : !outside ? -1 : 0;
+}
+
+// Tells whether both pyramids surely lie in one open half-space.
+bool SeenTriangle::sees_ahead(const Eye& eye, const SeenTriangle& other) const {
+    if (eye.at_infinity) return true;
+    return std::all_of(other.corners_.begin(), other.corners_.end(), [&](const glm::dvec3& point) {
+        return face_.sign(point - eye.position) == sign_;
+    });
+}
+
+bool SeenTriangle::separated_by_edge(const Eye& eye, const SeenTriangle& other) const {
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+        // Rounded values come first: one corner that is surely on this side decides.
+        std::array<int, 3> signs;
+        for (std::size_t i = 0; i < 3; ++i)
+            signs[i] = sign_ * edges_[edge].sign(other.corners_[i] - corners_[edge]);
+        if (signs[0] > 0 || signs[1] > 0 || signs[2] > 0) continue;
+        const auto beyond = [&](std::size_t i) {
+            return signs[i] < 0 || sign_ * edge_sign(eye, edge, other.corners_[i]) <= 0;
+        };
+        if (beyond(0) && beyond(1) && beyond(2)) return true;
+    }
+    return false;
+}
+
+// Two triangles have no inner point in common if and only if a line along an edge separates them;
+// so it is with pyramids in one half-space. Otherwise the plane may hold one edge of each.
+bool SeenTriangle::apart(const Eye& eye, const SeenTriangle& entry) const {
+    if (separated_by_edge(eye, entry) || entry.separated_by_edge(eye, *this)) return true;
+    if (sees_ahead(eye, entry)) return false;
+    const Triangle &p = corners_, &q = entry.corners_;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            const auto sign = [&](const glm::dvec3& point) {
+                return sign_as_seen(eye, p[i], q[j], point);
+            };
+            const int p1 = sign(p[after(i)]), p2 = sign(p[after(after(i))]);
+            const int q1 = sign(q[after(j)]), q2 = sign(q[after(after(j))]);
+            if (p1 == 0 && p2 == 0 && q1 == 0 && q2 == 0) continue;
+            if (p1 >= 0 && p2 >= 0 && q1 <= 0 && q2 <= 0) return true;
+            if (p1 <= 0 && p2 <= 0 && q1 >= 0 && q2 >= 0) return true;
+        }
+    }
+    return false;
+}
+
+bool SeenTriangle::shows(const Eye& eye, const SeenTriangle& entry) const {
+    // If a triangle lies on one side of the other's plane, equal signs mean the same order.
+    const auto surely_before = [&](const glm::dvec3& point) {
+        return face_.sign(point - corners_[0]) < 0;
+    };
+    const Triangle& q = entry.corners_;
+    if (surely_before(q[0]) && surely_before(q[1]) && surely_before(q[2])) return false;
+    if (apart(eye, entry)) return false;
+    const int of_entry = all_on_one_side(entry);
+    if (of_entry < 0) return false;
+    if (of_entry > 0) return true;
+    const int of_exit = entry.all_on_one_side(*this);
+    return of_exit != 0 ? of_exit > 0 : behind_where_mixed(eye, entry);
+}
+
+// Corners of the part seen are corners of either triangle in the other, and crossings of edges.
+bool SeenTriangle::behind_where_mixed(const Eye& eye, const SeenTriangle& entry) const {
+    const auto inside = [&](const SeenTriangle& triangle, const glm::dvec3& point) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (triangle.edge_sign(eye, i, point) * triangle.sign_ < 0) return false;
+        }
+        return true;
+    };
+    for (const glm::dvec3& point : entry.corners_) {
+        if (side_of(corners_, face_, point) > 0 && inside(*this, point)) return true;
+    }
+    for (const glm::dvec3& point : corners_) {
+        if (side_of(entry.corners_, entry.face_, point) > 0 && inside(entry, point)) return true;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 &a = corners_[i], &b = corners_[after(i)];
+        for (std::size_t j = 0; j < 3; ++j) {
+            const glm::dvec3 &c = entry.corners_[j], &d = entry.corners_[after(j)];
+            const int side_c = edge_sign(eye, i, c);
+            // Before the eye c -> d passes a -> b in the opposite sense to that of a -> b and c ->
+            // d.
+            if (side_c == 0 || edge_sign(eye, i, d) != -side_c) continue;
+            if (entry.edge_sign(eye, j, a) != -side_c || entry.edge_sign(eye, j, b) != side_c)
+                continue;
+            if (side_c * orientation(a, b, c, d) > 0) return true;
+        }
+    }
+    return false;
+}
+
+SeenThrough::SeenThrough(const SeenTriangle& exit, const FaceTree::Box& bounds) {
+    sides_[0] = PlaneSide(exit.face_, exit.corners_[0], bounds);
+    for (std::size_t i = 0; i < 3; ++i)
+        sides_[i + 1] = PlaneSide(exit.edges_[i], exit.corners_[i], bounds);
+}
+
+double seen_area(const Eye& eye, const Triangle& triangle) {
+    return area(eye, from_eye(eye, triangle, triangle[0]));
+}
+
+double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry) {
+    const Polygon window = from_eye(eye, exit, exit[0]);
+    Polygon seen = from_eye(eye, entry, exit[0]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 &a = window.corners[i], &b = window.corners[(i + 1) % 3];
+        const glm::dvec3 normal = glm::cross(eye.at_infinity ? eye.position : a, b - a);
+        const double offset = glm::dot(normal, a);
+        seen = cut(seen, [&](const glm::dvec3& c) { return glm::dot(normal, c) - offset; });
+    }
+    return area(eye, seen);
+}
+
+std::vector<std::int32_t> gap_faces(const TetMesh& mesh) {
+    return Search(mesh).find();
+}
+
+OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh)
     : mesh_(mesh),
-      open_faces_(std::move(gap_faces)),
+      open_faces_(gap_faces(mesh)),
       tree_(mesh, faces_of(mesh, open_faces_)),
       bounds_{mesh.bounds().min, mesh.bounds().max},
       boxes_(tree_.node_count()),
@@ -141,13 +367,12 @@ OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh, std::vector<std::i
       found_((open_faces_.size() + faces_per_run - 1) / faces_per_run) {
     triangles_.reserve(open_faces_.size());
     for (const std::int32_t face : open_faces_)
-        triangles_.push_back(mesh.corners(mesh.open_faces()[static_cast<std::size_t>(face)]));
+        triangles_.push_back(mesh.corners(mesh.open_faces()[face]));
 }
 
 void OpenFaceConstraints::look_from(const Eye& eye) {
     const SeenBoxes seen_boxes(eye, 0.5 * bounds_.min + 0.5 * bounds_.max);
-    parallel_for(static_cast<std::int64_t>(seen_.size()), faces_per_task, [&](std::int64_t index) {
-        const auto face = static_cast<std::size_t>(index);
+    parallel_for(std::ssize(seen_), faces_per_task, [&](std::size_t face) {
         seen_[face] = SeenTriangle(eye, triangles_[face]);
         seen_boxes_[face] = seen_boxes.of(triangles_[face]);
         signs_[face] = static_cast<std::int8_t>(seen_[face].sign());
@@ -162,8 +387,7 @@ void OpenFaceConstraints::look_from(const Eye& eye) {
 std::span<const OpenFaceConstraint> OpenFaceConstraints::find(const Eye& eye) {
     look_from(eye);
     std::atomic<std::size_t> total{0}, looked_at{0};
-    parallel_for(static_cast<std::int64_t>(found_.size()), 1, [&](std::int64_t index) {
-        const auto run = static_cast<std::size_t>(index);
+    parallel_for(std::ssize(found_), 1, [&](std::size_t run) {
         found_[run].clear();
         const std::size_t end = std::min(seen_.size(), (run + 1) * faces_per_run);
         for (std::size_t face = run * faces_per_run; face < end; ++face) {
@@ -190,9 +414,7 @@ std::size_t OpenFaceConstraints::find_from(std::size_t index, const Eye& eye,
     const SeenTriangle& exit = seen_[index];
     const FaceTree::Box& box = seen_boxes_[index];
     const SeenThrough behind(exit, bounds_);
-    const auto tet_of = [&](std::int32_t open_face) {
-        return mesh_.open_faces()[static_cast<std::size_t>(open_face)].tet;
-    };
+    const auto tet_of = [&](std::int32_t open_face) { return mesh_.open_faces()[open_face].tet; };
     const std::int32_t face = open_faces_[index];
     std::size_t looked = 0;
     const auto reaches = [&](std::size_t node) {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "visibility/order_cycles.h"
 
-#include <algorithm>
-#include <limits>
-
 #include "base/client.h"
 
 namespace lamina {
@@ -55,15 +52,14 @@ void CycleBreaker::list_entering() {
     for (std::size_t i = 1; i < nodes_.size(); ++i) nodes_[i].in += nodes_[i - 1].in;
     entering_.resize(links_.size());
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(links_.size()); ++i)
-        entering_[static_cast<std::size_t>(node(link(i).to).in++)] = i;
+        entering_[node(link(i).to).in++] = i;
     // Each list's start has moved to its end, at which the next list started.
     for (std::size_t i = nodes_.size() - 1; i > 0; --i) nodes_[i].in = nodes_[i - 1].in;
     nodes_[0].in = 0;
 }
 
-// Searches for cycles depth first, subtracts the smallest area left on each cycle from all its
-// links, and drops the links with nothing left. The links that are kept form no cycle. A node gets
-// its place, the nearest first, when all nearer nodes are done.
+// Subtracts the smallest area left on each cycle from all its links, and drops those with nothing
+// left. A node gets its place, the nearest first, when all nearer nodes are done.
 void CycleBreaker::drop_links() {
     dropped_.clear();
     path_.clear();
@@ -101,8 +97,7 @@ void CycleBreaker::push(std::int32_t index) {
     path_.push_back(index);
 }
 
-// Thins a cycle: the path from depth `first` to its end, and the link back. The search goes on from
-// the first link of the path that is dropped.
+// The cycle is the path from depth `first`. The search goes on from its first link that is dropped.
 void CycleBreaker::thin_cycle(std::int32_t first) {
     const auto begin = path_.begin() + first;
     work_ += path_.end() - begin;
@@ -135,8 +130,7 @@ void CycleBreaker::take_back() {
     }
 }
 
-// Changes the places so that the link is kept with all others, if that is possible (Pearce and
-// Kelly, A dynamic topological sort algorithm for directed acyclic graphs, 2007).
+// Pearce and Kelly, A dynamic topological sort algorithm for directed acyclic graphs, 2007.
 bool CycleBreaker::keep(const Link& kept) {
     nearer_.clear();
     farther_.clear();
@@ -159,8 +153,7 @@ bool CycleBreaker::keep(const Link& kept) {
     return true;
 }
 
-// Collects the nodes that kept links lead to before place `end`. Returns false if the node at that
-// place is among them.
+// Collects nodes nearer than place `end`. Returns false if the node there is among them.
 bool CycleBreaker::mark_nearer(std::int32_t from, std::int32_t end) {
     nearer_.push_back(from);
     node(from).marked = true;
@@ -184,7 +177,7 @@ void CycleBreaker::mark_farther(std::int32_t from, std::int32_t end) {
     for (std::size_t i = 0; i < farther_.size(); ++i) {
         work_ += node(farther_[i] + 1).in - node(farther_[i]).in;
         for (std::int32_t at = node(farther_[i]).in; at < node(farther_[i] + 1).in; ++at) {
-            const Link& entering = link(entering_[static_cast<std::size_t>(at)]);
+            const Link& entering = link(entering_[at]);
             if (!entering.kept) continue;
             Node& other = node(entering.from);
             if (other.place < end || other.marked) continue;
@@ -196,8 +189,7 @@ void CycleBreaker::mark_farther(std::int32_t from, std::int32_t end) {
 
 namespace {
 
-// Edges that are visited at most to break the cycles of a component: some seconds. If tets overlap
-// everywhere, there may be more cycles than can be broken in acceptable time.
+// Edges visited at most to break a component: some seconds. Overlapping tets may have more cycles.
 constexpr std::int64_t most_work = 200'000'000;
 
 constexpr std::int32_t complete = std::numeric_limits<std::int32_t>::max();
@@ -246,12 +238,12 @@ OrderCycles::Found OrderCycles::order(const OrderGraph& graph, bool break_rings)
 
 // Reorders the tets of the component. The search is over, so its numbers may serve as nodes.
 CycleBreaker::Broken OrderCycles::break_ring(const OrderGraph& graph, std::int32_t component) {
-    const auto [first, end] = cyclic_[static_cast<std::size_t>(component)];
+    const auto [first, end] = cyclic_[component];
     const auto members = std::span(memory_).subspan(first, end - first);
     std::sort(members.begin(), members.end());
     members_.assign(members.begin(), members.end());
     for (std::size_t i = 0; i < members_.size(); ++i)
-        numbers_[static_cast<std::size_t>(members_[i])] = static_cast<std::int32_t>(i);
+        numbers_[members_[i]] = static_cast<std::int32_t>(i);
     edges_.clear();
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const std::int32_t tet = members_[i];
@@ -264,8 +256,7 @@ CycleBreaker::Broken OrderCycles::break_ring(const OrderGraph& graph, std::int32
         }
     }
     const CycleBreaker::Order order = breaker_.order(members_.size(), edges_, most_work);
-    for (std::size_t i = 0; i < members_.size(); ++i)
-        members[static_cast<std::size_t>(order.places[i])] = members_[i];
+    for (std::size_t i = 0; i < members_.size(); ++i) members[order.places[i]] = members_[i];
     return order.broken;
 }
 
@@ -273,19 +264,19 @@ void OrderCycles::search(const OrderGraph& graph, std::int32_t root) {
     visit(graph, root);
     while (!path_.empty()) {
         const auto [tet, edge] = path_.back();
-        std::int32_t& low = lowest_[static_cast<std::size_t>(tet)];
+        std::int32_t& low = lowest_[tet];
         if (edge == OrderGraph::no_edge) {
             path_.pop_back();
-            if (low == numbers_[static_cast<std::size_t>(tet)]) finish(tet);
+            if (low == numbers_[tet]) finish(tet);
             if (!path_.empty()) {
-                std::int32_t& before = lowest_[static_cast<std::size_t>(path_.back().tet)];
+                std::int32_t& before = lowest_[path_.back().tet];
                 before = std::min(before, low);
             }
             continue;
         }
         path_.back().edge = graph.next_edge(tet, edge);
         const std::int32_t nearer = graph.nearer(tet, edge);
-        const std::int32_t number = numbers_[static_cast<std::size_t>(nearer)];
+        const std::int32_t number = numbers_[nearer];
         if (number == 0) {
             visit(graph, nearer);
         } else {
@@ -301,8 +292,7 @@ void OrderCycles::visit(const OrderGraph& graph, std::int32_t tet) {
     path_.push_back({tet, graph.first_edge(tet)});
 }
 
-// Completes the component of which the tet was found first: the tets that are open since. All
-// nearer components are complete, and follow it in the sequence.
+// Completes the component of the tets that are open since this one.
 void OrderCycles::finish(std::int32_t tet) {
     const std::size_t end = memory_.size() - sequence_.size();
     std::size_t first = end;

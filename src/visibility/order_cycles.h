@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "visibility/order_graph.h"
 
 namespace lamina {
 
-// Orders the nodes of a graph with cycles so that the edges that it breaks have a small area. It
-// computes a feedback arc set as Demetrescu and Finocchi do (Combinatorial algorithms for feedback
-// problems in directed graphs, 2003), with areas as weights. For a ring the result is optimal. In
-// general no broken edge could be kept without breaking another one, unless the work is cut short.
-// Memory is kept from graph to graph.
+// Orders the nodes of a graph with cycles so that the edges that it breaks have a small area: a
+// feedback arc set (Demetrescu and Finocchi, Combinatorial algorithms for feedback problems in
+// directed graphs, 2003). For a ring it is optimal; in general no broken edge could be kept alone.
 class CycleBreaker {
   public:
     // An edge from a node to a nearer one.
@@ -29,10 +23,9 @@ class CycleBreaker {
         std::span<const std::int32_t> places;  // place of each node; 0 is the farthest
         Broken broken;
     };
-    // Orders the nodes. `edges`: in ascending order of `from`; several from one node to one other
-    // count as one edge with the sum of their areas. The result is valid until the next call.
-    // `work`: the most edges that are visited in the search for cycles, and again while broken
-    // edges are taken back; beyond that, edges are broken wherever they close a cycle.
+    // `edges`: in ascending order of `from`; areas of parallel ones are summed. `work`: edges
+    // visited in the search for cycles, and again while some are taken back. Valid until the next
+    // call.
     Order order(std::size_t nodes, std::span<const Edge> edges, std::int64_t work);
 
   private:
@@ -51,8 +44,8 @@ class CycleBreaker {
         State state;
         bool marked;
     };
-    Node& node(std::int32_t index) { return nodes_[static_cast<std::size_t>(index)]; }
-    Link& link(std::int32_t index) { return links_[static_cast<std::size_t>(index)]; }
+    Node& node(std::int32_t index) { return nodes_[index]; }
+    Link& link(std::int32_t index) { return links_[index]; }
     void collect(std::size_t nodes, std::span<const Edge> edges);
     void add(const Edge& edge);
     void list_entering();
@@ -74,12 +67,9 @@ class CycleBreaker {
     std::int64_t work_ = 0, most_work_ = 0;  // number of links that were visited
 };
 
-// Orders tets among which there are cycles. The strongly connected components of the graph (Tarjan,
-// Depth-first search and linear graph algorithms, 1972) are ordered without breaking a constraint.
-// Inside each component CycleBreaker breaks constraints of small seen area, which bounds the area
-// of the view in which the order is wrong: on a ray that meets no broken constraint, each tet comes
-// before the next nearer one. Memory (28 bytes a tet) is taken at the first use, and more only for
-// larger cycles.
+// Orders tets with cycles. The strongly connected components (Tarjan, Depth-first search and linear
+// graph algorithms, 1972) are ordered without breaking a constraint; inside each, CycleBreaker
+// breaks some of small seen area. Memory (28 bytes a tet) is taken at the first use.
 class OrderCycles {
   public:
     static constexpr std::int32_t none = -1;
@@ -89,16 +79,15 @@ class OrderCycles {
         std::int64_t cyclic_tets = 0;
         CycleBreaker::Broken broken;
     };
-    // Orders all tets whose farther count is above zero. No edge may lead from such a tet to
-    // another tet. The time is linear in their number (n log n in a component). `break_rings`: the
-    // tets of each component are ordered, too; without it they are in no order.
+    // Orders all tets whose farther count is above zero, from which no edge may lead to others.
+    // Linear time (n log n in a component). `break_rings`: orders the tets of components, too.
     Found order(const OrderGraph& graph, bool break_rings = true);
 
     // Returns the tets that order() ordered, back to front.
     std::span<const std::int32_t> sequence() const { return sequence_; }
-    // Returns the component of more than one tet that holds the tet, or none.
+    // The component of more than one tet that holds it, or none.
     std::int32_t component(std::int32_t tet) const {
-        return components_.empty() ? none : components_[static_cast<std::size_t>(tet)];
+        return components_.empty() ? none : components_[tet];
     }
     void forget();  // forgets the components of an earlier view
 

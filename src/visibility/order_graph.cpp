@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "visibility/order_graph.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include "base/parallel.h"
-#include "visibility/seen_shapes.h"
 
 namespace lamina {
-
 namespace {
 
-// A determinant of three rounded differences is off by less than 8 half ulps of its permanent
-// (Shewchuk 1997, section 4.3), which is at most 6 times the cube of the largest coordinate. The
-// bound is twice that, so that its own rounding does not matter.
+// Off by less than 8 half ulps of its permanent (Shewchuk 1997, section 4.3), at most 6 times the
+// cube of the largest coordinate; doubled, so that its own rounding does not matter.
 constexpr double error_bound = 96 * (std::numeric_limits<double>::epsilon() / 2);
 
 double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
+
+// States of a tet: not met; on the path, next face `state - first_face`; drawn.
+constexpr std::uint8_t unmet = 0, first_face = 1, drawn = 6;
 
 }  // namespace
 
@@ -30,7 +24,7 @@ FaceSigner::Rounded FaceSigner::rounded(const Tet& tet) const {
     std::array<glm::dvec3, 4> p;
     double reach = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-        p[i] = points_[static_cast<std::size_t>(tet[i])] - eye_.position;
+        p[i] = points_[tet[i]] - eye_.position;
         reach = std::max(reach, largest(p[i]));
     }
     const glm::dvec3 p01 = glm::cross(p[0], p[1]), p23 = glm::cross(p[2], p[3]);
@@ -40,23 +34,17 @@ FaceSigner::Rounded FaceSigner::rounded(const Tet& tet) const {
 
 FaceSigner::Rounded FaceSigner::rounded_at_infinity(const Tet& tet) const {
     const glm::dvec3& d = eye_.position;
-    const glm::dvec3& origin = points_[static_cast<std::size_t>(tet[0])];
+    const glm::dvec3& origin = points_[tet[0]];
     std::array<glm::dvec3, 3> p;
     double reach = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        p[i] = points_[static_cast<std::size_t>(tet[i + 1])] - origin;
+        p[i] = points_[tet[i + 1]] - origin;
         reach = std::max(reach, largest(p[i]));
     }
     const glm::dvec3 d1 = glm::cross(d, p[0]), d3 = glm::cross(d, p[2]);
     const double d12 = glm::dot(d1, p[1]), d13 = glm::dot(d1, p[2]), d23 = -glm::dot(d3, p[1]);
     // Face 0 is the sum of three determinants. Its bound is used for all faces.
     return {{d12 + d23 - d13, -d23, d13, -d12}, 4 * error_bound * largest(d) * reach * reach};
-}
-
-int FaceSigner::exact(const Tet& tet, std::size_t face) const {
-    const auto [a, b, c] = corners_of_face(tet, face);
-    return sign_as_seen(eye_, points_[static_cast<std::size_t>(a)],
-                        points_[static_cast<std::size_t>(b)], points_[static_cast<std::size_t>(c)]);
 }
 
 // There are no branches on the signs, because these cannot be predicted.
@@ -72,7 +60,8 @@ FaceSigns FaceSigner::signs(std::size_t index) const {
     if ((nearer | farther) != 0xf) {
         for (std::size_t face = 0; face < 4; ++face) {
             if ((nearer | farther) & nearer_bit(face)) continue;
-            const int sign = exact(tet, face);
+            const auto [a, b, c] = corners_of_face(tet, face);
+            const int sign = sign_as_seen(eye_, points_[a], points_[b], points_[c]);
             nearer |= FaceSigns{sign < 0} << face;
             farther |= FaceSigns{sign > 0} << face;
         }
@@ -89,17 +78,9 @@ OrderGraph::OrderGraph(const TetMesh& mesh, bool across_gaps)
 
 void OrderGraph::look_from(const Eye& eye) {
     eye_ = eye;
-    find_signs();
-    if (!gaps_) return;
-    gap_edges_ = gaps_->find(eye);
-    link_gaps();
-}
-
-void OrderGraph::find_signs() {
     const FaceSigner signer(mesh_, eye_);
     const auto neighbors = mesh_.neighbors();
-    parallel_for(static_cast<std::int64_t>(signs_.size()), tets_per_task, [&](std::int64_t index) {
-        const auto tet = static_cast<std::size_t>(index);
+    parallel_for(std::ssize(signs_), tets_per_task, [&](std::size_t tet) {
         FaceSigns shared = 0;
         for (std::size_t face = 0; face < 4; ++face) {
             shared |= FaceSigns{neighbors[tet][face] != TetMesh::no_neighbor} *
@@ -111,20 +92,17 @@ void OrderGraph::find_signs() {
         for (std::size_t face = 0; face < 4; ++face) farther += (signs & farther_bit(face)) != 0;
         farther_counts_[tet] = farther;
     });
-}
-
-void OrderGraph::link_gaps() {
+    if (!gaps_) return;
+    gap_edges_ = gaps_->find(eye);
     std::fill(first_gap_.begin(), first_gap_.end(), -1);
     next_gap_.resize(gap_edges_.size());
     // The loop runs backwards, so that each list runs forwards.
     for (std::size_t i = gap_edges_.size(); i-- > 0;) {
         const auto& [exit, entry] = gap_edges_[i];
-        const auto farther =
-            static_cast<std::size_t>(mesh_.open_faces()[static_cast<std::size_t>(entry)].tet);
+        const auto farther = static_cast<std::size_t>(mesh_.open_faces()[entry].tet);
         next_gap_[i] = first_gap_[farther];
         first_gap_[farther] = static_cast<std::int32_t>(i);
-        ++farther_counts_[static_cast<std::size_t>(
-            mesh_.open_faces()[static_cast<std::size_t>(exit)].tet)];
+        ++farther_counts_[mesh_.open_faces()[exit].tet];
     }
 }
 
@@ -133,9 +111,9 @@ OrderGraph::Passage OrderGraph::passage(std::int32_t tet, std::int32_t edge) con
         const Triangle face = mesh_.corners({tet, edge});
         return {face, face, true};
     }
-    const OpenFaceConstraint& gap = gap_edges_[static_cast<std::size_t>(edge - faces)];
+    const OpenFaceConstraint& gap = gap_edges_[edge - faces];
     const auto corners = [&](std::int32_t open_face) {
-        return mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(open_face)]);
+        return mesh_.corners(mesh_.open_faces()[open_face]);
     };
     return {corners(gap.exit), corners(gap.entry), false};
 }
@@ -146,30 +124,18 @@ double OrderGraph::area(std::int32_t tet, std::int32_t edge) const {
                          : seen_overlap(eye_, passed.exit, passed.entry);
 }
 
-namespace {
-
-// States of a tet: not met yet; on the path, and face `state - first_face` is the next to look
-// across; drawn.
-constexpr std::uint8_t unmet = 0, first_face = 1, drawn = 6;
-
-}  // namespace
-
 FarthestFirst::FarthestFirst(const TetMesh& mesh) : mesh_(mesh), next_face_(mesh.tets().size()) {
     starts_.reserve(mesh.open_faces().size());
 }
 
-void FarthestFirst::find_starts(const Eye& eye) {
+std::int64_t FarthestFirst::sort(const OrderGraph& graph, std::span<std::int32_t> order) {
     starts_.clear();
     for (const TetFace& face : mesh_.open_faces()) {
         const auto [a, b, c] = mesh_.corners(face);
-        if (sign_as_seen(eye, a, b, c) < 0)
-            starts_.push_back({view_distance(eye, (a + b + c) / 3.0), face.tet});
+        if (sign_as_seen(graph.eye(), a, b, c) < 0)
+            starts_.push_back({view_distance(graph.eye(), (a + b + c) / 3.0), face.tet});
     }
     std::sort(starts_.begin(), starts_.end());
-}
-
-std::int64_t FarthestFirst::sort(const OrderGraph& graph, std::span<std::int32_t> order) {
-    find_starts(graph.eye());
     std::fill(next_face_.begin(), next_face_.end(), unmet);
     drawn_ = 0;
     broken_ = 0;
@@ -182,15 +148,14 @@ std::int64_t FarthestFirst::sort(const OrderGraph& graph, std::span<std::int32_t
 
 void FarthestFirst::draw(const OrderGraph& graph, std::int32_t root,
                          std::span<std::int32_t> order) {
-    if (next_face_[static_cast<std::size_t>(root)] != unmet) return;
-    // The path grows from the end of `order`. Both fit, because no tet is drawn and on the path at
-    // once.
+    if (next_face_[root] != unmet) return;
+    // The path grows from the end of `order`: no tet is drawn and on the path at once.
     std::size_t top = order.size();
     order[--top] = root;
-    next_face_[static_cast<std::size_t>(root)] = first_face;
+    next_face_[root] = first_face;
     while (top < order.size()) {
         const std::int32_t tet = order[top];
-        std::uint8_t& state = next_face_[static_cast<std::size_t>(tet)];
+        std::uint8_t& state = next_face_[tet];
         const FaceSigns signs = graph.signs(tet);
         while (state < first_face + 4 && !(signs & farther_bit(state - first_face))) ++state;
         if (state == first_face + 4) {
@@ -200,8 +165,8 @@ void FarthestFirst::draw(const OrderGraph& graph, std::int32_t root,
             continue;
         }
         const auto face = static_cast<std::size_t>(state++ - first_face);
-        const std::int32_t farther = mesh_.neighbors()[static_cast<std::size_t>(tet)][face];
-        std::uint8_t& other = next_face_[static_cast<std::size_t>(farther)];
+        const std::int32_t farther = mesh_.neighbors()[tet][face];
+        std::uint8_t& other = next_face_[farther];
         if (other == unmet) {
             other = first_face;
             order[--top] = farther;

@@ -1,40 +1,118 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "visibility/ring_order.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include <glm/geometric.hpp>
 #include "base/client.h"
-#include "scene/camera.h"
 
 namespace lamina {
-
 namespace {
 
 constexpr PixelArea no_pixels{0, -1, 0, -1};
 
-// Constraints that are visited for each constraint, at most, while rings are broken. Constraints
-// that are then broken without need are found again, and kept, in smaller parts of the picture.
+// Distance in pixels up to which a centre counts as covered: above the rounding of corners (1e-7 at
+// 1e9 pixels) and the ray perturbation (1e-7).
+constexpr double margin = 1e-3;
+
+double signed_area(const SeenPolygon& polygon) {
+    double sum = 0;
+    for (std::size_t i = 2; i < polygon.count; ++i) {
+        sum += cross(polygon.corners[i - 1] - polygon.corners[0],
+                     polygon.corners[i] - polygon.corners[0]);
+    }
+    return 0.5 * sum;
+}
+
+// A range of columns or of rows, clamped to what a picture can have.
+struct Range {
+    double low = INFINITY, high = -INFINITY;
+    void add(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    std::int32_t first(std::int32_t least) const {
+        return static_cast<std::int32_t>(
+            std::clamp(std::ceil(low - margin), static_cast<double>(least), 0x1p30));
+    }
+    std::int32_t last(std::int32_t most) const {
+        return static_cast<std::int32_t>(
+            std::clamp(std::floor(high + margin), -0x1p30, static_cast<double>(most)));
+    }
+};
+
+// The columns of a polygon between two rows.
+Range columns_between(const SeenPolygon& polygon, double top, double bottom) {
+    Range columns;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const glm::dvec2& a = polygon.corners[i];
+        const glm::dvec2& b = polygon.corners[(i + 1) % polygon.count];
+        if (a.y >= top && a.y <= bottom) columns.add(a.x);
+        for (const double row : {top, bottom}) {
+            if ((a.y < row) == (b.y < row)) continue;
+            columns.add(a.x + (row - a.y) / (b.y - a.y) * (b.x - a.x));
+        }
+    }
+    return columns;
+}
+
+// Calls visit(pixels) for each row with covered pixels, until it returns false.
+template <typename Visit>
+void for_each_row(const SeenPolygon& polygon, const PixelArea& area, const Visit& visit) {
+    Range rows;
+    for (std::size_t i = 0; i < polygon.count; ++i) rows.add(polygon.corners[i].y);
+    const std::int32_t last = rows.last(area.last_row);
+    for (std::int32_t row = rows.first(area.first_row); row <= last; ++row) {
+        const Range columns = columns_between(polygon, row - margin, row + margin);
+        const PixelArea pixels{columns.first(area.first_column), columns.last(area.last_column),
+                               row, row};
+        if (!pixels.empty() && !visit(pixels)) return;
+    }
+}
+
+// Returns the common part of two convex polygons.
+SeenPolygon overlap_of(const SeenPolygon& a, const SeenPolygon& b) {
+    const double sign = signed_area(b) < 0 ? -1 : 1;
+    SeenPolygon common = a;
+    for (std::size_t i = 0; i < b.count; ++i) {
+        const glm::dvec2& from = b.corners[i];
+        const glm::dvec2 along = b.corners[(i + 1) % b.count] - from;
+        common = cut(common, [&](const glm::dvec2& c) { return sign * cross(along, c - from); });
+    }
+    return common;
+}
+
+// Returns the rectangle around the pixels whose centres a polygon (nearly) covers.
+PixelArea covered_pixels(const SeenPolygon& polygon, const PixelArea& area) {
+    PixelArea covered = no_pixels;
+    for_each_row(polygon, area, [&](const PixelArea& pixels) {
+        covered.add(pixels);
+        return true;
+    });
+    return covered;
+}
+
+bool covers_some(const SeenPolygon& polygon, const PixelArea& area) {
+    bool some = false;
+    for_each_row(polygon, area, [&](const PixelArea&) {
+        some = true;
+        return false;
+    });
+    return some;
+}
+// Visits for each constraint while rings are broken; smaller parts find the rest.
 constexpr std::int64_t work_a_constraint = 16;
 
-// Two tets overlap on a ray if they share more than these parts of the shorter way through one of
-// them, and of the depth. That is far above what rounding does to both ends of a way (1e-16 of the
-// depth, over the slope of a face, which the ray perturbation keeps above 1e-7). A smaller overlap
-// changes the picture, in either order, by that part of one tet's opacity at most.
+// Tets overlap on a ray if they share more than these parts of the shorter way, and of the depth:
+// far above the rounding of ways (1e-16 of the depth, over a face's slope of at least 1e-7). Less
+// changes the picture by that part of one tet's opacity.
 constexpr double overlap_share = 1e-3, overlap_of_depth = 1e-9;
 
-// The depths between which a ray is inside a tet. If it misses the tet, `in` is above `out`.
+// A ray is inside a tet from in to out; it misses the tet if in > out.
 struct Way {
     double in, out;
     double middle() const { return 0.5 * in + 0.5 * out; }
 };
 
 Way way_through(const View::Ray& ray, std::span<const glm::dvec3> points, const Tet& tet) {
-    const auto corner = [&](std::int32_t number) -> const glm::dvec3& {
-        return points[static_cast<std::size_t>(number)];
-    };
+    const auto corner = [&](std::int32_t number) -> const glm::dvec3& { return points[number]; };
     Way way{-INFINITY, INFINITY};
     for (std::size_t face = 0; face < 4; ++face) {
         const auto [a, b, c] = corners_of_face(tet, face);
@@ -61,12 +139,49 @@ PixelArea half_of(const PixelArea& area, bool second) {
 
 }  // namespace
 
+glm::dvec2 PixelFinder::place_of(const glm::dvec3& seen) const {
+    const glm::dvec2 window = window_.to_window(seen);
+    return {window.x - 0.5, window_.view().height - 0.5 - window.y};
+}
+
+SeenPolygon PixelFinder::polygon(const Triangle& triangle) const {
+    SeenPolygon seen;
+    const std::array<glm::dvec3, 3> corners{window_.see(triangle[0]), window_.see(triangle[1]),
+                                            window_.see(triangle[2])};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % 3];
+        if (!window_.perspective() || a.z >= near_) seen.add(place_of(a));
+        if (window_.perspective() && (a.z < near_) != (b.z < near_)) {
+            glm::dvec3 at = a + (near_ - a.z) / (b.z - a.z) * (b - a);
+            at.z = near_;
+            seen.add(place_of(at));
+        }
+    }
+    return seen;
+}
+
+PixelArea PixelFinder::pixels_of(std::span<const glm::dvec3> points) const {
+    const PixelArea all = picture();
+    Range columns, rows;
+    std::size_t hidden = 0;
+    for (const glm::dvec3& point : points) {
+        const glm::dvec3 seen = window_.see(point);
+        if (window_.perspective() && seen.z < near_) {
+            ++hidden;
+            continue;
+        }
+        const glm::dvec2 place = place_of(seen);
+        columns.add(place.x);
+        rows.add(place.y);
+    }
+    if (hidden == points.size()) return no_pixels;
+    if (hidden > 0) return all;
+    return {columns.first(0), columns.last(all.last_column), rows.first(0),
+            rows.last(all.last_row)};
+}
+
 RingOrder::RingOrder(const OrderGraph& graph, const View& view, double near)
     : graph_(graph), finder_(view, near) {}
-
-PixelArea RingOrder::picture() const {
-    return {0, finder_.view().width - 1, 0, finder_.view().height - 1};
-}
 
 SeenPolygon RingOrder::seen_through(std::int32_t tet, std::int32_t edge) const {
     const OrderGraph::Passage passage = graph_.passage(tet, edge);
@@ -75,7 +190,7 @@ SeenPolygon RingOrder::seen_through(std::int32_t tet, std::int32_t edge) const {
 }
 
 void RingOrder::add_ring(std::span<const std::int32_t> tets, const OrderCycles& cycles) {
-    Problem whole{picture(), std::vector<Member>(tets.size()), {}};
+    Problem whole{finder_.picture(), std::vector<Member>(tets.size()), {}};
     const TetMesh& mesh = graph_.mesh();
     std::vector<std::int32_t> members(tets.begin(), tets.end());
     std::sort(members.begin(), members.end());
@@ -88,8 +203,8 @@ void RingOrder::add_ring(std::span<const std::int32_t> tets, const OrderCycles& 
         const std::int32_t tet = members[i];
         std::array<glm::dvec3, 4> corners;
         for (std::size_t corner = 0; corner < 4; ++corner) {
-            const std::int32_t point = mesh.tets()[static_cast<std::size_t>(tet)][corner];
-            corners[corner] = mesh.points()[static_cast<std::size_t>(point)];
+            const std::int32_t point = mesh.tets()[tet][corner];
+            corners[corner] = mesh.points()[point];
         }
         whole.tets[i] = {tet, finder_.pixels_of(corners)};
         for (std::int32_t edge = graph_.first_edge(tet); edge != OrderGraph::no_edge;
@@ -113,11 +228,12 @@ std::int64_t RingOrder::overlapping_pairs() const {
 RingOrder::Solution RingOrder::sorted(const Problem& problem) {
     edges_.clear();
     for (const Constraint& constraint : problem.constraints)
-        edges_.push_back({constraint.farther, constraint.nearer, constraint.seen.area()});
+        edges_.push_back(
+            {constraint.farther, constraint.nearer, std::abs(signed_area(constraint.seen))});
     const CycleBreaker::Order found = breaker_.order(
         problem.tets.size(), edges_, work_a_constraint * std::ssize(problem.constraints));
     const auto place_of = [&](std::int32_t index) {
-        return static_cast<std::size_t>(found.places[static_cast<std::size_t>(index)]);
+        return static_cast<std::size_t>(found.places[index]);
     };
     Solution solution{std::vector<std::int32_t>(problem.tets.size()), no_pixels};
     for (std::size_t i = 0; i < problem.tets.size(); ++i) {
@@ -153,8 +269,8 @@ void RingOrder::solve(const Problem& problem) {
             part.tets.push_back(problem.tets[i]);
         }
         for (const Constraint& constraint : problem.constraints) {
-            const std::int32_t farther = index_of[static_cast<std::size_t>(constraint.farther)],
-                               nearer = index_of[static_cast<std::size_t>(constraint.nearer)];
+            const std::int32_t farther = index_of[constraint.farther],
+                               nearer = index_of[constraint.nearer];
             if (farther >= 0 && nearer >= 0 && covers_some(constraint.seen, pixels))
                 part.constraints.push_back({farther, nearer, constraint.seen});
         }
@@ -173,10 +289,10 @@ void RingOrder::draw(const Problem& problem, std::span<const std::int32_t> order
     if (pixels.empty()) return;
     const std::size_t first = tets_.size();
     for (const std::int32_t index : order) {
-        const Member& member = problem.tets[static_cast<std::size_t>(index)];
+        const Member& member = problem.tets[index];
         if (!common_pixels(member.pixels, pixels).empty()) tets_.push_back(member.tet);
     }
-    const bool limited = pixels.count() < picture().count();
+    const bool limited = pixels.count() < finder_.picture().count();
     if (limited && first < tets_.size()) limited_.push_back({first, tets_.size(), pixels});
 }
 
@@ -205,9 +321,7 @@ void RingOrder::draw_pixel(const Problem& problem, const PixelArea& pixel) {
         const auto tet = static_cast<std::size_t>(problem.tets[i].tet);
         ways[i] = way_through(ray, mesh.points(), mesh.tets()[tet]);
     }
-    const auto way_of = [&](std::int32_t index) -> const Way& {
-        return ways[static_cast<std::size_t>(index)];
-    };
+    const auto way_of = [&](std::int32_t index) -> const Way& { return ways[index]; };
     std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
         return way_of(a).middle() > way_of(b).middle();
     });
@@ -217,7 +331,7 @@ void RingOrder::draw_pixel(const Problem& problem, const PixelArea& pixel) {
     for (const std::int32_t index : order) {
         const Way& way = way_of(index);
         if (!(way.out > way.in)) continue;
-        const Member& member = problem.tets[static_cast<std::size_t>(index)];
+        const Member& member = problem.tets[index];
         const double shorter = std::min(way.out - way.in, reached.out - reached.in);
         if (before != nullptr &&
             way.out - reached.in > overlap_share * shorter + overlap_of_depth * std::abs(way.out))

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <span>
+#include <glm/vec2.hpp>
 #include <utility>
-#include <vector>
 
 #include "scene/camera.h"
 #include "visibility/order_cycles.h"
 #include "visibility/order_graph.h"
-#include "visibility/seen_shapes.h"
 
 namespace lamina {
 
@@ -44,8 +39,39 @@ struct DrawOrder {
     }
 };
 
-// Orders tets that hide one another in rings. No order of whole tets is right for all pixels of a
-// ring, but each is right for the pixels whose rays meet none of the constraints that it breaks:
+// A convex polygon in pixels, rows downwards; the centre of pixel (i, j) is at (i, j).
+struct SeenPolygon {
+    // The overlap of two triangles, each cut by the near plane to at most 4 corners.
+    static constexpr std::size_t most_corners = 8;
+
+    std::size_t count = 0;
+    std::array<glm::dvec2, most_corners> corners;
+
+    void add(const glm::dvec2& corner) {
+        if (count < most_corners) corners[count++] = corner;
+    }
+};
+
+// In perspective views nothing nearer than `near` is seen. No pixel is lost by rounding.
+class PixelFinder {
+  public:
+    PixelFinder(const View& view, double near) : window_(view), near_(near) {}
+
+    SeenPolygon polygon(const Triangle& triangle) const;
+    // Returns the pixels of the picture whose rays may meet the hull of some points.
+    PixelArea pixels_of(std::span<const glm::dvec3> points) const;
+    const View& view() const { return window_.view(); }
+    PixelArea picture() const { return {0, view().width - 1, 0, view().height - 1}; }
+
+  private:
+    glm::dvec2 place_of(const glm::dvec3& seen) const;
+
+    WindowView window_;
+    double near_;
+};
+
+// An order of whole tets is right for the pixels whose rays meet none of the constraints that it
+// breaks:
 //
 //   order the tets; break constraints of small seen area (CycleBreaker)
 //   W = rectangle around the pixels that see a broken constraint
@@ -54,12 +80,10 @@ struct DrawOrder {
 //     if W is more than half of the pixels: in each half of W
 //     if W is one pixel: draw the tets by where its ray meets them
 //
-// Kraus and Ertl (Cell-projection of cyclic meshes, 2001, which is [10] of Kraus 2004) order such
-// tets by rendering them in layers.
+// Kraus and Ertl (Cell-projection of cyclic meshes, 2001) render such tets in layers.
 class RingOrder {
   public:
-    // `near`: depth before which nothing is seen (perspective views). The graph must outlive this
-    // object.
+    // The graph must outlive this object.
     RingOrder(const OrderGraph& graph, const View& view, double near);
 
     // Appends tets that are in no ring, in their order.
@@ -70,8 +94,7 @@ class RingOrder {
     void add_ring(std::span<const std::int32_t> tets, const OrderCycles& cycles);
 
     DrawOrder<std::int32_t> order() const { return {tets_, limited_}; }
-    // Returns the number of pairs of tets that overlap on a pixel's ray. No order is right for
-    // these.
+    // Pairs of tets that overlap on a pixel's ray: no order is right for these.
     std::int64_t overlapping_pairs() const;
 
   private:
@@ -79,13 +102,11 @@ class RingOrder {
         std::int32_t tet;
         PixelArea pixels;  // that may see it
     };
-    // Tet `farther` comes before tet `nearer` (indices into Problem::tets) in the pixels that see
-    // `seen`.
+    // `farther` comes before `nearer` (indices into Problem::tets) in the pixels that see `seen`.
     struct Constraint {
         std::int32_t farther, nearer;
         SeenPolygon seen;
     };
-    // Tets that are to be ordered for some pixels.
     struct Problem {
         PixelArea pixels;
         std::vector<Member> tets;
@@ -96,7 +117,6 @@ class RingOrder {
         PixelArea wrong;                  // around the pixels for which it is wrong
     };
 
-    PixelArea picture() const;
     SeenPolygon seen_through(std::int32_t tet, std::int32_t edge) const;
     Solution sorted(const Problem& problem);
     void solve(const Problem& problem);

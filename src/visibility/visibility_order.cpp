@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "visibility/visibility_order.h"
 
-#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <numeric>
-#include <vector>
 
-#include <glm/geometric.hpp>
+#include "base/enum_words.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/profile.h"
 #include "mesh/mesh_shape.h"
-#include "visibility/order_graph.h"
 
 namespace lamina {
-
 namespace {
 
-std::vector<std::int32_t> places_in(std::span<const std::int32_t> order, std::size_t tets) {
+// Share of the diagonal; the near plane is at 1e-6 (plan/project_planner.cpp).
+constexpr double near_share = 0.5e-6;
+
+}  // namespace
+
+std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
+                             std::span<const std::int32_t> order) {
+    const std::size_t tets = mesh.tets().size();
     if (order.size() != tets)
         fail("an order has {} tets, expected the mesh's {}", order.size(), tets);
     std::vector<std::int32_t> places(tets, -1);
@@ -29,49 +32,22 @@ std::vector<std::int32_t> places_in(std::span<const std::int32_t> order, std::si
                  tets);
         places[tet] = static_cast<std::int32_t>(i);
     }
-    return places;
-}
-
-}  // namespace
-
-std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
-                             std::span<const std::int32_t> order) {
-    const std::vector<std::int32_t> places = places_in(order, mesh.tets().size());
     const FaceSigner signer(mesh, eye);
     std::atomic<std::int64_t> violations{0};
-    parallel_for(static_cast<std::int64_t>(order.size()), tets_per_task, [&](std::int64_t index) {
-        const auto tet = static_cast<std::size_t>(index);
+    parallel_for(std::ssize(order), tets_per_task, [&](std::size_t tet) {
         const FaceSigns signs = signer.signs(tet);
         for (std::size_t face = 0; face < 4; ++face) {
             const std::int32_t other = mesh.neighbors()[tet][face];
             if (other == TetMesh::no_neighbor || !(signs & farther_bit(face))) continue;
-            if (places[static_cast<std::size_t>(other)] > places[tet])
-                violations.fetch_add(1, std::memory_order_relaxed);
+            if (places[other] > places[tet]) violations.fetch_add(1, std::memory_order_relaxed);
         }
     });
     return violations;
 }
 
-namespace {
-
-// Depth, as a share of the mesh's diagonal, beyond which everything is drawn: projection cuts tets
-// at a near plane of 1e-6 of the diagonal (plan/project_planner.cpp).
-constexpr double near_share = 0.5e-6;
-
-}  // namespace
-
 const char* name_of(OrderMethod method) {
-    switch (method) {
-        case OrderMethod::mpvo:
-            return "mpvo";
-        case OrderMethod::exact:
-            return "exact";
-        case OrderMethod::centroid:
-            return "centroid";
-        case OrderMethod::none:
-            break;
-    }
-    return "none";
+    static constexpr const char* words[] = {"mpvo", "exact", "centroid", "none"};
+    return word_of(method, words);
 }
 
 VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method)
@@ -87,29 +63,30 @@ VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method)
         farthest_first_ = std::make_unique<FarthestFirst>(mesh);
 }
 
-std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
-                                                    const std::function<void()>& meanwhile) {
-    return sort_whole(eye, true, meanwhile);
-}
-
 DrawOrder<std::int32_t> VisibilityOrder::sort_pixels(const View& view,
                                                      const std::function<void()>& meanwhile) {
-    const auto tets = sort_whole(eye_of(view), false, meanwhile);
+    const auto tets = sort(eye_of(view), meanwhile, false);
     if (!graph_ || farthest_first_ || report_.cycles == 0) return {tets, {}};
     solve_rings(view);
     return rings_->order();
 }
 
-// Sorts whole tets. `break_rings`: the tets of rings are ordered, too, as well as whole tets can
-// be.
-std::span<const std::int32_t> VisibilityOrder::sort_whole(const Eye& eye, bool break_rings,
-                                                          const std::function<void()>& meanwhile) {
+std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
+                                                    const std::function<void()>& meanwhile,
+                                                    bool break_rings) {
     report_ = {};
     cycles_.forget();
     if (graph_) {
         graph_->look_from(eye);
         parallel_invoke(
-            [&] { farthest_first_ ? sort_farthest_first() : sort_topologically(break_rings); },
+            [&] {
+                if (!farthest_first_) return sort_topologically(break_rings);
+                const std::int64_t broken = farthest_first_->sort(*graph_, order_);
+                if (broken == 0) return;
+                find_cycles(false);  // for the report alone: the order is the search's
+                report_.broken = broken;
+                report_.broken_area = 0;
+            },
             meanwhile);
         return order_;
     }
@@ -118,8 +95,7 @@ std::span<const std::int32_t> VisibilityOrder::sort_whole(const Eye& eye, bool b
     return order_;
 }
 
-// Lists the tets of each ring anew. In the order, tets in no ring come first, then rings and tets
-// between them (sort_topologically).
+// Tets in no ring come first, then rings and tets between them (sort_topologically).
 void VisibilityOrder::solve_rings(const View& view) {
     const Stage solving("rings");
     rings_.emplace(*graph_, view,
@@ -141,31 +117,19 @@ void VisibilityOrder::solve_rings(const View& view) {
     report_.broken_area = 0;
 }
 
-// Sorts by the distance of centroids from the eye. VTK's vtkCellCenterDepthSort takes the depth
-// along the camera's axis for perspective views, too; the distance is the better estimate, and
-// needs no axis.
+// VTK's vtkCellCenterDepthSort takes the depth along the axis; this is the better estimate.
 void VisibilityOrder::sort_centroids(const Eye& eye) {
     const auto points = mesh_.points();
-    parallel_for(static_cast<std::int64_t>(order_.size()), tets_per_task, [&](std::int64_t index) {
+    parallel_for(std::ssize(order_), tets_per_task, [&](std::int64_t index) {
         glm::dvec3 sum(0);
-        for (const std::int32_t corner : mesh_.tets()[static_cast<std::size_t>(index)])
-            sum += points[static_cast<std::size_t>(corner)];
-        distances_[static_cast<std::size_t>(index)] = {view_distance(eye, 0.25 * sum),
-                                                       static_cast<std::int32_t>(index)};
+        for (const std::int32_t corner : mesh_.tets()[index]) sum += points[corner];
+        distances_[index] = {view_distance(eye, 0.25 * sum), static_cast<std::int32_t>(index)};
     });
     parallel_sort(distances_.begin(), distances_.end(), [](const auto& a, const auto& b) {
         return a.distance != b.distance ? a.distance > b.distance : a.tet < b.tet;
     });
     std::transform(distances_.begin(), distances_.end(), order_.begin(),
                    [](const Distance& entry) { return entry.tet; });
-}
-
-void VisibilityOrder::sort_farthest_first() {
-    const std::int64_t broken = farthest_first_->sort(*graph_, order_);
-    if (broken == 0) return;
-    find_cycles(false);  // for the report alone: the order is the search's
-    report_.broken = broken;
-    report_.broken_area = 0;
 }
 
 void VisibilityOrder::sort_topologically(bool break_rings) {
@@ -176,16 +140,15 @@ void VisibilityOrder::sort_topologically(bool break_rings) {
     std::copy(rest.begin(), rest.end(), order_.begin() + static_cast<std::ptrdiff_t>(drawn));
 }
 
-// Draws every tet when all farther tets have been drawn (Kahn 1962), and returns how many it drew:
-// all, unless there are cycles. Tets that may be drawn wait on a stack, so that the next is mostly
-// a neighbour of the last one. The stack grows from the end of the order, which has room for both.
+// Kahn 1962. Returns how many tets were drawn: all, unless there are cycles. Those that may be
+// drawn wait on a stack at the end of the order: the next is mostly a neighbour of the last.
 std::size_t VisibilityOrder::draw_free() {
     const auto counts = graph_->farther_counts();
     const auto neighbors = mesh_.neighbors();
     const std::size_t tets = order_.size();
     std::size_t drawn = 0, top = tets;
     const auto count_down = [&](std::int32_t tet) {
-        if (--counts[static_cast<std::size_t>(tet)] == 0) order_[--top] = tet;
+        if (--counts[tet] == 0) order_[--top] = tet;
     };
     for (std::size_t tet = 0; tet < tets; ++tet) {
         if (counts[tet] == 0) order_[--top] = static_cast<std::int32_t>(tet);
@@ -193,10 +156,10 @@ std::size_t VisibilityOrder::draw_free() {
     while (top < tets) {
         const std::int32_t tet = order_[top++];
         order_[drawn++] = tet;
-        const auto& across = neighbors[static_cast<std::size_t>(tet)];
+        const auto& across = neighbors[tet];
         // The bits of the nearer faces, one after the other.
         for (FaceSigns left = graph_->signs(tet) & 0xf; left != 0; left &= left - 1)
-            count_down(across[static_cast<std::size_t>(std::countr_zero(left))]);
+            count_down(across[std::countr_zero(left)]);
         for (std::int32_t edge = graph_->first_gap_edge(tet); edge != OrderGraph::no_edge;
              edge = graph_->next_edge(tet, edge))
             count_down(graph_->nearer(tet, edge));

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume/brick_cache.h"
 
-#include <algorithm>
 #include <thread>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/memory.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 
 namespace lamina {
-
 namespace {
 
 // Number of bricks that one task reads ahead of their use.

@@ -5,21 +5,470 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <type_traits>
 
-#include "base/enum_words.h"
+#include "base/client.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "base/progress.h"
-#include "base/text.h"
-#include "volume/generators.h"
 #include "volume/nrrd_writer.h"
+#include "volume/sample_source.h"
 
 namespace lamina {
+
+double portable_exp(double x) {
+    // x = n ln 2 + r, |r| <= ln 2 / 2; ln 2 in two parts, of which n times the first is exact.
+    constexpr double ln2_high = 0x1.62e42feep-1;
+    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+    const double n = std::floor(x / std::numbers::ln2 + 0.5);
+    const double r = (x - n * ln2_high) - n * ln2_low;
+    double series = 1;  // Taylor, by Horner; the term left out is below 0.35^15 / 15! = 1e-19
+    for (int term = 14; term >= 1; --term) series = 1 + series * r / term;
+    return std::ldexp(series, static_cast<int>(n));
+}
+
+double portable_cos_turns(double turns) {
+    const double nearest = std::floor(turns + 0.5);
+    double part = std::abs(turns - nearest);  // 0..1/2
+    const bool second_quarter = part > 0.25;
+    if (second_quarter) part = 0.5 - part;
+    const double angle = 2 * std::numbers::pi * part;  // 0..pi/2
+    double series = 1;  // Taylor, by Horner; the term left out is below (pi/2)^24 / 24! = 1e-19
+    for (int term = 22; term >= 2; term -= 2)
+        series = 1 - series * angle * angle / (term * (term - 1));
+    return second_quarter ? -series : series;
+}
+
 namespace {
+
+// The smooth step 6 t^5 - 15 t^4 + 10 t^3, for t in 0..1.
+double fade(double t) {
+    return t * t * t * (t * (t * 6 - 15) + 10);
+}
+
+using GridSize = std::array<std::int64_t, 3>;
+
+// A field on a grid, computed row by row.
+class Generator {
+  public:
+    virtual ~Generator() = default;
+
+    // Computes the samples (0, y, z), (1, y, z), ..., each in 0..1. Safe from several threads at
+    // once.
+    virtual void row(std::int64_t y, std::int64_t z, double* values) const = 0;
+};
+
+// Returns the position of sample i of n in the unit box: 0 for the first, 1 for the last, 1/2 for a
+// single one.
+double unit_position(std::int64_t i, std::int64_t n) {
+    return n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);
+}
+
+// The finaliser of splitmix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number
+// generators", 2014).
+std::uint64_t mix(std::uint64_t bits) {
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+    return bits ^ (bits >> 31);
+}
+
+// Maps 21 bits to -1..1.
+double component(std::uint64_t bits) {
+    return static_cast<double>(bits & 0x1fffff) * 0x1p-20 - 1;
+}
+
+// Returns a lattice coordinate in 21 bits, so noise repeats beyond 2^21 cells.
+std::uint64_t lattice_bits(std::int64_t coordinate) {
+    return static_cast<std::uint64_t>(coordinate) & 0x1fffff;
+}
+
+double blend(double a, double b, double weight) {
+    return a + weight * (b - a);
+}
+
+// The four lattice lines along x around (y, z).
+struct Lines {
+    std::uint64_t key[4];             // keys of their lattice points, without x
+    double offset_y[4], offset_z[4];  // distance of (y, z) from the line
+    double weight_y, weight_z;        // weights of the lines at larger y, at larger z
+
+    Lines(double y, double z) {
+        const double cell_y = std::floor(y);
+        const double cell_z = std::floor(z);
+        weight_y = fade(y - cell_y);
+        weight_z = fade(z - cell_z);
+        for (int line = 0; line < 4; ++line) {
+            const auto line_y = static_cast<std::int64_t>(cell_y) + (line & 1);
+            const auto line_z = static_cast<std::int64_t>(cell_z) + (line >> 1);
+            key[line] = lattice_bits(line_y) << 21 | lattice_bits(line_z) << 42;
+            offset_y[line] = y - static_cast<double>(line_y);
+            offset_z[line] = z - static_cast<double>(line_z);
+        }
+    }
+
+    double interpolate(const double* values) const {
+        return blend(blend(values[0], values[1], weight_y), blend(values[2], values[3], weight_y),
+                     weight_z);
+    }
+};
+
+// The gradients at one lattice coordinate of x, interpolated over y and z, contribute value + slope
+// * d at distance d along x.
+struct Node {
+    double value;
+    double slope;
+};
+
+Node node(std::uint64_t seed, const Lines& lines, std::int64_t x) {
+    double values[4], slopes[4];
+    for (int line = 0; line < 4; ++line) {
+        const std::uint64_t bits =
+            mix((lines.key[line] | lattice_bits(x)) * 0x9e3779b97f4a7c15u + seed);
+        slopes[line] = component(bits);
+        values[line] = component(bits >> 21) * lines.offset_y[line] +
+                       component(bits >> 42) * lines.offset_z[line];
+    }
+    return {lines.interpolate(values), lines.interpolate(slopes)};
+}
+
+// Gradient noise (Perlin, "An image synthesizer", SIGGRAPH 1985) with the fade curve of "Improving
+// noise", 2002, and gradients from a hash of the lattice point. Values are about -1..1 with mean 0
+// and are zero at lattice points. They are the same on every machine.
+class GradientNoise {
+  public:
+    explicit GradientNoise(std::uint64_t seed) : seed_(seed) {}
+
+    double at(double x, double y, double z) const {
+        double value = 0;
+        add_row(x, 1, y, z, 1, 1, &value);
+        return value;
+    }
+
+    // values[i] += amplitude * at(first + i * step, y, z). Terms that depend only on y and z are
+    // computed once a lattice cell, so a sample costs one interpolation. `step` > 0.
+    void add_row(double first, double step, double y, double z, double amplitude, int count,
+                 double* values) const {
+        const Lines lines(y, z);
+        Node right{};
+        std::int64_t right_x = std::numeric_limits<std::int64_t>::min();
+        const auto position = [=](int i) { return first + static_cast<double>(i) * step; };
+        for (int begin = 0; begin < count;) {
+            const double cell = std::floor(position(begin));
+            int end = begin + 1;  // end of the samples in this cell
+            while (end < count && position(end) < cell + 1) ++end;
+            const auto left_x = static_cast<std::int64_t>(cell);
+            const Node left = left_x == right_x ? right : node(seed_, lines, left_x);
+            right_x = left_x + 1;
+            right = node(seed_, lines, right_x);
+            for (int i = begin; i < end; ++i) {
+                const double t = position(i) - cell;
+                values[i] += amplitude * blend(left.value + left.slope * t,
+                                               right.value + right.slope * (t - 1), fade(t));
+            }
+            begin = end;
+        }
+    }
+
+  private:
+    std::uint64_t seed_;
+};
+
+// The value x / (size of x - 1): 0, 1, ..., 255 in 256 samples of uint8.
+class Ramp final : public Generator {
+  public:
+    explicit Ramp(const GridSize& size) : size_x_(size[0]) {}
+
+    void row(std::int64_t, std::int64_t, double* values) const override {
+        const auto last = static_cast<double>(std::max<std::int64_t>(1, size_x_ - 1));
+        for (std::int64_t x = 0; x < size_x_; ++x) values[x] = static_cast<double>(x) / last;
+    }
+
+  private:
+    std::int64_t size_x_;
+};
+
+// The value 1/2 everywhere.
+class Constant final : public Generator {
+  public:
+    explicit Constant(const GridSize& size) : size_x_(size[0]) {}
+
+    void row(std::int64_t, std::int64_t, double* values) const override {
+        std::fill_n(values, size_x_, 0.5);
+    }
+
+  private:
+    std::int64_t size_x_;
+};
+
+// The test signal of Marschner and Lobb, "An evaluation of reconstruction filters for volume
+// rendering", Visualization 1994, eq. 5, with f_M = 6 and alpha = 0.25, over [-1,1]^3.
+class MarschnerLobb final : public Generator {
+  public:
+    explicit MarschnerLobb(const GridSize& size)
+        : size_(size), radial_(static_cast<std::size_t>(size[0] * size[1])) {
+        for (std::int64_t y = 0; y < size[1]; ++y) {
+            for (std::int64_t x = 0; x < size[0]; ++x) {
+                radial_[static_cast<std::size_t>(y * size[0] + x)] =
+                    radial(coordinate(x, 0), coordinate(y, 1));
+            }
+        }
+    }
+
+    void row(std::int64_t y, std::int64_t z, double* values) const override {
+        const double sine = portable_cos_turns(coordinate(z, 2) / 4 - 0.25);  // sin(pi z / 2)
+        const double* const radial = &radial_[static_cast<std::size_t>(y * size_[0])];
+        for (std::int64_t x = 0; x < size_[0]; ++x) {
+            values[x] = (1 - sine + alpha * (1 + radial[x])) / (2 * (1 + alpha));
+        }
+    }
+
+  private:
+    static constexpr double frequency = 6;
+    static constexpr double alpha = 0.25;
+
+    double coordinate(std::int64_t i, std::size_t axis) const {
+        return 2 * unit_position(i, size_[axis]) - 1;
+    }
+
+    // rho_r(r) = cos(2 pi f_M cos(pi r / 2))
+    static double radial(double x, double y) {
+        return portable_cos_turns(frequency * portable_cos_turns(std::sqrt(x * x + y * y) / 4));
+    }
+
+    GridSize size_;
+    std::vector<double> radial_;  // rho_r at (x, y), which every slice needs
+};
+
+struct Blob {
+    glm::dvec3 center;
+    double width;  // standard deviation
+    double weight;
+
+    double at(const glm::dvec3& p) const {
+        return weight * portable_exp(-glm::dot(p - center, p - center) / (2 * width * width));
+    }
+};
+
+// Positions are in the unit box. The narrowest blob is 5 samples wide in 128^3.
+const Blob blobs[] = {{{0.50, 0.50, 0.50}, 0.17, 1.00}, {{0.24, 0.30, 0.66}, 0.07, 0.60},
+                      {{0.74, 0.26, 0.38}, 0.05, 0.65}, {{0.70, 0.76, 0.72}, 0.09, 0.55},
+                      {{0.30, 0.74, 0.28}, 0.04, 0.70}, {{0.52, 0.28, 0.82}, 0.06, 0.60}};
+
+// The maximum of the sum is the highest of the peaks that mean shift finds from every blob's
+// centre.
+double highest_peak() {
+    double highest = 0;
+    for (const Blob& start : blobs) {
+        glm::dvec3 p = start.center;
+        for (int step = 0; step < 100; ++step) {
+            glm::dvec3 weighted{0};
+            double total = 0;
+            for (const Blob& blob : blobs) {
+                const double weight = blob.at(p) / (blob.width * blob.width);
+                weighted += weight * blob.center;
+                total += weight;
+            }
+            p = weighted / total;
+        }
+        double sum = 0;
+        for (const Blob& blob : blobs) sum += blob.at(p);
+        highest = std::max(highest, sum);
+    }
+    return highest;
+}
+
+// A smooth sum of Gaussians of several widths, divided by its maximum.
+class Gaussians final : public Generator {
+  public:
+    explicit Gaussians(const GridSize& size) : size_(size) {
+        const double peak = highest_peak();
+        for (const Blob& blob : blobs) {
+            Factors factors;
+            for (int axis = 0; axis < 3; ++axis) {
+                const std::int64_t n = size[static_cast<std::size_t>(axis)];
+                for (std::int64_t i = 0; i < n; ++i) {
+                    const double distance = unit_position(i, n) - blob.center[axis];
+                    factors[static_cast<std::size_t>(axis)].push_back(
+                        portable_exp(-distance * distance / (2 * blob.width * blob.width)));
+                }
+            }
+            for (double& factor : factors[2]) factor *= blob.weight / peak;
+            factors_.push_back(std::move(factors));
+        }
+    }
+
+    void row(std::int64_t y, std::int64_t z, double* values) const override {
+        std::fill_n(values, size_[0], 0.0);
+        for (const Factors& factors : factors_) {
+            const double scale =
+                factors[1][static_cast<std::size_t>(y)] * factors[2][static_cast<std::size_t>(z)];
+            for (std::int64_t x = 0; x < size_[0]; ++x) {
+                values[x] += scale * factors[0][static_cast<std::size_t>(x)];
+            }
+        }
+    }
+
+  private:
+    using Factors =
+        std::array<std::vector<double>, 3>;  // a Gaussian is a product of three, one an axis
+
+    GridSize size_;
+    std::vector<Factors> factors_;
+};
+
+// The plane where dot(normal, p) = offset, p in the unit box, as thick as two samples along `axis`.
+struct Sheet {
+    glm::dvec3 normal;
+    double offset;
+    int axis;
+};
+
+const Sheet oblique_sheets[] = {
+    {{0.20, 0.10, 1.00}, 0.86, 2}, {{-0.30, 0.25, 1.00}, 0.34, 2}, {{1.00, 0.35, 0.45}, 0.95, 0}};
+
+// Thin dense sheets, as in LaMar's tests: 1 inside, 0 outside. Two sheets are perpendicular to z,
+// of one sample and of two samples. Two are oblique and take two samples along z each. One takes
+// two samples along x.
+class Sheets final : public Generator {
+  public:
+    explicit Sheets(const GridSize& size)
+        : size_(size), single_z_(size[2] / 4), double_z_(size[2] * 3 / 5) {}
+
+    void row(std::int64_t y, std::int64_t z, double* values) const override {
+        const bool flat = z == single_z_ || z == double_z_ || z == double_z_ + 1;
+        std::fill_n(values, size_[0], flat ? 1.0 : 0.0);
+        for (const Sheet& sheet : oblique_sheets) {
+            const auto axis = static_cast<std::size_t>(sheet.axis);
+            const auto intervals = static_cast<double>(size_[axis] - 1);
+            for (std::int64_t x = 0; x < size_[0]; ++x) {
+                const glm::dvec3 p{unit_position(x, size_[0]), unit_position(y, size_[1]),
+                                   unit_position(z, size_[2])};
+                const double beyond =
+                    (glm::dot(sheet.normal, p) - sheet.offset) / sheet.normal[sheet.axis];
+                const double samples_beyond = beyond * intervals;
+                if (samples_beyond > -1 && samples_beyond <= 1) values[x] = 1;
+            }
+        }
+    }
+
+  private:
+    GridSize size_;
+    std::int64_t single_z_;
+    std::int64_t double_z_;
+};
+
+// All lengths are in units of the box.
+// Begin of the layer; pure light fluid before, pure heavy fluid after layer_end.
+constexpr double layer_begin = 0.08;
+constexpr double layer_end = 0.92;
+constexpr double layer_margin = 0.20;     // over which stirring fades in and out
+constexpr double interface_reach = 0.34;  // reach of spikes and bubbles
+constexpr double interface_width = 0.08;
+constexpr double stirring = 0.22;
+constexpr double entrainment = 0.7;
+
+constexpr int interface_octaves = 3;
+constexpr double interface_frequency = 6;
+constexpr double stirring_frequency = 6;
+constexpr double persistence = 0.70;
+constexpr double samples_per_finest_cell = 4;
+
+double smooth_step(double t) {
+    return fade(std::clamp(t, 0.0, 1.0));
+}
+
+// A field that looks like a turbulent mixing layer after a Richtmyer-Meshkov instability. Light
+// fluid (0) lies at small x, heavy fluid (1) at large x. Narrow spikes of heavy fluid reach into
+// the light one, and broad bubbles of light fluid into the heavy one. In between both are mixed
+// down to the scale of a few samples, so that a finer grid shows finer eddies.
+class Mixing final : public Generator {
+  public:
+    explicit Mixing(const GridSize& size) : size_(size) {
+        const auto longest = static_cast<double>(*std::max_element(size.begin(), size.end()));
+        for (double frequency = stirring_frequency;
+             frequency == stirring_frequency || frequency * samples_per_finest_cell <= longest;
+             frequency *= 2) {
+            frequencies_.push_back(frequency);
+        }
+        for (std::int64_t x = 0; x < size[0]; ++x) {
+            const double position = unit_position(x, size[0]);
+            position_.push_back(position);
+            strength_.push_back(smooth_step((position - layer_begin) / layer_margin) *
+                                smooth_step((layer_end - position) / layer_margin));
+        }
+    }
+
+    void row(std::int64_t y, std::int64_t z, double* values) const override {
+        const double py = unit_position(y, size_[1]);
+        const double pz = unit_position(z, size_[2]);
+        std::vector<double> coarse(strength_.size());
+        std::vector<double> fine(strength_.size());
+        add_eddies(py, pz, coarse.data(), fine.data());
+        const double interface = interface_position(py, pz);
+        for (std::size_t x = 0; x < position_.size(); ++x) {
+            const double stirred =
+                position_[x] - interface + stirring * strength_[x] * (coarse[x] + fine[x]);
+            const double heavy = smooth_step(0.5 + stirred / (2 * interface_width));
+            // Eddies of one fluid in the other appear near the interface.
+            const double nearness = smooth_step(1 - std::abs(stirred) / (4 * interface_width));
+            values[x] =
+                std::clamp(heavy + entrainment * nearness * strength_[x] * fine[x], 0.0, 1.0);
+        }
+    }
+
+  private:
+    // Adds the noise of the coarser and of the finer half of the octaves.
+    void add_eddies(double py, double pz, double* coarse, double* fine) const {
+        const auto begin =
+            std::find_if(strength_.begin(), strength_.end(), [](double s) { return s > 0; });
+        const auto end = std::find(begin, strength_.end(), 0.0);
+        const auto first = static_cast<std::size_t>(begin - strength_.begin());
+        if (begin == end) return;
+        double amplitude = 1;
+        for (std::size_t octave = 0; octave < frequencies_.size(); ++octave) {
+            const double frequency = frequencies_[octave];
+            const double start = position_[first] * frequency;
+            const double step =
+                frequency / static_cast<double>(std::max<std::int64_t>(1, size_[0] - 1));
+            GradientNoise(stirring_seed + octave)
+                .add_row(start, step, py * frequency, pz * frequency, amplitude,
+                         static_cast<int>(end - begin),
+                         (octave < frequencies_.size() / 2 ? coarse : fine) + first);
+            amplitude *= persistence;
+        }
+    }
+
+    double interface_position(double py, double pz) const {
+        double height = 0;
+        double amplitude = 2;
+        double frequency = interface_frequency;
+        for (std::uint64_t octave = 0; octave < interface_octaves; ++octave) {
+            height +=
+                amplitude *
+                GradientNoise(interface_seed + octave).at(0.5, py * frequency, pz * frequency);
+            amplitude *= 0.5;
+            frequency *= 2;
+        }
+        height = std::clamp(height, -1.0, 1.0);
+        // Spikes (towards small x) are narrow and long, bubbles are broad and flat.
+        const double shape = height < 0 ? -height * height * (1.5 + 0.5 * height)
+                                        : 0.8 * height * (2 - height) * 0.8;
+        return 0.5 + interface_reach * shape;
+    }
+
+    static constexpr std::uint64_t interface_seed = 0x5eed0000;
+    static constexpr std::uint64_t stirring_seed = 0x5eed1000;
+
+    GridSize size_;
+    std::vector<double> frequencies_;  // frequencies of stirring, in cells a box
+    std::vector<double> position_;     // positions of the samples along x
+    std::vector<double> strength_;     // strength of stirring at every x; 0 outside the layer
+};
 
 // Bytes that generate_nrrd() holds at a time.
 constexpr std::int64_t slab_bytes = std::int64_t{1} << 25;
@@ -31,12 +480,17 @@ struct Entry {
 };
 
 constexpr GridSize cube{128, 128, 128};
-const Entry entries[] = {{"ramp", make_ramp, {256, 4, 1}},
-                         {"constant", make_constant, cube},
-                         {"marschner-lobb", make_marschner_lobb, cube},
-                         {"gaussians", make_gaussians, cube},
-                         {"sheets", make_sheets, cube},
-                         {"mixing", make_mixing, cube}};
+template <typename Made>
+std::unique_ptr<Generator> make(const GridSize& size) {
+    return std::make_unique<Made>(size);
+}
+
+const Entry entries[] = {{"ramp", make<Ramp>, {256, 4, 1}},
+                         {"constant", make<Constant>, cube},
+                         {"marschner-lobb", make<MarschnerLobb>, cube},
+                         {"gaussians", make<Gaussians>, cube},
+                         {"sheets", make<Sheets>, cube},
+                         {"mixing", make<Mixing>, cube}};
 
 const Entry& entry_of(const std::string& name) {
     for (const Entry& entry : entries) {
@@ -74,20 +528,10 @@ void fill_slices(const Generator& generator, const GridSize& size, std::int64_t 
 
 void fill_slices(const Generator& generator, const Grid& grid, SampleType type, std::int64_t begin,
                  std::int64_t end, void* samples, Progress& progress) {
-    const auto fill = [&](auto* typed) {
-        fill_slices(generator, grid.size, begin, end, typed, progress);
-    };
-    switch (type) {
-        case SampleType::uint8:
-            return fill(static_cast<std::uint8_t*>(samples));
-        case SampleType::uint16:
-            return fill(static_cast<std::uint16_t*>(samples));
-        case SampleType::float32:
-            return fill(static_cast<float*>(samples));
-        case SampleType::int16:
-            break;  // generated_grid() rejects it
-    }
-    unreachable_enum();
+    with_sample_type(type, [&](auto zero) {
+        fill_slices(generator, grid.size, begin, end, static_cast<decltype(zero)*>(samples),
+                    progress);
+    });
 }
 
 }  // namespace

@@ -28,4 +28,9 @@ Volume generate(const GeneratorRequest& request);  // in memory
 // Works slab by slab, in less than 200 MB of memory at any size.
 void generate_nrrd(AtomicFile& file, const GeneratorRequest& request);
 
+// exp(x), x in -700..700, and cos(2 pi turns), with the same bits on every machine: generated data
+// are told apart by their hashes, and libraries round in different ways.
+double portable_exp(double x);
+double portable_cos_turns(double turns);
+
 }  // namespace lamina

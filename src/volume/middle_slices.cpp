@@ -3,14 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <string>
 #include <vector>
 
-#include "image/coded_image.h"
 #include "volume/volume_store.h"
 
 namespace lamina {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume/min_max_bricks.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -10,7 +9,6 @@
 #include "volume/volume_data.h"
 
 namespace lamina {
-
 namespace {
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
@@ -75,25 +73,10 @@ Touched touched(const Grid& grid, const MinMaxBricks& bricks, std::size_t axis, 
     return {first * edge, end, last == bricks.count[axis] ? samples : last * edge};
 }
 
-}  // namespace
-
-ValueRange joined(const ValueRange& a, const ValueRange& b) {
-    if (a.empty() || b.empty()) return a.empty() ? b : a;
-    return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
-}
-
-MinMaxBricks MinMaxBricks::of(const Grid& grid, SampleType type) {
-    MinMaxBricks bricks;
-    for (std::size_t axis = 0; axis < 3; ++axis) bricks.count[axis] = bricks_along(grid.size[axis]);
-    bricks.ranges = BrickRanges(
-        static_cast<std::size_t>(bricks.count[0] * bricks.count[1] * bricks.count[2]), type);
-    return bricks;
-}
-
 template <typename T>
-BlockExtent measure_block(const Grid& grid, const SampleWindow<T>& window,
-                          const std::array<std::int64_t, 3>& first,
-                          const std::array<std::int64_t, 3>& count, MinMaxBricks& bricks) {
+BlockExtent measure_window(const Grid& grid, const SampleWindow<T>& window,
+                           const std::array<std::int64_t, 3>& first,
+                           const std::array<std::int64_t, 3>& count, MinMaxBricks& bricks) {
     BlockExtent extent;
     const Touched x = touched(grid, bricks, 0, first[0], count[0]);
     for (std::int64_t bz = first[2]; bz < first[2] + count[2]; ++bz) {
@@ -121,20 +104,40 @@ BlockExtent measure_block(const Grid& grid, const SampleWindow<T>& window,
     return extent;
 }
 
+}  // namespace
+
+ValueRange joined(const ValueRange& a, const ValueRange& b) {
+    if (a.empty() || b.empty()) return a.empty() ? b : a;
+    return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
+}
+
+MinMaxBricks MinMaxBricks::of(const Grid& grid, SampleType type) {
+    MinMaxBricks bricks;
+    for (std::size_t axis = 0; axis < 3; ++axis) bricks.count[axis] = bricks_along(grid.size[axis]);
+    bricks.ranges = BrickRanges(
+        static_cast<std::size_t>(bricks.count[0] * bricks.count[1] * bricks.count[2]), type);
+    return bricks;
+}
+
+BlockExtent measure_block(const Grid& grid, const SampleBox& box, const void* samples,
+                          const std::array<std::int64_t, 3>& first,
+                          const std::array<std::int64_t, 3>& count, MinMaxBricks& bricks) {
+    return with_sample_type(bricks.ranges.type(), [&](auto zero) {
+        const SampleWindow<decltype(zero)> window{box, static_cast<const decltype(zero)*>(samples)};
+        return measure_window(grid, window, first, count, bricks);
+    });
+}
+
 MinMaxBricks measure_bricks(const Volume& volume) {
     if (!volume.in_memory()) return index_of(volume).bricks;
     const Grid& grid = volume.grid();
     MinMaxBricks bricks = MinMaxBricks::of(grid, volume.type());
     const std::int64_t rows = bricks.count[1] * bricks.count[2];
     std::vector<BlockExtent> extents(static_cast<std::size_t>(rows));
-    volume.visit([&](const auto* samples) {
-        const SampleWindow<std::remove_cvref_t<decltype(*samples)>> window{{{0, 0, 0}, grid.size},
-                                                                           samples};
-        parallel_for(rows, 16, [&](std::int64_t row) {
-            extents[static_cast<std::size_t>(row)] =
-                measure_block(grid, window, {0, row % bricks.count[1], row / bricks.count[1]},
-                              {bricks.count[0], 1, 1}, bricks);
-        });
+    parallel_for(rows, 16, [&](std::int64_t row) {
+        extents[static_cast<std::size_t>(row)] = measure_block(
+            grid, {{0, 0, 0}, grid.size}, volume.data(),
+            {0, row % bricks.count[1], row / bricks.count[1]}, {bricks.count[0], 1, 1}, bricks);
     });
     for (const BlockExtent& extent : extents) {
         bricks.whole = joined(bricks.whole, extent.whole);
@@ -142,18 +145,5 @@ MinMaxBricks measure_bricks(const Volume& volume) {
     }
     return bricks;
 }
-
-template BlockExtent measure_block(const Grid&, const SampleWindow<std::uint8_t>&,
-                                   const std::array<std::int64_t, 3>&,
-                                   const std::array<std::int64_t, 3>&, MinMaxBricks&);
-template BlockExtent measure_block(const Grid&, const SampleWindow<std::int16_t>&,
-                                   const std::array<std::int64_t, 3>&,
-                                   const std::array<std::int64_t, 3>&, MinMaxBricks&);
-template BlockExtent measure_block(const Grid&, const SampleWindow<std::uint16_t>&,
-                                   const std::array<std::int64_t, 3>&,
-                                   const std::array<std::int64_t, 3>&, MinMaxBricks&);
-template BlockExtent measure_block(const Grid&, const SampleWindow<float>&,
-                                   const std::array<std::int64_t, 3>&,
-                                   const std::array<std::int64_t, 3>&, MinMaxBricks&);
 
 }  // namespace lamina

@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "base/memory.h"
-#include "base/sparse_bytes.h"
 #include "lamina/volume.h"
 #include "volume/sample_source.h"
 
@@ -35,17 +34,11 @@ class BrickRanges {
     const std::byte* data() const { return memory_.data(); }
 
     BrickRange operator[](std::size_t i) const {
-        switch (type_) {
-            case SampleType::uint8:
-                return range_as<std::uint8_t>(i);
-            case SampleType::int16:
-                return range_as<std::int16_t>(i);
-            case SampleType::uint16:
-                return range_as<std::uint16_t>(i);
-            case SampleType::float32:
-                return range_as<float>(i);
-        }
-        __builtin_unreachable();  // there is a case for every value
+        return with_sample_type(type_, [&](auto zero) {
+            decltype(zero) range[2];
+            std::memcpy(range, memory_.data() + i * sizeof range, sizeof range);
+            return BrickRange{static_cast<float>(range[0]), static_cast<float>(range[1])};
+        });
     }
 
     // Tells whether `count` ranges, 1 or more, are [0, 0].
@@ -68,13 +61,6 @@ class BrickRanges {
     }
 
   private:
-    template <typename T>
-    BrickRange range_as(std::size_t i) const {
-        T range[2];
-        std::memcpy(range, memory_.data() + i * sizeof range, sizeof range);
-        return {static_cast<float>(range[0]), static_cast<float>(range[1])};
-    }
-
     std::size_t count_ = 0;
     SampleType type_ = SampleType::uint8;
     ReservedMemory memory_;
@@ -115,15 +101,14 @@ struct MinMaxBricks {
 
 MinMaxBricks measure_bricks(const Volume& volume);  // parallel
 
-// Sets the ranges of a block of bricks, first .. first + count - 1 along each axis, from a window
+// Sets the ranges of a block of bricks, first .. first + count - 1 along each axis, from a box
 // that holds their samples, and returns what the block adds to `whole` and `non_finite`. Blocks may
 // be set from several threads.
 struct BlockExtent {
     ValueRange whole;
     std::int64_t non_finite = 0;
 };
-template <typename T>
-BlockExtent measure_block(const Grid& grid, const SampleWindow<T>& window,
+BlockExtent measure_block(const Grid& grid, const SampleBox& box, const void* samples,
                           const std::array<std::int64_t, 3>& first,
                           const std::array<std::int64_t, 3>& count, MinMaxBricks& bricks);
 

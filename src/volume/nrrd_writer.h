@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes NRRD files, from which open_nrrd() (volume_files/nrrd.h) gives back the same volume, bit
-// for bit.
+// Writes NRRD files, from which open_nrrd() (volume_files/volume_formats.h) gives back the same
+// volume, bit for bit.
 #pragma once
 
 #include "base/output_file.h"

@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume/value_statistics.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
-#include <mutex>
 
 #include <fmt/format.h>
-#include "base/parallel.h"
-#include "base/text.h"
-#include "image/coded_image.h"
-#include "volume/value_counts.h"
+#include "base/error.h"
 #include "volume/volume_store.h"
 
 namespace lamina {
-
 namespace {
 
 // Whole numbers that ascend with the finite values of float32. Percentiles are found by the leading

@@ -9,7 +9,6 @@
 #include "lamina/volume.h"
 
 namespace lamina {
-
 namespace {
 
 // An axis with one sample has no extent between samples, so it is a voxel whatever the file says.
@@ -69,30 +68,13 @@ Grid::Bounds Grid::bounds() const {
 }
 
 std::size_t bytes_of(SampleType type) {
-    switch (type) {
-        case SampleType::uint8:
-            return 1;
-        case SampleType::int16:
-        case SampleType::uint16:
-            return 2;
-        case SampleType::float32:
-            return 4;
-    }
-    unreachable_enum();
+    constexpr std::size_t bytes[] = {1, 2, 2, 4};
+    return bytes[static_cast<std::size_t>(type)];
 }
 
 const char* name_of(SampleType type) {
-    switch (type) {
-        case SampleType::uint8:
-            return "uint8";
-        case SampleType::int16:
-            return "int16";
-        case SampleType::uint16:
-            return "uint16";
-        case SampleType::float32:
-            return "float";
-    }
-    unreachable_enum();
+    static constexpr const char* words[] = {"uint8", "int16", "uint16", "float"};
+    return word_of(type, words);
 }
 
 }  // namespace lamina

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume/volume_store.h"
 
-#include <algorithm>
-
-#include "base/memory.h"
-#include "volume/brick_cache.h"
-#include "volume/sample_source.h"
-
 namespace lamina {
-
 namespace {
 
 // Share of the memory limit for bricks until it is known what drawing takes.

@@ -9,15 +9,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cerrno>
-#include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "base/client.h"
 #include "base/content_hash.h"
@@ -27,14 +23,9 @@
 #include "base/memory.h"
 #include "base/output_file.h"
 #include "base/parallel.h"
-#include "base/progress.h"
-#include "base/sparse_bytes.h"
-#include "base/value_type.h"
 #include "volume/volume_store.h"
 #include "volume_files/sample_sources.h"
-#include "volume_files/stored_samples.h"
 #include "volume_files/volume_file.h"
-#include "volume_files/volume_grid.h"
 #include "volume_files/zarr_chunks.h"
 
 namespace lamina {
@@ -42,38 +33,6 @@ namespace {
 
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
-
-// Writes a Zarr v2 array of the axes z, y, x in chunks that Blosc packs (lz4). Chunks of zeros are
-// not written: the fill value is 0.
-class ZarrWriter {
-  public:
-    // `folder`: there, and empty. `size`, `edge`: samples of the array and of a chunk along x, y
-    // and z. Throws Error.
-    ZarrWriter(std::filesystem::path folder, const std::array<std::int64_t, 3>& size,
-               const std::array<std::int64_t, 3>& edge, ValueType type,
-               const nlohmann::json& attributes);
-
-    // Writes the slices of the next layer of chunks, in native byte order. Throws Error.
-    void write_layer(const void* samples);
-    // Writes the hashes of all chunks, after the last layer. Throws Error.
-    void finish() const;
-
-    std::int64_t layer_count() const { return counts_[2]; }
-    // Returns the slices of a layer: the last one may have fewer than a chunk.
-    std::int64_t slices_of(std::int64_t layer) const;
-    std::int64_t chunk_count() const { return counts_[0] * counts_[1] * counts_[2]; }
-    std::uint64_t bytes_written() const { return bytes_written_; }
-
-  private:
-    std::uint64_t write_chunk(std::int64_t x, std::int64_t y, const char* layer);
-
-    std::filesystem::path folder_;
-    std::array<std::int64_t, 3> size_, edge_, counts_{};
-    std::size_t bytes_;  // a sample's
-    std::int64_t next_ = 0;
-    std::uint64_t bytes_written_ = 0;
-    std::vector<std::uint64_t> hashes_;  // of chunks, as write_chunk_hashes() takes them
-};
 
 constexpr int level = 5;  // Blosc's own default
 
@@ -97,78 +56,99 @@ std::string type_text(ValueType type) {
     return fmt::format("{}{}{}", order, kind, bytes_of(type));
 }
 
-ZarrWriter::ZarrWriter(std::filesystem::path folder, const std::array<std::int64_t, 3>& size,
-                       const std::array<std::int64_t, 3>& edge, ValueType type,
-                       const nlohmann::json& attributes)
-    : folder_(std::move(folder)), size_(size), edge_(edge), bytes_(bytes_of(type)) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        counts_[axis] = (size_[axis] + edge_[axis] - 1) / edge_[axis];
-    hashes_.assign(static_cast<std::size_t>(chunk_count()), no_chunk);
-    const nlohmann::json compressor{{"id", "blosc"},
-                                    {"cname", "lz4"},
-                                    {"clevel", level},
-                                    {"shuffle", BLOSC_SHUFFLE},
-                                    {"blocksize", 0}};
-    write_json_file(folder_ / ".zarray", {{"zarr_format", 2},
-                                          {"shape", {size_[2], size_[1], size_[0]}},
-                                          {"chunks", {edge_[2], edge_[1], edge_[0]}},
-                                          {"dtype", type_text(type)},
-                                          {"order", "C"},
-                                          {"fill_value", 0},
-                                          {"compressor", compressor},
-                                          {"filters", nullptr},
-                                          {"dimension_separator", "/"}});
-    write_json_file(folder_ / ".zattrs", attributes);
-}
-
-std::int64_t ZarrWriter::slices_of(std::int64_t layer) const {
-    return std::min(edge_[2], size_[2] - layer * edge_[2]);
-}
-
-void ZarrWriter::write_layer(const void* samples) {
-    for (std::int64_t y = 0; y < counts_[1]; ++y)
-        make_folder(folder_ / fmt::format("{}/{}", next_, y));
-    std::atomic<std::uint64_t> written{0};
-    parallel_for(counts_[0] * counts_[1], 1, [&](std::int64_t number) {
-        written += write_chunk(number % counts_[0], number / counts_[0],
-                               static_cast<const char*>(samples));
-    });
-    bytes_written_ += written;
-    ++next_;
-}
-
-void ZarrWriter::finish() const {
-    write_chunk_hashes(folder_, hashes_);
-}
-
-// Writes a chunk, which has zeros beyond the array's border. Returns the bytes of its file.
-std::uint64_t ZarrWriter::write_chunk(std::int64_t x, std::int64_t y, const char* layer) {
-    const std::size_t row = static_cast<std::size_t>(edge_[0]) * bytes_;
-    ByteBuffer chunk(row * static_cast<std::size_t>(edge_[1] * edge_[2]));
-    std::memset(chunk.data(), 0, chunk.size());
-    const std::int64_t first_x = x * edge_[0], first_y = y * edge_[1];
-    const std::size_t copied =
-        static_cast<std::size_t>(std::min(edge_[0], size_[0] - first_x)) * bytes_;
-    const std::int64_t rows = std::min(edge_[1], size_[1] - first_y);
-    for (std::int64_t k = 0; k < slices_of(next_); ++k) {
-        for (std::int64_t j = 0; j < rows; ++j) {
-            const std::int64_t from = (k * size_[1] + first_y + j) * size_[0] + first_x;
-            std::memcpy(chunk.data() + static_cast<std::size_t>(k * edge_[1] + j) * row,
-                        layer + static_cast<std::size_t>(from) * bytes_, copied);
-        }
+// Writes a Zarr v2 array of the axes z, y, x in chunks that Blosc packs (lz4). Chunks of zeros are
+// not written: the fill value is 0.
+class ZarrWriter {
+  public:
+    // `folder`: there, and empty. `size`, `edge`: samples of the array and of a chunk along x, y
+    // and z. Throws Error.
+    ZarrWriter(std::filesystem::path folder, const std::array<std::int64_t, 3>& size,
+               const std::array<std::int64_t, 3>& edge, ValueType type,
+               const nlohmann::json& attributes)
+        : folder_(std::move(folder)), size_(size), edge_(edge), bytes_(bytes_of(type)) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            counts_[axis] = (size_[axis] + edge_[axis] - 1) / edge_[axis];
+        hashes_.assign(static_cast<std::size_t>(chunk_count()), no_chunk);
+        const nlohmann::json compressor{{"id", "blosc"},
+                                        {"cname", "lz4"},
+                                        {"clevel", level},
+                                        {"shuffle", BLOSC_SHUFFLE},
+                                        {"blocksize", 0}};
+        write_json_file(folder_ / ".zarray", {{"zarr_format", 2},
+                                              {"shape", {size_[2], size_[1], size_[0]}},
+                                              {"chunks", {edge_[2], edge_[1], edge_[0]}},
+                                              {"dtype", type_text(type)},
+                                              {"order", "C"},
+                                              {"fill_value", 0},
+                                              {"compressor", compressor},
+                                              {"filters", nullptr},
+                                              {"dimension_separator", "/"}});
+        write_json_file(folder_ / ".zattrs", attributes);
     }
-    const bool first = x == 0 && y == 0 && next_ == 0;  // an array without any is no array
-    if (!first && all_zero(chunk.data(), chunk.size())) return 0;
-    ByteBuffer packed(chunk.size() + BLOSC_MAX_OVERHEAD);
-    const int bytes = blosc_compress_ctx(level, BLOSC_SHUFFLE, bytes_, chunk.size(), chunk.data(),
-                                         packed.data(), packed.size(), BLOSC_LZ4_COMPNAME, 0, 1);
-    const std::filesystem::path file = folder_ / fmt::format("{}/{}/{}", next_, y, x);
-    if (bytes <= 0) fail("{}: Blosc does not pack {} bytes", file.string(), chunk.size());
-    write_small_file(file, packed.data(), static_cast<std::size_t>(bytes));
-    hashes_[static_cast<std::size_t>((next_ * counts_[1] + y) * counts_[0] + x)] =
-        hash_of_chunk(packed.text().substr(0, static_cast<std::size_t>(bytes)));
-    return static_cast<std::uint64_t>(bytes);
-}
+
+    // Writes the slices of the next layer of chunks, in native byte order. Throws Error.
+    void write_layer(const void* samples) {
+        for (std::int64_t y = 0; y < counts_[1]; ++y)
+            make_folder(folder_ / fmt::format("{}/{}", next_, y));
+        std::atomic<std::uint64_t> written{0};
+        parallel_for(counts_[0] * counts_[1], 1, [&](std::int64_t number) {
+            written += write_chunk(number % counts_[0], number / counts_[0],
+                                   static_cast<const char*>(samples));
+        });
+        bytes_written_ += written;
+        ++next_;
+    }
+
+    // Writes the hashes of all chunks, after the last layer. Throws Error.
+    void finish() const { write_chunk_hashes(folder_, hashes_); }
+
+    std::int64_t layer_count() const { return counts_[2]; }
+    // Returns the slices of a layer: the last one may have fewer than a chunk.
+    std::int64_t slices_of(std::int64_t layer) const {
+        return std::min(edge_[2], size_[2] - layer * edge_[2]);
+    }
+
+    std::int64_t chunk_count() const { return counts_[0] * counts_[1] * counts_[2]; }
+    std::uint64_t bytes_written() const { return bytes_written_; }
+
+  private:
+    // Writes a chunk, which has zeros beyond the array's border. Returns the bytes of its file.
+    std::uint64_t write_chunk(std::int64_t x, std::int64_t y, const char* layer) {
+        const std::size_t row = static_cast<std::size_t>(edge_[0]) * bytes_;
+        ByteBuffer chunk(row * static_cast<std::size_t>(edge_[1] * edge_[2]));
+        std::memset(chunk.data(), 0, chunk.size());
+        const std::int64_t first_x = x * edge_[0], first_y = y * edge_[1];
+        const std::size_t copied =
+            static_cast<std::size_t>(std::min(edge_[0], size_[0] - first_x)) * bytes_;
+        const std::int64_t rows = std::min(edge_[1], size_[1] - first_y);
+        for (std::int64_t k = 0; k < slices_of(next_); ++k) {
+            for (std::int64_t j = 0; j < rows; ++j) {
+                const std::int64_t from = (k * size_[1] + first_y + j) * size_[0] + first_x;
+                std::memcpy(chunk.data() + static_cast<std::size_t>(k * edge_[1] + j) * row,
+                            layer + static_cast<std::size_t>(from) * bytes_, copied);
+            }
+        }
+        const bool first = x == 0 && y == 0 && next_ == 0;  // an array without any is no array
+        if (!first && all_zero(chunk.data(), chunk.size())) return 0;
+        ByteBuffer packed(chunk.size() + BLOSC_MAX_OVERHEAD);
+        const int bytes =
+            blosc_compress_ctx(level, BLOSC_SHUFFLE, bytes_, chunk.size(), chunk.data(),
+                               packed.data(), packed.size(), BLOSC_LZ4_COMPNAME, 0, 1);
+        const std::filesystem::path file = folder_ / fmt::format("{}/{}/{}", next_, y, x);
+        if (bytes <= 0) fail("{}: Blosc does not pack {} bytes", file.string(), chunk.size());
+        write_small_file(file, packed.data(), static_cast<std::size_t>(bytes));
+        hashes_[static_cast<std::size_t>((next_ * counts_[1] + y) * counts_[0] + x)] =
+            hash_of_chunk(packed.text().substr(0, static_cast<std::size_t>(bytes)));
+        return static_cast<std::uint64_t>(bytes);
+    }
+
+    std::filesystem::path folder_;
+    std::array<std::int64_t, 3> size_, edge_, counts_{};
+    std::size_t bytes_;  // a sample's
+    std::int64_t next_ = 0;
+    std::uint64_t bytes_written_ = 0;
+    std::vector<std::uint64_t> hashes_;  // of chunks, as write_chunk_hashes() takes them
+};
 
 // A folder that is written beside its destination, as NAME.part, and takes its place when it is
 // complete; without commit() it disappears.
@@ -176,51 +156,49 @@ class ReplacedFolder {
   public:
     // Throws Error if the destination is a folder that is no Zarr array, or if another command
     // writes it now. Removes what a killed command has left.
-    explicit ReplacedFolder(std::filesystem::path path);
-    ~ReplacedFolder();
+    explicit ReplacedFolder(std::filesystem::path path)
+        : path_(std::move(path)), temporary_(path_.string() + ".part") {
+        std::error_code absent;
+        if (std::filesystem::exists(path_, absent) && !std::filesystem::exists(path_ / ".zarray"))
+            fail("{}: found a folder that lamina has not written, expected none", path_.string());
+        make_folder(temporary_);
+        lock_ = open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+            if (lock_ >= 0) close(lock_);
+            fail("{}: another command writes it now", temporary_.string());
+        }
+        for (const auto& left : std::filesystem::directory_iterator(temporary_, absent))
+            std::filesystem::remove_all(left.path(), absent);
+    }
+
+    ~ReplacedFolder() {
+        std::error_code absent;
+        if (!committed_) std::filesystem::remove_all(temporary_, absent);
+        close(lock_);
+    }
+
     ReplacedFolder(const ReplacedFolder&) = delete;
     ReplacedFolder& operator=(const ReplacedFolder&) = delete;
 
     const std::filesystem::path& temporary() const { return temporary_; }
-    void commit();  // throws Error
+
+    // Throws Error.
+    void commit() {
+        const std::filesystem::path old = path_.string() + ".old";
+        std::error_code error, absent;
+        std::filesystem::remove_all(old, absent);
+        if (std::filesystem::exists(path_, absent)) std::filesystem::rename(path_, old, error);
+        if (!error) std::filesystem::rename(temporary_, path_, error);
+        if (error) fail("{}: cannot write: {}", path_.string(), error.message());
+        committed_ = true;
+        std::filesystem::remove_all(old, absent);
+    }
 
   private:
     std::filesystem::path path_, temporary_;
     int lock_ = -1;
     bool committed_ = false;
 };
-
-ReplacedFolder::ReplacedFolder(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(path_.string() + ".part") {
-    std::error_code absent;
-    if (std::filesystem::exists(path_, absent) && !std::filesystem::exists(path_ / ".zarray"))
-        fail("{}: found a folder that lamina has not written, expected none", path_.string());
-    make_folder(temporary_);
-    lock_ = open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-        if (lock_ >= 0) close(lock_);
-        fail("{}: another command writes it now", temporary_.string());
-    }
-    for (const auto& left : std::filesystem::directory_iterator(temporary_, absent))
-        std::filesystem::remove_all(left.path(), absent);
-}
-
-ReplacedFolder::~ReplacedFolder() {
-    std::error_code absent;
-    if (!committed_) std::filesystem::remove_all(temporary_, absent);
-    close(lock_);
-}
-
-void ReplacedFolder::commit() {
-    const std::filesystem::path old = path_.string() + ".old";
-    std::error_code error, absent;
-    std::filesystem::remove_all(old, absent);
-    if (std::filesystem::exists(path_, absent)) std::filesystem::rename(path_, old, error);
-    if (!error) std::filesystem::rename(temporary_, path_, error);
-    if (error) fail("{}: cannot write: {}", path_.string(), error.message());
-    committed_ = true;
-    std::filesystem::remove_all(old, absent);
-}
 
 constexpr const char* attribute = "lamina_bricks";
 

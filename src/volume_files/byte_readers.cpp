@@ -58,9 +58,41 @@ class FileReader final : public ByteReader {
 
 class PackedReader : public ByteReader {
   public:
-    void read(void* bytes, std::size_t count) override;
-    void skip(std::size_t count) override;
-    std::vector<std::string> surplus() override;
+    void read(void* bytes, std::size_t count) override {
+        auto* const first = static_cast<unsigned char*>(bytes);
+        for (std::size_t done = 0; done < count;) {
+            check_interrupt();
+            Output to(first + done, std::min(count - done, step_bytes));
+            done += to.size();
+            while (!to.empty()) {
+                if (unpack_some(to)) continue;
+                fail("{}: truncated {} data: found {} bytes, expected {}", name_, format_,
+                     done - to.size(), count);
+            }
+        }
+    }
+
+    void skip(std::size_t count) override {
+        std::vector<unsigned char> scratch(std::min(count, input_bytes));
+        for (std::size_t done = 0; done < count;) {
+            const std::size_t step = std::min(count - done, scratch.size());
+            read(scratch.data(), step);
+            done += step;
+        }
+    }
+
+    std::vector<std::string> surplus() override {
+        const std::uint64_t unpacked = unpack_rest();
+        const std::uint64_t behind = in_member_ ? 0 : left_.size() + bytes_left(stream_.get());
+        std::vector<std::string> texts;
+        if (unpacked > 0) {
+            const char* const at_least = unpacked >= most_counted_surplus ? "at least " : "";
+            texts.push_back(fmt::format("{}{} bytes of {} data more", at_least, unpacked, format_));
+        }
+        if (behind > 0)
+            texts.push_back(fmt::format("{} bytes behind its {} data, more", behind, format_));
+        return texts;
+    }
 
   protected:
     using Input = std::span<const unsigned char>;
@@ -82,8 +114,31 @@ class PackedReader : public ByteReader {
     // member; the next call may then start another member.
     virtual bool unpack(Input& from, Output& to) = 0;
 
-    bool unpack_some(Output& to);  // false at the end of the file
-    std::uint64_t unpack_rest();
+    // Returns false at the end of the file.
+    bool unpack_some(Output& to) {
+        if (left_.empty()) {
+            const std::size_t got = std::fread(input_.data(), 1, input_.size(), stream_.get());
+            left_ = Input(input_).first(got);
+            if (got == 0) return false;
+        }
+        in_member_ = !unpack(left_, to);
+        return true;
+    }
+
+    // Decompresses the rest of the member, up to most_counted_surplus bytes, which verifies its
+    // checksum. Returns the number of bytes.
+    std::uint64_t unpack_rest() {
+        std::uint64_t unpacked = 0;
+        std::vector<unsigned char> scratch(input_bytes);
+        while (in_member_ && unpacked < most_counted_surplus) {
+            check_interrupt();
+            Output to(scratch);
+            if (!unpack_some(to))
+                fail("{}: truncated {} data: the checksum is missing", name_, format_);
+            unpacked += scratch.size() - to.size();
+        }
+        return unpacked;
+    }
 
     OpenedFile stream_;
     std::string name_;
@@ -92,67 +147,6 @@ class PackedReader : public ByteReader {
     Input left_;              // of input_
     bool in_member_ = false;  // a member has begun and not ended
 };
-
-bool PackedReader::unpack_some(Output& to) {
-    if (left_.empty()) {
-        const std::size_t got = std::fread(input_.data(), 1, input_.size(), stream_.get());
-        left_ = Input(input_).first(got);
-        if (got == 0) return false;
-    }
-    in_member_ = !unpack(left_, to);
-    return true;
-}
-
-void PackedReader::read(void* bytes, std::size_t count) {
-    auto* const first = static_cast<unsigned char*>(bytes);
-    for (std::size_t done = 0; done < count;) {
-        check_interrupt();
-        Output to(first + done, std::min(count - done, step_bytes));
-        done += to.size();
-        while (!to.empty()) {
-            if (unpack_some(to)) continue;
-            fail("{}: truncated {} data: found {} bytes, expected {}", name_, format_,
-                 done - to.size(), count);
-        }
-    }
-}
-
-void PackedReader::skip(std::size_t count) {
-    std::vector<unsigned char> scratch(std::min(count, input_bytes));
-    for (std::size_t done = 0; done < count;) {
-        const std::size_t step = std::min(count - done, scratch.size());
-        read(scratch.data(), step);
-        done += step;
-    }
-}
-
-// Decompresses the rest of the member, up to most_counted_surplus bytes, which verifies its
-// checksum. Returns the number of bytes.
-std::uint64_t PackedReader::unpack_rest() {
-    std::uint64_t unpacked = 0;
-    std::vector<unsigned char> scratch(input_bytes);
-    while (in_member_ && unpacked < most_counted_surplus) {
-        check_interrupt();
-        Output to(scratch);
-        if (!unpack_some(to))
-            fail("{}: truncated {} data: the checksum is missing", name_, format_);
-        unpacked += scratch.size() - to.size();
-    }
-    return unpacked;
-}
-
-std::vector<std::string> PackedReader::surplus() {
-    const std::uint64_t unpacked = unpack_rest();
-    const std::uint64_t behind = in_member_ ? 0 : left_.size() + bytes_left(stream_.get());
-    std::vector<std::string> texts;
-    if (unpacked > 0) {
-        const char* const at_least = unpacked >= most_counted_surplus ? "at least " : "";
-        texts.push_back(fmt::format("{}{} bytes of {} data more", at_least, unpacked, format_));
-    }
-    if (behind > 0)
-        texts.push_back(fmt::format("{} bytes behind its {} data, more", behind, format_));
-    return texts;
-}
 
 class GzipReader final : public PackedReader {
   public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/dicom.h"
+#include "volume_files/volume_formats.h"
 
 #include <fmt/ranges.h>
 
@@ -7,17 +7,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
-#include <string>
 
 #include "base/client.h"
 #include "base/error.h"
 #include "base/memory.h"
-#include "lamina/grid.h"
 #include "volume_files/dicom_image.h"
 #include "volume_files/isolated_process.h"
-#include "volume_files/stored_data.h"
-#include "volume_files/stored_samples.h"
-#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/byte_readers.h"
+#include "volume_files/stored_samples.h"
 
 #ifdef LAMINA_HAS_GDCM
 #include <gdcmImageReader.h>
@@ -26,6 +27,27 @@ namespace {
 
 // A data element's group and number: 0x00280010 is (0028,0010).
 using DicomTag = std::uint32_t;
+
+// Reads the numbers of a text with backslashes between; returns none if it is anything else.
+std::vector<double> dicom_numbers(std::string_view text) {
+    const std::size_t last = text.find_last_not_of(std::string_view(" \0", 2));
+    text = text.substr(0, last == std::string_view::npos ? 0 : last + 1);
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (at < end) {
+        while (at < end && (*at == ' ' || *at == '+')) ++at;
+        double number = 0;
+        const auto [stop, problem] = std::from_chars(at, end, number);
+        if (problem != std::errc{} || !std::isfinite(number)) return {};
+        numbers.push_back(number);
+        at = stop;
+        while (at < end && *at == ' ') ++at;
+        if (at == end) break;
+        if (*at++ != '\\') return {};
+    }
+    return numbers;
+}
 
 // The contents of a DICOM file, without its pixels.
 struct DicomElements {
@@ -40,23 +62,50 @@ struct DicomElements {
     std::string pixel_form;                    // VR of the pixels: "OB", "OW"
 
     // Returns the value for the file or for all of its frames; an empty one if there is none.
-    const std::string& text(DicomTag tag) const;
-    std::vector<double> numbers(DicomTag tag) const;  // as dicom_numbers() reads the text
-    double number(DicomTag tag, double otherwise) const;
-    std::int64_t whole(DicomTag tag) const;  // from two bytes; 0 if there are none
+    std::string text(DicomTag tag) const {
+        for (const auto* const map : {&values, &shared}) {
+            if (const auto found = map->find(tag); found != map->end()) return found->second;
+        }
+        return {};
+    }
+
+    std::vector<double> numbers(DicomTag tag) const { return dicom_numbers(text(tag)); }
+
+    double number(DicomTag tag, double otherwise) const {
+        const auto found = numbers(tag);
+        return found.size() == 1 ? found[0] : otherwise;
+    }
+
+    // Returns a whole number of two bytes; 0 if there are none.
+    std::int64_t whole(DicomTag tag) const {
+        const std::string word = text(tag);
+        if (word.size() < 2) return 0;
+        const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(word[i]); };
+        return big_endian ? byte(0) << 8 | byte(1) : byte(1) << 8 | byte(0);
+    }
 };
 
 constexpr DicomTag transfer_syntax_tag = 0x00020010, pixel_data_tag = 0x7fe00010,
                    item_tag = 0xfffee000, item_end = 0xfffee00d, sequence_end = 0xfffee0dd,
-                   shared_groups = 0x52009229, frame_groups = 0x52009230, position_tag = 0x00200032;
-constexpr DicomTag kept_tags[] = {0x0008103e, 0x00180050, 0x00180088, 0x0020000e, 0x00200013,
-                                  0x00200032, 0x00200037, 0x00280002, 0x00280008, 0x00280010,
-                                  0x00280011, 0x00280030, 0x00280100, 0x00280101, 0x00280102,
-                                  0x00280103, 0x00281052, 0x00281053};
+                   shared_groups = 0x52009229, frame_groups = 0x52009230;
+constexpr DicomTag series_description = 0x0008103e, slice_thickness = 0x00180050,
+                   slice_spacing = 0x00180088, series_uid = 0x0020000e,
+                   instance_number = 0x00200013, image_position = 0x00200032,
+                   image_orientation = 0x00200037, samples_per_pixel = 0x00280002,
+                   frame_count = 0x00280008, row_count = 0x00280010, column_count = 0x00280011,
+                   pixel_spacing = 0x00280030, bits_allocated = 0x00280100,
+                   bits_stored = 0x00280101, highest_bit = 0x00280102, pixel_sign = 0x00280103,
+                   rescale_intercept = 0x00281052, rescale_slope = 0x00281053;
+constexpr DicomTag kept_tags[] = {
+    series_description, slice_thickness,   slice_spacing,     series_uid,  instance_number,
+    image_position,     image_orientation, samples_per_pixel, frame_count, row_count,
+    column_count,       pixel_spacing,     bits_allocated,    bits_stored, highest_bit,
+    pixel_sign,         rescale_intercept, rescale_slope};
 constexpr std::uint32_t undefined = 0xffffffff;
 constexpr int most_depth = 16;
 constexpr std::size_t most_frames = 1 << 20;
 
+// Reads the elements of a file up to its pixels. Throws Error if it is truncated or damaged.
 class ElementReader {
   public:
     explicit ElementReader(const std::filesystem::path& path)
@@ -81,16 +130,24 @@ class ElementReader {
              name_, element.tag >> 16, element.tag & 0xffff, element.length, found);
     }
 
-    void skip(std::uint64_t count) {
+    void expect(std::uint64_t count) const {
         if (count > left_)
             fail("{}: truncated: found {} bytes more, expected {}", name_, left_, count);
+    }
+
+    void skip(std::uint64_t count) {
+        expect(count);
         fseeko(file_.get(), static_cast<off_t>(count), SEEK_CUR);
         left_ -= count;
     }
 
+    void step_back() {
+        fseeko(file_.get(), -4, SEEK_CUR);
+        left_ += 4;
+    }
+
     std::string bytes(std::size_t count) {
-        if (count > left_)
-            fail("{}: truncated: found {} bytes more, expected {}", name_, left_, count);
+        expect(count);
         std::string text(count, '\0');
         if (std::fread(text.data(), 1, count, file_.get()) != count)
             fail("{}: cannot be read", name_);
@@ -119,16 +176,11 @@ class ElementReader {
         element.tag = read_tag();
         if (depth == 0 && in_meta_ && element.tag >> 16 != 2) {
             in_meta_ = false;
-            fseeko(file_.get(), -4, SEEK_CUR);
-            left_ += 4;
+            step_back();
             take_syntax();
             element.tag = read_tag();
         }
-        if (element.tag >> 16 == 0xfffe) {
-            element.length = number(4);
-            return element;
-        }
-        if (!explicit_) {
+        if (element.tag >> 16 == 0xfffe || !explicit_) {
             element.length = number(4);
             return element;
         }
@@ -195,7 +247,7 @@ class ElementReader {
                 value.substr(0, value.find_last_not_of(std::string(" \0", 2)) + 1);
         } else if (depth == 0) {
             elements_.values[element.tag] = std::move(value);
-        } else if (sequence == frame_groups && element.tag == position_tag) {
+        } else if (sequence == frame_groups && element.tag == image_position) {
             if (elements_.frame_positions.size() >= most_frames)
                 fail("{}: found more than {} frames", name_, most_frames);
             elements_.frame_positions.push_back(std::move(value));
@@ -241,8 +293,7 @@ class ElementReader {
             skip(4);
             return true;
         }
-        fseeko(file_.get(), -4, SEEK_CUR);
-        left_ += 4;
+        step_back();
         return false;
     }
 
@@ -253,56 +304,6 @@ class ElementReader {
     bool found_pixels_ = false;
     DicomElements elements_;
 };
-
-// Reads the numbers of a text with backslashes between; returns none if it is anything else.
-std::vector<double> dicom_numbers(std::string_view text) {
-    const std::size_t last = text.find_last_not_of(std::string_view(" \0", 2));
-    text = text.substr(0, last == std::string_view::npos ? 0 : last + 1);
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (at < end) {
-        while (at < end && (*at == ' ' || *at == '+')) ++at;
-        double number = 0;
-        const auto [stop, problem] = std::from_chars(at, end, number);
-        if (problem != std::errc{} || !std::isfinite(number)) return {};
-        numbers.push_back(number);
-        at = stop;
-        while (at < end && *at == ' ') ++at;
-        if (at == end) break;
-        if (*at++ != '\\') return {};
-    }
-    return numbers;
-}
-
-const std::string& DicomElements::text(DicomTag tag) const {
-    static const std::string none;
-    for (const auto* const map : {&values, &shared}) {
-        if (const auto found = map->find(tag); found != map->end()) return found->second;
-    }
-    return none;
-}
-
-std::vector<double> DicomElements::numbers(DicomTag tag) const {
-    return dicom_numbers(text(tag));
-}
-
-double DicomElements::number(DicomTag tag, double otherwise) const {
-    const auto found = numbers(tag);
-    return found.size() == 1 ? found[0] : otherwise;
-}
-
-std::int64_t DicomElements::whole(DicomTag tag) const {
-    const std::string& word = text(tag);
-    if (word.size() < 2) return 0;
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(word[i]); };
-    return big_endian ? byte(0) << 8 | byte(1) : byte(1) << 8 | byte(0);
-}
-
-// Reads the elements of a file up to its pixels. Throws Error if it is truncated or damaged.
-DicomElements read_dicom_elements(const std::filesystem::path& file) {
-    return ElementReader(file).read();
-}
 
 #ifdef LAMINA_HAS_GDCM
 
@@ -342,15 +343,6 @@ void decode_dicom(const DicomImage& image, char* /*to*/) {
 }
 
 #endif
-
-constexpr DicomTag series_description = 0x0008103e, slice_thickness = 0x00180050,
-                   slice_spacing = 0x00180088, series_uid = 0x0020000e,
-                   instance_number = 0x00200013, image_position = 0x00200032,
-                   image_orientation = 0x00200037, samples_per_pixel = 0x00280002,
-                   frame_count = 0x00280008, row_count = 0x00280010, column_count = 0x00280011,
-                   pixel_spacing = 0x00280030, bits_allocated = 0x00280100,
-                   bits_stored = 0x00280101, highest_bit = 0x00280102, pixel_sign = 0x00280103,
-                   rescale_intercept = 0x00281052, rescale_slope = 0x00281053;
 
 std::optional<glm::dvec3> place_of(const std::vector<double>& numbers) {
     if (numbers.size() != 3) return {};
@@ -403,15 +395,9 @@ void read_form(const DicomElements& elements, DicomImage& image) {
     }
     const std::int64_t allocated = elements.whole(bits_allocated);
     const bool is_signed = elements.whole(pixel_sign) == 1;
-    if (allocated == 8) {
-        image.type = is_signed ? ValueType::int8 : ValueType::uint8;
-    } else if (allocated == 16) {
-        image.type = is_signed ? ValueType::int16 : ValueType::uint16;
-    } else if (allocated == 32) {
-        image.type = is_signed ? ValueType::int32 : ValueType::uint32;
-    } else {
+    if (allocated != 8 && allocated != 16 && allocated != 32)
         fail("{}: BitsAllocated: found {}, expected 8, 16 or 32", name, allocated);
-    }
+    image.type = *number_type(static_cast<std::size_t>(allocated / 8), true, is_signed);
     image.stored_bits = elements.whole(bits_stored);
     image.high_bit = elements.whole(highest_bit);
     if (image.stored_bits < 1 || image.stored_bits > allocated || image.high_bit >= allocated ||
@@ -478,7 +464,7 @@ bool has_dicom_mark(const std::filesystem::path& file) {
 
 std::optional<DicomImage> read_dicom_image(const std::filesystem::path& file) {
     if (!has_dicom_mark(file)) return {};
-    const DicomElements elements = read_dicom_elements(file);
+    const DicomElements elements = ElementReader(file).read();
     DicomImage image;
     image.file = file;
     image.series = trimmed(elements.text(series_uid));

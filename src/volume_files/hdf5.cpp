@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/hdf5.h"
+#include "volume_files/volume_formats.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,10 +7,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <cstring>
-#include <memory>
 #include <mutex>
-#include <string>
-#include <string_view>
 #include <thread>
 
 #include "base/client.h"
@@ -20,7 +17,6 @@
 #include "volume_files/hdf5_volume.h"
 #include "volume_files/isolated_process.h"
 #include "volume_files/sample_sources.h"
-#include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {
@@ -31,17 +27,36 @@ struct Hdf5Place {
     VolumeRequest request;
 };
 
+struct Question {
+    SampleBox box;
+    bool is_all;
+};
+
+std::size_t bytes_in(const SampleBox& box, ValueType type) {
+    return static_cast<std::size_t>(box.count()) * bytes_of(type);
+}
+
 // A process that reads an HDF5 file with libhdf5 (volume_files/isolated_process.h). One thread at a
 // time asks it.
 class Hdf5Process {
   public:
-    explicit Hdf5Process(const Hdf5Place& place);  // throws Error
+    // Throws Error.
+    explicit Hdf5Process(const Hdf5Place& place)
+        : process_(place.file, "libhdf5", [&](IsolatedLine& line) { serve(line, place); }) {
+        process_.receive(&head_, sizeof head_);
+    }
 
     const Hdf5Head& head() const { return head_; }
     // Returns all samples, in memory that read() would overwrite: one of the two may be called.
-    std::shared_ptr<void> read_all();
+    std::shared_ptr<void> read_all() {
+        read_shared({{0, 0, 0}, head_.grid.size}, true);
+        return shared_.memory;
+    }
+
     // Reads a box of samples.
-    void read(const SampleBox& box, void* to);
+    void read(const SampleBox& box, void* to) {
+        std::memcpy(to, read_shared(box, false), bytes_in(box, head_.type));
+    }
 
   private:
     // Memory that both processes see. Both renew it in step, by the sizes that are asked for.
@@ -59,83 +74,29 @@ class Hdf5Process {
         }
     };
 
-    static void serve(IsolatedLine& line, const Hdf5Place& place);
-    void* read_shared(const SampleBox& box, bool is_all);
+    static void serve(IsolatedLine& line, const Hdf5Place& place) {
+        const Hdf5Volume volume(place.file, place.array, place.request);
+        line.answer(&volume.head(), sizeof(Hdf5Head));
+        Shared shared;
+        for (Question question; line.next(&question, sizeof question);) {
+            const std::size_t bytes = bytes_in(question.box, volume.head().type);
+            line.allow_bytes(std::max(bytes, volume.chunk_bytes()));
+            volume.read(question.box, question.is_all, shared.room(bytes, line));
+            line.answer(nullptr, 0);
+        }
+    }
+
+    void* read_shared(const SampleBox& box, bool is_all) {
+        void* const samples = shared_.room(bytes_in(box, head_.type), process_);
+        const Question question{box, is_all};
+        process_.ask(&question, sizeof question);
+        process_.receive(nullptr, 0);
+        return samples;
+    }
 
     IsolatedProcess process_;
     Hdf5Head head_;
     Shared shared_;
-};
-
-struct Question {
-    SampleBox box;
-    bool is_all;
-};
-
-std::size_t bytes_in(const SampleBox& box, ValueType type) {
-    return static_cast<std::size_t>(box.count()) * bytes_of(type);
-}
-
-Hdf5Process::Hdf5Process(const Hdf5Place& place)
-    : process_(place.file, "libhdf5", [&](IsolatedLine& line) { serve(line, place); }) {
-    process_.receive(&head_, sizeof head_);
-}
-
-void Hdf5Process::serve(IsolatedLine& line, const Hdf5Place& place) {
-    const Hdf5Volume volume(place.file, place.array, place.request);
-    line.answer(&volume.head(), sizeof(Hdf5Head));
-    Shared shared;
-    for (Question question; line.next(&question, sizeof question);) {
-        const std::size_t bytes = bytes_in(question.box, volume.head().type);
-        line.allow_bytes(std::max(bytes, volume.chunk_bytes()));
-        volume.read(question.box, question.is_all, shared.room(bytes, line));
-        line.answer(nullptr, 0);
-    }
-}
-
-void* Hdf5Process::read_shared(const SampleBox& box, bool is_all) {
-    void* const samples = shared_.room(bytes_in(box, head_.type), process_);
-    const Question question{box, is_all};
-    process_.ask(&question, sizeof question);
-    process_.receive(nullptr, 0);
-    return samples;
-}
-
-std::shared_ptr<void> Hdf5Process::read_all() {
-    read_shared({{0, 0, 0}, head_.grid.size}, true);
-    return shared_.memory;
-}
-
-void Hdf5Process::read(const SampleBox& box, void* to) {
-    std::memcpy(to, read_shared(box, false), bytes_in(box, head_.type));
-}
-
-// Samples in the chunks of an HDF5 file, which processes of their own decode: one for each core, up
-// to most_processes. They are started first of all, because this process has few threads then.
-class Hdf5Source : public ChunkedSource {
-  public:
-    Hdf5Source(const Hdf5Place& place, std::unique_ptr<Hdf5Process> first);
-
-    void check_unchanged() const override { file_.check_unchanged(); }
-    std::filesystem::path main_file() const override;
-    std::string name() const override;
-    std::string identity() const override;
-
-  private:
-    void decode(std::int64_t chunk, const SampleBox& box, void* to) const override;
-    std::unique_ptr<Hdf5Process> started() const;
-    std::unique_ptr<Hdf5Process> take_process() const;
-    void give_back(std::unique_ptr<Hdf5Process> process) const;
-
-    static constexpr unsigned most_processes = 16;
-
-    Hdf5Place place_;
-    FileState file_;
-    Hdf5Head head_;
-    mutable std::mutex access_;
-    mutable std::condition_variable given_back_;
-    mutable std::vector<std::unique_ptr<Hdf5Process>> idle_;
-    mutable unsigned lost_ = 0;  // processes that have to be started anew
 };
 
 // Edge of the boxes in which arrays without chunks are read, and to which smaller chunks are
@@ -151,83 +112,105 @@ std::array<std::int64_t, 3> edge_of(const Hdf5Head& head) {
     return edge;
 }
 
-Hdf5Source::Hdf5Source(const Hdf5Place& place, std::unique_ptr<Hdf5Process> first)
-    : ChunkedSource(first->head().grid.size, edge_of(first->head()), bytes_of(first->head().type)),
-      place_(place),
-      file_(FileState::of(place.file)),
-      head_(first->head()) {
-    idle_.push_back(std::move(first));
-    const unsigned count = std::min(most_processes, std::thread::hardware_concurrency());
-    while (idle_.size() < count) idle_.push_back(started());
-}
-
-// Starts one more process, without its warnings: the first one has given them.
-std::unique_ptr<Hdf5Process> Hdf5Source::started() const {
-    const WarningTaker nobody = [](const std::string&) {};
-    Client client = ClientScope::current();
-    client.warnings = &nobody;
-    const ClientScope scope(client);
-    auto process = std::make_unique<Hdf5Process>(place_);
-    const Hdf5Head& head = process->head();
-    file_.check_unchanged();
-    if (head.grid.size != head_.grid.size || head.type != head_.type || head.taken != head_.taken)
-        fail("{}: the file was changed while it was read", place_.file);
-    return process;
-}
-
-std::unique_ptr<Hdf5Process> Hdf5Source::take_process() const {
-    std::unique_lock lock(access_);
-    given_back_.wait(lock, [&] { return !idle_.empty() || lost_ > 0; });
-    if (idle_.empty()) {
-        --lost_;
-        lock.unlock();
-        return started();
+// Samples in the chunks of an HDF5 file, which processes of their own decode: one for each core, up
+// to most_processes. They are started first of all, because this process has few threads then.
+class Hdf5Source : public ChunkedSource {
+  public:
+    Hdf5Source(const Hdf5Place& place, std::unique_ptr<Hdf5Process> first)
+        : ChunkedSource(first->head().grid.size, edge_of(first->head()),
+                        bytes_of(first->head().type)),
+          place_(place),
+          file_(FileState::of(place.file)),
+          head_(first->head()) {
+        idle_.push_back(std::move(first));
+        const unsigned count = std::min(most_processes, std::thread::hardware_concurrency());
+        while (idle_.size() < count) idle_.push_back(started());
     }
-    std::unique_ptr<Hdf5Process> process = std::move(idle_.back());
-    idle_.pop_back();
-    return process;
-}
 
-void Hdf5Source::give_back(std::unique_ptr<Hdf5Process> process) const {
-    const std::lock_guard lock(access_);
-    if (process)
-        idle_.push_back(std::move(process));
-    else
-        ++lost_;
-    given_back_.notify_one();
-}
+    void check_unchanged() const override { file_.check_unchanged(); }
 
-void Hdf5Source::decode(std::int64_t /*chunk*/, const SampleBox& box, void* to) const {
-    std::unique_ptr<Hdf5Process> process;
-    try {
-        process = take_process();
-        process->read(box, to);
-    } catch (...) {
-        give_back({});  // it may have an answer under way, or have ended
-        throw;
+    // Returns the file with the array's name behind it, because each array of a file counts as a
+    // file.
+    std::filesystem::path main_file() const override {
+        std::string array = place_.array;
+        std::ranges::replace(array, '/', '.');
+        return place_.file + array;
     }
-    give_back(std::move(process));
-}
 
-// Returns the file with the array's name behind it, because each array of a file counts as a file.
-std::filesystem::path Hdf5Source::main_file() const {
-    std::string array = place_.array;
-    std::ranges::replace(array, '/', '.');
-    return place_.file + array;
-}
+    std::string name() const override {
+        return fmt::format("{} {} {} {}", std::filesystem::absolute(place_.file).string(),
+                           place_.array, fmt::join(head_.taken, " "),
+                           fmt::join(head_.grid.size, " "));
+    }
 
-std::string Hdf5Source::name() const {
-    return fmt::format("{} {} {} {}", std::filesystem::absolute(place_.file).string(), place_.array,
-                       fmt::join(head_.taken, " "), fmt::join(head_.grid.size, " "));
-}
+    std::string identity() const override {
+        ContentHash hash;
+        hash.add(name());
+        hash.add(file_.text());
+        hash.add(file_.bytes_hash());
+        return hash.hex();
+    }
 
-std::string Hdf5Source::identity() const {
-    ContentHash hash;
-    hash.add(name());
-    hash.add(file_.text());
-    hash.add(file_.bytes_hash());
-    return hash.hex();
-}
+  private:
+    void decode(std::int64_t /*chunk*/, const SampleBox& box, void* to) const override {
+        std::unique_ptr<Hdf5Process> process;
+        try {
+            process = take_process();
+            process->read(box, to);
+        } catch (...) {
+            give_back({});  // it may have an answer under way, or have ended
+            throw;
+        }
+        give_back(std::move(process));
+    }
+
+    // Starts one more process, without its warnings: the first one has given them.
+    std::unique_ptr<Hdf5Process> started() const {
+        const WarningTaker nobody = [](const std::string&) {};
+        Client client = ClientScope::current();
+        client.warnings = &nobody;
+        const ClientScope scope(client);
+        auto process = std::make_unique<Hdf5Process>(place_);
+        const Hdf5Head& head = process->head();
+        file_.check_unchanged();
+        if (head.grid.size != head_.grid.size || head.type != head_.type ||
+            head.taken != head_.taken)
+            fail("{}: the file was changed while it was read", place_.file);
+        return process;
+    }
+
+    std::unique_ptr<Hdf5Process> take_process() const {
+        std::unique_lock lock(access_);
+        given_back_.wait(lock, [&] { return !idle_.empty() || lost_ > 0; });
+        if (idle_.empty()) {
+            --lost_;
+            lock.unlock();
+            return started();
+        }
+        std::unique_ptr<Hdf5Process> process = std::move(idle_.back());
+        idle_.pop_back();
+        return process;
+    }
+
+    void give_back(std::unique_ptr<Hdf5Process> process) const {
+        const std::lock_guard lock(access_);
+        if (process)
+            idle_.push_back(std::move(process));
+        else
+            ++lost_;
+        given_back_.notify_one();
+    }
+
+    static constexpr unsigned most_processes = 16;
+
+    Hdf5Place place_;
+    FileState file_;
+    Hdf5Head head_;
+    mutable std::mutex access_;
+    mutable std::condition_variable given_back_;
+    mutable std::vector<std::unique_ptr<Hdf5Process>> idle_;
+    mutable unsigned lost_ = 0;  // processes that have to be started anew
+};
 
 // The two parts of "FILE.h5:/PATH"; the second is empty if the path is a file's.
 struct ArrayPath {

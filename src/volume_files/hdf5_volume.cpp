@@ -14,9 +14,8 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
-#include "base/text.h"
 #include "volume_files/stored_data.h"
-#include "volume_files/volume_grid.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 namespace {
@@ -27,51 +26,24 @@ constexpr int most_rank = 5;
 constexpr std::uint64_t most_hdf5_expansion = 1 << 20;
 
 hid_t memory_type(ValueType type) {
-    switch (type) {
-        case ValueType::int8:
-            return H5T_NATIVE_INT8;
-        case ValueType::uint8:
-            return H5T_NATIVE_UINT8;
-        case ValueType::int16:
-            return H5T_NATIVE_INT16;
-        case ValueType::uint16:
-            return H5T_NATIVE_UINT16;
-        case ValueType::int32:
-            return H5T_NATIVE_INT32;
-        case ValueType::uint32:
-            return H5T_NATIVE_UINT32;
-        case ValueType::int64:
-            return H5T_NATIVE_INT64;
-        case ValueType::uint64:
-            return H5T_NATIVE_UINT64;
-        case ValueType::float32:
-            return H5T_NATIVE_FLOAT;
-        case ValueType::float64:
-            break;
-    }
-    return H5T_NATIVE_DOUBLE;
+    const hid_t types[] = {H5T_NATIVE_INT8,  H5T_NATIVE_UINT8,  H5T_NATIVE_INT16, H5T_NATIVE_UINT16,
+                           H5T_NATIVE_INT32, H5T_NATIVE_UINT32, H5T_NATIVE_INT64, H5T_NATIVE_UINT64,
+                           H5T_NATIVE_FLOAT, H5T_NATIVE_DOUBLE};
+    return types[static_cast<std::size_t>(type)];
+}
+
+bool has_numbers(hid_t type) {
+    const H5T_class_t kind = H5Tget_class(type);
+    return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
 
 // Returns nothing if samples of that type are no numbers that can be drawn.
 std::optional<ValueType> value_type_of(hid_t type) {
+    if (!has_numbers(type)) return {};
+    const bool integers = H5Tget_class(type) == H5T_INTEGER;
     const std::size_t bytes = H5Tget_size(type);
-    switch (H5Tget_class(type)) {
-        case H5T_INTEGER: {
-            const bool is_signed = H5Tget_sign(type) == H5T_SGN_2;
-            for (const ValueType word : value_types) {
-                if (is_integer(word) && bytes_of(word) == bytes &&
-                    (std::string_view(name_of(word)).front() == 'i') == is_signed)
-                    return word;
-            }
-            return {};
-        }
-        case H5T_FLOAT:
-            if (bytes == 8) return ValueType::float64;
-            if (bytes == 4 || bytes == 2) return ValueType::float32;
-            return {};
-        default:
-            return {};
-    }
+    return number_type(!integers && bytes == 2 ? 4 : bytes, integers,
+                       !integers || H5Tget_sign(type) == H5T_SGN_2);
 }
 
 // Returns the numbers of a small data space.
@@ -82,11 +54,6 @@ std::vector<double> numbers_of(hid_t space, std::size_t most, const Read& read) 
     std::vector<double> numbers(static_cast<std::size_t>(count));
     if (read(numbers.data()) < 0) return {};
     return numbers;
-}
-
-bool has_numbers(hid_t type) {
-    const H5T_class_t kind = H5Tget_class(type);
-    return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
 
 // Refuses a link into another file: HDF5 calls it, and then does not follow the link.
@@ -147,9 +114,8 @@ herr_t note_array(hid_t file, const char* name, const H5O_info_t* info, void* da
     if (!set.valid() || (is_restricted() && stores_elsewhere(set.id()))) return 0;
     const Hdf5Handle space(H5Dget_space(set.id()), H5Sclose);
     const Hdf5Handle type(H5Dget_type(set.id()), H5Tclose);
-    const H5T_class_t kind = H5Tget_class(type.id());
     const int rank = H5Sget_simple_extent_ndims(space.id());
-    if (rank >= 3 && rank <= 5 && (kind == H5T_INTEGER || kind == H5T_FLOAT))
+    if (rank >= 3 && rank <= most_rank && has_numbers(type.id()))
         found.names.push_back(std::string("/") + name);
     return found.names.size() < most_names ? 0 : 1;
 }
@@ -162,8 +128,7 @@ std::string only_array(hid_t file, const std::string& name) {
     if (found.too_deep) {
         fail(
             "{}: found groups in groups more than {} deep, expected fewer, or the name of an "
-            "array, as "
-            "in {}:/GROUP/ARRAY",
+            "array, as in {}:/GROUP/ARRAY",
             name, most_groups, name);
     }
     if (found.names.empty())

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/nifti.h"
+#include "volume_files/volume_formats.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <optional>
-#include <string>
 
 #include "base/error.h"
 #include "base/input_file.h"
-#include "lamina/grid.h"
-#include "volume_files/byte_readers.h"
-#include "volume_files/stored_data.h"
-#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/npy.h"
-
-#include <optional>
-#include <string>
-#include <string_view>
+#include "volume_files/volume_formats.h"
 
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "image/npy.h"
-#include "volume_files/stored_data.h"
-#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {
@@ -30,20 +24,6 @@ std::shared_ptr<void> turned(const void* stored, const std::array<std::int64_t, 
                 to[x + nx * (y + ny * z)] = from[z + nz * (y + ny * x)];
     });
     return memory;
-}
-
-std::shared_ptr<void> turned(ValueType type, const void* from,
-                             const std::array<std::int64_t, 3>& size) {
-    switch (bytes_of(type)) {
-        case 1:
-            return turned<std::uint8_t>(from, size);
-        case 2:
-            return turned<std::uint16_t>(from, size);
-        case 4:
-            return turned<std::uint32_t>(from, size);
-        default:
-            return turned<std::uint64_t>(from, size);
-    }
 }
 
 }  // namespace
@@ -90,7 +70,8 @@ Volume open_npy(const std::filesystem::path& path, const VolumeRequest&, const V
     expect_room(path.string(), stored_bytes(path.string(), data.axes, bytes_of(*type)), use,
                 "its first axis is the fastest");
     StoredSamples samples = read_stored(data);
-    samples.bytes = turned(*type, samples.bytes.get(), size);
+    samples.bytes = with_type(
+        *type, [&](auto zero) { return turned<decltype(zero)>(samples.bytes.get(), size); });
     return drawn_volume(plain_grid(size), samples);
 }
 

@@ -1,29 +1,201 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/nrrd.h"
+#include "volume_files/volume_formats.h"
 
+#include <fmt/ranges.h>
 #include <teem/nrrd.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
-#include <memory>
-#include <optional>
 #include <set>
 #include <sstream>
-#include <string>
 #include <system_error>
 
 #include "base/error.h"
 #include "base/input_file.h"
-#include "volume_files/nrrd_grid.h"
 #include "volume_files/numbered_files.h"
 
 namespace lamina {
 namespace {
+
+bool has_direction(const Nrrd& nrrd, unsigned axis) {
+    return nrrd.spaceDim > 0 && !std::isnan(nrrd.axis[axis].spaceDirection[0]);
+}
+
+bool any_direction(const Nrrd& nrrd) {
+    for (unsigned axis = 0; axis < nrrd.dim; ++axis)
+        if (has_direction(nrrd, axis)) return true;
+    return false;
+}
+
+// Tells if the header says that an axis does not lie in space.
+bool is_apart(const Nrrd& nrrd, unsigned axis) {
+    const int kind = nrrd.axis[axis].kind;
+    if (kind != nrrdKindUnknown && kind != nrrdKindDomain)
+        return !nrrdKindIsDomain(kind) || kind == nrrdKindTime;
+    return any_direction(nrrd) && !has_direction(nrrd, axis);
+}
+
+// Returns the three axes that span the volume. If there are more axes, those are left out first
+// that do not lie in space, then axes of one sample, beginning with those without a direction in
+// space.
+std::vector<unsigned> volume_axes(const std::string& file, const Nrrd& nrrd) {
+    std::vector<unsigned> axes(nrrd.dim);
+    std::vector<std::size_t> sizes(nrrd.dim);
+    for (unsigned axis = 0; axis < nrrd.dim; ++axis) {
+        axes[axis] = axis;
+        sizes[axis] = nrrd.axis[axis].size;
+    }
+    if (nrrd.dim > 3) std::erase_if(axes, [&](unsigned axis) { return is_apart(nrrd, axis); });
+    for (const bool keep_directed : {true, false}) {
+        for (std::size_t i = axes.size(); i-- > 0 && axes.size() > 3;) {
+            const bool keep = keep_directed && has_direction(nrrd, axes[i]);
+            if (nrrd.axis[axes[i]].size == 1 && !keep)
+                axes.erase(axes.begin() + static_cast<long>(i));
+        }
+    }
+    if (axes.size() != 3) {
+        fail(
+            "{}: dimension: found {} axes (sizes {}), {} of them in space by kinds and directions, "
+            "expected 3",
+            file, nrrd.dim, fmt::join(sizes, " "), axes.size());
+    }
+    for (const unsigned axis : axes) {
+        const int kind = nrrd.axis[axis].kind;
+        if (kind != nrrdKindUnknown && !nrrdKindIsDomain(kind)) {
+            fail("{}: kinds: axis {} is '{}', expected three spatial axes, one scalar a sample",
+                 file, axis, airEnumStr(nrrdKind, kind));
+        }
+    }
+    return axes;
+}
+
+Centering centering_of(const NrrdAxisInfo& axis) {
+    return axis.center == nrrdCenterCell ? Centering::cell : Centering::node;
+}
+
+// Returns the distance of samples along an axis without a direction: its spacing, else what its
+// mins and maxs imply, else NaN.
+double known_spacing_of(const NrrdAxisInfo& axis) {
+    if (!std::isnan(axis.spacing)) return axis.spacing;
+    const bool cell = centering_of(axis) == Centering::cell;
+    const double intervals = static_cast<double>(axis.size) - (cell ? 0 : 1);
+    if (intervals == 0) return 1;
+    return (axis.max - axis.min) / intervals;
+}
+
+// Returns the known spacing, or 1 if the file gives none.
+double spacing_of(const NrrdAxisInfo& axis) {
+    const double known = known_spacing_of(axis);
+    return std::isnan(known) ? 1 : known;
+}
+
+// Throws Error if an axis has no spacing: a field `spacings` gives those of all axes that have no
+// mins and maxs.
+void expect_spacings(const std::string& file, const Nrrd& nrrd, const std::vector<unsigned>& axes) {
+    for (const unsigned axis : axes) {
+        if (std::isnan(known_spacing_of(nrrd.axis[axis])))
+            fail("{}: spacings: found nan for axis {}, expected a number above 0", file, axis);
+    }
+}
+
+// Returns the position of the first sample along an axis without a direction. The min of an axis of
+// cells is the border of the first cell (format, "axis mins").
+double first_position_of(const NrrdAxisInfo& axis) {
+    if (std::isnan(axis.min)) return 0;
+    return centering_of(axis) == Centering::cell ? axis.min + spacing_of(axis) / 2 : axis.min;
+}
+
+WorldAxes axes_of(int space) {
+    switch (space) {
+        case nrrdSpaceLeftPosteriorSuperior:
+        case nrrdSpaceScannerXYZ:  // the same by definition
+            return WorldAxes::left_posterior_superior;
+        case nrrdSpaceRightAnteriorSuperior:
+            return WorldAxes::right_anterior_superior;
+        case nrrdSpaceLeftAnteriorSuperior:
+            return WorldAxes::left_anterior_superior;
+        default:
+            return WorldAxes::unnamed;
+    }
+}
+
+void set_steps_by_directions(const std::string& file, const Nrrd& nrrd,
+                             const std::vector<unsigned>& axes, Grid& grid) {
+    if (nrrd.spaceDim != 3) {
+        fail("{}: space: found {} dimensions, expected 3", file, nrrd.spaceDim);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!has_direction(nrrd, axes[i])) {
+            fail("{}: space directions: axis {} has none, expected three directions", file,
+                 axes[i]);
+        }
+        const double* const direction = nrrd.axis[axes[i]].spaceDirection;
+        grid.step[i] = {direction[0], direction[1], direction[2]};
+    }
+}
+
+void set_steps_by_spacings(const Nrrd& nrrd, const std::vector<unsigned>& axes, Grid& grid) {
+    for (int i = 0; i < 3; ++i) {
+        const NrrdAxisInfo& axis = nrrd.axis[axes[static_cast<std::size_t>(i)]];
+        grid.step[i] = glm::dvec3{0};
+        grid.step[i][i] = spacing_of(axis);
+        grid.origin[i] = first_position_of(axis);
+    }
+}
+
+// Returns the grid that a parsed header describes (docs/scene.md, "What is drawn"). `file`: for
+// messages. `has_spacings`: the header has a field of that name, which then must give every spacing
+// that nothing else gives. Throws Error if the axes are not three, not spatial, not orthogonal, or
+// not finite.
+Grid nrrd_grid(const std::string& file, const Nrrd& nrrd, bool has_spacings) {
+    const std::vector<unsigned> axes = volume_axes(file, nrrd);
+    Grid grid;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const NrrdAxisInfo& axis = nrrd.axis[axes[i]];
+        grid.size[i] = static_cast<std::int64_t>(axis.size);
+        grid.centering[i] = axis.size == 1 ? Centering::cell : centering_of(axis);
+    }
+    const bool directed = std::any_of(axes.begin(), axes.end(),
+                                      [&](unsigned axis) { return has_direction(nrrd, axis); });
+    if (directed) {
+        set_steps_by_directions(file, nrrd, axes, grid);
+    } else {
+        if (has_spacings) expect_spacings(file, nrrd, axes);
+        set_steps_by_spacings(nrrd, axes, grid);
+    }
+    if (nrrd.spaceDim == 3 && !std::isnan(nrrd.spaceOrigin[0])) {
+        grid.origin = {nrrd.spaceOrigin[0], nrrd.spaceOrigin[1], nrrd.spaceOrigin[2]};
+    }
+    turn_to_lps(grid, axes_of(nrrd.space));
+    check_grid(file, grid, {"space directions", "space origin"});
+    return grid;
+}
+
+// Returns the axes of the data, with the index that is taken of those that do not span the grid:
+// the request's time of an axis of that kind, its channel of another. Throws Error if there is no
+// such index.
+std::vector<StoredAxis> nrrd_axes(const std::string& file, const Nrrd& nrrd,
+                                  const VolumeRequest& request) {
+    const std::vector<unsigned> spanning = volume_axes(file, nrrd);
+    std::vector<StoredAxis> axes(nrrd.dim);
+    int channels = 0, times = 0;
+    for (unsigned i = 0; i < nrrd.dim; ++i) {
+        axes[i].size = static_cast<std::int64_t>(nrrd.axis[i].size);
+        if (axes[i].size == 1 || std::ranges::find(spanning, i) != spanning.end()) continue;
+        const bool time = nrrd.axis[i].kind == nrrdKindTime;
+        if (++(time ? times : channels) > 1)
+            fail("{}: dimension: found several axes of {}s, expected one", file,
+                 time ? "time" : "channel");
+        axes[i] = taken_axis(file, time ? "time" : "channel", time ? request.time : request.channel,
+                             axes[i].size);
+    }
+    if (channels == 0) taken_axis(file, "channel", request.channel, 1);
+    if (times == 0) taken_axis(file, "time", request.time, 1);
+    return axes;
+}
 
 // The value of the field `data file` of a NRRD header: one file, a list ("LIST", then the names,
 // one a line, up to the end of the header file), or a pattern ("slice%03d.raw MIN MAX STEP").
@@ -33,82 +205,52 @@ struct NrrdDataFiles {
     std::optional<std::size_t> axes_each;
 };
 
-class DataFileField {
-  public:
-    DataFileField(const std::string& path, int line, const std::string& value)
-        : path_(path), line_(line), value_(value) {
-        std::istringstream stream(value);
-        for (std::string word; stream >> word;) words_.push_back(word);
-    }
-
-    bool is_list() const { return !words_.empty() && words_[0] == "LIST"; }
-    bool is_pattern() const { return value_.find('%') != std::string::npos; }
-
-    NrrdDataFiles list(const std::string& following) const {
-        if (words_.size() > 2) reject("LIST, and the number of axes in one file");
-        NrrdDataFiles files;
-        if (words_.size() == 2) files.axes_each = axes_in(words_[1]);
+// `path` and `line` are for messages; `following`: the header after the field's line. Throws Error.
+NrrdDataFiles nrrd_data_files(const std::string& path, int line, const std::string& value,
+                              const std::string& following) {
+    const std::vector<std::string> words = words_of(value);
+    const auto wrong = [&](const std::string& expected) {
+        return Error(fmt::format("{}: line {}: data file: found '{}', expected {}", path, line,
+                                 value.substr(0, 80), expected));
+    };
+    const auto number = [&](std::size_t word) {
+        return word < words.size() ? whole_number(words[word]) : std::nullopt;
+    };
+    NrrdDataFiles files;
+    const auto set_axes = [&](std::size_t word) {
+        if (words.size() <= word) return;
+        const auto axes = number(word);
+        if (!axes || *axes < 1 || *axes > NRRD_DIM_MAX) throw wrong("a number of axes in one file");
+        files.axes_each = static_cast<std::size_t>(*axes);
+    };
+    if (!words.empty() && words[0] == "LIST") {
+        if (words.size() > 2) throw wrong("LIST, and the number of axes in one file");
+        set_axes(1);
         std::istringstream lines(following);
         for (std::string name; std::getline(lines, name);) {
             if (!name.empty() && name.back() == '\r') name.pop_back();
             if (!name.empty()) files.names.push_back(name);
         }
         if (files.names.empty())
-            fail("{}: line {}: data file: found no names after LIST, expected one a line", path_,
-                 line_);
-        return files;
-    }
-
-    NrrdDataFiles pattern() const {
+            fail("{}: line {}: data file: found no names after LIST, expected one a line", path,
+                 line);
+    } else if (value.find('%') != std::string::npos) {
         const auto from = number(1), to = number(2), step = number(3);
-        const std::optional<FilePattern> name =
-            words_.empty() ? std::nullopt : file_pattern(words_[0]);
-        if (!name || !from || !to || !step || words_.size() > 5)
-            reject("a name with one %d or %03d in it, and first, last and step of its number");
-        NrrdDataFiles files;
-        if (words_.size() == 5) files.axes_each = axes_in(words_[4]);
+        const auto name = words.empty() ? std::nullopt : file_pattern(words[0]);
+        if (!name || !from || !to || !step || words.size() > 5)
+            throw wrong("a name with one %d or %03d in it, and first, last and step of its number");
+        set_axes(4);
         const auto names = names_of(*name, *from, *to, *step);
         if (!names)
-            reject(fmt::format("a step from {} to {}, and at most {} files", *from, *to,
-                               most_pattern_files));
+            throw wrong(fmt::format("a step from {} to {}, and at most {} files", *from, *to,
+                                    most_pattern_files));
         files.names = *names;
-        return files;
+    } else {
+        if (value.empty() || value == "-" || value.starts_with("SKIPLIST"))
+            fail("{}: data file: found '{}', expected a file name", path, value);
+        files.names = {value};
     }
-
-    NrrdDataFiles single() const {
-        if (value_.empty() || value_ == "-" || value_.starts_with("SKIPLIST"))
-            fail("{}: data file: found '{}', expected a file name", path_, value_);
-        return {{value_}, {}};
-    }
-
-  private:
-    std::optional<std::int64_t> number(std::size_t word) const {
-        return word < words_.size() ? whole_number(words_[word]) : std::nullopt;
-    }
-
-    std::size_t axes_in(const std::string& word) const {
-        const auto axes = whole_number(word);
-        if (!axes || *axes < 1 || *axes > NRRD_DIM_MAX) reject("a number of axes in one file");
-        return static_cast<std::size_t>(*axes);
-    }
-
-    [[noreturn]] void reject(const std::string& expected) const {
-        fail("{}: line {}: data file: found '{}', expected {}", path_, line_, value_.substr(0, 80),
-             expected);
-    }
-
-    std::string path_;
-    int line_;
-    std::string value_;
-    std::vector<std::string> words_;
-};
-
-// `path` and `line` are for messages; `following`: the header after the field's line. Throws Error.
-NrrdDataFiles nrrd_data_files(const std::string& path, int line, const std::string& value,
-                              const std::string& following) {
-    const DataFileField field(path, line, value);
-    if (field.is_list()) return field.list(following);
-    return field.is_pattern() ? field.pattern() : field.single();
+    return files;
 }
 
 constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
@@ -123,20 +265,6 @@ struct HeaderText {
     std::int64_t length = 0;       // bytes up to and including the empty line
     bool ended = false;            // with an empty line, not with the end of the file
 };
-
-std::string trimmed_field(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-void check_regular_file(const std::filesystem::path& path, const std::string& role) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) fail("{}: {}no such file", path.string(), role);
-    if (!std::filesystem::is_regular_file(status))
-        fail("{}: {}not a regular file", path.string(), role);
-}
 
 // Reads the beginning of a file, at most most_header_bytes bytes.
 std::string read_beginning(const std::filesystem::path& path) {
@@ -173,10 +301,10 @@ bool is_remark(const std::string& line) {
 std::optional<Field> field_of(const std::string& line) {
     const auto colon = line.find(':');
     if (colon == std::string::npos || is_remark(line)) return {};
-    std::string name = trimmed_field(line.substr(0, colon));
+    std::string name = without_blanks(line.substr(0, colon));
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return Field{name, trimmed_field(line.substr(colon + 1))};
+    return Field{name, without_blanks(line.substr(colon + 1))};
 }
 
 [[noreturn]] void fail_at(const std::string& path, int line, const Field& field,
@@ -187,10 +315,9 @@ std::optional<Field> field_of(const std::string& line) {
 
 // Checks the sizes: teem would read "8.9" as 8, and -8 or 2^64 as a missing field.
 void check_sizes(const std::string& path, int line, const Field& field) {
-    std::istringstream words(field.value);
     std::uint64_t samples = 1;
     bool overflow = false;
-    for (std::string word; words >> word;) {
+    for (const std::string& word : words_of(field.value)) {
         const bool digits = word.find_first_not_of("0123456789") == std::string::npos;
         if (!digits || word.size() > 18 || std::stoull(word) == 0)
             fail_at(path, line, field, "whole numbers from 1 to 10^18");
@@ -201,10 +328,9 @@ void check_sizes(const std::string& path, int line, const Field& field) {
 }
 
 // Checks the spacings, because teem's messages name neither field nor number. NaN: the axis has
-// none, or its mins and maxs give it (volume_files/nrrd_grid.h).
+// none, or its mins and maxs give it (volume_files/volume_formats.h).
 void check_spacings(const std::string& path, int line, const Field& field) {
-    std::istringstream words(field.value);
-    for (std::string word; words >> word;) {
+    for (const std::string& word : words_of(field.value)) {
         const char* const start = word.c_str();
         char* end = nullptr;
         const double spacing = std::strtod(start, &end);
@@ -293,7 +419,7 @@ std::string teem_message() {
         std::string line = text.substr(at, end - at);
         if (line.starts_with("[nrrd] ")) line.erase(0, 7);
         if (const auto colon = line.find(':'); colon != std::string::npos) line.erase(0, colon + 1);
-        if (line = trimmed_field(line); !line.empty()) messages.push_back(line);
+        if (line = without_blanks(line); !line.empty()) messages.push_back(line);
         at = end + 1;
     }
     if (messages.empty()) return "teem gives no reason";
@@ -303,30 +429,8 @@ std::string teem_message() {
 }
 
 ValueType value_type_of(const std::string& path, int type) {
-    switch (type) {
-        case nrrdTypeChar:
-            return ValueType::int8;
-        case nrrdTypeUChar:
-            return ValueType::uint8;
-        case nrrdTypeShort:
-            return ValueType::int16;
-        case nrrdTypeUShort:
-            return ValueType::uint16;
-        case nrrdTypeInt:
-            return ValueType::int32;
-        case nrrdTypeUInt:
-            return ValueType::uint32;
-        case nrrdTypeLLong:
-            return ValueType::int64;
-        case nrrdTypeULLong:
-            return ValueType::uint64;
-        case nrrdTypeFloat:
-            return ValueType::float32;
-        case nrrdTypeDouble:
-            return ValueType::float64;
-        default:
-            break;
-    }
+    static_assert(nrrdTypeDouble - nrrdTypeChar == std::size(value_types) - 1);  // in our order
+    if (type >= nrrdTypeChar && type <= nrrdTypeDouble) return value_types[type - nrrdTypeChar];
     fail("{}: type: found '{}', expected a type of numbers, such as uint8 or float", path,
          airEnumStr(nrrdType, type));
 }
@@ -346,11 +450,14 @@ void check_required_fields(const std::string& path, const HeaderText& header) {
     }
 }
 
-}  // namespace
+struct NrrdHeader {
+    Grid grid;
+    StoredData data;
+};
 
 NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
     const std::string name = path.string();
-    check_regular_file(path, "");
+    expect_regular_file(path);
     const HeaderText text = split_header(name, read_beginning(path));
 
     const std::unique_ptr<Nrrd, decltype(&nrrdNuke)> nrrd(nrrdNew(), &nrrdNuke);
@@ -384,6 +491,8 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
     return header;
 }
 
+}  // namespace
+
 bool is_nrrd(const std::filesystem::path& path) {
     return file_beginning(path, 5).starts_with("NRRD0");
 }
@@ -396,7 +505,7 @@ Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request
 
 std::vector<std::filesystem::path> files_of_nrrd(const std::filesystem::path& path) {
     std::vector<std::filesystem::path> files{path};
-    for (const auto& data : read_nrrd_header(path).data.files)
+    for (const auto& data : read_nrrd_header(path, {}).data.files)
         if (data != path) files.push_back(data);
     return files;
 }

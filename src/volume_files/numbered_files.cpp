@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 #include <system_error>
 
 namespace lamina {
@@ -43,6 +45,17 @@ bool comes_before(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+std::string without_blanks(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t\r");
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
 
 std::optional<FilePattern> file_pattern(std::string_view text) {
     const std::size_t percent = text.find('%');

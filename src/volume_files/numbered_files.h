@@ -20,6 +20,12 @@ inline std::optional<std::int64_t> whole_number(std::string_view word) {
     return number;
 }
 
+// Returns the words of a text, which blanks part.
+std::vector<std::string> words_of(const std::string& text);
+
+// Returns the text without blanks at its ends.
+std::string without_blanks(const std::string& text);
+
 // A file name with a number in it, as "slice%03d.raw" says.
 struct FilePattern {
     std::string before, after;

@@ -15,12 +15,9 @@
 #include "base/client.h"
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/input_file.h"
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "volume/brick_cache.h"
-#include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {

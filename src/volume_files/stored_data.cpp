@@ -7,17 +7,16 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <string_view>
 #include <type_traits>
 
 #include "base/client.h"
+#include "base/enum_words.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/memory.h"
-#include "volume_files/byte_readers.h"
 
 namespace lamina {
 namespace {
@@ -271,17 +270,8 @@ void check_file_count(const StoredData& data, std::int64_t found,
 }
 
 const char* name_of(DataEncoding encoding) {
-    switch (encoding) {
-        case DataEncoding::raw:
-            return "raw";
-        case DataEncoding::gzip:
-            return "gzip";
-        case DataEncoding::bzip2:
-            return "bzip2";
-        case DataEncoding::ascii:
-            return "ascii";
-    }
-    return "";
+    static constexpr const char* words[] = {"raw", "ascii", "gzip", "bzip2"};
+    return word_of(encoding, words);
 }
 
 // Tells if byte_skip counts bytes of the file, not of the decoded data.
@@ -419,17 +409,9 @@ OpenedFile StoredReader::open(const Path& path) const {
 
 // Returns the most bytes of samples that `stored` bytes can give.
 std::uint64_t StoredReader::capacity(std::uint64_t stored) const {
-    switch (data_.encoding) {
-        case DataEncoding::raw:
-            return stored;
-        case DataEncoding::gzip:
-            return stored * gzip_expansion;
-        case DataEncoding::bzip2:
-            return stored * bzip2_expansion;
-        case DataEncoding::ascii:
-            return (stored + 1) / 2 * bytes_of(data_.type);
-    }
-    return 0;
+    if (data_.encoding == DataEncoding::raw) return stored;
+    if (data_.encoding == DataEncoding::ascii) return (stored + 1) / 2 * bytes_of(data_.type);
+    return stored * (data_.encoding == DataEncoding::gzip ? gzip_expansion : bzip2_expansion);
 }
 
 void StoredReader::check_capacity(const Path& path) const {

@@ -12,8 +12,10 @@
 #include <utility>
 
 #include "base/client.h"
+#include "base/enum_words.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "volume/sample_source.h"
 
 namespace lamina {
 namespace {
@@ -136,26 +138,13 @@ template <typename Make>
 std::shared_ptr<const void> filled(SampleType type, std::int64_t count, const Make& make) {
     const std::shared_ptr<void> memory =
         filled_memory(static_cast<std::size_t>(count) * bytes_of(type));
-    const auto fill = [&](auto* to) {
+    with_sample_type(type, [&](auto zero) {
+        using To = decltype(zero);
+        auto* const to = static_cast<To*>(memory.get());
         for_parts(count, [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t i = begin; i < end; ++i)
-                to[i] = static_cast<std::remove_reference_t<decltype(*to)>>(make(i));
+            for (std::int64_t i = begin; i < end; ++i) to[i] = static_cast<To>(make(i));
         });
-    };
-    switch (type) {
-        case SampleType::uint8:
-            fill(static_cast<std::uint8_t*>(memory.get()));
-            break;
-        case SampleType::int16:
-            fill(static_cast<std::int16_t*>(memory.get()));
-            break;
-        case SampleType::uint16:
-            fill(static_cast<std::uint16_t*>(memory.get()));
-            break;
-        case SampleType::float32:
-            fill(static_cast<float*>(memory.get()));
-            break;
-    }
+    });
     return memory;
 }
 
@@ -213,19 +202,17 @@ void swap_bytes_alone(void* words, std::int64_t count, std::size_t word_bytes) {
     if (word_bytes == 8) turn_words<std::uint64_t>(words, count);
 }
 
-std::optional<SampleType> drawn_type(ValueType type) {
-    switch (type) {
-        case ValueType::uint8:
-            return SampleType::uint8;
-        case ValueType::int16:
-            return SampleType::int16;
-        case ValueType::uint16:
-            return SampleType::uint16;
-        case ValueType::float32:
-            return SampleType::float32;
-        default:
-            return std::nullopt;
+std::optional<ValueType> number_type(std::size_t bytes, bool integers, bool has_sign) {
+    for (const ValueType type : value_types) {
+        const bool is_signed = name_of(type)[0] != 'u';
+        if (bytes_of(type) == bytes && is_integer(type) == integers && is_signed == has_sign)
+            return type;
     }
+    return {};
+}
+
+std::optional<SampleType> drawn_type(ValueType type) {
+    return value_of_word<SampleType>(name_of(type));
 }
 
 Volume drawn_volume(const Grid& grid, const StoredSamples& samples) {

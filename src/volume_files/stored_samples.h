@@ -26,6 +26,9 @@ struct StoredSamples {
 void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes);
 void swap_bytes_alone(void* words, std::int64_t count, std::size_t word_bytes);
 
+// Returns the type of numbers of so many bytes. Floats have a sign.
+std::optional<ValueType> number_type(std::size_t bytes, bool integers, bool has_sign);
+
 // Returns the volume's type if samples of `type` are drawn as they are, else nothing.
 std::optional<SampleType> drawn_type(ValueType type);
 

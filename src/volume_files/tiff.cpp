@@ -1,34 +1,272 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/tiff.h"
+#include "volume_files/volume_formats.h"
+
+#include <tiffio.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
+#include <cstdarg>
+#include <cstdlib>
+#include <cstring>
 #include <glm/vec3.hpp>
 #include <map>
-#include <memory>
-#include <optional>
 #include <pugixml.hpp>
 #include <sstream>
-#include <string>
-#include <string_view>
 
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/memory.h"
 #include "volume_files/numbered_files.h"
-#include "volume_files/stored_data.h"
-#include "volume_files/stored_samples.h"
-#include "volume_files/tiff_file.h"
-#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {
 
 using Path = std::filesystem::path;
+
+// Most bytes that one byte gives with any compression of libtiff: zstd's longest run, 128 KiB,
+// takes 4 bytes.
+constexpr std::uint64_t most_expansion = 32768;
+constexpr tmsize_t most_memory = tmsize_t{1} << 31;  // bytes that libtiff itself may take at once
+
+// The form of a page of a TIFF file.
+struct TiffPage {
+    std::int64_t width = 0, height = 0;
+    std::int64_t samples = 1;  // a pixel's
+    bool planar = false;       // each of these in a plane of its own
+    ValueType type = ValueType::uint8;
+
+    bool operator==(const TiffPage&) const = default;
+};
+
+// Copies one of every `samples` values.
+void take_sample(const char* from, std::int64_t samples, std::int64_t sample, std::int64_t count,
+                 std::size_t word, char* to) {
+    const StoredAxis axes[] = {{samples, sample}, count};
+    take_of_memory(from, axes, word, to);
+}
+
+// A TIFF file, read page by page through libtiff. All functions throw Error with libtiff's reason.
+class TiffFile {
+  public:
+    explicit TiffFile(const Path& path) : name_(path.string()), tiff_(nullptr, &TIFFClose) {
+        expect_regular_file(path);
+        file_bytes_ = std::filesystem::file_size(path);
+        const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(
+            TIFFOpenOptionsAlloc(), &TIFFOpenOptionsFree);
+        if (!options) throw std::bad_alloc();
+        TIFFOpenOptionsSetErrorHandlerExtR(options.get(), &keep_message, this);
+        TIFFOpenOptionsSetWarningHandlerExtR(
+            options.get(), [](TIFF*, void*, const char*, const char*, va_list) { return 1; }, this);
+        TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), most_memory);
+        // m: not mapped, because a file that another process shortens would end this one.
+        tiff_.reset(TIFFOpenExt(path.c_str(), "rm", options.get()));
+        if (!tiff_) fail_with_reason("cannot be read as TIFF");
+    }
+
+    const std::string& name() const { return name_; }
+
+    // Moves to the next page; returns false at the end. A file opens at its first page.
+    bool next_page() {
+        message_.clear();
+        if (TIFFReadDirectory(tiff_.get()) == 0) {
+            if (!message_.empty()) fail("{}: page {}: {}", name_, number_ + 2, message_);
+            return false;
+        }
+        ++number_;
+        return true;
+    }
+
+    // Returns the page's place in bytes of the file.
+    std::uint64_t place() const { return TIFFCurrentDirOffset(tiff_.get()); }
+
+    // Moves to a page. `place`: the value that place() had there; finding a page by its number
+    // alone reads all before it.
+    void go_to_page(std::uint32_t number, std::uint64_t place) {
+        number_ = number;
+        message_.clear();
+        if (this->place() != place && TIFFSetSubDirectory(tiff_.get(), place) == 0)
+            fail_with_reason("cannot be read");
+    }
+
+    // Tells if the page is a smaller copy of another, or a mask.
+    bool is_reduced() const {
+        return (field<std::uint32_t>(TIFFTAG_SUBFILETYPE, 0) &
+                (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0;
+    }
+
+    TiffPage page() const {
+        TiffPage page;
+        page.width = field<std::uint32_t>(TIFFTAG_IMAGEWIDTH, 0);
+        page.height = field<std::uint32_t>(TIFFTAG_IMAGELENGTH, 0);
+        page.samples = field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
+        page.planar =
+            page.samples > 1 && field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) ==
+                                    PLANARCONFIG_SEPARATE;
+        if (page.width < 1 || page.height < 1 || page.samples < 1) {
+            fail("{}: page {}: found {} x {} pixels of {} samples, expected 1 or more", name_,
+                 number_ + 1, page.width, page.height, page.samples);
+        }
+        const auto bits = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
+        const auto format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+        const bool floats = format == SAMPLEFORMAT_IEEEFP, is_signed = format == SAMPLEFORMAT_INT;
+        const bool numbers =
+            floats || is_signed || format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID;
+        const auto type = number_type(bits / 8, !floats, floats || is_signed);
+        if (!numbers || bits % 8 != 0 || !type) {
+            const char* const kind = floats                       ? "floats"
+                                     : format > SAMPLEFORMAT_VOID ? "complex numbers"
+                                                                  : "integers";
+            fail(
+                "{}: page {}: found samples that are {} of {} bits, expected integers of 8, 16, 32 "
+                "or 64 bits, or floats of 32 or 64",
+                name_, number_ + 1, kind, bits);
+        }
+        page.type = *type;
+        return page;
+    }
+
+    // Returns the page's description; empty: none.
+    std::string description() const {
+        const char* text = nullptr;
+        const bool found = TIFFGetField(tiff_.get(), TIFFTAG_IMAGEDESCRIPTION, &text) != 0;
+        return found && text != nullptr ? text : "";
+    }
+
+    // Returns the most bytes of samples that the file can hold, if all pages are packed as this one
+    // is.
+    std::uint64_t capacity() const {
+        const bool packed =
+            field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
+        return file_bytes_ * (packed ? most_expansion : 1);
+    }
+
+    // Returns pixels a unit along x and y, whichever unit that is; 0: unknown.
+    double resolution(int axis) const {
+        float value = 0;
+        TIFFGetField(tiff_.get(), axis == 0 ? TIFFTAG_XRESOLUTION : TIFFTAG_YRESOLUTION, &value);
+        return static_cast<double>(value);
+    }
+
+    // Reads one of the samples of all pixels of the page, row by row, in native byte order, into
+    // width * height values.
+    void read(const TiffPage& page, std::int64_t sample, char* to) {
+        check_interrupt();
+        check_capacity(page);
+        message_.clear();
+        if (field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) == PHOTOMETRIC_YCBCR)
+            TIFFSetField(tiff_.get(), TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
+        if (TIFFIsTiled(tiff_.get()) != 0)
+            read_tiles(page, sample, to);
+        else
+            read_strips(page, sample, to);
+    }
+
+  private:
+    void read_strips(const TiffPage& page, std::int64_t sample, char* to) {
+        const std::size_t word = bytes_of(page.type);
+        const std::int64_t together = page.planar ? 1 : page.samples;  // samples beside each other
+        const std::size_t row_bytes = static_cast<std::size_t>(page.width * together) * word;
+        const std::int64_t rows = std::min<std::int64_t>(
+            field<std::uint32_t>(TIFFTAG_ROWSPERSTRIP, 0xffffffff), page.height);
+        if (rows < 1 || TIFFScanlineSize64(tiff_.get()) != row_bytes)
+            fail("{}: page {}: its strips do not hold whole rows", name_, number_ + 1);
+        const std::int64_t strips = (page.height + rows - 1) / rows;
+        std::vector<char> strip(together > 1 ? row_bytes * static_cast<std::size_t>(rows) : 0);
+        for (std::int64_t i = 0; i < strips; ++i) {
+            check_interrupt();
+            const std::int64_t height = std::min(rows, page.height - i * rows);
+            const std::size_t bytes = row_bytes * static_cast<std::size_t>(height);
+            char* const into = together > 1 ? strip.data() : to;
+            const auto number = static_cast<std::uint32_t>(i + (page.planar ? sample * strips : 0));
+            const tmsize_t got =
+                TIFFReadEncodedStrip(tiff_.get(), number, into, static_cast<tmsize_t>(bytes));
+            if (got != static_cast<tmsize_t>(bytes)) fail_with_reason("damaged or truncated");
+            const std::int64_t pixels = page.width * height;
+            if (together > 1) take_sample(strip.data(), together, sample, pixels, word, to);
+            to += static_cast<std::size_t>(pixels) * word;
+        }
+    }
+
+    void read_tiles(const TiffPage& page, std::int64_t sample, char* to) {
+        const std::size_t word = bytes_of(page.type);
+        const std::int64_t together = page.planar ? 1 : page.samples;
+        const std::int64_t width = field<std::uint32_t>(TIFFTAG_TILEWIDTH, 0);
+        const std::int64_t height = field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
+        const StoredAxis axes[] = {width, height, together};
+        const std::size_t tile_bytes = stored_bytes(name_, axes, word);
+        if (width < 1 || height < 1 || TIFFTileSize64(tiff_.get()) != tile_bytes ||
+            tile_bytes / most_expansion > file_bytes_) {
+            fail("{}: page {}: found tiles of {} x {} pixels, more than the file can hold", name_,
+                 number_ + 1, width, height);
+        }
+        std::vector<char> tile(tile_bytes), plane(together > 1 ? tile_bytes : 0);
+        for (std::int64_t y = 0; y < page.height; y += height) {
+            for (std::int64_t x = 0; x < page.width; x += width) {
+                check_interrupt();
+                const auto number = TIFFComputeTile(
+                    tiff_.get(), static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0,
+                    static_cast<std::uint16_t>(page.planar ? sample : 0));
+                const tmsize_t got = TIFFReadEncodedTile(tiff_.get(), number, tile.data(),
+                                                         static_cast<tmsize_t>(tile_bytes));
+                if (got != static_cast<tmsize_t>(tile_bytes))
+                    fail_with_reason("damaged or truncated");
+                const char* from = tile.data();
+                if (together > 1) {
+                    take_sample(from, together, sample, width * height, word, plane.data());
+                    from = plane.data();
+                }
+                const std::size_t shown =
+                    static_cast<std::size_t>(std::min(width, page.width - x)) * word;
+                for (std::int64_t row = 0; row < std::min(height, page.height - y); ++row) {
+                    std::memcpy(to + static_cast<std::size_t>((y + row) * page.width + x) * word,
+                                from + static_cast<std::size_t>(row * width) * word, shown);
+                }
+            }
+        }
+    }
+
+    // Rejects the sizes of a damaged page, which would take all memory.
+    void check_capacity(const TiffPage& page) const {
+        const StoredAxis axes[] = {page.width, page.height, page.samples};
+        const std::size_t bytes = stored_bytes(name_, axes, bytes_of(page.type));
+        if (bytes > capacity()) {
+            fail("{}: page {} promises {} x {} pixels ({} bytes), the file holds {} bytes{}", name_,
+                 number_ + 1, page.width, page.height, bytes, file_bytes_,
+                 capacity() > file_bytes_ ? " of compressed data" : "");
+        }
+    }
+
+    [[noreturn]] void fail_with_reason(const char* doing) const {
+        fail("{}: page {}: {}: {}", name_, number_ + 1, doing,
+             message_.empty() ? "libtiff gives no reason" : message_);
+    }
+
+    template <typename T>
+    T field(ttag_t tag, T otherwise) const {
+        T value = otherwise;
+        return TIFFGetFieldDefaulted(tiff_.get(), tag, &value) != 0 ? value : otherwise;
+    }
+
+    static int keep_message(TIFF*, void* file, const char*, const char* format, va_list arguments) {
+        TiffFile& self = *static_cast<TiffFile*>(file);
+        char text[1000];
+        if (!self.message_.empty() || std::vsnprintf(text, sizeof text, format, arguments) <= 0)
+            return 1;
+        self.message_ = one_line(text);
+        // Some of them begin with the file's name, as lamina's do.
+        const std::string name = self.name_ + ": ";
+        if (self.message_.starts_with(name)) self.message_.erase(0, name.size());
+        return 1;  // nobody else need hear of it
+    }
+
+    std::string name_;
+    std::string message_;  // libtiff's first since the last call
+    std::uint64_t file_bytes_ = 0;
+    std::uint32_t number_ = 0;  // the page's, from 0
+    std::unique_ptr<TIFF, void (*)(TIFF*)> tiff_;
+};
 
 // The meaning of the pages of a TIFF stack, as ImageJ or OME wrote it into the first page's
 // description.
@@ -43,40 +281,23 @@ bool is_distance(double number) {
     return std::isfinite(number) && number > 1e-100 && number < 1e100;
 }
 
-// ImageJ's lines "key=value"; its pages are channels, then slices, then frames.
-class ImageJText {
-  public:
-    explicit ImageJText(const std::string& text) {
-        std::istringstream stream(text);
-        for (std::string line; std::getline(stream, line);) {
-            const std::size_t equals = line.find('=');
-            if (equals != std::string::npos)
-                values_[line.substr(0, equals)] = line.substr(equals + 1);
-        }
-    }
-
-    std::int64_t count(const char* key) const {
-        const auto found = values_.find(key);
-        const auto number = found == values_.end() ? std::nullopt : whole_number(found->second);
-        return number && *number > 0 && *number < (std::int64_t{1} << 32) ? *number : 1;
-    }
-
-    double number(const char* key) const {
-        const auto found = values_.find(key);
-        return found == values_.end() ? 0 : std::strtod(found->second.c_str(), nullptr);
-    }
-
-  private:
-    std::map<std::string, std::string> values_;
-};
-
+// Reads ImageJ's lines "key=value"; its pages are channels, then slices, then frames.
 TiffAxes imagej_axes(const std::string& text, std::int64_t pages,
                      const std::array<double, 2>& resolution) {
-    const ImageJText values(text);
+    std::map<std::string, std::string> values;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t equals = line.find('=');
+        if (equals != std::string::npos) values[line.substr(0, equals)] = line.substr(equals + 1);
+    }
+    const auto count = [&](const char* key) {
+        const auto number = whole_number(values[key]);
+        return number && *number > 0 && *number < (std::int64_t{1} << 32) ? *number : 1;
+    };
     TiffAxes axes;
-    axes.channels = values.count("channels");
-    axes.slices = values.count("slices");
-    axes.times = values.count("frames");
+    axes.channels = count("channels");
+    axes.slices = count("slices");
+    axes.times = count("frames");
     if (axes.channels == 1 && axes.slices == 1 && axes.times == 1) axes.slices = pages;
     axes.slice_step = axes.channels;
     axes.time_step = axes.channels * axes.slices;
@@ -84,7 +305,7 @@ TiffAxes imagej_axes(const std::string& text, std::int64_t pages,
         const double distance = 1 / resolution[static_cast<std::size_t>(axis)];
         if (is_distance(distance)) axes.spacing[axis] = distance;
     }
-    const double distance = std::abs(values.number("spacing"));
+    const double distance = std::abs(std::strtod(values["spacing"].c_str(), nullptr));
     if (is_distance(distance)) axes.spacing.z = distance;
     return axes;
 }
@@ -152,17 +373,10 @@ bool has_tiff_mark(const Path& path) {
     return magic == "II*\0"sv || magic == "MM\0*"sv || magic == "II+\0"sv || magic == "MM\0+"sv;
 }
 
-std::vector<Path> tiffs_of(const Path& path) {
-    if (!std::filesystem::is_directory(path)) return {path};
-    std::vector<Path> files = files_in_folder(path);
-    std::erase_if(files, [](const Path& file) { return !has_tiff_mark(file); });
-    return files;
-}
-
 class TiffStack {
   public:
     TiffStack(const Path& path, const VolumeRequest& request)
-        : name_(path.string()), files_(tiffs_of(path)) {
+        : name_(path.string()), files_(files_of_tiff(path)) {
         if (files_.empty()) fail("{}: found no TIFF file in the folder", name_);
         list_pages();
         axes_ =
@@ -220,8 +434,7 @@ class TiffStack {
         if (bytes <= capacity_) return;
         fail(
             "{}: pages: found {} of {} x {} pixels of {} samples ({} bytes), more than the files "
-            "can "
-            "hold",
+            "can hold",
             name_, places_.size(), page_.width, page_.height, page_.samples, bytes);
     }
 
@@ -265,8 +478,7 @@ class TiffStack {
         } else if (!(page == page_)) {
             fail(
                 "{}: page {}: found {} x {} pixels of {} {} samples, expected {} x {} of {} {} as "
-                "on "
-                "the first page",
+                "on the first page",
                 file.name(), place.page + 1, page.width, page.height, page.samples,
                 name_of(page.type), page_.width, page_.height, page_.samples, name_of(page_.type));
         }
@@ -299,7 +511,10 @@ Volume open_tiff(const Path& path, const VolumeRequest& request, const VolumeUse
 }
 
 std::vector<Path> files_of_tiff(const Path& path) {
-    return tiffs_of(path);
+    if (!std::filesystem::is_directory(path)) return {path};
+    std::vector<Path> files = files_in_folder(path);
+    std::erase_if(files, [](const Path& file) { return !has_tiff_mark(file); });
+    return files;
 }
 
 }  // namespace lamina

@@ -10,17 +10,7 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/bricked_copy.h"
-#include "volume_files/dicom.h"
-#include "volume_files/hdf5.h"
-#include "volume_files/metaimage.h"
-#include "volume_files/nifti.h"
-#include "volume_files/npy.h"
-#include "volume_files/nrrd.h"
-#include "volume_files/stored_data.h"
-#include "volume_files/tiff.h"
-#include "volume_files/volume_grid.h"
-#include "volume_files/vti.h"
-#include "volume_files/zarr.h"
+#include "volume_files/volume_formats.h"
 
 namespace lamina {
 namespace {

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/vti.h"
+#include "volume_files/volume_formats.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <iterator>
-#include <memory>
 #include <sstream>
-#include <string>
 
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/memory.h"
 #include "mesh_files/vtk_xml.h"
-#include "volume_files/stored_data.h"
-#include "volume_files/stored_samples.h"
-#include "volume_files/volume_grid.h"
 
 namespace lamina {
 namespace {

@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // OME-Zarr: ngff.openmicroscopy.org/0.4, "multiscales" metadata.
-#include "volume_files/zarr.h"
+#include "volume_files/volume_formats.h"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
-#include <string>
 
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "volume_files/stored_data.h"
-#include "volume_files/stored_samples.h"
-#include "volume_files/volume_grid.h"
-#include "volume_files/zarr_array.h"
 #include "volume_files/zarr_chunks.h"
 
 namespace lamina {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/progress.h"
+#include "base/client.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/sparse_bytes.h"
+#include "base/memory.h"
 
 #include <gtest/gtest.h>
 

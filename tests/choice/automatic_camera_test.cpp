@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "choice/automatic_camera.h"
+#include "choice/choose.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "choice/shown_cells.h"
+#include "choice/field.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,6 @@
 #include <random>
 
 #include "base/memory.h"
-#include "choice/field.h"
 #include "support/volume_of.h"
 
 namespace lamina {
@@ -140,7 +139,7 @@ TEST(ShownCells, AreTheSameForAxesThatAreStoredTheOtherWayRound) {
     }
 }
 
-// Of large volumes (choice/shown_cells.h) the corners of bricks are taken. The samples are not
+// Of large volumes (choice/field.h) the corners of bricks are taken. The samples are not
 // looked at.
 TEST(ShownCells, OfLargeVolumesAreBricks) {
     const Grid grid = test::grid_of({1024, 1024, 258}, Centering::node);

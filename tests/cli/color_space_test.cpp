@@ -8,9 +8,9 @@
 
 #include "cli/blobs_scene.h"
 #include "cli/lamina_run.h"
+#include "image/coded_image.h"
 #include "image/exr.h"
 #include "image/png.h"
-#include "image/srgb.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {

@@ -96,8 +96,7 @@ TEST(StatsPage, HasTheKeysOfTheSources) {
         R"re((?:stages_ms_?|counts|json|json\["\w+"\])\["(\w+)"\] [+]?=|\{"(\w+)", )re");
     std::set<std::string> found;
     for (const char* const file :
-         {"src/render/scene_data.cpp", "src/render/scene_renderer.cpp",
-          "src/render/project_drawing.cpp", "src/render/pipeline.cpp",
+         {"src/render/scene_data.cpp", "src/render/scene_renderer.cpp", "src/render/pipeline.cpp",
           "tools/lamina/render_stats.cpp", "tools/lamina/render_output.cpp",
           "tools/lamina/turntable.cpp", "tools/lamina/time_series.cpp"}) {
         const std::string text = read_bytes_of(source / file);

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "compositing/fixed_ray.h"
-#include "compositing/over.h"
 
 namespace lamina {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Codes of a node's optical depth: docs/numerics.md, section 4.
-#include "compositing/node_code.h"
+#include "compositing/codes.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "compositing/over.h"
+#include "compositing/codes.h"
 
 namespace lamina::oracle {
 

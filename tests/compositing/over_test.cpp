@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // OVER on n-bit codes: LaMar 2004, Tables 2 and 3, and exact fractions.
-#include "compositing/over.h"
+#include "compositing/codes.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <random>
 
-#include "compositing/codes.h"
 #include "compositing/fixed_ray.h"
 #include "oracles.h"
 

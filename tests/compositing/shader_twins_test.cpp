@@ -6,8 +6,6 @@
 #include <string>
 
 #include "compositing/codes.h"
-#include "compositing/node_code.h"
-#include "compositing/over.h"
 #include "gl/framebuffer.h"
 #include "gl/gl_fixture.h"
 

@@ -5,7 +5,7 @@
 #include "json_paths.h"
 #include "optics/segment_integral.h"
 #include "runs.h"
-#include "scene_files/transfer_keys.h"
+#include "scene_files/scene_keys.h"
 #include "violation.h"
 
 namespace lamina::fuzz {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/nrrd.h"
+#include "volume_files/volume_formats.h"
 
 #include <algorithm>
 #include <cctype>

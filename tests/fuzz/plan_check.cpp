@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "plan/choices.h"
 #include "plan/plan.h"
-#include "plan/slab_choice.h"
 #include "violation.h"
 
 namespace lamina::fuzz {

@@ -4,7 +4,7 @@
 #include "lamina/scene.h"
 #include "lamina/volume.h"
 #include "mesh/tet_mesh.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 
 namespace lamina::fuzz {
 

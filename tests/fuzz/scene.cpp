@@ -6,7 +6,7 @@
 #include "input_parts.h"
 #include "json_paths.h"
 #include "runs.h"
-#include "scene_files/json_reader.h"
+#include "scene_files/keys.h"
 #include "violation.h"
 
 namespace lamina::fuzz {

@@ -7,11 +7,7 @@
 #include "scratch_folder.h"
 #include "violation.h"
 #include "volume_check.h"
-#include "volume_files/metaimage.h"
-#include "volume_files/nifti.h"
-#include "volume_files/npy.h"
-#include "volume_files/tiff.h"
-#include "volume_files/vti.h"
+#include "volume_files/volume_formats.h"
 
 namespace lamina::fuzz {
 namespace {

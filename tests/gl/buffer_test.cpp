@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gl/buffer.h"
+#include "gl/api.h"
 
 #include <glad/gl.h>
 
@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "gl/api.h"
 #include "gl/framebuffer.h"
 #include "gl_fixture.h"
 
@@ -16,20 +15,20 @@ namespace {
 
 using BufferTest = GlTest;
 
-TEST_F(BufferTest, ReachesTheShaderAsUniformAndStorageBlock) {
+TEST_F(BufferTest, ReachesTheShaderAsStorageBlocks) {
     const std::array<float, 4> slab{1, 2, 3, 4};
     std::vector<float> values{10, 20, 30, 40};
-    const Buffer uniform{std::span(slab)};
+    const Buffer first{std::span(slab)};
     Buffer storage{std::span(values)};
     const std::array<float, 1> changed{50};
     storage.write(std::span(changed), 2 * sizeof(float));
-    uniform.bind_uniform(1);
+    first.bind_storage(1);
     storage.bind_storage(2);
 
     const Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 4, 1));
     target.bind();
     draw_full_screen(full_screen_program(R"(#version 450 core
-        layout(std140, binding = 1) uniform Slab { vec4 slab; };
+        layout(std430, binding = 1) readonly buffer Slab { vec4 slab; };
         layout(std430, binding = 2) readonly buffer Values { float values[]; };
         out vec4 color;
         void main() { color = slab + values[int(gl_FragCoord.x)]; }

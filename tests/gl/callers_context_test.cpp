@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "gl/api.h"
 #include "gl/framebuffer.h"
-#include "gl/shared_library.h"
 #include "gl_fixture.h"
 
 namespace lamina::gl {
@@ -58,12 +58,12 @@ void draw_in_contexts() {
 TEST(CallersContext, OfOsmesaStays) {
     const SharedLibrary library{"libOSMesa.so.8", "libOSMesa.so.6"};
     using Handle = void*;
-    const auto create = library.function<Handle (*)(unsigned, Handle)>("OSMesaCreateContext");
-    const auto destroy = library.function<void (*)(Handle)>("OSMesaDestroyContext");
-    const auto make_current =
-        library.function<unsigned char (*)(Handle, void*, unsigned, int, int)>("OSMesaMakeCurrent");
-    const auto current = library.function<Handle (*)()>("OSMesaGetCurrentContext");
-    const auto load = library.function<void (*(*)(const char*))()>("OSMesaGetProcAddress");
+    Handle (*const create)(unsigned, Handle) = library.function("OSMesaCreateContext");
+    void (*const destroy)(Handle) = library.function("OSMesaDestroyContext");
+    unsigned char (*const make_current)(Handle, void*, unsigned, int, int) =
+        library.function("OSMesaMakeCurrent");
+    Handle (*const current)() = library.function("OSMesaGetCurrentContext");
+    void (*(*const load)(const char*))() = library.function("OSMesaGetProcAddress");
 
     const Handle context = create(rgba, nullptr);
     ASSERT_NE(context, nullptr);
@@ -110,7 +110,7 @@ class CallersEgl : public testing::Test {
 
     template <typename Function>
     Function call(const char* name) const {
-        return library_->function<Function>(name);
+        return library_->function(name);
     }
 
     bool bind(EGLSurface draw, EGLSurface read, EGLContext context) const {

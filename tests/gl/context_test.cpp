@@ -14,9 +14,7 @@
 
 #include "base/error.h"
 #include "gl/api.h"
-#include "gl/filter_probe.h"
 #include "gl/framebuffer.h"
-#include "gl/shared_library.h"
 #include "gl_fixture.h"
 #include "support/expect_error.h"
 
@@ -238,7 +236,7 @@ TEST(SharedLibrary, SaysWhatIsMissing) {
         EXPECT_NE(message.find("libnothing_b.so"), std::string::npos) << message;
     }
     const SharedLibrary c_library{"libc.so.6"};
-    EXPECT_THROW(c_library.function<void (*)()>("no_such_function_at_all"), Error);
+    EXPECT_THROW(c_library.function("no_such_function_at_all"), Error);
 }
 
 }  // namespace

@@ -14,7 +14,6 @@
 #include "gl/api.h"
 #include "gl/context.h"
 #include "gl/program.h"
-#include "gl/shader_source.h"
 
 namespace lamina::gl {
 

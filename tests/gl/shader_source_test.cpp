@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gl/shader_source.h"
+#include "gl/program.h"
 
 #include <gtest/gtest.h>
 
@@ -122,9 +122,8 @@ TEST(ShaderFiles, AreEmbeddedAsTheyAreOnDisk) {
         EXPECT_TRUE(find_shader(name) == text) << name << ": is the build older than the file?";
         ++count;
     }
-    const std::vector<std::string> names = shader_names();
-    EXPECT_EQ(names.size(), count);
-    EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+    EXPECT_EQ(embedded_shaders().size(), count);
+    EXPECT_TRUE(std::ranges::is_sorted(embedded_shaders(), {}, &EmbeddedFile::name));
     EXPECT_FALSE(find_shader("no/such.frag").has_value());
 }
 

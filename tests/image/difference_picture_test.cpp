@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image/difference_picture.h"
+#include "image/difference.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "image/difference_picture.h"
+#include "image/difference.h"
 
 #include <gtest/gtest.h>
 
-#include "image/srgb.h"
+#include "image/coded_image.h"
 
 namespace lamina {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/output_file.h"
-#include "image/srgb.h"
+#include "image/coded_image.h"
 #include "image/test_images.h"
 #include "support/expect_error.h"
 #include "support/file_size_limit.h"

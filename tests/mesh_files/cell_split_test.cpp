@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh_files/cell_split.h"
+#include "mesh_files/mesh_assembly.h"
 
 #include <gtest/gtest.h>
 

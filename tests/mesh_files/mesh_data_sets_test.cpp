@@ -4,7 +4,7 @@
 #include <set>
 
 #include "mesh_files.h"
-#include "mesh_files/cell_split.h"
+#include "mesh_files/mesh_assembly.h"
 
 namespace lamina {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "meshing/adaptive_mesh.h"
+#include "meshing/volume_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include "meshing/delaunay.h"
-#include "meshing/volume_mesh.h"
 #include "support/expect_error.h"
 #include "support/mesh_checks.h"
 #include "volume/generate.h"

@@ -18,6 +18,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/process.h"
+#include "meshing/tetrahedralize_protocol.h"
 #include "support/expect_error.h"
 #include "support/file_size_limit.h"
 #include "support/temporary_folder.h"
@@ -62,13 +63,13 @@ TEST(DelaunayProcess, IsFoundInThePath) {
     const TemporaryFolder folder;
     const std::string path = getenv("PATH");
     setenv("PATH", folder.path().c_str(), 1);
-    EXPECT_EQ(find_tetrahedralizer(), std::nullopt);
+    EXPECT_EQ(find_program(tetrahedralize_program), std::nullopt);
     expect_error([] { require_tetrahedralizer(); },
                  {"lamina-tetrahedralize", "LAMINA_WITH_TETGEN", "--kuhn"});
     write_bytes_to(folder / "lamina-tetrahedralize", "no program");
-    EXPECT_EQ(find_tetrahedralizer(), std::nullopt);
+    EXPECT_EQ(find_program(tetrahedralize_program), std::nullopt);
     script(folder, "exit 0");
-    EXPECT_EQ(find_tetrahedralizer(), folder / "lamina-tetrahedralize");
+    EXPECT_EQ(find_program(tetrahedralize_program), folder / "lamina-tetrahedralize");
     setenv("PATH", path.c_str(), 1);
 }
 
@@ -81,7 +82,7 @@ TEST(DelaunayProcess, EmptyEntriesOfThePathAreNoFolder) {
     std::filesystem::current_path(folder.path());
     for (const char* entries : {":", ":/absent", "/absent::/absent", "/absent:", ""}) {
         setenv("PATH", entries, 1);
-        EXPECT_EQ(find_tetrahedralizer(), std::nullopt) << entries;
+        EXPECT_EQ(find_program(tetrahedralize_program), std::nullopt) << entries;
     }
     std::filesystem::current_path(before);
     setenv("PATH", path.c_str(), 1);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "optics/colors.h"
+#include "optics/colormap.h"
 #include "support/expect_error.h"
 
 namespace lamina {

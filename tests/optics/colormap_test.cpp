@@ -11,7 +11,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "optics/colors.h"
 #include "optics/opacity.h"
 
 namespace lamina {

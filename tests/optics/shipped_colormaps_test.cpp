@@ -6,7 +6,6 @@
 #include <array>
 #include <fstream>
 
-#include "optics/colors.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

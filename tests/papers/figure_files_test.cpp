@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "papers/ramp.h"
+#include "papers/figure_files.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "study/report_figures.h"
-#include "study/result_files.h"
+#include "papers/lamar.h"
+#include "study/report_files.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::papers {
@@ -45,11 +45,11 @@ TEST(RampFigure, ShowsTheCurvesThreeTimes) {
 TEST(CsvOfRows, QuotesCommasAndLeavesNullEmpty) {
     const nlohmann::ordered_json rows{{{"name", "a, b"}, {"x", 0.5}, {"n", nullptr}},
                                       {{"name", "c"}, {"x", 2}, {"n", 7}}};
-    EXPECT_EQ(study::csv_of_rows(rows), "name,x,n\n\"a, b\",0.5,\nc,2,7\n");
+    EXPECT_EQ(csv_of_rows(rows), "name,x,n\n\"a, b\",0.5,\nc,2,7\n");
 }
 
 TEST(LinePlot, EscapesNamesAndKeepsLinesInside) {
-    study::LinePlot plot("a < b", {"x", 0, 1}, {"y", 1, 16, true});
+    LinePlot plot{"a < b", {"x", 0, 1}, {"y", 1, 16, true}};
     plot.add("R&D", {0, 0.5, 1}, {1, 4, 0});  // 0 has no logarithm: clamped to 1
     const std::string svg = plot.svg();
     EXPECT_NE(svg.find("a &lt; b"), std::string::npos);

@@ -5,7 +5,6 @@
 
 #include "gl/gl_fixture.h"
 #include "papers/lamar.h"
-#include "papers/lamar_times.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::papers {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "papers/ramp.h"
+#include "papers/lamar.h"
 
 #include <gtest/gtest.h>
 

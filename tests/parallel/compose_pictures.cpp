@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "parallel/picture_composer.h"
+#include "parallel/shared_renderer.h"
 #include "random_picture.h"
 #include "support/put_behind.h"
 

@@ -6,7 +6,7 @@
 
 #include "lamina/scene.h"
 #include "reference/fixtures.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 
 namespace lamina::plain_test {
 

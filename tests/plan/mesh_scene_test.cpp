@@ -5,7 +5,7 @@
 
 #include "facts/mesh_facts.h"
 #include "plan/plan.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 #include "support/temporary_folder.h"
@@ -13,8 +13,8 @@
 namespace lamina {
 namespace {
 
-// A tet as .node/.ele, with two point attributes and one of the tet; names as mesh_files/node_ele.h
-// has them.
+// A tet as .node/.ele, with two point attributes and one of the tet; names as
+// mesh_files/mesh_formats.h has them.
 std::string write_tet(const TemporaryFolder& folder, const std::string& value) {
     std::ofstream(folder / "t.node")
         << "4 3 2 0\n1 0 0 0 5 1\n2 1 0 0 6 2\n3 0 1 0 7 3\n4 0 0 1 8 " << value << "\n";

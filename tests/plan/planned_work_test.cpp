@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan/planned_work.h"
+#include "plan/planners.h"
 
 #include "support/scene_fixture.h"
 

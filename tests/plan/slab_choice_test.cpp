@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan/slab_choice.h"
+#include "plan/choices.h"
 
 #include <cmath>
 
 #include "plan/plan.h"
-#include "plan/target_choice.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan/table_choice.h"
+#include "plan/choices.h"
 
 #include <gtest/gtest.h>
 

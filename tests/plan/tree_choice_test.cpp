@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan/tree_choice.h"
+#include "plan/choices.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
+#include "compositing/codes.h"
 #include "compositing/fixed_ray.h"
-#include "compositing/node_code.h"
 #include "compositing/tree_shape.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preintegration/table_cache.h"
+#include "preintegration/preintegration_table.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "projection_fixture.h"
-#include "scene/clipped_mesh.h"
+#include "scene/clip.h"
 #include "support/delaunay_mesh.h"
 #include "support/mesh_checks.h"
 #include "support/split_box.h"

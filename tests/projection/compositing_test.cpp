@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "compositing/codes.h"
-#include "compositing/over.h"
 
 namespace lamina {
 namespace {

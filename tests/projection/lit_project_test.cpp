@@ -4,7 +4,7 @@
 
 #include "projection_fixture.h"
 #include "reference/lit_fixtures.h"
-#include "scene/clipped_mesh.h"
+#include "scene/clip.h"
 #include "simd/instruction_set.h"
 #include "support/clips.h"
 #include "support/delaunay_mesh.h"

@@ -14,7 +14,7 @@
 #include "plan/plan.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/tile_project_renderer.h"
-#include "reference/mesh_tracer.h"
+#include "reference/tracer.h"
 #include "support/transfer_functions.h"
 #include "tiles/tile_capabilities.h"
 

@@ -2,8 +2,8 @@
 // Pictures of the native engine against OpenGL's, for every source of colours and opacities.
 #include <algorithm>
 
-#include "facts/world_unit.h"
 #include "projection_fixture.h"
+#include "scene/camera.h"
 #include "support/split_box.h"
 
 namespace lamina {

@@ -11,8 +11,7 @@
 #include "fixtures.h"
 #include "optics/segment_integral.h"
 #include "reference/chord.h"
-#include "reference/mesh_tracer.h"
-#include "reference/volume_tracer.h"
+#include "reference/tracer.h"
 #include "support/split_box.h"
 #include "support/volume_of.h"
 
@@ -61,7 +60,7 @@ TEST(ClippedTracer, HomogeneousMeshesEqualTheClosedForm) {
     const auto transfer = TransferFunction::linear({{0, {glm::dvec3(.2, .5, 1), 3}}});
     for (const test::NamedClip& named : test::clips_of_unit_box()) {
         for (const View& view : views()) {
-            const MeshTraceResult result =
+            const TraceResult result =
                 trace_mesh(mesh, tree, mesh.point_scalars()[0].values, transfer, view,
                            {.clip = half_spaces(named.clip)});
             for (int y = 0; y < view.height; ++y) {
@@ -92,8 +91,8 @@ TEST(ClippedTracer, LinearFieldsEqualOneSegment) {
     for (const test::NamedClip& named : test::clips_of_unit_box()) {
         const std::vector<HalfSpace> clip = half_spaces(named.clip);
         for (const View& view : views()) {
-            const MeshTraceResult of_mesh = trace_mesh(mesh, tree, mesh.point_scalars()[0].values,
-                                                       transfer, view, {.clip = clip});
+            const TraceResult of_mesh = trace_mesh(mesh, tree, mesh.point_scalars()[0].values,
+                                                   transfer, view, {.clip = clip});
             const TraceResult of_volume =
                 trace_volume(volume, transfer, view, {.tolerance = 1e-9, .clip = clip});
             EXPECT_LT(of_mesh.error_estimate, 1e-10);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/cubic.h"
+#include "reference/cut.h"
 
 #include <gtest/gtest.h>
 

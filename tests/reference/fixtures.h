@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/volume_tracer.h"
+#include "reference/tracer.h"
 
 namespace lamina::reference_test {
 

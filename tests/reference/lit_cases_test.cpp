@@ -8,7 +8,7 @@
 #include "base/json_text.h"
 #include "fixtures.h"
 #include "mesh/face_tree.h"
-#include "reference/mesh_tracer.h"
+#include "reference/tracer.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
@@ -86,7 +86,7 @@ TEST(LitCases, Meshes) {
         data.point_scalars = {{"s", all[i]["scalar"]}};
         const TetMesh mesh(data, "case");
         const FaceTree tree(mesh, mesh.open_faces());
-        const MeshTraceResult result =
+        const TraceResult result =
             trace_mesh(mesh, tree, mesh.point_scalars()[0].values, *scene.transfer_function,
                        View(*scene.camera, 1, 1), {tolerance, scene.lighting});
         expect_rgba(result.image, result.error_estimate, all[i], i);

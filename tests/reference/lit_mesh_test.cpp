@@ -7,7 +7,7 @@
 
 #include "lit_fixtures.h"
 #include "mesh/face_tree.h"
-#include "reference/mesh_tracer.h"
+#include "reference/tracer.h"
 #include "support/split_box.h"
 
 namespace lamina {
@@ -30,8 +30,8 @@ double waves(const glm::dvec3& p) {
     return .5 + .5 * std::sin(5 * p.x + 3 * p.y * p.z);
 }
 
-MeshTraceResult trace(const MeshData& data, const TransferFunction& function, const View& view,
-                      const TraceOptions& options) {
+TraceResult trace(const MeshData& data, const TransferFunction& function, const View& view,
+                  const TraceOptions& options) {
     const TetMesh mesh(data, "test");
     const FaceTree tree(mesh, mesh.open_faces());
     return trace_mesh(mesh, tree, mesh.point_scalars()[0].values, function, view, options);
@@ -69,11 +69,11 @@ TEST(LitMesh, AmbientAloneAndNoWeightAreTheUnlitPicture) {
     no_weight.smallest_gradient = Lighting::largest_gradient;
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
         const View view = view_of_box(projection);
-        const MeshTraceResult unlit = trace(data, peaks(4), view, {});
-        const MeshTraceResult ambient = trace(data, peaks(4), view, {1e-5, ambient_alone()});
+        const TraceResult unlit = trace(data, peaks(4), view, {});
+        const TraceResult ambient = trace(data, peaks(4), view, {1e-5, ambient_alone()});
         // Lit segments are summed one by one, others in vectors that share a Gauss rule: either is
         // good to some 1e-15 of the opacity (optics/segment_integral.h).
-        const MeshTraceResult weightless = trace(data, peaks(4), view, {1e-5, no_weight});
+        const TraceResult weightless = trace(data, peaks(4), view, {1e-5, no_weight});
         EXPECT_LE(largest_difference(ambient.image, unlit.image), 1e-14);
         EXPECT_LE(largest_difference(weightless.image, unlit.image), 1e-14);
         EXPECT_GT(largest_difference(trace(data, peaks(4), view, {1e-5, directional()}).image,
@@ -115,8 +115,8 @@ TEST(LitMesh, WhatIsNoNumberLeavesItsNeighboursLit) {
     MeshData data = test::split_box(6, 300, .1, waves);
     data.point_scalars[0].values[20] = NAN;
     const View view = view_of_box(Projection::perspective);
-    const MeshTraceResult unlit = trace(data, peaks(4), view, {});
-    const MeshTraceResult lit = trace(data, peaks(4), view, {1e-6, directional()});
+    const TraceResult unlit = trace(data, peaks(4), view, {});
+    const TraceResult lit = trace(data, peaks(4), view, {1e-6, directional()});
     EXPECT_GT(largest_difference(lit.image, unlit.image), .1);
     for (std::size_t i = 0; i < lit.image.rgba.size(); ++i) {
         ASSERT_TRUE(std::isfinite(lit.image.rgba[i]));
@@ -136,9 +136,9 @@ TEST(LitMesh, TheErrorEstimateIsHonest) {
             camera_at(unit_box, i % 3 ? Projection::perspective : Projection::orthographic,
                       random.point(-1, 1), random.uniform(.3, 1)),
             12, 10);
-        const MeshTraceResult exact = trace(data, function, view, {1e-11, lighting});
+        const TraceResult exact = trace(data, function, view, {1e-11, lighting});
         for (const double each : {1e-2, 1e-4, 1e-5, 1e-6, 1e-8}) {
-            const MeshTraceResult result = trace(data, function, view, {each, lighting});
+            const TraceResult result = trace(data, function, view, {each, lighting});
             EXPECT_LE(result.error_estimate, each);
             EXPECT_LE(largest_difference(result.image, exact.image),
                       result.error_estimate + exact.error_estimate)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/mesh_tracer.h"
+#include "reference/tracer.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ TransferFunction ramp(double extinction) {
                                      {1, {glm::dvec3(.3, 1, .2), .5 * extinction}}});
 }
 
-MeshTraceResult trace(const MeshData& data, const TransferFunction& transfer, const View& view) {
+TraceResult trace(const MeshData& data, const TransferFunction& transfer, const View& view) {
     const TetMesh mesh(data, "test");
     const FaceTree tree(mesh, mesh.open_faces());
     return trace_mesh(mesh, tree, mesh.point_scalars()[0].values, transfer, view);
@@ -49,8 +49,7 @@ TEST(MeshTracer, HomogeneousMeshesEqualTheClosedForm) {
                 for (const double distance : {0.0, .2, 2.0}) {
                     const View view(camera_at(unit_box, projection, {.5, .3, 1}, distance + 1e-3),
                                     24, 20);
-                    const MeshTraceResult result =
-                        trace(data, constant_extinction(extinction), view);
+                    const TraceResult result = trace(data, constant_extinction(extinction), view);
                     for (int y = 0; y < view.height; ++y)
                         for (int x = 0; x < view.width; ++x) {
                             const double chord = chord_length(unit_box, view, x, y);
@@ -77,7 +76,7 @@ TEST(MeshTracer, LinearFieldsEqualOneSegment) {
         const MeshData data = test::split_box(5, 4000, least, field);
         const View view(camera_at(unit_box, Projection::perspective, {1, .4, .7}, 1.5), 30, 30);
         const TransferFunction transfer = ramp(6);
-        const MeshTraceResult result = trace(data, transfer, view);
+        const TraceResult result = trace(data, transfer, view);
         int hits = 0;
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x) {
@@ -109,7 +108,7 @@ TEST(MeshTracer, StiffBoxesEqualOneSegment) {
     camera.height = 1;
     const View view(camera, 5, 5);
     for (const double depth : {1e-8, 1e-3, 1.0, 40.0, 1e3, 1e6}) {
-        const MeshTraceResult result = trace(data, ramp(depth), view);
+        const TraceResult result = trace(data, ramp(depth), view);
         const SegmentIntegral expected = integrate_segment(ramp(depth), 1, 0, 1);
         for (int y = 0; y < 5; ++y)
             for (int x = 0; x < 5; ++x) {
@@ -130,7 +129,7 @@ TEST(MeshTracer, NothingLeaksThroughEdgesAndPoints) {
     camera.eye = {9, 2, 2};
     camera.height = 16 * .25;
     const View view(camera, 17, 16);  // centres at multiples of a quarter across, between up
-    const MeshTraceResult result = trace(data, constant_extinction(.5), view);
+    const TraceResult result = trace(data, constant_extinction(.5), view);
     int inside = 0;
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
@@ -157,7 +156,7 @@ TEST(MeshTracer, EstimateCountsSidesOfSteps) {
     const double value = glm::dot(gradient, camera.eye);
     const TransferFunction step =
         TransferFunction::linear({{value, {glm::dvec3(1), 0}}, {value, {glm::dvec3(1), 3}}});
-    const MeshTraceResult result = trace(data, step, view);
+    const TraceResult result = trace(data, step, view);
     const double shown = result.image.pixel(0, 0)[3];  // of at most 1 - exp(-3)
     EXPECT_GE(result.error_estimate, std::max(shown, -std::expm1(-3.0) - shown) - 1e-12);
     EXPECT_LT(trace(data, constant_extinction(3), view).error_estimate, 1e-10);
@@ -171,7 +170,7 @@ TEST(MeshTracer, TetsWithoutValueAreTransparent) {
     camera.center = {.5, .5, 0};
     camera.eye = {.5, .5, 5};
     const View view(camera, 3, 3);
-    const MeshTraceResult result = trace(data, constant_extinction(1), view);
+    const TraceResult result = trace(data, constant_extinction(1), view);
     EXPECT_NEAR(result.image.pixel(0, 1)[3], -std::expm1(-1.0), 1e-15);
 }
 
@@ -187,7 +186,7 @@ TEST(MeshTracer, OverlapsAreCounted) {
     camera.center = {.5, .5, 0};
     camera.eye = {.5, .5, 5};
     const View view(camera, 2, 2);
-    const MeshTraceResult result = trace(data, constant_extinction(1), view);
+    const TraceResult result = trace(data, constant_extinction(1), view);
     EXPECT_EQ(result.overlapping_rays, 4);
     EXPECT_NEAR(result.image.pixel(0, 0)[3], -std::expm1(-2.0), 1e-14);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/clip.h"
+#include "reference/mesh_walk.h"
 
 #include <gtest/gtest.h>
 

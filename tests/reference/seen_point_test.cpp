@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/seen_point.h"
+#include "reference/tracer.h"
 
 #include <gtest/gtest.h>
 

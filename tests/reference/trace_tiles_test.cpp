@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "fixtures.h"
-#include "reference/mesh_tracer.h"
+#include "reference/tracer.h"
 #include "support/split_box.h"
 #include "support/transfer_functions.h"
 
@@ -74,8 +74,8 @@ TEST(TraceTiles, AreCompleteWhenTheyAreSaidToBe) {
                        "box");
     const FaceTree open_faces(mesh, mesh.open_faces());
     Keeper of_mesh;
-    const MeshTraceResult meshed = trace_mesh(mesh, open_faces, mesh.point_scalars()[0].values,
-                                              test::smooth(), view, {}, of_mesh.listener());
+    const TraceResult meshed = trace_mesh(mesh, open_faces, mesh.point_scalars()[0].values,
+                                          test::smooth(), view, {}, of_mesh.listener());
     EXPECT_EQ(of_mesh.tiles, 6);
     EXPECT_EQ(of_mesh.kept.rgba, meshed.image.rgba);
 }

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "reference/cells.h"
-#include "reference/visible_cells.h"
 
 namespace lamina::reference_test {
 

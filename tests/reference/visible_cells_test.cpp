@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reference/visible_cells.h"
+#include "reference/cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours of points, background and colour maps in scene files.
-#include "scene_files/json_reader.h"
+#include "scene_files/keys.h"
 
 #include <cmath>
 #include <fstream>
 
 #include "lamina/color.h"
-#include "optics/colors.h"
+#include "optics/colormap.h"
 #include "scene/given_transfer.h"
+#include "scene_files/scene_keys.h"
 #include "scene_files/scene_reader.h"
-#include "scene_files/transfer_keys.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 #include "support/temporary_folder.h"

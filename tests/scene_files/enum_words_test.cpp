@@ -13,7 +13,7 @@
 #include "base/input_file.h"
 #include "base/json_text.h"
 #include "lamina/scene.h"
-#include "plan/project_plan.h"
+#include "plan/plan.h"
 
 namespace lamina {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "reference/volume_tracer.h"
+#include "reference/tracer.h"
 #include "selftest/case_makers.h"
 #include "selftest/picture_bounds.h"
 

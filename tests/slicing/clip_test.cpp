@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "facts/world_unit.h"
+#include "scene/camera.h"
 #include "support/volume_of.h"
 #include "tile_fixture.h"
 

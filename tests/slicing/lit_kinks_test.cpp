@@ -51,7 +51,7 @@ TEST_P(LitKinks, StrongLightsKeepMaxError) {
         Scene scene = scene_of(volume, 5);
         scene.lighting->lights[0].color = glm::dvec3(strength);
         const Image traced = trace(volume, scene, 1e-6);
-        // llvmpipe's loops end before such rays are cut often enough for 1 (plan/march_limit.h).
+        // llvmpipe's loops end before such rays are cut often enough for 1 (plan/choices.h).
         for (const double max_error : {1., 4.}) {
             if (!is_native() && max_error < strength) continue;
             scene.max_error = max_error;

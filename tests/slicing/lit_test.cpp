@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "engine_fixture.h"
-#include "plan/march_limit.h"
+#include "plan/choices.h"
 #include "reference/lit_fixtures.h"
 #include "support/expect_error.h"
 #include "support/volume_of.h"
@@ -324,7 +324,7 @@ TEST_P(LitTest, WhatCannotBeDrawnLitIsRefused) {
     expect_error([&] { draw(volume, scene); }, {"lighting.smallest_gradient"});
 }
 
-// llvmpipe ends all loops of a fragment after 65535 rounds together (plan/march_limit.h).
+// llvmpipe ends all loops of a fragment after 65535 rounds together (plan/choices.h).
 TEST_P(LitTest, RaysThatWouldBeCutTooOftenAreRefusedWhereLoopsAreLimited) {
     const Volume volume = waves<float>(test::grid_of({5, 5, 5}, Centering::node), 1);
     Scene scene = lit_scene(volume, 5, Lighting{}, .01);

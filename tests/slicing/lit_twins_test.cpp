@@ -7,7 +7,7 @@
 #include "executors/lights.h"
 #include "gl/framebuffer.h"
 #include "optics/ray_lights.h"
-#include "plan/brick_cuts.h"
+#include "plan/planners.h"
 #include "reference/cells.h"
 #include "reference/lit_fixtures.h"
 #include "slicing/gl_slab_source.h"

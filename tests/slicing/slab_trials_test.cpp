@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slicing/slab_trials.h"
 
-#include "plan/slab_choice.h"
+#include "plan/choices.h"
 #include "slicing/slice_renderer.h"
 #include "slicing_fixture.h"
 #include "tiles/tile_capabilities.h"

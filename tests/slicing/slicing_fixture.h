@@ -10,7 +10,7 @@
 #include "lamina/image.h"
 #include "plan/plan.h"
 #include "reference/fixtures.h"
-#include "reference/volume_tracer.h"
+#include "reference/tracer.h"
 #include "slicing/gl_slice_renderer.h"
 #include "support/transfer_functions.h"
 #include "volume/generate.h"

@@ -3,8 +3,8 @@
 // the core of compositing.
 #include <algorithm>
 
+#include "compositing/codes.h"
 #include "compositing/fixed_ray.h"
-#include "compositing/over.h"
 #include "ramp_scene.h"
 #include "tile_fixture.h"
 

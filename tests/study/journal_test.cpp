@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/study_folder.h"
+#include "study/study_results.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 
 #include "image/difference.h"
 #include "study/data_store.h"
-#include "study/reference_store.h"
 #include "study/study_frames.h"
 #include "support/transfer_functions.h"
 #include "tiles/tile_capabilities.h"

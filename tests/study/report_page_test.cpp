@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/report_page.h"
+#include "study/report_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/run_data.h"
+#include "study/study_runner.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/result_files.h"
+#include "study/report_files.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "study/study_report.h"
+#include "study/study_output.h"
 
 namespace lamina::study {
 namespace {

@@ -5,8 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "study/report_page.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
 
 int main(int argc, char** argv) {
     if (argc != 3) {

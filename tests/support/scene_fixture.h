@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene_files/json_reader.h"
+#include "scene_files/keys.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lamina/mesh_data.h"
-#include "mesh_files/cell_split.h"
+#include "mesh_files/mesh_assembly.h"
 
 namespace lamina::testing {
 

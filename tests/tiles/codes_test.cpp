@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "compositing/codes.h"
-#include "compositing/over.h"
 #include "tiles/instruction_set_fixture.h"
 #include "tiles/vector_functions.h"
 

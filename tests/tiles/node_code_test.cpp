@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The codes of optical depth in float32 against compositing/node_code.h, as its twin in
+// The codes of optical depth in float32 against compositing/codes.h, as its twin in
 // shaders/compositing is tested.
-#include "compositing/node_code.h"
+#include "compositing/codes.h"
 
 #include <algorithm>
 #include <cmath>

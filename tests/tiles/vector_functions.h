@@ -7,7 +7,6 @@
 #include <span>
 
 #include "compositing/codes.h"
-#include "compositing/node_code.h"
 #include "tiles/tile_image.h"
 
 namespace lamina {

@@ -5,8 +5,8 @@
 
 #include "lamina/error.h"
 #include "lamina/scene_text.h"
+#include "model/document.h"
 #include "model/factors_text.h"
-#include "model/text_file.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::view {

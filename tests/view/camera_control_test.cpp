@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/camera_control.h"
+#include "model/navigator.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "model/navigator.h"
 
 namespace lamina::view {
 namespace {

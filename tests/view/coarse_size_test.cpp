@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "work/coarse_size.h"
+#include "work/draw_worker.h"
 
 #include <gtest/gtest.h>
 

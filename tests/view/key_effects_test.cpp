@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/key_effects.h"
+#include "model/scene_keys.h"
 
 #include <gtest/gtest.h>
 
 #include "lamina/scene_text.h"
 #include "lamina/session.h"
-#include "model/scene_edit.h"
-#include "model/scene_keys.h"
 
 namespace lamina::view {
 namespace {

@@ -9,7 +9,7 @@
 #include "lamina/picture_file.h"
 #include "lamina/scene_text.h"
 #include "lamina/session.h"
-#include "model/precision_in_sight.h"
+#include "model/frame_history.h"
 #include "support/temporary_folder.h"
 #include "work/session_steps.h"
 

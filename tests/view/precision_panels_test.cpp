@@ -2,12 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "lamina/scene_text.h"
-#include "model/precision_in_sight.h"
+#include "model/frame_history.h"
 #include "panels/attempts_panel.h"
 #include "panels/comparison_panel.h"
-#include "panels/error_panel.h"
 #include "panels/factors_panel.h"
-#include "panels/frames_panel.h"
+#include "panels/picture_panels.h"
 #include "view/headless_imgui.h"
 
 namespace lamina::view {

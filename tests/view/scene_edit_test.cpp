@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/scene_edit.h"
+#include "model/scene_keys.h"
 
 #include <gtest/gtest.h>
 

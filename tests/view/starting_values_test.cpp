@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/starting_values.h"
+#include "model/viewer_settings.h"
 
 #include <gtest/gtest.h>
 
 #include "lamina/scene_text.h"
-#include "model/scene_edit.h"
 #include "model/scene_keys.h"
 
 namespace lamina::view {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/symlog_axis.h"
+#include "model/transfer_curves.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "lamina/color.h"
-#include "model/density_shapes.h"
 #include "model/opacity_slopes.h"
+#include "model/transfer_curves.h"
 
 namespace lamina::view {
 namespace {

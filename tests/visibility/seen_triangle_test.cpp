@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "visibility/seen_shapes.h"
+#include "visibility/open_face_constraints.h"
 
 #include <gtest/gtest.h>
 

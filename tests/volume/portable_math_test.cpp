@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume/generators.h"
+#include "volume/generate.h"
 
 #include <gtest/gtest.h>
 

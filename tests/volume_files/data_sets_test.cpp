@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "volume/min_max_bricks.h"
-#include "volume_files/nrrd.h"
+#include "volume_files/volume_formats.h"
 
 namespace lamina {
 namespace {

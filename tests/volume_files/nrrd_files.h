@@ -17,7 +17,7 @@
 #include "support/samples_of.h"
 #include "support/temporary_folder.h"
 #include "volume/nrrd_writer.h"
-#include "volume_files/nrrd.h"
+#include "volume_files/volume_formats.h"
 
 namespace lamina::testing {
 

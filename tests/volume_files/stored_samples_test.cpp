@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "support/heard_warnings.h"
 #include "support/samples_of.h"
-#include "volume_files/volume_grid.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 namespace {

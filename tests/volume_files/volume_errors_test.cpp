@@ -8,12 +8,8 @@
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
-#include "volume_files/metaimage.h"
-#include "volume_files/nifti.h"
-#include "volume_files/npy.h"
-#include "volume_files/tiff.h"
 #include "volume_files/volume_file.h"
-#include "volume_files/vti.h"
+#include "volume_files/volume_formats.h"
 
 namespace lamina {
 namespace {

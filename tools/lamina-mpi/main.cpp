@@ -10,7 +10,7 @@
 #include "parallel/leader.h"
 #include "parallel/ranks.h"
 #include "program.h"
-#include "render_extras.h"
+#include "render_output.h"
 #include "shared_frames.h"
 
 namespace {

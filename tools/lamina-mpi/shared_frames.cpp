@@ -8,7 +8,7 @@
 
 #include "base/client.h"
 #include "base/error.h"
-#include "render/context_choice.h"
+#include "render/draw_context.h"
 
 namespace lamina {
 

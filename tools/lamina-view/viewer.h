@@ -9,14 +9,12 @@
 #include <vector>
 
 #include "comparison_view.h"
-#include "model/camera_control.h"
 #include "model/document.h"
-#include "model/input_event.h"
-#include "model/precision_in_sight.h"
+#include "model/frame_history.h"
+#include "model/navigator.h"
 #include "model/viewer_settings.h"
 #include "panels/panel.h"
-#include "panels/path_prompt.h"
-#include "picture_texture.h"
+#include "panels/typed_input.h"
 #include "work/draw_worker.h"
 #include "work/saving.h"
 

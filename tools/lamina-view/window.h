@@ -13,7 +13,7 @@
 #include <string>
 
 #include "lamina/session.h"
-#include "model/input_event.h"
+#include "model/navigator.h"
 
 struct GLFWwindow;
 

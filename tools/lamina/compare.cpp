@@ -11,12 +11,11 @@
 #include "base/json_text.h"
 #include "base/output_file.h"
 #include "base/process.h"
-#include "different_files.h"
 #include "image/difference.h"
-#include "image/difference_picture.h"
 #include "image/picture.h"
 #include "image/png.h"
-#include "study/result_files.h"
+#include "output_files.h"
+#include "study/report_files.h"
 #include "verbs.h"
 
 namespace lamina {

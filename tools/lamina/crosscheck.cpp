@@ -8,27 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
 #include "base/process.h"
-#include "base/progress.h"
-#include "base/text.h"
-#include "command_line.h"
 #include "git_commit.h"
 #include "image/exr.h"
-#include "output_folder.h"
-#include "raw_options.h"
-#include "render/context_choice.h"
+#include "output_files.h"
+#include "program.h"
 #include "render/draw_context.h"
 #include "render/pipeline.h"
-#include "scene_files.h"
-#include "scene_options.h"
+#include "shared_options.h"
 #include "study/crosscheck.h"
-#include "study/crosscheck_report.h"
-#include "study/frame_times.h"
-#include "study/report_page.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
+#include "study/study_frames.h"
 #include "verbs.h"
 
 namespace lamina {

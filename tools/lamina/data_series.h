@@ -9,10 +9,20 @@
 #include <vector>
 
 #include "lamina/scene.h"
-#include "time_range.h"
 #include "volume_files/numbered_files.h"
 
 namespace lamina {
+
+// The steps of a series that --time names: first, first + step, ... up to last.
+struct TimeRange {
+    std::int64_t first = 0, last = 0, step = 1;
+
+    std::vector<std::int64_t> steps() const;
+};
+
+// Reads "FIRST:LAST" or "FIRST:LAST:STEP": whole numbers from 0, LAST not below FIRST, STEP from 1,
+// at most 100000 steps. Throws UsageError.
+TimeRange time_range(const std::string& text);
 
 // Data of a scene that change with time: files whose names differ in a number, "head_%04d.nrrd";
 // the steps of a .pvd; or the time axis of a volume's file.

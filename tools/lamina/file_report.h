@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "image/coded_image.h"
 #include "lamina/volume_request.h"
+#include "volume/value_statistics.h"
 
 namespace lamina {
+
+inline nlohmann::ordered_json json_vector(const glm::dvec3& vector) {
+    return nlohmann::ordered_json::array({vector.x, vector.y, vector.z});
+}
+
+// Adds the keys "percentiles" {"0.1": value, ...} and "histogram" {edges, counts}: null if there
+// is no finite value.
+void add_statistics(const ValueStatistics& statistics, nlohmann::ordered_json& info);
+
+// Return the values of the two keys, which must not be null, as lines for people: at most 16
+// intervals of the histogram.
+std::string percentiles_text(const nlohmann::ordered_json& percentiles);
+std::string histogram_text(const nlohmann::ordered_json& histogram);
+
+// Returns `above` on white, and under it the picture that `below` makes for its width, at least 480
+// pixels.
+CodedImage above_one_another(const CodedImage& above, const std::function<CodedImage(int)>& below);
 
 // Reports of `lamina info FILE` (docs/meshes.md), and the picture that it writes to `png` unless
 // that is empty. Throw Error.

@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/progress.h"
 #include "verbs.h"
 
 namespace lamina {

@@ -5,11 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "base/client.h"
 #include "base/process.h"
-#include "base/progress.h"
-#include "memory_option.h"
-#include "only_below_option.h"
-#include "raw_options.h"
+#include "shared_options.h"
 #include "verbs.h"
 #include "volume/volume_data.h"
 #include "volume_files/bricked_copy.h"

@@ -10,11 +10,10 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/process.h"
-#include "different_files.h"
-#include "named_output.h"
 #include "optics/segment_integral.h"
-#include "scene_files/json_reader.h"
-#include "scene_files/transfer_keys.h"
+#include "output_files.h"
+#include "scene_files/keys.h"
+#include "scene_files/scene_keys.h"
 #include "verbs.h"
 
 namespace lamina {

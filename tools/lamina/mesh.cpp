@@ -9,19 +9,17 @@
 #include <string>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/output_file.h"
 #include "base/process.h"
-#include "base/progress.h"
-#include "different_files.h"
 #include "lamina/scene.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
-#include "only_below_option.h"
-#include "raw_options.h"
+#include "output_files.h"
 #include "render/pipeline.h"
-#include "scene_files.h"
 #include "scene_files/scene_reader.h"
+#include "shared_options.h"
 #include "verbs.h"
 #include "volume_files/volume_file.h"
 

@@ -14,19 +14,19 @@
 #include <vector>
 
 #include "base/arithmetic.h"
+#include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/process.h"
 #include "base/profile.h"
-#include "base/progress.h"
 #include "lamina/scene.h"
 #include "mesh/mesh_shape.h"
 #include "mesh_files/mesh_file.h"
-#include "only_below_option.h"
 #include "reference/order_pixels.h"
 #include "render/pipeline.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 #include "scene_files/scene_reader.h"
+#include "shared_options.h"
 #include "verbs.h"
 #include "visibility/visibility_order.h"
 

@@ -2,6 +2,7 @@
 #include "program.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <atomic>
 #include <cstdio>
@@ -10,20 +11,30 @@
 #include <new>
 #include <set>
 #include <sstream>
-#include <string>
 #include <system_error>
 
 #include "base/client.h"
 #include "base/error.h"
 #include "base/large_stack.h"
 #include "base/process.h"
-#include "base/progress.h"
-#include "base/text.h"
-#include "command_line.h"
-#include "version_text.h"
+#include "git_commit.h"
+#include "mesh_files/mesh_file.h"
+#include "simd/instruction_set.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 namespace {
+
+std::string given_line;
+
+std::string found_programs() {
+    std::vector<std::string> parts;
+    for (const char* const name : {"lamina-tetrahedralize", "lamina-view"}) {
+        const auto program = find_program(name);
+        parts.push_back(fmt::format("{} ({})", name, program ? program->string() : "not found"));
+    }
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
 
 // Shortens a message, because it may quote a long input. Its beginning says what is wrong and its
 // end what is expected, so both are kept.
@@ -114,6 +125,23 @@ int run_and_report(const Program& program, int argc, char** argv, const SignalSt
 }
 
 }  // namespace
+
+void set_command_line(int argc, char** argv) {
+    given_line = "lamina";
+    for (int i = 1; i < argc; ++i) given_line += std::string(" ") + argv[i];
+}
+
+const std::string& command_line() {
+    return given_line;
+}
+
+std::string version_text() {
+    return fmt::format("lamina " LAMINA_VERSION
+                       "\ncommit: {}\ninstructions: {} (this machine has {})\nvolumes: {}\nmeshes: "
+                       "{}\nprograms: {}",
+                       git_commit, instruction_set(), fmt::join(instruction_sets(), ", "),
+                       volume_format_names(), mesh_format_list, found_programs());
+}
 
 int run_command_line(const Program& program, int argc, char** argv) {
     make_streams_safe();

@@ -7,6 +7,14 @@
 
 namespace lamina {
 
+// Returns the command line of this process, for reports: "lamina study ...".
+void set_command_line(int argc, char** argv);
+const std::string& command_line();
+
+// Returns the text of --version: version and commit, then a line for each property of the build and
+// of the machine.
+std::string version_text();
+
 // A program whose first argument is a verb.
 struct Program {
     std::string name, description, footer;

@@ -1,34 +1,111 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/output_file.h"
 #include "base/process.h"
 #include "base/profile.h"
-#include "base/progress.h"
 #include "data_series.h"
-#include "memory_option.h"
-#include "named_output.h"
-#include "only_below_option.h"
-#include "profile_file.h"
-#include "render/context_choice.h"
+#include "output_files.h"
+#include "render/draw_context.h"
 #include "render/pipeline.h"
-#include "render_extras.h"
 #include "render_output.h"
 #include "render_stats.h"
-#include "scene_options.h"
+#include "shared_options.h"
 #include "verbs.h"
-#include "view_options.h"
 
 namespace lamina {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int process = 1;
+
+Json metadata(const char* name, int row, const char* key, const Json& value) {
+    return {{"name", name}, {"ph", "M"}, {"pid", process}, {"tid", row}, {"args", {{key, value}}}};
+}
+
+std::string name_of_row(int row) {
+    if (row == Profile::opengl_row) return "OpenGL";
+    if (row == Profile::first_row) return "main thread";
+    return fmt::format("worker {}", row - Profile::first_row);
+}
+
+double microseconds(std::int64_t nanoseconds) {
+    return 1e-3 * static_cast<double>(nanoseconds);
+}
+
+Json counts_of(const Profile::Span& span) {
+    Json counts = Json::object();
+    for (const Profile::Count& count : span.counts) {
+        if (count.name != nullptr) counts[count.name] = count.value;
+    }
+    return counts;
+}
+
+Json event(const Profile::Span& span, std::int64_t start_ns) {
+    return {{"name", span.name},
+            {"ph", "X"},
+            {"pid", process},
+            {"tid", span.row},
+            {"ts", microseconds(span.begin_ns - start_ns)},
+            {"dur", microseconds(span.end_ns - span.begin_ns)},
+            {"args", counts_of(span)}};
+}
+
+// A profile of the program from its construction on, as a file in Chrome's trace event format,
+// which Perfetto and chrome://tracing open.
+class ProfileFile {
+  public:
+    // Throws Error if the file cannot be written.
+    explicit ProfileFile(const std::string& name) : file_(open_named(name)) {}
+
+    // Writes the file. `title`: of the whole; `context`: what drew. Returns the number of spans
+    // that were too many to be kept, which the file states, too.
+    std::int64_t write(const std::string& title, const std::string& context);
+
+  private:
+    std::unique_ptr<OutputFile> file_;
+    Profile profile_;
+    std::int64_t start_ns_ = Stopwatch::now();
+};
+
+std::int64_t ProfileFile::write(const std::string& title, const std::string& context) {
+    Json other{{"context", context}};
+    if (profile_.spans_left_out() > 0) other["spans_left_out"] = profile_.spans_left_out();
+    file_->write("{\"displayTimeUnit\":\"ms\",\"otherData\":" + json_text(other) +
+                 ",\"traceEvents\":[\n");
+    // Events are written one after the other: a document of all would take twenty times the memory
+    // of the spans.
+    file_->write(json_text(metadata("process_name", Profile::first_row, "name", title)));
+    const auto write_event = [&](const Json& event) { file_->write(",\n" + json_text(event)); };
+    const auto has_spans = [&](int row) {
+        return std::ranges::any_of(profile_.spans(),
+                                   [&](const Profile::Span& span) { return span.row == row; });
+    };
+    for (int row = 0; row < profile_.row_count(); ++row) {
+        if (!has_spans(row)) continue;
+        write_event(metadata("thread_name", row, "name", name_of_row(row)));
+        // The row of OpenGL comes below those of the host.
+        const int place = row == Profile::opengl_row ? profile_.row_count() : row;
+        write_event(metadata("thread_sort_index", row, "sort_index", place));
+    }
+    for (const Profile::Span& span : profile_.spans()) write_event(event(span, start_ns_));
+    file_->write("\n]}\n");
+    file_->commit();
+    return profile_.spans_left_out();
+}
 
 struct RenderOptions {
     SceneOptions scene;

@@ -2,19 +2,28 @@
 #include "render_output.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "base/client.h"
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/profile.h"
-#include "base/progress.h"
-#include "different_files.h"
-#include "named_output.h"
-#include "scene_files.h"
-#include "time_series.h"
+#include "image/exr.h"
+#include "image/npy.h"
+#include "image/png.h"
 #include "turntable.h"
 
 namespace lamina {
 namespace {
+
+std::unique_ptr<OutputFile> open_file(const std::string& output) {
+    if (output == standard_stream && isatty(STDOUT_FILENO) != 0)
+        throw UsageError("-o -: stdout is a terminal, expected a pipe or a file");
+    return open_named(output);
+}
 
 // The scene's own picture, and the times of --frames.
 class SinglePicture : public RenderOutput {
@@ -68,6 +77,35 @@ class SinglePicture : public RenderOutput {
 };
 
 }  // namespace
+
+PictureFile::PictureFile(const std::string& output, PictureFormat format)
+    : format_(format), file_(open_file(output)) {}
+
+std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
+                               const PictureAttributes& attributes, ImageColorSpace space) {
+    std::size_t clamped = 0;
+    switch (format_) {
+        case PictureFormat::exr:
+            write_exr(*file_, image, attributes, space);
+            break;
+        case PictureFormat::png:
+            clamped = write_png(*file_, image, background, space);
+            break;
+        case PictureFormat::npy:
+            write_npy(*file_, image);
+            break;
+    }
+    file_->commit();
+    return clamped;
+}
+
+std::size_t PictureFile::write(const PreciseImage& image, const glm::dvec3& background,
+                               const PictureAttributes& attributes, ImageColorSpace space) {
+    if (format_ != PictureFormat::npy) return write(to_float(image), background, attributes, space);
+    write_npy(*file_, image);
+    file_->commit();
+    return 0;
+}
 
 bool OutputOptions::piped() const {
     return output == standard_stream;

@@ -5,18 +5,55 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/vec3.hpp>
+#include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "base/profile.h"
+#include "base/output_file.h"
 #include "data_series.h"
-#include "picture_file.h"
+#include "lamina/image.h"
+#include "lamina/image_color_space.h"
+#include "output_files.h"
 #include "render/pipeline.h"
 #include "render_stats.h"
 
 namespace lamina {
+
+// Additions of a program to the verb `render`; all of them may be empty.
+struct RenderExtras {
+    // Throws if the program cannot draw the scene with that --context.
+    std::function<void(const Scene& scene, const Auto<ContextChoice>& context)> check;
+    FramesMaker make_frames;
+    // Adds to what --stats writes, after the last frame.
+    std::function<void(nlohmann::ordered_json&)> add_statistics;
+};
+
+CLI::App& add_render_with(CLI::App& app, const RenderExtras& extras);
+
+using PictureAttributes = std::map<std::string, std::string>;  // of an EXR file
+
+// A picture that `render -o` writes: a file, or stdout for "-". Made before rendering begins, so
+// that a path that cannot be written fails at once.
+class PictureFile {
+  public:
+    // Throws Error, and UsageError if stdout is a terminal.
+    PictureFile(const std::string& output, PictureFormat format);
+
+    // `space`: of image and background. Returns how many pixels had to be clamped (PNG).
+    std::size_t write(const Image& image, const glm::dvec3& background,
+                      const PictureAttributes& attributes, ImageColorSpace space);
+    // Writes a picture in double precision, which NPY keeps.
+    std::size_t write(const PreciseImage& image, const glm::dvec3& background,
+                      const PictureAttributes& attributes, ImageColorSpace space);
+
+  private:
+    PictureFormat format_;
+    std::unique_ptr<OutputFile> file_;
+};
 
 // Options of `lamina render` for its output.
 struct OutputOptions {

@@ -2,7 +2,6 @@
 #include "render_stats.h"
 
 #include <algorithm>
-#include <string>
 
 #include "base/arithmetic.h"
 #include "base/enum_words.h"

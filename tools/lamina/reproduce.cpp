@@ -10,22 +10,20 @@
 #include <string>
 #include <vector>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
 #include "base/process.h"
-#include "base/progress.h"
-#include "command_line.h"
 #include "git_commit.h"
-#include "output_folder.h"
+#include "output_files.h"
 #include "papers/kraus.h"
 #include "papers/lamar.h"
 #include "papers/paper_item.h"
-#include "render/context_choice.h"
+#include "program.h"
 #include "render/draw_context.h"
-#include "scene_files.h"
-#include "study/frame_times.h"
-#include "study/report_page.h"
+#include "study/report_files.h"
+#include "study/study_frames.h"
 #include "verbs.h"
 #include "volume_files/volume_file.h"
 
@@ -149,6 +147,17 @@ void reproduce(const std::vector<papers::PaperItem<Stage>>& all, const Reproduce
     page_file.write(study::report_page(page));
     file.commit();
     page_file.commit();
+}
+
+// Throws UsageError for words that name no OpenGL context.
+gl::ContextKind opengl_kind(const std::string& word) {
+    const Auto<ContextChoice> choice = context_choice(word);
+    if (choice.is_automatic()) return gl::ContextKind::any;
+    if (*choice == ContextChoice::cpu) {
+        throw UsageError(
+            fmt::format("--context {}: this needs OpenGL, expected auto, osmesa or egl", word));
+    }
+    return *choice == ContextChoice::egl ? gl::ContextKind::egl : gl::ContextKind::osmesa;
 }
 
 void run(const ReproduceOptions& options) {

@@ -6,18 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/client.h"
 #include "base/json_text.h"
 #include "base/process.h"
-#include "base/progress.h"
-#include "different_files.h"
-#include "named_output.h"
-#include "only_below_option.h"
+#include "output_files.h"
 #include "render/pipeline.h"
 #include "scene/given_transfer.h"
-#include "scene_files.h"
-#include "scene_options.h"
+#include "shared_options.h"
 #include "verbs.h"
-#include "view_options.h"
 
 namespace lamina {
 namespace {

@@ -6,16 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "base/client.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
 #include "base/process.h"
-#include "base/progress.h"
 #include "git_commit.h"
-#include "output_folder.h"
-#include "render/context_choice.h"
+#include "output_files.h"
 #include "render/draw_context.h"
 #include "selftest/selftest.h"
-#include "study/frame_times.h"
+#include "study/study_frames.h"
 #include "verbs.h"
 
 namespace lamina {

@@ -1,15 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "series_record.h"
 
+#include <fmt/format.h>
+
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/content_hash.h"
+#include "base/error.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
 
 namespace lamina {
 namespace {
+
+[[noreturn]] void reject(const std::string& pattern, const std::string& found) {
+    throw UsageError(
+        fmt::format("-o {}: {}, expected one number, as in out_%04d.png, in the name of the file",
+                    pattern, found));
+}
+
+// Returns the directive that begins with the percent sign at `at`: "%%", or a number such as
+// "%04d".
+std::string directive_at(const std::string& pattern, std::size_t at) {
+    std::size_t end = at + 1;
+    if (pattern[end] == '%') return "%%";
+    if (pattern[end] == '0') {
+        const auto digit = [&] { return std::isdigit(static_cast<unsigned char>(pattern[end])); };
+        ++end;
+        if (digit() && pattern[end] != '0') ++end;
+        if (end != at + 3) end = at + 1;  // "%0d" is no number of digits
+    }
+    if (pattern[end] != 'd')
+        reject(pattern, fmt::format("found \"{}\"", pattern.substr(at, end - at + 1)));
+    return pattern.substr(at, end - at + 1);
+}
 
 using Hashes = std::map<std::string, std::string>;
 
@@ -25,7 +51,46 @@ Hashes hashes_in(const nlohmann::json& document, const std::string& key) {
     return hashes;
 }
 
+std::string entry(const std::string& hash, const std::string& input) {
+    return input.empty() ? hash : hash + " " + input;
+}
+
 }  // namespace
+
+FrameNames::FrameNames(const std::string& pattern) {
+    const std::size_t name_start = pattern.rfind('/') + 1;  // 0 if there is no folder
+    std::string folder, before, after;
+    bool numbered = false;
+    for (std::size_t at = 0; at < pattern.size();) {
+        std::string& text = at < name_start ? folder : numbered ? after : before;
+        if (pattern[at] != '%') {
+            text += pattern[at++];
+            continue;
+        }
+        const std::string directive = directive_at(pattern, at);
+        at += directive.size();
+        if (directive == "%%") {
+            text += '%';
+            continue;
+        }
+        if (numbered) reject(pattern, "found several numbers");
+        if (at <= name_start) reject(pattern, "found a number in the name of the folder");
+        numbered = true;
+        digits_ = directive.size() > 2 ? directive[2] - '0' : 0;
+    }
+    if (!numbered) reject(pattern, "found no number");
+    folder_ = folder;
+    before_ = before;
+    after_ = after;
+}
+
+std::string FrameNames::name(int frame) const {
+    return fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
+}
+
+std::string FrameNames::record_name(const char* series) const {
+    return std::filesystem::path(before_ + series + after_).replace_extension(".json").string();
+}
 
 Client finishing_client() {
     Client client = ClientScope::current();
@@ -42,14 +107,6 @@ SeriesRecord::SeriesRecord(std::filesystem::path file, std::string key)
         hashes_.clear();  // all of the series is drawn again
     }
 }
-
-namespace {
-
-std::string entry(const std::string& hash, const std::string& input) {
-    return input.empty() ? hash : hash + " " + input;
-}
-
-}  // namespace
 
 bool SeriesRecord::has(const std::string& name, const std::string& input) const {
     const auto found = hashes_.find(name);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "data_series.h"
-#include "frame_names.h"
 #include "render_output.h"
 #include "series_record.h"
 

@@ -8,11 +8,8 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
-#include "base/progress.h"
-#include "different_files.h"
 #include "git_commit.h"
-#include "output_folder.h"
-#include "scene_files.h"
+#include "output_files.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {

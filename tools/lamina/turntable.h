@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "frame_names.h"
 #include "render_output.h"
 #include "series_record.h"
 

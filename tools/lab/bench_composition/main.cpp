@@ -12,8 +12,8 @@
 #include "base/arithmetic.h"
 #include "base/json_text.h"
 #include "icet_compositor.h"
-#include "parallel/picture_composer.h"
 #include "parallel/ranks.h"
+#include "parallel/shared_renderer.h"
 #include "render/pipeline.h"
 #include "scene_files/scene_reader.h"
 

@@ -6,47 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 
 #include "base/enum_words.h"
 #include "base/error.h"
-#include "base/text.h"
 
 namespace lamina {
-
-const char* name_of(Wire wire) {
-    return word_of(wire, {"float32", "half", "coded"});
-}
-
-Wire wire_of(const std::string& word) {
-    if (const auto found = value_of_word<Wire>(word)) return *found;
-    throw UsageError(
-        fmt::format("--wire: found {}, expected {}", shortened(word), alternatives<Wire>()));
-}
-
-std::vector<RowSpan> divide_rows(const std::vector<std::int64_t>& weights, const RowSpan& rows,
-                                 int count) {
-    std::int64_t all = 0;
-    for (int row = rows.first; row < rows.end; ++row) all += weights[static_cast<std::size_t>(row)];
-    std::vector<RowSpan> spans;
-    std::int64_t sum = 0;
-    int row = rows.first;
-    for (int i = 0; i < count; ++i) {
-        RowSpan span{row, row};
-        // A row belongs to the span in which its middle lies.
-        const auto ends_in = [&](std::int64_t weight) {
-            return i + 1 == count || (2 * sum + weight) * count < 2 * all * (i + 1);
-        };
-        while (row < rows.end && ends_in(weights[static_cast<std::size_t>(row)]))
-            sum += weights[static_cast<std::size_t>(row++)];
-        span.end = row;
-        spans.push_back(span);
-    }
-    return spans;
-}
-
 namespace {
 
 // Returns true if any of `pixels` pixels has a bit that is set. All their bits are joined first,
@@ -69,30 +35,6 @@ int first_hidden(const float* row, int column, int width) {
     while (column < width && any_shows<1>(row, column)) ++column;
     return column;
 }
-
-}  // namespace
-
-ActiveRuns::ActiveRuns(const Image& picture, const RowSpan& rows) : first_row_(rows.first) {
-    starts_.push_back(0);
-    for (int row = rows.first; row < rows.end; ++row) {
-        const float* const pixels = picture.pixel(0, row);
-        for (int end = 0;;) {
-            const int first = first_shown(pixels, end, picture.width);
-            if (first == picture.width) break;
-            end = first_hidden(pixels, first, picture.width);
-            runs_.push_back({first, end});
-        }
-        starts_.push_back(runs_.size());
-    }
-}
-
-std::int64_t ActiveRuns::pixels(int row) const {
-    std::int64_t sum = 0;
-    for (const Run* run = begin(row); run != end(row); ++run) sum += run->end - run->first;
-    return sum;
-}
-
-namespace {
 
 using Pixel = std::array<float, 4>;
 
@@ -259,6 +201,57 @@ const std::byte* put_row_behind(const std::byte* from, float largest, float* row
 }
 
 }  // namespace
+
+const char* name_of(Wire wire) {
+    return word_of(wire, {"float32", "half", "coded"});
+}
+
+Wire wire_of(const std::string& word) {
+    if (const auto found = value_of_word<Wire>(word)) return *found;
+    throw UsageError(
+        fmt::format("--wire: found {}, expected {}", shortened(word), alternatives<Wire>()));
+}
+
+std::vector<RowSpan> divide_rows(const std::vector<std::int64_t>& weights, const RowSpan& rows,
+                                 int count) {
+    std::int64_t all = 0;
+    for (int row = rows.first; row < rows.end; ++row) all += weights[static_cast<std::size_t>(row)];
+    std::vector<RowSpan> spans;
+    std::int64_t sum = 0;
+    int row = rows.first;
+    for (int i = 0; i < count; ++i) {
+        RowSpan span{row, row};
+        // A row belongs to the span in which its middle lies.
+        const auto ends_in = [&](std::int64_t weight) {
+            return i + 1 == count || (2 * sum + weight) * count < 2 * all * (i + 1);
+        };
+        while (row < rows.end && ends_in(weights[static_cast<std::size_t>(row)]))
+            sum += weights[static_cast<std::size_t>(row++)];
+        span.end = row;
+        spans.push_back(span);
+    }
+    return spans;
+}
+
+ActiveRuns::ActiveRuns(const Image& picture, const RowSpan& rows) : first_row_(rows.first) {
+    starts_.push_back(0);
+    for (int row = rows.first; row < rows.end; ++row) {
+        const float* const pixels = picture.pixel(0, row);
+        for (int end = 0;;) {
+            const int first = first_shown(pixels, end, picture.width);
+            if (first == picture.width) break;
+            end = first_hidden(pixels, first, picture.width);
+            runs_.push_back({first, end});
+        }
+        starts_.push_back(runs_.size());
+    }
+}
+
+std::int64_t ActiveRuns::pixels(int row) const {
+    std::int64_t sum = 0;
+    for (const Run* run = begin(row); run != end(row); ++run) sum += run->end - run->first;
+    return sum;
+}
 
 void encode_rows(const Image& picture, const ActiveRuns& runs, const RowSpan& rows,
                  FragmentFormat format, std::vector<std::byte>& bytes) {

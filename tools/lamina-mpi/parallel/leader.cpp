@@ -18,10 +18,9 @@
 #include "base/json_text.h"
 #include "base/memory.h"
 #include "base/process.h"
-#include "base/progress.h"
 #include "parallel/ranks.h"
-#include "plan/omission.h"
-#include "render/context_choice.h"
+#include "plan/plan.h"
+#include "render/draw_context.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
@@ -100,46 +99,6 @@ void send(const Ranks& ranks, Command command) {
     MPI_Wait(&request, MPI_STATUS_IGNORE);
 }
 
-}  // namespace
-
-Leader::~Leader() {
-    send(ranks_, {});
-}
-
-int Leader::open(const Scene& scene, SceneData data, const OmissionSwitch& omissions,
-                 bool many_frames) {
-    auto renderer = std::make_unique<SharedRenderer>(ranks_, wire_, scene, std::move(data),
-                                                     omissions, many_frames, tables_);
-    Command command{.kind = Command::Kind::open,
-                    .scene = next_,
-                    .wire = wire_,
-                    .memory_limit = memory_limit_is_told() ? memory_limit() : 0,
-                    .many_frames = many_frames};
-    SceneMessage message(scene, omissions);
-    send(ranks_, command);
-    message.broadcast(ranks_);
-    agree(ranks_, [&] { renderer->set_up(); });
-    renderer->check_plan();
-    renderers_.emplace(next_, std::move(renderer));
-    return next_++;
-}
-
-void Leader::draw(int scene, const std::optional<Camera>& camera) {
-    send(ranks_, {.kind = Command::Kind::draw,
-                  .scene = scene,
-                  .turned = camera.has_value(),
-                  .camera = camera.value_or(Camera())});
-    renderer(scene).draw(camera);
-    if (first_reports_.empty()) first_reports_ = renderer(scene).reports();
-}
-
-void Leader::close(int scene) {
-    send(ranks_, {.kind = Command::Kind::close, .scene = scene});
-    renderers_.erase(scene);
-}
-
-namespace {
-
 // Waits for a command, which may take minutes while rank 0 reads data. It sleeps, because MPI's own
 // waiting takes a whole processor, which other ranks need.
 Command next_command(const Ranks& ranks) {
@@ -208,6 +167,42 @@ class Follower {
 };
 
 }  // namespace
+
+Leader::~Leader() {
+    send(ranks_, {});
+}
+
+int Leader::open(const Scene& scene, SceneData data, const OmissionSwitch& omissions,
+                 bool many_frames) {
+    auto renderer = std::make_unique<SharedRenderer>(ranks_, wire_, scene, std::move(data),
+                                                     omissions, many_frames, tables_);
+    Command command{.kind = Command::Kind::open,
+                    .scene = next_,
+                    .wire = wire_,
+                    .memory_limit = memory_limit_is_told() ? memory_limit() : 0,
+                    .many_frames = many_frames};
+    SceneMessage message(scene, omissions);
+    send(ranks_, command);
+    message.broadcast(ranks_);
+    agree(ranks_, [&] { renderer->set_up(); });
+    renderer->check_plan();
+    renderers_.emplace(next_, std::move(renderer));
+    return next_++;
+}
+
+void Leader::draw(int scene, const std::optional<Camera>& camera) {
+    send(ranks_, {.kind = Command::Kind::draw,
+                  .scene = scene,
+                  .turned = camera.has_value(),
+                  .camera = camera.value_or(Camera())});
+    renderer(scene).draw(camera);
+    if (first_reports_.empty()) first_reports_ = renderer(scene).reports();
+}
+
+void Leader::close(int scene) {
+    send(ranks_, {.kind = Command::Kind::close, .scene = scene});
+    renderers_.erase(scene);
+}
 
 void run_follower(const Ranks& ranks) {
     make_streams_safe();

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <new>
-#include <string>
 #include <vector>
 
 #include "base/error.h"

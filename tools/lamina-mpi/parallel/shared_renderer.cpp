@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -11,11 +13,28 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/profile.h"
-#include "parallel/ranks.h"
 #include "plan/plan.h"
 
 namespace lamina {
 namespace {
+
+// Rows that get one weight together: all ranks exchange the weights, and 8 rows make these few.
+constexpr int band = 8;
+
+void clear_rows(const RowSpan& rows, Image& image) {
+    if (rows.first < rows.end)
+        std::fill(image.pixel(0, rows.first), image.pixel(0, rows.end), 0.0f);
+}
+
+// Formats of the first way of a pixel from rank to rank, and of later ways (docs/cluster.md).
+FragmentFormat first_format(Wire wire) {
+    if (wire == Wire::coded) return FragmentFormat::fixed8;
+    return wire == Wire::half ? FragmentFormat::half : FragmentFormat::float32;
+}
+FragmentFormat later_format(Wire wire) {
+    if (wire == Wire::coded) return FragmentFormat::fixed16;
+    return first_format(wire);
+}
 
 void add(const IndexBox& box, std::string& text) {
     for (const glm::dvec3& corner : {box.min, box.max})
@@ -56,6 +75,157 @@ Scene checked(Scene scene) {
 }
 
 }  // namespace
+
+// Says which rank composites which rows. Groups are ranks that are contiguous in depth. Rows are
+// divided among the members of a group; the rows of one member are divided again among the groups.
+class PictureComposer::Layout {
+  public:
+    Layout(const std::vector<int>& order, const std::vector<std::int64_t>& weights,
+           int most_in_group)
+        : order_(order) {
+        const int count = static_cast<int>(order.size());
+        size_ = count <= most_in_group
+                    ? count
+                    : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+        groups_ = (count + size_ - 1) / size_;
+        for (const RowSpan& rows :
+             divide_rows(weights, {0, static_cast<int>(weights.size())}, size_))
+            rows_.push_back(divide_rows(weights, rows, groups_));
+    }
+
+    int groups() const { return groups_; }
+
+    // Transfers within the group of a rank.
+    std::vector<Transfer> in_group(int rank) const {
+        const auto place = std::ranges::find(order_, rank) - order_.begin();
+        const int group = static_cast<int>(place) / size_;
+        std::vector<Transfer> transfers;
+        for (int part = 0; part < size_; ++part) {
+            const RowSpan rows{rows_of(part).front().first, rows_of(part).back().end};
+            for (int member = 0; member < members(group); ++member)
+                transfers.push_back({rank_of(group, member), owner(group, part), rows});
+        }
+        return transfers;
+    }
+
+    std::vector<Transfer> among_groups() const {
+        std::vector<Transfer> transfers;
+        for (int part = 0; part < size_; ++part) {
+            for (int to = 0; to < groups_; ++to) {
+                for (int from = 0; from < groups_; ++from)
+                    transfers.push_back({owner(from, part), owner(to, part), rows_of(part, to)});
+            }
+        }
+        return transfers;
+    }
+
+    std::vector<Transfer> to_first() const {
+        std::vector<Transfer> transfers;
+        for (int part = 0; part < size_; ++part) {
+            for (int group = 0; group < groups_; ++group)
+                transfers.push_back({owner(group, part), 0, rows_of(part, group)});
+        }
+        return transfers;
+    }
+
+  private:
+    int members(int group) const {
+        return std::min(size_, static_cast<int>(order_.size()) - group * size_);
+    }
+    int rank_of(int group, int member) const {
+        return order_[static_cast<std::size_t>(group * size_ + member)];
+    }
+    // The last group may have fewer members.
+    int owner(int group, int part) const { return rank_of(group, part % members(group)); }
+    const std::vector<RowSpan>& rows_of(int part) const {
+        return rows_[static_cast<std::size_t>(part)];
+    }
+    const RowSpan& rows_of(int part, int group) const {
+        return rows_of(part)[static_cast<std::size_t>(group)];
+    }
+
+    const std::vector<int>& order_;
+    int size_ = 1, groups_ = 1;
+    std::vector<std::vector<RowSpan>> rows_;  // by part of a group, then by group
+};
+
+void PictureComposer::compose(const std::vector<int>& order, Image& picture) {
+    bytes_sent_ = messages_sent_ = 0;
+    if (ranks_.count() == 1) return;
+    const RowSpan all{0, picture.height};
+    const ActiveRuns runs(picture, all);
+    const Layout layout(order, row_weights(runs, picture.height), most_in_group_);
+    of_group_.resize(picture.width, picture.height);
+    exchange(layout.in_group(ranks_.number()), first_format(wire_), picture, &runs, of_group_);
+    if (layout.groups() > 1) {
+        composed_.resize(picture.width, picture.height);
+        exchange(layout.among_groups(), later_format(wire_), of_group_, nullptr, composed_);
+    } else {
+        std::swap(of_group_, composed_);
+    }
+    exchange(layout.to_first(), later_format(wire_), composed_, nullptr, picture);
+}
+
+std::vector<std::int64_t> PictureComposer::row_weights(const ActiveRuns& runs, int rows) const {
+    std::vector<std::int64_t> bands(static_cast<std::size_t>((rows + band - 1) / band));
+    for (int row = 0; row < rows; ++row)
+        bands[static_cast<std::size_t>(row / band)] += runs.pixels(row);
+    MPI_Allreduce(MPI_IN_PLACE, bands.data(), static_cast<int>(bands.size()), MPI_INT64_T, MPI_SUM,
+                  ranks_.comm());
+    std::vector<std::int64_t> weights;
+    for (int row = 0; row < rows; ++row)
+        weights.push_back(bands[static_cast<std::size_t>(row / band)]);
+    return weights;
+}
+
+void PictureComposer::exchange(const std::vector<Transfer>& transfers, FragmentFormat format,
+                               const Image& picture, const ActiveRuns* runs, Image& result) {
+    const auto with_runs = [&](const RowSpan& rows, const auto& use) {
+        if (runs != nullptr) return use(*runs);
+        use(ActiveRuns(picture, rows));
+    };
+    const int own = ranks_.number();
+    std::vector<std::vector<std::byte>> sent;
+    std::vector<MPI_Request> requests;
+    for (const Transfer& transfer : transfers) {
+        if (transfer.from != own || transfer.to == own) continue;
+        std::vector<std::byte>& bytes = sent.emplace_back();
+        with_runs(transfer.rows, [&](const ActiveRuns& known) {
+            encode_rows(picture, known, transfer.rows, format, bytes);
+        });
+        bytes_sent_ += static_cast<std::int64_t>(bytes.size());
+        ++messages_sent_;
+        MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, transfer.to, 0,
+                  ranks_.comm(), &requests.emplace_back());
+    }
+    std::vector<std::byte> bytes;
+    RowSpan begun;
+    for (const Transfer& transfer : transfers) {
+        if (transfer.to != own) continue;
+        if (transfer.rows != begun) {
+            begun = transfer.rows;
+            clear_rows(begun, result);
+        }
+        if (transfer.from == own) {
+            with_runs(transfer.rows, [&](const ActiveRuns& known) {
+                put_rows_behind(picture, known, transfer.rows, result);
+            });
+            continue;
+        }
+        receive(transfer.from, bytes);
+        put_rows_behind(bytes, transfer.rows, format, result);
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+void PictureComposer::receive(int rank, std::vector<std::byte>& bytes) const {
+    MPI_Status status;
+    MPI_Probe(rank, 0, ranks_.comm(), &status);
+    int size = 0;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    bytes.resize(static_cast<std::size_t>(size));
+    MPI_Recv(bytes.data(), size, MPI_BYTE, rank, 0, ranks_.comm(), MPI_STATUS_IGNORE);
+}
 
 SharedRenderer::SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene, SceneData data,
                                const OmissionSwitch& omissions, bool many_frames,

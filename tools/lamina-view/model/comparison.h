@@ -5,13 +5,35 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lamina/error_norms.h"
-#include "model/picture_difference.h"
-#include "work/pinned_picture.h"
+#include "lamina/image.h"
+#include "lamina/scene.h"
 #include "work/shown.h"
 
 namespace lamina::view {
+
+// a - b, of pictures of one size.
+PictureDifference difference_of(const Image& a, const Image& b);
+// Returns the signed difference of one pixel (red, green, blue and opacity) in the channel in which
+// it is largest.
+float largest_difference(const float* a, const float* b);
+
+// Returns the largest |e|, rounded up to 1, 2 or 5 times a power of ten: a scale that the whole
+// difference fits into. Pictures that are equal get the smallest one.
+double fitting_range(const PictureDifference& difference);
+inline constexpr double smallest_range = 1e-4;
+
+// Tells whether pictures of both scenes show the same from the same place, pixel by pixel; they do
+// not if a camera is not chosen yet.
+inline bool same_view(const Scene& a, const Scene& b) {
+    if (a.camera.is_automatic() || b.camera.is_automatic()) return false;
+    const Camera &from = *a.camera, &to = *b.camera;
+    return a.width == b.width && a.height == b.height && from.projection == to.projection &&
+           from.eye == to.eye && from.center == to.center && from.up == to.up &&
+           from.fov_y == to.fov_y && from.height == to.height;
+}
 
 // The picture A beside the edited picture B: a pinned picture, or as much of B as the tracer has
 // drawn so far.

@@ -1,16 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "lamina/scene.h"
-#include "model/revisions.h"
 #include "model/transfer_editor.h"
 
 namespace lamina::view {
+
+// Numbers of changes of each part of a scene, divided by what a change makes necessary
+// (lamina/session.h).
+struct Revisions {
+    std::uint64_t data = 0;      // other data: all of it
+    std::uint64_t settings = 0;  // and all that is not named here
+    std::uint64_t transfer_function = 0, clip = 0, camera = 0, size = 0;
+    bool operator==(const Revisions&) const = default;
+};
+
+// Writes a file that appears under its name only when it is complete. Throws Error, and leaves
+// nothing behind, if it cannot be written.
+void save_text(const std::filesystem::path& file, const std::string& text);
+
+// Counts on which parts of a scene differ from those of another.
+void count_changes(const Scene& before, const Scene& after, Revisions& revisions);
 
 // The scene that is edited, its transfer function as curves, and its earlier states. Each change is
 // a step that can be undone. Changes of one name that follow each other without end_step() are one
@@ -33,7 +50,7 @@ class Document {
     void edit(const std::function<void(Scene&)>& change, const std::string& name = "settings");
     void mark_saved() { dirty_ = false; }
 
-    // Sets a key of the scene file (scene_edit.h). Throws Error, and changes nothing, if the file
+    // Sets a key of the scene file (scene_keys.h). Throws Error, and changes nothing, if the file
     // would be refused.
     void set_setting(const std::string& path, const nlohmann::ordered_json& value);
     // Takes another scene, of the same or other data, as a step.

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lamina/error.h"
-#include "model/scene_edit.h"
+#include "model/scene_keys.h"
 
 namespace lamina::view {
 namespace {

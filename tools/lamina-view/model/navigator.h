@@ -1,16 +1,103 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motions of the camera: each function takes a camera and returns the next one. Places in the
-// picture are in shares of its height from its middle, to the right and up, so that nothing depends
-// on pixels.
 #pragma once
 
+#include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "lamina/camera.h"
 #include "lamina/grid.h"
+#include "lamina/point_probe.h"
+#include "model/document.h"
 
 namespace lamina::view {
+
+enum class PointerButton { left, right, middle };
+
+// Keys have GLFW's numbers: letters and digits those of their capital letters in ASCII.
+namespace key {
+constexpr int escape = 256, enter = 257, tab = 258, right = 262, left = 263, down = 264, up = 265,
+              home = 268;
+}
+
+// An input of a user.
+struct InputEvent {
+    enum class Kind { pointer, press, release, wheel, key, character, drop };
+    Kind kind = Kind::pointer;
+    double seconds = 0;   // when
+    glm::dvec2 place{0};  // of the pointer in the window; wheel: steps to the right and up
+    PointerButton button = PointerButton::left;
+    int key = 0;             // pressed, or repeated
+    unsigned character = 0;  // Unicode
+    bool shift = false, control = false;
+    std::vector<std::filesystem::path> files = {};  // dropped
+};
+
+// Rectangle of the picture in the window, in units of the pointer, from the upper left corner.
+struct PictureArea {
+    glm::dvec2 corner{0};
+    glm::dvec2 size{1};
+    int columns = 1;  // pixels of the picture across
+
+    bool contains(const glm::dvec2& place) const {
+        const glm::dvec2 inside = place - corner;
+        return inside.x >= 0 && inside.y >= 0 && inside.x < size.x && inside.y < size.y;
+    }
+    // Returns the pixel at a place; a pixel's centre has whole numbers.
+    glm::dvec2 pixel(const glm::dvec2& place) const {
+        return (place - corner) * (columns / size.x) - glm::dvec2(.5);
+    }
+    // Returns a place in shares of the height from the middle, to the right and up.
+    glm::dvec2 share(const glm::dvec2& place) const {
+        const glm::dvec2 from_middle = place - corner - .5 * size;
+        return {from_middle.x / size.y, -from_middle.y / size.y};
+    }
+    double aspect() const { return size.x / size.y; }
+};
+
+// Moves the camera by pointer and keys.
+class CameraControl {
+  public:
+    // Surroundings of the camera in the window. `probe`: null while there is no picture.
+    struct Around {
+        PictureArea area;
+        Grid::Bounds bounds;  // of the data
+        const PointProbe* probe = nullptr;
+    };
+
+    // Returns true if the event was for the camera. Does nothing while the camera is still to be
+    // chosen from the data.
+    bool handle(const InputEvent& event, const Around& around, Document& document);
+    // Returns true while the camera is dragged, and for a moment after steps.
+    bool moving(double seconds) const { return dragging_ || seconds < steps_until_; }
+    std::optional<double> rest_at() const;  // when steps are over
+
+    void set_projection(Document& document, Projection projection) const;
+    void fit(const Around& around, Document& document) const;
+    // Looks from the positive (`sign` 1) or negative end of an axis.
+    void see_axis(int axis, double sign, const Around& around, Document& document) const;
+
+  private:
+    enum class Way { orbit, pan, zoom };
+    bool press(const InputEvent& event, const Around& around, Document& document);
+    bool drag(const InputEvent& event, const Around& around, Document& document);
+    bool key(const InputEvent& event, const Around& around, Document& document);
+    bool fly(const InputEvent& event, const Around& around, Document& document);
+    void step_until(double seconds);
+
+    bool dragging_ = false;
+    Way way_ = Way::orbit;
+    PointerButton button_ = PointerButton::left;
+    glm::dvec2 last_{0}, pressed_{0};
+    double pressed_at_ = -1, steps_until_ = 0;
+};
+
+// Motions of the camera: each function takes a camera and returns the next one. Places in the
+// picture are in shares of its height from its middle, to the right and up, so that nothing depends
+// on pixels.
 
 // Axes of the picture in the world: right, up, and away from the eye. Orthonormal.
 struct ViewAxes {

@@ -2,7 +2,13 @@
 #include "model/scene_keys.h"
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
+#include <utility>
+
+#include "lamina/color.h"
+#include "lamina/error.h"
+#include "lamina/scene_text.h"
 
 namespace lamina::view {
 namespace {
@@ -151,6 +157,136 @@ const SettingNode* find(const SettingNode& node, std::string_view path) {
     return nullptr;
 }
 
+bool is_in(std::string_view path, std::string_view group) {
+    return path == group ||
+           (path.starts_with(group) && path.size() > group.size() && path[group.size()] == '.');
+}
+
+std::string for_camera(const Scene& scene, std::string_view path) {
+    if (path == "camera") return {};
+    if (scene.camera.is_automatic()) return "chosen from the data: camera is auto";
+    const bool orthographic = scene.camera->projection == Projection::orthographic;
+    if (path == "camera.fov_y" && orthographic) return "of perspective views";
+    if (path == "camera.height" && !orthographic) return "of orthographic views";
+    return {};
+}
+
+std::string for_mesh(const Scene& scene, std::string_view path) {
+    if (path == "mesh") return {};
+    if (!scene.has_mesh()) return "the scene has no mesh";
+    if (!scene.draws_mesh()) return "the mesh is not drawn by this method";
+    if (path == "scalar" && scene.mesh_file() == nullptr) return "of a mesh from a file";
+    if (path == "mesh.tolerance" && scene.made_mesh() != nullptr && scene.made_mesh()->kuhn)
+        return "Kuhn's split has every sample";
+    return {};
+}
+
+std::string for_tree(const TreeSettings* tree, const Auto<Target>& target, std::string_view key) {
+    if (tree == nullptr || (key != "code" && key != "alpha_bits")) return {};
+    if (tree->nodes == NodeArithmetic::fixed) return "of nodes computed in a shader";
+    if (key == "alpha_bits" && target != Target::fixed8) return "of the target fixed8";
+    return {};
+}
+
+// Returns the scenes in which dithering of slabs has an effect, for a scene in which it has none:
+// only slabs that are rounded to codes are dithered (docs/scene.md, "How it is drawn"). Empty if it
+// has an effect.
+std::string for_slice_dither(const Scene& scene) {
+    const TreeSettings* const tree = given_tree(scene.slice.tree);
+    if (scene.target.is_given() && !is_fixed_point(*scene.target))
+        return "of the targets fixed8, fixed16 and emulated";
+    if (tree != nullptr && tree->nodes == NodeArithmetic::shader)
+        return "of blended slabs and fixed nodes: the tree's nodes are computed in a shader";
+    return {};
+}
+
+std::string for_slice(const Scene& scene, std::string_view path) {
+    constexpr std::string_view tree = "render.slice.tree.";
+    if (scene.method != Method::slice) return "counts with the method slice";
+    if (is_in(path, "render.slice.dither")) return for_slice_dither(scene);
+    const Auto<Classification>& classification = scene.slice.classification;
+    if (is_in(path, "render.slice.table") &&
+        (classification == Classification::post || classification == Classification::exact))
+        return "of pre-integrated segments";
+    if (path.starts_with(tree))
+        return for_tree(given_tree(scene.slice.tree), scene.target, path.substr(tree.size()));
+    return {};
+}
+
+std::string for_project(const Scene& scene, std::string_view path) {
+    constexpr std::string_view tree = "render.project.tree.";
+    if (scene.method != Method::project) return "counts with the method project";
+    const ProjectSettings& project = scene.project;
+    if (path == "render.project.interpolation" && project.coloring == Coloring::vertex)
+        return "the colouring vertex is linear always";
+    if (path == "render.project.dither" && !is_fixed_point(scene.target.value_or(Target::float32)))
+        return "of fixed-point targets";
+    if (is_in(path, "render.project.table") && project.coloring != Coloring::preintegrated)
+        return "of the colouring preintegrated";
+    if (path.starts_with(tree))
+        return for_tree(given_tree(project.tree), scene.target, path.substr(tree.size()));
+    return {};
+}
+
+std::string for_emulate(const Scene& scene, std::string_view path) {
+    if (scene.target != Target::emulated) return "counts with the target emulated";
+    if (path == "render.emulate.seed" && scene.emulate.alpha != AlphaRounding::stochastic)
+        return "of stochastic rounding";
+    return {};
+}
+
+std::vector<std::string> parts_of(const std::string& path) {
+    std::vector<std::string> parts;
+    for (std::size_t start = 0; start <= path.size();) {
+        const std::size_t dot = std::min(path.find('.', start), path.size());
+        parts.push_back(path.substr(start, dot - start));
+        start = dot + 1;
+    }
+    return parts;
+}
+
+bool is_number(const std::string& part) {
+    return !part.empty() &&
+           std::ranges::all_of(part, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+Json* step_into(Json& node, const std::string& part) {
+    if (is_number(part)) {
+        const std::size_t number = std::stoul(part);
+        return node.is_array() && number < node.size() ? &node[number] : nullptr;
+    }
+    if (node.is_null()) node = Json::object();
+    return node.is_object() ? &node[part] : nullptr;
+}
+
+void set_at(Json& settings, const std::string& path, const Json& value) {
+    const std::vector<std::string> parts = parts_of(path);
+    Json* node = &settings;
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+        node = step_into(*node, parts[i]);
+        if (node == nullptr) throw Error(path + ": there is no " + parts[i]);
+    }
+    if (!value.is_null()) {
+        Json* const place = step_into(*node, parts.back());
+        if (place == nullptr) throw Error(path + ": there is no " + parts.back());
+        *place = value;
+    } else if (node->is_array() && is_number(parts.back())) {
+        const std::size_t number = std::stoul(parts.back());
+        if (number < node->size()) node->erase(number);
+    } else if (node->is_object()) {
+        node->erase(parts.back());
+    }
+}
+
+// Everything is drawn as it was, up to mixtures of colours.
+void convert_colors(Scene& scene, ImageColorSpace from) {
+    const ImageColorSpace to = scene.color_space;
+    scene.background = converted_color(scene.background, from, to);
+    if (!scene.lighting) return;
+    for (Light& light : scene.lighting->lights)
+        light.color = converted_color(light.color, from, to);
+}
+
 }  // namespace
 
 const SettingNode& scene_keys() {
@@ -172,6 +308,60 @@ const SettingNode& scene_key(std::string_view path) {
     const SettingNode* const found = find(scene_keys(), path);
     if (found == nullptr) throw std::logic_error("no key " + std::string(path) + " in the schema");
     return *found;
+}
+
+std::string why_without_effect(const Scene& scene, std::string_view path) {
+    if (is_in(path, "camera")) return for_camera(scene, path);
+    if (is_in(path, "mesh") || path == "scalar") return for_mesh(scene, path);
+    if (is_in(path, "render.slice")) return for_slice(scene, path);
+    if (is_in(path, "render.project")) return for_project(scene, path);
+    if (path == "render.trace.of" && !(scene.has_volume() && scene.has_mesh()))
+        return "the scene has one kind of data alone";
+    const bool traced = scene.method == Method::trace;
+    if (is_in(path, "render.emulate"))
+        return traced ? "the tracer computes in double precision" : for_emulate(scene, path);
+    if (path == "render.target" && traced) return "the tracer computes in double precision";
+    if (path == "render.max_error" && traced) return "the tracer keeps to render.trace.tolerance";
+    return {};
+}
+
+Json settings_of(const Scene& scene) {
+    Scene copy = scene;
+    copy.transfer_function = automatic;
+    copy.given_transfer.reset();
+    return Json::parse(scene_text(copy));
+}
+
+Scene with_setting(const Scene& scene, const std::string& path, const Json& value) {
+    Json settings = settings_of(scene);
+    set_at(settings, path, value);
+    Scene changed = parse_scene(settings.dump(), scene.file);
+    changed.transfer_function = scene.transfer_function;
+    changed.given_transfer = scene.given_transfer;
+    if (changed.color_space != scene.color_space) convert_colors(changed, scene.color_space);
+    return changed;
+}
+
+Json setting_at(const Json& settings, const std::string& path) {
+    const Json* node = &settings;
+    for (const std::string& part : parts_of(path)) {
+        if (node->is_array() && is_number(part) && std::stoul(part) < node->size())
+            node = &(*node)[std::stoul(part)];
+        else if (node->is_object() && node->contains(part))
+            node = &node->at(part);
+        else
+            return {};
+    }
+    return *node;
+}
+
+glm::dvec3 converted_color(const glm::dvec3& color, ImageColorSpace from, ImageColorSpace to) {
+    if (from == to) return color;
+    const glm::dvec3 display = display_of_color(color, from);
+    glm::dvec3 converted = color_of_display(display, to);
+    for (int c = 0; c < 3; ++c)
+        if (color[c] > 1) converted[c] = color[c];
+    return converted;
 }
 
 }  // namespace lamina::view

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/transfer_curves.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <limits>
 #include <optional>
 #include <span>
@@ -17,6 +17,10 @@
 
 namespace lamina::view {
 namespace {
+
+DensityPoint at_value(double value, double extinction) {
+    return {value, extinction, false, 0, {}};
+}
 
 // The formulas of lamina's own colour maps, so that what it combined comes apart again.
 double mix_numbers(double a, double b, double share) {
@@ -152,40 +156,6 @@ std::vector<double> values_of(const std::vector<ExtinctionKnot>& knots,
     return values;
 }
 
-}  // namespace
-
-std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points) {
-    std::vector<ExtinctionKnot> knots;
-    bool ends_inside = false;
-    for (const DensityPoint& point : points) {
-        // A point denser than the slopes on both of its sides has no width.
-        const bool before = !knots.empty() && knots.back().value == point.value && ends_inside;
-        const bool after = !point.inside.empty() && point.inside.front().value == point.value;
-        if (!(before && after)) knots.push_back({point.value, point.extinction, point.smooth});
-        knots.insert(knots.end(), point.inside.begin(), point.inside.end());
-        ends_inside = !point.inside.empty();
-    }
-    return knots;
-}
-
-DensitySides density_at(const std::vector<ExtinctionKnot>& knots, double value) {
-    const auto [below, above] = sides(knots, value, &ExtinctionKnot::extinction);
-    DensitySides found{below, above};
-    const auto [first, end] = std::ranges::equal_range(knots, value, {}, &ExtinctionKnot::value);
-    if (first != end) {
-        found.smooth_below = first->smooth;
-        found.smooth_above = (end - 1)->smooth;
-    }
-    return found;
-}
-
-ColorSides color_at(const std::vector<ColorPoint>& points, double value) {
-    const auto [below, above] = sides(points, value, &ColorPoint::color);
-    return {below, above};
-}
-
-namespace {
-
 bool same(const ColorPoint& a, const ColorPoint& b) {
     return a.value == b.value && a.color == b.color;
 }
@@ -222,6 +192,90 @@ std::vector<KeptColor> colors_to_keep(const std::vector<Site>& sites,
 }
 
 }  // namespace
+
+SymlogAxis::SymlogAxis(double lo, double hi, double linear) : lo_(lo), hi_(hi), linear_(linear) {
+    assert(lo < hi && linear > 0);
+    from_ = curve(lo);
+    width_ = curve(hi) - from_;
+}
+
+double SymlogAxis::curve(double number) const {
+    return std::copysign(std::log1p(std::abs(number) / linear_), number);
+}
+
+double SymlogAxis::place(double number) const {
+    return (curve(number) - from_) / width_;
+}
+
+double SymlogAxis::number(double place) const {
+    if (place == 0) return lo_;
+    if (place == 1) return hi_;
+    const double along = from_ + place * width_;
+    return std::copysign(linear_ * std::expm1(std::abs(along)), along);
+}
+
+std::vector<double> SymlogAxis::ticks(int most) const {
+    const double largest = std::max(std::abs(lo_), std::abs(hi_));
+    const int last = static_cast<int>(std::floor(std::log10(largest)));
+    // Below `linear` powers of 10 crowd at 0.
+    const int first = std::min(last, static_cast<int>(std::ceil(std::log10(linear_))));
+    const int sides = lo_ < 0 && hi_ > 0 ? 2 : 1;
+    const int on_a_side = std::max(1, (most - 1) / sides);
+    const int step = (last - first) / on_a_side + 1;
+    std::vector<double> found;
+    for (int power = last; power >= first; power -= step) {
+        for (const double number : {std::pow(10., power), -std::pow(10., power)})
+            if (number >= lo_ && number <= hi_) found.push_back(number);
+    }
+    if (lo_ <= 0 && hi_ >= 0) found.push_back(0);
+    std::ranges::sort(found);
+    return found;
+}
+
+std::vector<DensityPoint> ramp_shape(double lo, double hi, double densest) {
+    return {at_value(lo, 0), at_value(hi, densest)};
+}
+
+std::vector<DensityPoint> peak_shape(double lo, double hi, double at, double densest) {
+    const double half = (hi - lo) / 40;
+    const double middle = std::clamp(at, lo + half, hi - half);
+    return {at_value(middle - half, 0), at_value(middle, densest), at_value(middle + half, 0)};
+}
+
+std::vector<DensityPoint> step_shape(double lo, double hi, double at, double densest) {
+    const double edge = std::clamp(at, lo, hi);
+    return {at_value(edge, 0), at_value(edge, densest)};
+}
+
+std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points) {
+    std::vector<ExtinctionKnot> knots;
+    bool ends_inside = false;
+    for (const DensityPoint& point : points) {
+        // A point denser than the slopes on both of its sides has no width.
+        const bool before = !knots.empty() && knots.back().value == point.value && ends_inside;
+        const bool after = !point.inside.empty() && point.inside.front().value == point.value;
+        if (!(before && after)) knots.push_back({point.value, point.extinction, point.smooth});
+        knots.insert(knots.end(), point.inside.begin(), point.inside.end());
+        ends_inside = !point.inside.empty();
+    }
+    return knots;
+}
+
+DensitySides density_at(const std::vector<ExtinctionKnot>& knots, double value) {
+    const auto [below, above] = sides(knots, value, &ExtinctionKnot::extinction);
+    DensitySides found{below, above};
+    const auto [first, end] = std::ranges::equal_range(knots, value, {}, &ExtinctionKnot::value);
+    if (first != end) {
+        found.smooth_below = first->smooth;
+        found.smooth_above = (end - 1)->smooth;
+    }
+    return found;
+}
+
+ColorSides color_at(const std::vector<ColorPoint>& points, double value) {
+    const auto [below, above] = sides(points, value, &ColorPoint::color);
+    return {below, above};
+}
 
 TransferCurves::TransferCurves() : density(1), colors(1) {
     colors.front().color = glm::dvec3(1);

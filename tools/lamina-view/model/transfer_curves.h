@@ -8,6 +8,34 @@
 
 namespace lamina::view {
 
+// A symmetric-log axis: the distance of numbers on it is their difference below `linear`, and
+// follows their ratio far above it, on both sides of 0. Places along it go from 0 at `lo` to 1 at
+// `hi`, and on beyond.
+class SymlogAxis {
+  public:
+    // Finite; lo < hi, linear > 0.
+    SymlogAxis(double lo, double hi, double linear);
+
+    double lo() const { return lo_; }
+    double hi() const { return hi_; }
+
+    // Never falls as the number grows.
+    double place(double number) const;
+    // The inverse: number(place(x)) is x within
+    // 8 e (1 + log1p(m / linear)) (|x| + linear), where m is the largest of |x|, |lo|, |hi| and e
+    // the rounding of doubles, 2^-53; and exactly x for lo, hi and, where lo is 0, for 0.
+    double number(double place) const;
+
+    // Returns numbers to write along the axis: 0 if it is inside, and powers of 10; at most `most`
+    // (>= 3) of them, in order.
+    std::vector<double> ticks(int most) const;
+
+  private:
+    double curve(double number) const;
+
+    double lo_, hi_, linear_, from_, width_;
+};
+
 // A point where straight pieces of the extinction curve meet.
 struct ExtinctionKnot {
     double value = 0;
@@ -78,5 +106,12 @@ struct ColorSides {
 ColorSides color_at(const std::vector<ColorPoint>& points, double value);
 
 inline constexpr std::size_t most_points = 4096;  // of a scene file
+
+// Simple curves of extinction over values from lo to hi > lo, up to `densest`.
+std::vector<DensityPoint> ramp_shape(double lo, double hi, double densest);
+// A hat a twentieth of the range wide, around a value that is kept inside, and 0 elsewhere.
+std::vector<DensityPoint> peak_shape(double lo, double hi, double at, double densest);
+// 0 up to a value, `densest` from there on.
+std::vector<DensityPoint> step_shape(double lo, double hi, double at, double densest);
 
 }  // namespace lamina::view

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec3.hpp>
-
+#include <compare>
 #include <cstddef>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <set>
 #include <vector>
@@ -11,12 +11,40 @@
 #include "lamina/colormap.h"
 #include "lamina/image_color_space.h"
 #include "lamina/transfer_function.h"
-#include "model/symlog_axis.h"
 #include "model/transfer_curves.h"
-#include "model/transfer_handle.h"
-#include "model/transfer_move.h"
 
 namespace lamina::view {
+
+// A point of one of the two curves of a transfer function, by its number there.
+struct TransferHandle {
+    enum class Curve { density, color };
+
+    Curve curve = Curve::density;
+    std::size_t index = 0;
+
+    friend auto operator<=>(const TransferHandle&, const TransferHandle&) = default;
+};
+
+// A shift of points: `values` along the scalar, `places` along the axis of extinction.
+struct TransferShift {
+    double values = 0, places = 0;
+};
+
+// Returns the curves with some of their points moved together, as far as they can go without
+// passing others, and within the axis; extinctions stay >= 0. Points that are not moved keep their
+// numbers, and a moved point those coordinates that are not moved.
+TransferCurves moved(const TransferCurves& curves, const std::set<TransferHandle>& points,
+                     const TransferShift& shift, const SymlogAxis& axis);
+
+// Returns the curves with all values stretched by `factor` > 0 around `pivot`, and moved by
+// `shift`.
+TransferCurves windowed(const TransferCurves& curves, double factor, double pivot, double shift);
+
+// Returns the curves with all extinctions times `factor` > 0, limited to the largest finite number.
+TransferCurves attenuated(const TransferCurves& curves, double factor);
+
+// Computes the knots of the slope from a point to the next one again.
+void follow_slope(std::vector<DensityPoint>& points, std::size_t index);
 
 // Edits a transfer function. It is one at any time: a change that would leave none, or one with
 // more points than scene files may have, returns false and changes nothing. Points that an edit is
@@ -84,7 +112,7 @@ class TransferEditor {
     // opacities if `opacities` is set and it has any.
     bool recolor(Colormap map, double lo, double hi, bool opacities);
 
-    // Converts all colours to the numbers of another space (scene_edit.h).
+    // Converts all colours to the numbers of another space (scene_keys.h).
     bool convert_colors(ImageColorSpace from, ImageColorSpace to);
 
   private:

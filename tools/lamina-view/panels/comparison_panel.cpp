@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "model/attempt.h"
-#include "model/precision_in_sight.h"
+#include "model/attempts.h"
+#include "model/frame_history.h"
 #include "panels/theme.h"
 
 namespace lamina::view {

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "model/factors_text.h"
-#include "model/precision_in_sight.h"
-#include "panels/attempt_cells.h"
+#include "model/frame_history.h"
+#include "panels/attempts_panel.h"
 #include "panels/theme.h"
 
 namespace lamina::view {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panels/attempts_panel.h"
 #include "panels/comparison_panel.h"
-#include "panels/error_panel.h"
 #include "panels/factors_panel.h"
-#include "panels/frames_panel.h"
 #include "panels/panel.h"
-#include "panels/picture_panel.h"
-#include "panels/plan_panel.h"
+#include "panels/picture_panels.h"
 #include "panels/settings_panel.h"
 #include "panels/transfer_panel.h"
 

@@ -5,13 +5,21 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 
-#include "model/setting_node.h"
+#include "lamina/image_color_space.h"
+#include "model/scene_keys.h"
 #include "panels/panel.h"
 
 namespace lamina::view {
+
+// The control of a value that is no group: shows `value` (of the scene's file) at the cursor, as
+// wide as the line. Returns another value if the user gave one; the scene's reader judges it.
+std::optional<nlohmann::ordered_json> setting_control(const SettingNode& node,
+                                                      const nlohmann::ordered_json& value,
+                                                      ImageColorSpace space);
 
 // A control for every key of the scene file (model/scene_keys.h), grouped as there. Keys that
 // change nothing in the current scene are grey, with the reason.

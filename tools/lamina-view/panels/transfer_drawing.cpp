@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "panels/transfer_drawing.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>

@@ -8,8 +8,8 @@
 
 #include "lamina/color.h"
 #include "lamina/error.h"
-#include "model/density_shapes.h"
 #include "model/opacity_slopes.h"
+#include "model/transfer_curves.h"
 #include "panels/theme.h"
 #include "panels/transfer_drawing.h"
 #include "panels/typed_input.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "panels/theme.h"
-#include "panels/transfer_drawing.h"
 
 namespace lamina::view {
 namespace {

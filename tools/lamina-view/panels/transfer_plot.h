@@ -7,7 +7,7 @@
 #include "lamina/image_color_space.h"
 #include "lamina/value_histogram.h"
 #include "model/transfer_editor.h"
-#include "panels/transfer_frame.h"
+#include "panels/transfer_drawing.h"
 
 namespace lamina::view {
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,11 +14,51 @@
 #include <stop_token>
 #include <thread>
 
+#include "lamina/scene.h"
 #include "lamina/session.h"
-#include "work/draw_request.h"
+#include "model/document.h"
 #include "work/shown.h"
 
 namespace lamina::view {
+
+// A request for a picture.
+struct DrawRequest {
+    Scene scene;
+    Revisions revisions;  // which parts of the scene differ from the request before
+    bool moving = false;  // something is being dragged: a coarse picture serves
+    bool coarse = true;   // whether it may get one
+    bool trace = true;    // whether the tracer replaces the picture at rest
+    std::shared_ptr<const PinnedPicture> pinned = {};  // to be kept in the view of the scene
+    std::uint64_t number = 0;
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point asked_at = {};  // of the input, for measurements
+};
+
+// Chooses how small a picture has to be to arrive in time while the camera moves. It keeps the
+// times of pictures of each size. A new time scales the others, because views differ in cost.
+// Between two sizes with known times, time is linear in the number of pixels. Beyond them, larger
+// pictures are expected to take longer in proportion to their pixels, and smaller ones to be faster
+// by the square root of that, because part of the work (order of tets) does not depend on size.
+class CoarseSize {
+  public:
+    explicit CoarseSize(double target_ms) : target_ms_(target_ms) {}
+
+    // Records the time of a picture whose edges were divided by this one of `divisors`.
+    void add(double divisor, double ms);
+    // The least one of `divisors` with which pictures are in time, as far as is known. If there is
+    // none, the least one that takes at most a quarter longer than the quickest.
+    double divisor() const;
+
+    static constexpr std::array<double, 9> divisors{1, 1.5, 2, 3, 4, 6, 8, 12, 16};
+
+  private:
+    static constexpr std::size_t size = divisors.size();
+
+    double expected_ms(std::size_t index) const;
+
+    double target_ms_;
+    std::array<double, size> ms_{};  // 0: not known
+};
 
 class SessionSteps;
 

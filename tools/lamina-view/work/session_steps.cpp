@@ -1,20 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "work/session_steps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "lamina/error.h"
 #include "lamina/picture_file.h"
-#include "model/same_view.h"
-#include "work/scene_difference.h"
-#include "work/traced_picture.h"
+#include "lamina/picture_tile.h"
+#include "lamina/scene_text.h"
+#include "model/comparison.h"
 
 namespace lamina::view {
+
+// A full picture that the tracer replaces tile by tile, and the error that this finds.
+class TracedPicture {
+  public:
+    // `full`: null if there is none to be measured.
+    TracedPicture(std::shared_ptr<const Image> full, std::shared_ptr<const ScreenPicture> screen,
+                  const Scene& scene);
+
+    void add(const PictureTile& tile, const PreciseImage& truth);
+
+    double share() const;      // of the pixels that are traced
+    ErrorNorms error() const;  // of these, as error_of() has it of a traced picture in float32
+    const ScreenPicture& screen() const { return screen_; }
+    // The full picture less the truth, as far as that is traced. Empty if there is no full picture.
+    const PictureDifference& missed() const { return missed_; }
+
+  private:
+    void measure(const PictureTile& tile, const Image& traced, int row);
+
+    std::shared_ptr<const Image> full_;
+    ScreenPicture screen_;
+    PictureDifference missed_;
+    glm::dvec3 background_;
+    ImageColorSpace space_;
+    std::int64_t pixels_ = 0;
+    double largest_ = 0, sum_ = 0, squares_ = 0;
+};
+
+TracedPicture::TracedPicture(std::shared_ptr<const Image> full,
+                             std::shared_ptr<const ScreenPicture> screen, const Scene& scene)
+    : full_(std::move(full)), background_(scene.background), space_(scene.color_space) {
+    if (full_)
+        missed_ = {
+            full_->width, full_->height,
+            std::vector<float>(full_->rgba.size() / 4, std::numeric_limits<float>::quiet_NaN())};
+    if (screen && screen->width == scene.width && screen->height == scene.height) {
+        screen_ = *screen;
+        return;
+    }
+    screen_.width = scene.width;
+    screen_.height = scene.height;
+    screen_.rgb.resize(3 * static_cast<std::size_t>(scene.width) *
+                       static_cast<std::size_t>(scene.height));
+}
+
+void TracedPicture::add(const PictureTile& tile, const PreciseImage& truth) {
+    Image traced(tile.width, tile.height);
+    for (int row = 0; row < tile.height; ++row) {
+        const double* const from = truth.pixel(tile.column, tile.row + row);
+        std::transform(from, from + 4 * tile.width, traced.pixel(0, row),
+                       [](double number) { return static_cast<float>(number); });
+        if (full_) measure(tile, traced, row);
+    }
+    const std::vector<std::uint8_t> codes = screen_codes(traced, background_, space_);
+    const auto line = static_cast<std::ptrdiff_t>(3 * tile.width);
+    for (std::ptrdiff_t row = 0; row < tile.height; ++row) {
+        const std::ptrdiff_t to =
+            3 * (static_cast<std::ptrdiff_t>(tile.row + row) * screen_.width + tile.column);
+        std::copy_n(codes.begin() + row * line, line, screen_.rgb.begin() + to);
+    }
+    pixels_ += static_cast<std::int64_t>(tile.width) * tile.height;
+}
+
+void TracedPicture::measure(const PictureTile& tile, const Image& traced, int row) {
+    const float* const full = full_->pixel(tile.column, tile.row + row);
+    const float* const truth = traced.pixel(0, row);
+    float* const missed =
+        &missed_
+             .e[static_cast<std::size_t>(tile.row + row) * static_cast<std::size_t>(missed_.width) +
+                static_cast<std::size_t>(tile.column)];
+    for (int i = 0; i < traced.width; ++i)
+        missed[i] = largest_difference(full + 4 * i, truth + 4 * i);
+    for (int i = 0; i < 4 * traced.width; ++i) {
+        const double e = 255 * (static_cast<double>(full[i]) - static_cast<double>(truth[i]));
+        largest_ = std::max(largest_, std::abs(e));
+        sum_ += e;
+        squares_ += e * e;
+    }
+}
+
+double TracedPicture::share() const {
+    return static_cast<double>(pixels_) / (static_cast<double>(screen_.width) * screen_.height);
+}
+
+ErrorNorms TracedPicture::error() const {
+    if (pixels_ == 0) return {};
+    const double numbers = 4 * static_cast<double>(pixels_);
+    return {largest_, sum_ / numbers, std::sqrt(squares_ / numbers)};
+}
+
 namespace {
+
+nlohmann::json flat(const Scene& scene) {
+    return nlohmann::json::parse(scene_text(scene)).flatten();
+}
+
+std::string dotted(std::string pointer) {
+    std::ranges::replace(pointer, '/', '.');
+    return pointer.substr(1);
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -36,6 +139,20 @@ std::shared_ptr<const ScreenPicture> screen_of(const Image& picture, const Scene
 }
 
 }  // namespace
+
+std::vector<std::string> automatic_differences(const Scene& before, const Scene& after,
+                                               const Scene& asked) {
+    const nlohmann::json from = flat(before), to = flat(after), open = flat(asked);
+    std::vector<std::string> differences;
+    for (const auto& [key, value] : to.items()) {
+        if (open.value(key, nlohmann::json("auto")) != "auto") continue;
+        const nlohmann::json was = from.value(key, nlohmann::json());
+        if (was != value)
+            differences.push_back(
+                fmt::format("{}: {} -> {}", dotted(key), was.dump(), value.dump()));
+    }
+    return differences;
+}
 
 SessionSteps::SessionSteps(const SessionOptions& options, std::function<void(const Shown&)> publish)
     : options_(options), publish_(std::move(publish)), coarse_size_(moving_target_ms) {}

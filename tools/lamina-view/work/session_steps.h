@@ -4,13 +4,20 @@
 #include <functional>
 #include <memory>
 #include <stop_token>
+#include <string>
+#include <vector>
 
+#include "lamina/scene.h"
 #include "lamina/session.h"
-#include "work/coarse_size.h"
-#include "work/draw_request.h"
+#include "work/draw_worker.h"
 #include "work/shown.h"
 
 namespace lamina::view {
+
+// Returns the keys that `asked` leaves to be chosen ("auto") and that differ in two choices, one
+// line each: "render.slice.samples: 300 -> 320".
+std::vector<std::string> automatic_differences(const Scene& before, const Scene& after,
+                                               const Scene& asked);
 
 class TracedPicture;
 

@@ -16,9 +16,7 @@
 #include "lamina/point_probe.h"
 #include "lamina/scene.h"
 #include "lamina/value_histogram.h"
-#include "model/picture_difference.h"
-#include "model/revisions.h"
-#include "work/pinned_picture.h"
+#include "model/document.h"
 
 namespace lamina::view {
 
@@ -31,6 +29,26 @@ enum class PictureKind { none, moving, full, traced };
 struct ScreenPicture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;
+};
+
+// Picture A, which is kept while its settings are changed; the edited picture beside it is B. When
+// B's view changes, A is drawn again in that view.
+struct PinnedPicture {
+    std::uint64_t number = 0;  // of pins: a picture drawn again keeps it
+    std::uint64_t data = 0;    // Revisions::data
+    Scene scene;               // as it was asked for, in the view of `picture`
+    Scene resolved;            // with everything automatic written out
+    std::shared_ptr<const Image> picture;
+    std::shared_ptr<const ScreenPicture> screen;
+    FrameStatistics statistics;
+    std::optional<double> expected;  // error, in 1/255
+};
+
+// The signed difference of two pictures, in 1/255: of each pixel that of the channel in which it is
+// largest. NaN: not known (not traced yet). Row by row from the top.
+struct PictureDifference {
+    int width = 0, height = 0;
+    std::vector<float> e;
 };
 
 // The pictures to show. Immutable once published, and cheap to copy.

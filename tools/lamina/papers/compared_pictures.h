@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Meshes for the reproduction of Kraus 2004 that need neither data files nor TetGen, and
+// comparisons of pictures of them.
+
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,8 +14,20 @@
 #include "image/difference.h"
 #include "papers/kraus.h"
 #include "render/pipeline.h"
+#include "scene/scene.h"
 
 namespace lamina::papers {
+
+// Makes cells[0] x cells[1] x cells[2] cubes that fill the unit cube, six tets each (Kuhn), with a
+// field of a few smooth blobs from 0 to about 1.
+SceneMesh make_box_mesh(const std::array<std::int32_t, 3>& cells);
+
+// Makes a boundary layer, as around a body in a flow. It consists of Kuhn's tets in cells x cells
+// columns on the unit square. Their thickness grows geometrically away from the body, so that the
+// longest edge of the mesh is `ratio` times the shortest. The body is a plate with a bump of height
+// `bump` in its middle. With the distance h from it the field falls as 1 / (1 + (h / d)^2), where d
+// varies between .001 and .003. So most of the field lies in the thin cells.
+SceneMesh make_graded_mesh(std::int32_t cells, std::int32_t layers, double ratio, double bump);
 
 // One of several ways to draw the same picture.
 struct Variant {
@@ -46,7 +63,7 @@ std::vector<std::string> compared_picture_files(const std::string& name);
 // Writes NAME.csv with the errors, and makes panels in the manner of the paper's figures: the
 // variants' pictures and the exact picture; of each its inset, magnified and with more contrast:
 // each about its own mean, all with one gain, which follows the exact picture; and the signed
-// differences from the exact picture (image/difference_picture.h). The inset lies where the first
+// differences from the exact picture (image/difference.h). The inset lies where the first
 // variant's error varies most in that contrast. All scenes must have one camera, size and transfer
 // function.
 ComparedPictures write_compared_pictures(const std::filesystem::path& folder,

@@ -9,10 +9,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
-#include <utility>
 
 #include "papers/compared_pictures.h"
-#include "papers/grid_mesh.h"
 
 namespace lamina::papers {
 namespace {
@@ -65,6 +63,24 @@ double largest_depth(study::TracedMesh& mesh, Scene scene, const std::vector<Tra
     scene.height = std::max(1, scene.height / coarse);
     scene.transfer_function = scaled(knots, thin);
     return -std::log1p(-largest_opacity(mesh.exact(scene)));
+}
+
+// Returns the files of an item that shows meshes one by one: NAME_MESH.png and .csv, and `also`.
+std::vector<std::string> files_of_meshes(const std::string& name,
+                                         const std::vector<std::string>& meshes,
+                                         std::vector<std::string> also = {}) {
+    for (const std::string& mesh : meshes) {
+        const auto files = compared_picture_files(name + "_" + mesh);
+        also.insert(also.end(), files.begin(), files.end());
+    }
+    return also;
+}
+
+constexpr double graded_ratio = 1e4, bump = 0.25;
+const std::vector<std::string> data_sets{"bluntfin", "combustor", "torso"};
+
+std::filesystem::path file_of(const std::filesystem::path& data, const std::string& name) {
+    return data / (name + ".vtu");
 }
 
 }  // namespace
@@ -142,21 +158,6 @@ KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, b
     return subject;
 }
 
-namespace {
-
-// Returns the files of an item that shows meshes one by one: NAME_MESH.png and .csv, and `also`.
-std::vector<std::string> files_of_meshes(const std::string& name,
-                                         const std::vector<std::string>& meshes,
-                                         std::vector<std::string> also = {}) {
-    for (const std::string& mesh : meshes) {
-        const auto files = compared_picture_files(name + "_" + mesh);
-        also.insert(also.end(), files.begin(), files.end());
-    }
-    return also;
-}
-
-}  // namespace
-
 const std::vector<KrausItem>& kraus_items() {
     static const std::vector<KrausItem> items{
         {"figure7", compared_picture_files("figure7"), nullptr, draw_kraus_figure7},
@@ -175,17 +176,6 @@ const std::vector<KrausItem>& kraus_items() {
     };
     return items;
 }
-
-namespace {
-
-constexpr double graded_ratio = 1e4, bump = 0.25;
-const std::vector<std::string> data_sets{"bluntfin", "combustor", "torso"};
-
-std::filesystem::path file_of(const std::filesystem::path& data, const std::string& name) {
-    return data / (name + ".vtu");
-}
-
-}  // namespace
 
 KrausStage::KrausStage(const Capabilities& capabilities, KrausSizes sizes,
                        std::filesystem::path data)

@@ -15,10 +15,10 @@
 #include "lamina/scene.h"
 #include "papers/paper_item.h"
 #include "plan/capabilities.h"
-#include "preintegration/table_cache.h"
+#include "preintegration/preintegration_table.h"
 #include "render/pipeline.h"
 #include "study/data_store.h"
-#include "study/frame_times.h"
+#include "study/study_frames.h"
 
 namespace lamina::papers {
 
@@ -45,7 +45,7 @@ struct KrausView {
     double isosurface_opacity = 0.98;
 };
 // The view of one of the meshes "bluntfin", "combustor", "torso", "graded", "plate" and "box"
-// (papers/grid_mesh.h).
+// (papers/compared_pictures.h).
 KrausView kraus_view(const std::string& name);
 
 KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, bool measured_data,

@@ -10,9 +10,10 @@
 
 #include "mesh/mesh_shape.h"
 #include "papers/compared_pictures.h"
+#include "papers/figure_files.h"
 #include "papers/kraus.h"
 #include "papers/paper_item.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
 
 namespace lamina::papers {
 namespace {
@@ -160,6 +161,9 @@ Findings findings_of(const Judged& judged) {
     return findings;
 }
 
+// The error that integration and float32 may add to a picture in the right order, in 1/255.
+constexpr double right_linf = 1;
+
 }  // namespace
 
 Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage) {
@@ -180,7 +184,7 @@ Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage
         judge_faint(judged, *subject, add("faint", buffers(subject->faint)));
         add("isosurface", ladder(subject->isosurface));
     }
-    study::write_text(folder / "artifacts.csv", study::csv_of_rows(rows));
+    study::write_text(folder / "artifacts.csv", csv_of_rows(rows));
     return result_with_data(
         findings_of(judged),
         {{"files", {"artifacts.csv"}},
@@ -191,15 +195,6 @@ Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage
         "all meshes together; tables hold opacity, 256 x 256 x 16.",
         stage, {{"bluntfin", "combustor", "torso"}, "generated meshes are judged alone"});
 }
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-// The error that integration and float32 may add to a picture in the right order, in 1/255.
-constexpr double right_linf = 1;
-
-}  // namespace
 
 Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
     Findings findings;
@@ -238,7 +233,7 @@ Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
         2 * right > meshes,
         fmt::format("within {} / 255 on {} of {} meshes ({})", right_linf, right, meshes,
                     williams));
-    study::write_text(folder / "orders.csv", study::csv_of_rows(rows));
+    study::write_text(folder / "orders.csv", csv_of_rows(rows));
     return result_with_data(
         findings,
         {{"files", files},

@@ -5,12 +5,13 @@
 #include <algorithm>
 
 #include "base/profile.h"
-#include "facts/world_unit.h"
 #include "papers/compared_pictures.h"
+#include "papers/figure_files.h"
 #include "papers/kraus.h"
 #include "papers/paper_item.h"
 #include "preintegration/preintegration_table.h"
-#include "study/result_files.h"
+#include "scene/camera.h"
+#include "study/report_files.h"
 
 namespace lamina::papers {
 namespace {
@@ -70,7 +71,7 @@ Json measured_rows(KrausSubject& subject, const char* transfer_function, const S
                                    difference(frames.back().picture(), subject.mesh.exact(scene))));
     }
     const auto to_time = timed(frames);
-    const Json times = study::time_rows(
+    const Json times = time_rows(
         to_time, study::time_interleaved("preintegration: times", to_time, stage.sizes().rounds));
     Json rows = Json::array();
     for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -122,7 +123,7 @@ Json draw_kraus_preintegration(const std::filesystem::path& folder, KrausStage& 
         add("dense", subject.dense);
         add("isosurface", subject.isosurface);
     }
-    study::write_text(folder / "preintegration.csv", study::csv_of_rows(rows));
+    study::write_text(folder / "preintegration.csv", csv_of_rows(rows));
     return result_with_data(findings,
                             {{"files", {"preintegration.csv"}},
                              {"pixels", {half(stage.sizes().width), half(stage.sizes().height)}},

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <deque>
 
-#include "papers/grid_mesh.h"
+#include "papers/compared_pictures.h"
+#include "papers/figure_files.h"
 #include "papers/kraus.h"
 #include "papers/paper_item.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
 
 namespace lamina::papers {
 namespace {
@@ -164,14 +165,14 @@ Json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage) {
     }
     const auto to_time = timed(frames);
     Json rows =
-        study::time_rows(to_time, study::time_interleaved("table1", to_time, stage.sizes().rounds));
+        time_rows(to_time, study::time_interleaved("table1", to_time, stage.sizes().rounds));
     for (std::size_t i = 0; i < ladder.size(); ++i) {
         add_stages(rows[i], frames[i]);
         const double seconds = ladder[i].paper_seconds;
         rows[i]["paper_s"] = seconds > 0 ? Json(seconds) : Json();
         rows[i]["paper_ratio"] = seconds > 0 ? Json(seconds / ladder[0].paper_seconds) : Json();
     }
-    study::write_text(folder / "table1.csv", study::csv_of_rows(rows));
+    study::write_text(folder / "table1.csv", csv_of_rows(rows));
     Findings findings;
     judge_table1(findings, rows);
     const Json printed{{"basic pre-integrated PT algorithm (i)", 0.195},
@@ -221,7 +222,7 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
                              (row["order_ms"].get<double>() + row["draw_ms"].get<double>());
         rows.push_back(row);
     }
-    study::write_text(folder / "table2.csv", study::csv_of_rows(rows));
+    study::write_text(folder / "table2.csv", csv_of_rows(rows));
     double least = INFINITY, most = 0, order = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         order = std::max(order, rows[i]["order_share"].get<double>());

@@ -5,9 +5,10 @@
 #include <cstdlib>
 #include <utility>
 
+#include "papers/figure_files.h"
 #include "papers/lamar.h"
 #include "papers/paper_item.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina::papers {
@@ -157,7 +158,7 @@ Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     coarse.slice.samples = few_bonsai_slabs;
     bonsai.set_exact("software, 64 slabs", coarse);
     const Leaves few = bonsai.add("hardware with dithering, 64 slabs", dithered_by_paper(coarse));
-    study::write_text(folder / "figure1.csv", study::csv_of_rows(bonsai.rows()));
+    study::write_text(folder / "figure1.csv", csv_of_rows(bonsai.rows()));
     Findings findings;
     findings.add(
         figure1_says, many.kept > 0.5,

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/progress.h"
-#include "compositing/over.h"
+#include "base/client.h"
+#include "compositing/codes.h"
 #include "lamina/scene.h"
+#include "papers/figure_files.h"
 #include "papers/lamar.h"
 #include "papers/paper_item.h"
-#include "papers/ramp.h"
-#include "study/report_figures.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
 
 namespace lamina::papers {
 namespace {
@@ -141,9 +140,9 @@ std::vector<Json> select(const Json& rows, const Json& wanted) {
 }
 
 // Plots L2 of colour 1 against `key`, with one line a sample depth.
-std::string error_plot(const Json& rows, const std::string& title, const study::PlotAxis& x_axis,
+std::string error_plot(const Json& rows, const std::string& title, const PlotAxis& x_axis,
                        const std::string& key) {
-    study::LinePlot plot(title, x_axis, {"L2, in 1/255", 1, 256, true});
+    LinePlot plot{title, x_axis, {"L2, in 1/255", 1, 256, true}};
     for (const int samples : dither_depths) {
         std::vector<double> x, y;
         for (const Json& row : rows) {
@@ -241,9 +240,9 @@ void judge_spans(Findings& findings, const Json& spans) {
 Json reproduce_dithering(const std::filesystem::path& folder) {
     const Json periods = measure_periods(), by_increment = measure_increments(),
                spans = measure_spans();
-    study::write_text(folder / "dithering_periods.csv", study::csv_of_rows(periods));
-    study::write_text(folder / "dithering_increments.csv", study::csv_of_rows(by_increment));
-    study::write_text(folder / "dithering_spans.csv", study::csv_of_rows(spans));
+    study::write_text(folder / "dithering_periods.csv", csv_of_rows(periods));
+    study::write_text(folder / "dithering_increments.csv", csv_of_rows(by_increment));
+    study::write_text(folder / "dithering_spans.csv", csv_of_rows(spans));
     study::write_text(folder / "dithering_periods.svg",
                       error_plot(periods, "Dithering: error of the ramp against the period",
                                  {"period P", 4, 4096, true}, "period"));

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <map>
 
-#include "base/progress.h"
+#include "base/client.h"
 #include "compositing/tree_shape.h"
+#include "papers/figure_files.h"
 #include "papers/lamar.h"
 #include "papers/paper_item.h"
-#include "papers/ramp.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
 
 namespace lamina::papers {
 namespace {
@@ -134,120 +134,6 @@ void judge_figure6(Findings& findings, const DitheredMixing& mixing) {
                     left));
 }
 
-}  // namespace
-
-Image LamarStage::draw_mixing(const Scene& scene) {
-    if (!mixing_) mixing_ = std::make_shared<const VolumeData>(mixing_volume());
-    return plain_picture(scene, SceneData(mixing_), capabilities_, tables_);
-}
-
-const DitheredMixing& LamarStage::dithered_mixing() {
-    if (dithered_mixing_) return *dithered_mixing_;
-    DitheredMixing made{mixing_scene(pixels_), {}, {1, 4, 16, 64, 256}, {}};
-    Progress progress("mixing liquids", 1 + static_cast<std::int64_t>(made.periods.size()));
-    made.exact = draw_mixing(made.scene);
-    progress.advance();
-    for (const int period : made.periods) {
-        Scene scene = with_paper_hardware(made.scene);
-        if (period > 1) scene.slice.dither = DitherSettings{.period = period, .color = true};
-        made.dithered.push_back(draw_mixing(scene));
-        progress.advance();
-    }
-    dithered_mixing_ = std::move(made);
-    return *dithered_mixing_;
-}
-
-Json draw_table4(const std::filesystem::path& folder, LamarStage& stage) {
-    const DitheredMixing& mixing = stage.dithered_mixing();
-    const std::vector<MeasuredRow> measured = measured_rows(mixing);
-    Json rows = Json::array(), printed = Json::array();
-    for (std::size_t i = 0; i < measured.size(); ++i)
-        rows.push_back(row_of(mixing.periods[i], measured[i].red, measured[i].green));
-    for (const PaperRow& row : paper_rows)
-        printed.push_back(row_of(row.period, row.red, row.green));
-    study::write_text(folder / "table4.csv", study::csv_of_rows(rows));
-    Findings findings;
-    judge_table4(findings, mixing, measured);
-    return findings.result({{"files", {"table4.csv"}}, {"pixels", stage.pixels()}, {"rows", rows}},
-                           printed, data_note);
-}
-
-Json draw_figure6(const std::filesystem::path& /*folder*/, LamarStage& stage) {
-    const DitheredMixing& mixing = stage.dithered_mixing();
-    Panels panels;
-    panels.add("", "software", mixing.exact);
-    for (std::size_t i = 0; i < mixing.periods.size(); ++i)
-        panels.add("", fmt::format("dithered, period {}", mixing.periods[i]), mixing.dithered[i]);
-    Findings findings;
-    judge_figure6(findings, mixing);
-    Json values{{"files", Json::array()},
-                {"pixels", stage.pixels()},
-                {"panels", panels.json()},
-                {"caption",
-                 "1024 slabs of the mixing liquids, which stand in for the paper's data: exact "
-                 "(software), and in 8 bits, dithered along depth with these periods. Period 1 is "
-                 "no dithering."}};
-    values["largest_exact"] = {{"red", largest(mixing.exact, 0)},
-                               {"green", largest(mixing.exact, 1)}};
-    return findings.result(values, nullptr, data_note);
-}
-
-// The pictures are small, because only norms are wanted.
-Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
-    const int pixels = std::min(96, stage.pixels());
-    Progress progress("order: mixing liquids", 2 * 2 * 3 * 2 * 2);
-    Json rows = Json::array();
-    int front_better = 0, back_better = 0;
-    for (const bool white : {false, true}) {
-        Scene scene = white ? white_mixing_scene(pixels) : mixing_scene(pixels);
-        for (const int samples : {64, 256, 1024}) {
-            scene.slice.samples = samples;
-            const Image exact = stage.draw_mixing(scene);
-            for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
-                ErrorNorms errors[2];
-                for (const Order order : {Order::front_to_back, Order::back_to_front}) {
-                    Scene fixed = with_paper_hardware(scene);
-                    fixed.emulate.over = over;
-                    fixed.slice.order = order;
-                    fixed.slice.dither = DitherSettings{.period = samples, .color = true};
-                    const Image image = stage.draw_mixing(fixed);
-                    errors[order == Order::back_to_front] = image_error(image, exact).all;
-                    progress.advance();
-                }
-                front_better += errors[0].l2 < 0.95 * errors[1].l2;
-                back_better += errors[1].l2 < 0.95 * errors[0].l2;
-                rows.push_back({{"colors", white ? "white" : "green to red"},
-                                {"samples", samples},
-                                {"period", samples},
-                                {"over", name_of(over)},
-                                {"ftb_linf", errors[0].linf},
-                                {"ftb_l1", errors[0].mean},
-                                {"ftb_l2", errors[0].l2},
-                                {"btf_linf", errors[1].linf},
-                                {"btf_l1", errors[1].mean},
-                                {"btf_l2", errors[1].l2}});
-            }
-        }
-    }
-    study::write_text(folder / "order_mixing.csv", study::csv_of_rows(rows));
-    const auto count = static_cast<int>(rows.size());
-    Findings findings;
-    findings.add(
-        "It is \"common knowledge\" in the visualization community that front-to-back compositing "
-        "produces higher quality imagery than back-to-front.",
-        front_better == count,
-        fmt::format("by L2 of R, G, B and A, dithered with period N, front to back is better in {} "
-                    "of {} cases, back to front in {}; the others are within 5 %",
-                    front_better, count, back_better));
-    return findings.result({{"files", {"order_mixing.csv"}}, {"pixels", pixels}, {"rows", rows}});
-}
-
-// LaMar 2004, Figure 10: exponent-factoring of two liquids that mix.
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
 struct Tree {
     const char* name;  // factors, or no tree
     bool shown;        // in the picture, which is the paper's
@@ -317,6 +203,114 @@ ErrorNorms shader_tree_error(LamarStage& stage, const Scene& exact_scene, const 
 
 }  // namespace
 
+Image LamarStage::draw_mixing(const Scene& scene) {
+    if (!mixing_) mixing_ = std::make_shared<const VolumeData>(mixing_volume());
+    return plain_picture(scene, SceneData(mixing_), capabilities_, tables_);
+}
+
+const DitheredMixing& LamarStage::dithered_mixing() {
+    if (dithered_mixing_) return *dithered_mixing_;
+    DitheredMixing made{mixing_scene(pixels_), {}, {1, 4, 16, 64, 256}, {}};
+    Progress progress("mixing liquids", 1 + static_cast<std::int64_t>(made.periods.size()));
+    made.exact = draw_mixing(made.scene);
+    progress.advance();
+    for (const int period : made.periods) {
+        Scene scene = with_paper_hardware(made.scene);
+        if (period > 1) scene.slice.dither = DitherSettings{.period = period, .color = true};
+        made.dithered.push_back(draw_mixing(scene));
+        progress.advance();
+    }
+    dithered_mixing_ = std::move(made);
+    return *dithered_mixing_;
+}
+
+Json draw_table4(const std::filesystem::path& folder, LamarStage& stage) {
+    const DitheredMixing& mixing = stage.dithered_mixing();
+    const std::vector<MeasuredRow> measured = measured_rows(mixing);
+    Json rows = Json::array(), printed = Json::array();
+    for (std::size_t i = 0; i < measured.size(); ++i)
+        rows.push_back(row_of(mixing.periods[i], measured[i].red, measured[i].green));
+    for (const PaperRow& row : paper_rows)
+        printed.push_back(row_of(row.period, row.red, row.green));
+    study::write_text(folder / "table4.csv", csv_of_rows(rows));
+    Findings findings;
+    judge_table4(findings, mixing, measured);
+    return findings.result({{"files", {"table4.csv"}}, {"pixels", stage.pixels()}, {"rows", rows}},
+                           printed, data_note);
+}
+
+Json draw_figure6(const std::filesystem::path& /*folder*/, LamarStage& stage) {
+    const DitheredMixing& mixing = stage.dithered_mixing();
+    Panels panels;
+    panels.add("", "software", mixing.exact);
+    for (std::size_t i = 0; i < mixing.periods.size(); ++i)
+        panels.add("", fmt::format("dithered, period {}", mixing.periods[i]), mixing.dithered[i]);
+    Findings findings;
+    judge_figure6(findings, mixing);
+    Json values{{"files", Json::array()},
+                {"pixels", stage.pixels()},
+                {"panels", panels.json()},
+                {"caption",
+                 "1024 slabs of the mixing liquids, which stand in for the paper's data: exact "
+                 "(software), and in 8 bits, dithered along depth with these periods. Period 1 is "
+                 "no dithering."}};
+    values["largest_exact"] = {{"red", largest(mixing.exact, 0)},
+                               {"green", largest(mixing.exact, 1)}};
+    return findings.result(values, nullptr, data_note);
+}
+
+// The pictures are small, because only norms are wanted.
+Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
+    const int pixels = std::min(96, stage.pixels());
+    Progress progress("order: mixing liquids", 2 * 2 * 3 * 2 * 2);
+    Json rows = Json::array();
+    int front_better = 0, back_better = 0;
+    for (const bool white : {false, true}) {
+        Scene scene = white ? white_mixing_scene(pixels) : mixing_scene(pixels);
+        for (const int samples : {64, 256, 1024}) {
+            scene.slice.samples = samples;
+            const Image exact = stage.draw_mixing(scene);
+            for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
+                ErrorNorms errors[2];
+                for (const Order order : {Order::front_to_back, Order::back_to_front}) {
+                    Scene fixed = with_paper_hardware(scene);
+                    fixed.emulate.over = over;
+                    fixed.slice.order = order;
+                    fixed.slice.dither = DitherSettings{.period = samples, .color = true};
+                    const Image image = stage.draw_mixing(fixed);
+                    errors[order == Order::back_to_front] = image_error(image, exact).all;
+                    progress.advance();
+                }
+                front_better += errors[0].l2 < 0.95 * errors[1].l2;
+                back_better += errors[1].l2 < 0.95 * errors[0].l2;
+                rows.push_back({{"colors", white ? "white" : "green to red"},
+                                {"samples", samples},
+                                {"period", samples},
+                                {"over", name_of(over)},
+                                {"ftb_linf", errors[0].linf},
+                                {"ftb_l1", errors[0].mean},
+                                {"ftb_l2", errors[0].l2},
+                                {"btf_linf", errors[1].linf},
+                                {"btf_l1", errors[1].mean},
+                                {"btf_l2", errors[1].l2}});
+            }
+        }
+    }
+    study::write_text(folder / "order_mixing.csv", csv_of_rows(rows));
+    const auto count = static_cast<int>(rows.size());
+    Findings findings;
+    findings.add(
+        "It is \"common knowledge\" in the visualization community that front-to-back compositing "
+        "produces higher quality imagery than back-to-front.",
+        front_better == count,
+        fmt::format("by L2 of R, G, B and A, dithered with period N, front to back is better in {} "
+                    "of {} cases, back to front in {}; the others are within 5 %",
+                    front_better, count, back_better));
+    return findings.result({{"files", {"order_mixing.csv"}}, {"pixels", pixels}, {"rows", rows}});
+}
+
+// LaMar 2004, Figure 10: exponent-factoring of two liquids that mix.
+
 Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
     const Scene white = white_mixing_scene(stage.pixels()), colored = mixing_scene(stage.pixels());
     Progress progress("figure 10", 2 * static_cast<std::int64_t>(std::size(trees)) + 4);
@@ -346,7 +340,7 @@ Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
     rows.push_back(row_of("green to red", "shader", "32x32", "minimax",
                           shader_tree_error(stage, colored, colored_exact, ours)));
     panels.add("", "coloured 32x32 of shader nodes", ours);
-    study::write_text(folder / "figure10.csv", study::csv_of_rows(rows));
+    study::write_text(folder / "figure10.csv", csv_of_rows(rows));
     Findings findings;
     judge(findings, truncated, nearest);
     Json values{

@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/client.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "compositing/codes.h"
 #include "lamina/scene.h"
+#include "papers/figure_files.h"
 #include "papers/lamar.h"
 #include "papers/paper_item.h"
-#include "papers/ramp.h"
-#include "study/report_figures.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
 
 namespace lamina::papers {
 namespace {
@@ -135,9 +134,9 @@ class OrderPlot {
         const auto highest = [](const Curve& c) { return *std::max_element(c.begin(), c.end()); };
         const double high = std::max({highest(separate_.front), highest(separate_.back),
                                       highest(fused_.front), highest(fused_.back)});
-        study::LinePlot plot("Order of compositing: 256 random samples in 8 bits",
-                             {"largest opacity code of a sample", 1, 128, true},
-                             {"L2 error of colour, in 1/255", 0, high});
+        LinePlot plot{"Order of compositing: 256 random samples in 8 bits",
+                      {"largest opacity code of a sample", 1, 128, true},
+                      {"L2 error of colour, in 1/255", 0, high}};
         plot.add("back to front", separate_.x, separate_.back);
         plot.add("front to back", separate_.x, separate_.front);
         plot.add("back to front, fused", fused_.x, fused_.back);

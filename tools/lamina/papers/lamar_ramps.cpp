@@ -8,7 +8,6 @@
 #include "lamina/scene.h"
 #include "papers/lamar.h"
 #include "papers/paper_item.h"
-#include "papers/ramp.h"
 
 namespace lamina::papers {
 namespace {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compositing/codes.h"
 #include "compositing/fixed_ray.h"
-#include "compositing/over.h"
 #include "papers/lamar.h"
 #include "papers/paper_item.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
 
 namespace lamina::papers {
 namespace {

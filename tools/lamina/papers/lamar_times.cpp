@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times of the techniques of LaMar 2004, which the paper does not report, and of ours.
-#include "papers/lamar_times.h"
+#include "papers/figure_files.h"
+#include "papers/lamar.h"
 
 #include <fmt/format.h>
 
@@ -11,11 +12,10 @@
 #include "compositing/codes.h"
 #include "executors/gl_compositing.h"
 #include "gl/framebuffer.h"
-#include "papers/lamar.h"
 #include "papers/paper_item.h"
 #include "render/pipeline.h"
-#include "study/frame_times.h"
-#include "study/result_files.h"
+#include "study/report_files.h"
+#include "study/study_frames.h"
 #include "volume/generate.h"
 
 namespace lamina::papers {
@@ -53,45 +53,6 @@ gl::Defines defines_of(PaletteSlices::Way way, int period) {
     if (way == PaletteSlices::Way::lookup) defines.set("PALETTES", period);
     return defines;
 }
-
-}  // namespace
-
-PaletteSlices::PaletteSlices(Way way, int pixels, int slices, int period)
-    : way_(way),
-      slices_(slices),
-      period_(period),
-      palettes_(dithered_palettes(period)),
-      indices_(random_indices(pixels)),
-      palette_(
-          gl::Texture::make_2d(gl::TextureFormat::rgba8, entries, way == Way::lookup ? period : 1)),
-      target_(gl::Texture::make_2d(gl::TextureFormat::rgba8, pixels, pixels)),
-      program_("gl/full_screen.vert", "study/palette.frag", defines_of(way, period)) {
-    program_.set("indices", 0);
-    program_.set("palette", 1);
-    if (way == Way::lookup) {
-        palette_.upload({0, 0, 0, entries, period, 1}, std::span<const std::uint8_t>(palettes_));
-    }
-}
-
-Image PaletteSlices::draw() {
-    target_.bind();
-    target_.clear(glm::vec4(0));
-    indices_.bind(0);
-    palette_.bind(1);
-    const CompositingState blending(CompositingPlan{}, false, target_);
-    const std::span<const std::uint8_t> palettes(palettes_);
-    for (int slice = 0; slice < slices_; ++slice) {
-        if (way_ == Way::upload) {
-            const auto row = static_cast<std::size_t>(slice % period_);
-            palette_.upload({0, 0, 0, entries, 1, 1}, palettes.subspan(row * row_bytes, row_bytes));
-        }
-        program_.set("slice", slice);
-        gl::draw_full_screen(program_, no_attributes_);
-    }
-    return target_.read_back();
-}
-
-namespace {
 
 using Json = nlohmann::ordered_json;
 
@@ -182,7 +143,7 @@ Json time_techniques(const std::shared_ptr<const VolumeData>& volume, const Lama
                                    .omissions = omissions,
                                    .tables = stage.tables()}));
     }
-    return study::time_rows(frames, study::time_interleaved("times: techniques", frames, rounds));
+    return time_rows(frames, study::time_interleaved("times: techniques", frames, rounds));
 }
 
 // A context that cannot read its own pixel needs a barrier after each slab.
@@ -202,7 +163,7 @@ Json time_barriers(const std::shared_ptr<const VolumeData>& volume, const LamarS
     if (capabilities.framebuffer_fetch)
         add("emulated 8 bits, fetch", Target::emulated, capabilities);
     add("emulated 8 bits, texture barriers", Target::emulated, without_fetch);
-    return study::time_rows(frames, study::time_interleaved("times: barriers", frames, rounds));
+    return time_rows(frames, study::time_interleaved("times: barriers", frames, rounds));
 }
 
 // Section 5 leaves open how much a palette for every slice costs.
@@ -220,10 +181,45 @@ Json time_palettes(bool& same_picture) {
     const std::vector<study::FrameTimes> times =
         study::time_interleaved("times: palettes", frames, rounds);
     same_picture = images[0].rgba == images[1].rgba;
-    return study::time_rows(frames, times);
+    return time_rows(frames, times);
 }
 
 }  // namespace
+
+PaletteSlices::PaletteSlices(Way way, int pixels, int slices, int period)
+    : way_(way),
+      slices_(slices),
+      period_(period),
+      palettes_(dithered_palettes(period)),
+      indices_(random_indices(pixels)),
+      palette_(
+          gl::Texture::make_2d(gl::TextureFormat::rgba8, entries, way == Way::lookup ? period : 1)),
+      target_(gl::Texture::make_2d(gl::TextureFormat::rgba8, pixels, pixels)),
+      program_("gl/full_screen.vert", "study/palette.frag", defines_of(way, period)) {
+    program_.set("indices", 0);
+    program_.set("palette", 1);
+    if (way == Way::lookup) {
+        palette_.upload({0, 0, 0, entries, period, 1}, std::span<const std::uint8_t>(palettes_));
+    }
+}
+
+Image PaletteSlices::draw() {
+    target_.bind();
+    target_.clear(glm::vec4(0));
+    indices_.bind(0);
+    palette_.bind(1);
+    const CompositingState blending(CompositingPlan{}, false, target_);
+    const std::span<const std::uint8_t> palettes(palettes_);
+    for (int slice = 0; slice < slices_; ++slice) {
+        if (way_ == Way::upload) {
+            const auto row = static_cast<std::size_t>(slice % period_);
+            palette_.upload({0, 0, 0, entries, 1, 1}, palettes.subspan(row * row_bytes, row_bytes));
+        }
+        program_.set("slice", slice);
+        gl::draw_full_screen(program_, no_attributes_);
+    }
+    return target_.read_back();
+}
 
 Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
     const auto volume = std::make_shared<const VolumeData>(
@@ -238,9 +234,9 @@ Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
     values["barriers"] = time_barriers(volume, stage);
     bool same_picture = false;
     values["palettes"] = time_palettes(same_picture);
-    study::write_text(folder / "times.csv", study::csv_of_rows(values["techniques"]));
-    study::write_text(folder / "times_barriers.csv", study::csv_of_rows(values["barriers"]));
-    study::write_text(folder / "times_palettes.csv", study::csv_of_rows(values["palettes"]));
+    study::write_text(folder / "times.csv", csv_of_rows(values["techniques"]));
+    study::write_text(folder / "times_barriers.csv", csv_of_rows(values["barriers"]));
+    study::write_text(folder / "times_palettes.csv", csv_of_rows(values["palettes"]));
     Findings findings;
     findings.add(
         "However, one could use dependent texture lookups to implement this kind of dithering.",

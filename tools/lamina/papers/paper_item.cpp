@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/input_file.h"
-#include "study/report_figures.h"
+#include "study/report_files.h"
 
 namespace lamina::papers {
 namespace {
@@ -47,6 +47,22 @@ std::string verdicts_text(const std::map<std::string, int>& counts) {
                             words == nullptr ? verdict : words);
     }
     return text;
+}
+
+Json panel(const std::string& group, const std::string& label, const std::string& image) {
+    return {{"group", group}, {"title", label}, {"caption", ""}, {"image", image}};
+}
+
+// The rows of a table; of curves, their errors.
+Json rows_of(const Json& values) {
+    if (values.contains("rows")) return values["rows"];
+    Json rows = Json::array();
+    if (!values.contains("errors")) return rows;
+    for (const auto& [name, norms] : values["errors"].items()) {
+        rows.push_back({{"curve", name}});
+        rows.back().update(norms);
+    }
+    return rows;
 }
 
 }  // namespace
@@ -175,28 +191,6 @@ std::string count_verdicts(const Json& report) {
                             verdicts_text(of_statements));
     return text;
 }
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json panel(const std::string& group, const std::string& label, const std::string& image) {
-    return {{"group", group}, {"title", label}, {"caption", ""}, {"image", image}};
-}
-
-// The rows of a table; of curves, their errors.
-Json rows_of(const Json& values) {
-    if (values.contains("rows")) return values["rows"];
-    Json rows = Json::array();
-    if (!values.contains("errors")) return rows;
-    for (const auto& [name, norms] : values["errors"].items()) {
-        rows.push_back({{"curve", name}});
-        rows.back().update(norms);
-    }
-    return rows;
-}
-
-}  // namespace
 
 void Panels::add(const std::string& group, const std::string& label, const CodedImage& picture) {
     panels_.push_back(panel(group, label, study::data_uri(picture)));

@@ -9,7 +9,7 @@
 #include "lamina/image.h"
 #include "lamina/scene.h"
 #include "plan/capabilities.h"
-#include "preintegration/table_cache.h"
+#include "preintegration/preintegration_table.h"
 #include "render/scene_data.h"
 #include "selftest/pixel_bounds.h"
 

@@ -28,6 +28,33 @@ std::shared_ptr<const void> fill(const LayeredBox& box) {
     return {values, values->data()};
 }
 
+std::int32_t add_point(MeshData& mesh, const LayeredBox& box, const glm::dvec3& place) {
+    if (mesh.point_scalars.empty()) mesh.point_scalars.push_back({"scalar", {}});
+    mesh.points.push_back(box.world(place));
+    mesh.point_scalars[0].values.push_back(box.scalar(box.layer_at(place.z), place.z));
+    return static_cast<std::int32_t>(mesh.points.size()) - 1;
+}
+
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : bits_(seed) {}
+    // In [0, 1).
+    double uniform() { return static_cast<double>(bits_.next() >> 11) * 0x1p-53; }
+    std::size_t below(std::size_t count) {
+        return static_cast<std::size_t>(uniform() * static_cast<double>(count));
+    }
+
+  private:
+    SplitMix64 bits_;
+};
+
+std::vector<std::size_t> permutation(std::size_t count, Random& random) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+    return order;
+}
+
 }  // namespace
 
 Volume LayeredBox::volume() const {
@@ -138,37 +165,6 @@ std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, d
     chord.parameters = {begin, end};
     return chord;
 }
-
-namespace {
-
-std::int32_t add_point(MeshData& mesh, const LayeredBox& box, const glm::dvec3& place) {
-    if (mesh.point_scalars.empty()) mesh.point_scalars.push_back({"scalar", {}});
-    mesh.points.push_back(box.world(place));
-    mesh.point_scalars[0].values.push_back(box.scalar(box.layer_at(place.z), place.z));
-    return static_cast<std::int32_t>(mesh.points.size()) - 1;
-}
-
-class Random {
-  public:
-    explicit Random(std::uint64_t seed) : bits_(seed) {}
-    // In [0, 1).
-    double uniform() { return static_cast<double>(bits_.next() >> 11) * 0x1p-53; }
-    std::size_t below(std::size_t count) {
-        return static_cast<std::size_t>(uniform() * static_cast<double>(count));
-    }
-
-  private:
-    SplitMix64 bits_;
-};
-
-std::vector<std::size_t> permutation(std::size_t count, Random& random) {
-    std::vector<std::size_t> order(count);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-    return order;
-}
-
-}  // namespace
 
 MeshData kuhn_tets(const LayeredBox& box, int across) {
     MeshData mesh;

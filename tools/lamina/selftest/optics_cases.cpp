@@ -119,23 +119,6 @@ void append_targets(std::vector<SelftestCase>& cases) {
     }
 }
 
-}  // namespace
-
-std::vector<SelftestCase> optics_cases() {
-    std::vector<SelftestCase> cases;
-    append_depths(cases);
-    append_jumps(cases);
-    append_opacities(cases);
-    append_spikes(cases);
-    append_targets(cases);
-    return cases;
-}
-
-// Lit boxes. In a box of one layer the gradient is the same everywhere, so light does the same to
-// all of a ray; ambient light of 1 changes nothing in any box.
-
-namespace {
-
 SelftestScene lit_scene(const std::string& name, const std::string& about,
                         const Lighting& lighting) {
     SelftestScene scene = plain_scene(name, about);
@@ -197,6 +180,19 @@ SelftestScene ambient_alone() {
 }
 
 }  // namespace
+
+std::vector<SelftestCase> optics_cases() {
+    std::vector<SelftestCase> cases;
+    append_depths(cases);
+    append_jumps(cases);
+    append_opacities(cases);
+    append_spikes(cases);
+    append_targets(cases);
+    return cases;
+}
+
+// Lit boxes. In a box of one layer the gradient is the same everywhere, so light does the same to
+// all of a ray; ambient light of 1 changes nothing in any box.
 
 std::vector<SelftestCase> light_cases() {
     std::vector<DrawingWay> ways = traces();

@@ -9,7 +9,7 @@
 #include "lamina/image.h"
 #include "lamina/transfer_function.h"
 #include "scene/camera.h"
-#include "scene/scene_mesh.h"
+#include "scene/scene.h"
 #include "selftest/drawing_way.h"
 #include "selftest/layered_box.h"
 #include "selftest/pixel_bounds.h"

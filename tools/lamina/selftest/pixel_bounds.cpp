@@ -12,6 +12,14 @@ Interval over(const Interval& alpha, const Interval& color, const Interval& behi
             std::max(at(alpha.lo, color.hi, behind.hi), at(alpha.hi, color.hi, behind.hi))};
 }
 
+OpticsRange point(const OpticalProperties& optics) {
+    OpticsRange range;
+    range.extinction = {optics.extinction, optics.extinction};
+    for (int c = 0; c < 3; ++c)
+        range.color[static_cast<std::size_t>(c)] = {optics.color[c], optics.color[c]};
+    return range;
+}
+
 }  // namespace
 
 PixelBounds composite(const std::vector<PieceBounds>& pieces, const BlendRounding& rounding) {
@@ -45,18 +53,6 @@ std::array<double, 4> composite_exactly(const std::vector<PieceBounds>& pieces) 
     pixel[3] = -std::expm1(-depth);
     return pixel;
 }
-
-namespace {
-
-OpticsRange point(const OpticalProperties& optics) {
-    OpticsRange range;
-    range.extinction = {optics.extinction, optics.extinction};
-    for (int c = 0; c < 3; ++c)
-        range.color[static_cast<std::size_t>(c)] = {optics.color[c], optics.color[c]};
-    return range;
-}
-
-}  // namespace
 
 void OpticsRange::include(const OpticsRange& other) {
     extinction.include(other.extinction);

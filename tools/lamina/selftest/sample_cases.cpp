@@ -11,10 +11,6 @@
 #include "selftest/layered_box.h"
 
 namespace lamina::selftest {
-
-// One trilinear cell, seen along a diagonal: the scalar along the ray is a polynomial, and opacity
-// has a closed form.
-
 namespace {
 
 constexpr glm::dvec3 cell_color{.5, 1, .25};
@@ -118,27 +114,6 @@ CaseOutcome outcome_of_cell(const CellScene& cell, const DrawingWay& way,
     return outcome;
 }
 
-}  // namespace
-
-std::vector<SelftestCase> cell_cases() {
-    std::vector<SelftestCase> cases;
-    for (const CellScene& cell : all_cells()) {
-        for (const DrawingWay& way : {traces().front(), way_named("slice exact float32")}) {
-            cases.push_back({"cells", cell.name, way.name,
-                             cell.about + ". Exact: opacity in closed form. Bound: a scalar off by "
-                                          "four roundings of a float32.",
-                             [cell, way](const PictureMaker& maker) {
-                                 return outcome_of_cell(cell, way, maker);
-                             }});
-        }
-    }
-    return cases;
-}
-
-// Extreme numbers: coordinates, sizes, anisotropy, sample types and their extremes.
-
-namespace {
-
 constexpr const char* number_group = "numbers";
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -218,6 +193,26 @@ SelftestScene not_finite(const std::string& name, double value) {
 }
 
 }  // namespace
+
+// One trilinear cell, seen along a diagonal: the scalar along the ray is a polynomial, and opacity
+// has a closed form.
+
+std::vector<SelftestCase> cell_cases() {
+    std::vector<SelftestCase> cases;
+    for (const CellScene& cell : all_cells()) {
+        for (const DrawingWay& way : {traces().front(), way_named("slice exact float32")}) {
+            cases.push_back({"cells", cell.name, way.name,
+                             cell.about + ". Exact: opacity in closed form. Bound: a scalar off by "
+                                          "four roundings of a float32.",
+                             [cell, way](const PictureMaker& maker) {
+                                 return outcome_of_cell(cell, way, maker);
+                             }});
+        }
+    }
+    return cases;
+}
+
+// Extreme numbers: coordinates, sizes, anisotropy, sample types and their extremes.
 
 std::vector<SelftestCase> number_cases() {
     std::vector<SelftestScene> scenes;

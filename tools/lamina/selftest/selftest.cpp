@@ -12,7 +12,6 @@
 #include "base/enum_words.h"
 #include "base/error.h"
 #include "base/profile.h"
-#include "base/progress.h"
 #include "selftest/case_makers.h"
 
 namespace lamina::selftest {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "base/client.h"
+#include "base/error.h"
+#include "base/output_file.h"
+#include "lamina/data_files.h"
+#include "lamina/mesh_making.h"
+#include "mesh_files/mesh_file.h"
+#include "meshing/volume_mesh.h"
+#include "volume/nrrd_writer.h"
+#include "volume_files/volume_file.h"
+
+namespace lamina {
+namespace {
+
+void expect_suffix(const std::filesystem::path& file, const char* suffix) {
+    if (file.extension() != suffix) {
+        fail("{}: found the suffix \"{}\", expected {}", file.string(), file.extension().string(),
+             suffix);
+    }
+}
+
+}  // namespace
+
+Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request,
+                   const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
+    return read_volume(file, request);
+}
+
+MeshData load_mesh_data(const std::filesystem::path& file,
+                        const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
+    return read_mesh(file);
+}
+
+void save_volume(const Volume& volume, const std::filesystem::path& file) {
+    expect_suffix(file, ".nrrd");
+    AtomicFile output(file);
+    write_nrrd(output, volume);
+    output.commit();
+}
+
+void save_mesh(const MeshData& mesh, const std::filesystem::path& file) {
+    expect_suffix(file, ".vtu");
+    AtomicFile output(file);
+    write_vtu(output, mesh);
+    output.commit();
+}
+
+MadeMesh make_mesh(const Volume& volume, const MeshSettings& settings,
+                   const TransferFunction* transfer_function, std::stop_token stop,
+                   const ProgressCallback& progress) {
+    ProgressListener listener{progress};
+    const ClientScope scope({std::move(stop), nullptr, &listener});
+    MadeMesh made;
+    made.mesh = make_volume_mesh(volume, settings, transfer_function, made.report);
+    return made;
+}
+
+}  // namespace lamina

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "image/difference.h"
+#include "image/npy.h"
+#include "image/picture.h"
+#include "image/png.h"
+#include "lamina/picture_comparison.h"
+#include "lamina/picture_file.h"
+
+namespace lamina {
+namespace {
+
+PictureComparison compared(const Difference& difference) {
+    ImageError error = measure(difference);
+    return {std::move(error.channels), std::move(error.of_channel), error.all, error.worst.column,
+            error.worst.row,           error.worst.channel};
+}
+
+void check_range(double range) {
+    if (!(range > 0)) fail("range: found {}, expected a number above 0, in 1/255", range);
+}
+
+}  // namespace
+
+PictureComparison compare(const PreciseImage& a, const PreciseImage& b) {
+    return compared(difference(a, b));
+}
+
+PictureComparison compare_files(const std::filesystem::path& a, const std::filesystem::path& b) {
+    return compared(difference(load_image(a), load_image(b)));
+}
+
+std::string difference_png(const PreciseImage& a, const PreciseImage& b, double range) {
+    check_range(range);
+    return encode_png(difference_picture(difference(a, b), range));
+}
+
+std::vector<std::uint8_t> difference_codes(std::span<const float> differences, double range) {
+    check_range(range);
+    std::vector<std::uint8_t> codes;
+    codes.reserve(3 * differences.size());
+    for (const float e : differences) {
+        if (std::isnan(e)) fail("difference {}: found nan, expected a number", codes.size() / 3);
+        for (const std::uint16_t code : false_color_of(std::clamp(e / range, -1.0, 1.0)))
+            codes.push_back(static_cast<std::uint8_t>(code));
+    }
+    return codes;
+}
+
+LoadedPicture load_picture(const std::filesystem::path& file) {
+    LoadedImage image = load_image(file);
+    if (const auto* const pixels = std::get_if<Image>(&image.pixels))
+        return {to_double(*pixels), image.space};
+    if (auto* const pixels = std::get_if<PreciseImage>(&image.pixels))
+        return {std::move(*pixels), image.space};
+    fail("{}: holds codes over a background, expected .exr or .npy", file.string());
+}
+
+void save_picture(const Image& picture, const std::filesystem::path& file,
+                  const glm::dvec3& background, ImageColorSpace space,
+                  const std::map<std::string, std::string>& attributes) {
+    const std::string suffix = file.extension().string();
+    if (suffix != ".png" && suffix != ".exr" && suffix != ".npy")
+        fail("{}: found the suffix \"{}\", expected .png, .exr or .npy", file.string(), suffix);
+    AtomicFile output(file);
+    write_picture(output, picture, background, attributes, space);
+    output.commit();
+}
+
+void save_picture(const PreciseImage& picture, const std::filesystem::path& file,
+                  const glm::dvec3& background, ImageColorSpace space,
+                  const std::map<std::string, std::string>& attributes) {
+    if (file.extension() != ".npy")
+        return save_picture(to_float(picture), file, background, space, attributes);
+    AtomicFile output(file);
+    write_npy(output, picture);
+    output.commit();
+}
+
+std::string picture_png(const Image& picture, const glm::dvec3& background, ImageColorSpace space) {
+    return encode_png(picture, background, space);
+}
+
+std::vector<std::uint8_t> screen_codes(const Image& picture, const glm::dvec3& background,
+                                       ImageColorSpace space) {
+    return png_codes(picture, background, space);
+}
+
+}  // namespace lamina

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The readers of mesh files, for read_mesh(). All throw Error.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "lamina/mesh_data.h"
+
+namespace lamina {
+
+// Reads a VTK XML unstructured grid: ascii, binary or appended (raw, base64) arrays, uncompressed
+// or compressed, of either byte order and header type, in one piece or several.
+MeshData read_vtu(const std::filesystem::path& path);
+
+// Returns the .vtu files that a .pvtu (a mesh as the processes of a parallel program write it)
+// names, in its order.
+std::vector<std::filesystem::path> pieces_of_pvtu(const std::filesystem::path& path);
+
+// Reads the pieces of a .pvtu and joins them.
+MeshData read_pvtu(const std::filesystem::path& path);
+
+// One step of a .pvd file (ParaView's list of the files of a mesh that changes with time).
+struct PvdStep {
+    double time = 0;
+    std::vector<std::filesystem::path> files;  // .vtu or .pvtu, the parts of the mesh
+};
+
+// Returns the steps of a .pvd file in the order of their times.
+std::vector<PvdStep> steps_of_pvd(const std::filesystem::path& path);
+
+// Reads and joins the files of one step, the first of which is 0.
+MeshData read_pvd(const std::filesystem::path& path, std::int64_t step);
+
+// Reads a legacy VTK file with an unstructured grid, ASCII or binary, of any version up to 5.1.
+MeshData read_vtk(const std::filesystem::path& path);
+
+// Reads TetGen's NAME.node and NAME.ele; `path` is one of them. Points count from 0 or from 1, as
+// the first point says. Only the corners of 10-node tets are used, and boundary markers are
+// ignored. Point attribute N gives a point scalar, attribute N of a tet a cell scalar. Their names
+// are "point attribute N" and "tet attribute N", unless a comment line before the numbers says
+// another, as in lamina's own files: "# point attribute N: NAME" ("# tet attribute N: NAME" in the
+// .ele).
+MeshData read_node_ele(const std::filesystem::path& path);
+
+}  // namespace lamina

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+// What planners choose if a scene leaves it open: light, slabs, target, classification, table and
+// tree.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compositing/codes.h"
+#include "compositing/tree_shape.h"
+#include "facts/volume_facts.h"
+#include "lamina/lighting.h"
+#include "lamina/scene.h"
+#include "plan/capabilities.h"
+#include "preintegration/preintegration_table.h"
+
+namespace lamina {
+
+// Lighting of a scene as it is drawn.
+struct LightPlan {
+    std::optional<Lighting> lighting;  // with the smallest gradient that is lit
+    // Bend of light above which pieces of rays are cut (slicing/cpu_light-inl.h).
+    double most_bend = 0;
+    double light_error = 0;  // error that this leaves, in 1/255
+
+    friend bool operator==(const LightPlan&, const LightPlan&) = default;
+};
+
+// Plans the light of a scene. `max_color`: of the unlit picture. `cuts_rays`: tells
+// whether rays are cut at bends of light.
+LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays);
+
+// Returns the largest number of loop rounds that an OpenGL fragment takes, beyond those of unlit
+// scenes, to cut its ray at bends of light.
+double light_rounds(const Scene& scene, double max_color);
+
+// Returns the largest colour component that the scene may draw.
+double largest_drawn_color(const Scene& scene, double max_color);
+
+// Throw Error for a lit scene that the method cannot draw lit; nothing is drawn unlit instead.
+void check_lit_slicing(const Scene& scene);
+void check_lit_projection(const Scene& scene);
+
+// The error of slicing into so many slabs, found on rays all over the picture.
+struct SlabTrial {
+    int slabs = 1;
+    double error = 0;         // Linf of colour and opacity, in 1/255
+    std::int64_t rays = 0;    // number of rays that were tried
+    double goal = 0;          // largest error that is allowed: slab_error_goal(), in 1/255
+    std::int64_t traced = 0;  // number of these rays that were compared with the reference tracer
+    // True: the picture's error may be larger, because the rays are those of a smaller picture, or
+    // because not all of them were traced and the tracer found a larger error than the comparison
+    // with other numbers of slabs.
+    bool doubtful = false;
+    bool keeps_goal() const { return error <= goal; }
+
+    friend bool operator==(const SlabTrial&, const SlabTrial&) = default;
+};
+
+// Numbers of slabs that were tried if the scene has "auto" (slicing/slab_trials.h tries them).
+struct SampleTrials {
+    // For "samples": "auto"; otherwise empty.
+    std::vector<SlabTrial> exact;
+    // For "filter": "auto", with filter weights rounded to 8 bits as in texture units. If the
+    // number of slabs is given, the error is that of the weights alone.
+    std::vector<SlabTrial> hardware;
+};
+
+// Returns the number of slabs, 1 .. max_slabs, that makes `slabs` slabs per voxel along the view.
+int slabs_per_voxel(const Facts& facts, double slabs);
+
+// Returns the largest error, in 1/255, that a trial of an automatic number of slabs may find.
+// Automatic compositing takes its share of max_error first. The goal is stricter if only `rays` of
+// the picture's rays were tried, because the largest error of all rays is then larger than the one
+// found. `max_color` and `slabs` matter if the target is automatic, too.
+double slab_error_goal(const Scene& scene, double max_color, int slabs, double rays);
+
+// Tells whether the errors fall with about the second power of the number of slabs, as for smooth
+// pictures. Otherwise fewer slabs may by chance have a smaller error than more.
+bool are_of_second_order(std::vector<SlabTrial> trials);
+
+// Makes the choice of "samples": "auto". It is the fewest slabs whose trial keeps its goal. If none
+// does, it is the fewest slabs, of two a voxel or more, whose error is near the least. If nothing
+// was tried, it is two slabs a voxel, with an unknown error (NaN).
+SlabTrial chosen_slabs(const Facts& facts, const SampleTrials& trials);
+
+// Makes the choice of "filter": "auto": the fewest slabs whose trial with the weights of texture
+// units keeps its goal, if any does.
+std::optional<SlabTrial> slabs_of_hardware_filter(const SampleTrials& trials);
+
+// Share of max_error by which an automatic target may round. It is small, so that the remaining
+// bound hardly needs more slabs (their error falls with the square of their number).
+inline constexpr double target_share = 0.15;
+
+struct TargetChoice {
+    Target target = Target::float32;
+    std::string reason;  // empty if the scene names the target
+    double error = 0;    // bound on its rounding, in 1/255; 0 if no bound is known or needed
+};
+
+// Makes the choice of "target": "auto" for slicing: the target with the fewest bytes a pixel whose
+// compositing error is within target_share of max_error.
+TargetChoice choose_target(const Scene& scene, const Facts& facts, const SampleTrials& trials);
+TargetChoice choose_target(const Scene& scene, double max_color, int slabs);
+// Chooses the target of projected tetrahedra.
+TargetChoice choose_project_target(const Scene& scene);
+
+// Gives the scene a target. If a target smaller than float32 was chosen for slicing without a tree,
+// the scene also gets a tree, because the bound of the choice is the bound of a tree.
+Scene with_target(Scene scene, Target target);
+
+// Largest error of exact segments in float32, in 1/255, of colours up to 1, if extinction times the
+// length of a cell jumps by less than .2 (docs/precision.md, "Exact segments").
+inline constexpr double exact_segment_error = 0.05;
+
+struct ClassificationChoice {
+    Classification classification = Classification::post;  // not automatic
+    int slabs = 1;       // for exact segments if the scene names none
+    std::string reason;  // empty if the scene names the classification
+};
+
+// Makes the choice of "classification": "auto" for slicing: exact segments, unless the context's
+// loops are too short for them or `trials` found few enough slabs that are quicker
+// (slicing/slab_trials.h). Throws Error if the filter or the number of slabs cannot do what the
+// scene asks for.
+ClassificationChoice choose_classification(const Scene& scene, const Facts& facts,
+                                           const Capabilities& capabilities,
+                                           const SampleTrials& trials = {});
+
+// Largest number of post-classified slabs a voxel that take less of a frame than exact segments:
+// measured, these take as long as 2.7 or more (docs/precision.md).
+inline constexpr double quicker_slabs_per_voxel = 2;
+
+// Tells whether trials may find slabs that are quicker than the exact segments which "auto"
+// chooses: not for targets whose error grows with the number of slabs.
+bool may_be_quicker(const Scene& scene);
+
+// Gives the scene a classification and a number of slabs: that of the tree or of the choice,
+// because with exact segments all numbers are equally good.
+Scene with_classification(Scene scene, const ClassificationChoice& choice);
+
+// llvmpipe silently ends all loops of a fragment after 65535 rounds together
+// (LP_MAX_TGSI_LOOP_ITERATIONS); other drivers have no such limit.
+
+// Returns the number of slabs that one fragment can march through. With exact segments, for `slabs`
+// slabs, at least least_exact_slabs().
+int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
+                       int slabs);
+
+// Returns the number of slabs into which a ray must be cut so that one fragment can walk through
+// the cells of each.
+int least_exact_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
+
+// Returns the least render.max_error to which one fragment can cut a lit ray; 0 if nothing is
+// limited.
+double least_lit_error(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
+
+// Share of max_error that a table may add to the picture's error.
+inline constexpr double table_share = 0.1;
+
+// Largest optical depth of a segment for which a table of a single layer, the limit of short
+// segments, is enough. The front half of a segment of depth D weighs 1/2 + D/12 + O(D^3). So the
+// colour of a ray is then off by less than depth / 12 of the colour's change within a segment, at
+// most .5 / 255.
+inline constexpr double short_depth = 0.02;
+
+// Gets the table that the plan's request asks for, from the cache or built.
+void get_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables);
+
+// Returns the largest error of a ray's colour, in 1/255, that the built table makes on
+// Facts::scalar_rays cut into `slabs` segments. Opacity is exact.
+double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& table);
+
+// Chooses the scalar nodes and the lengths of a coloured table whose range and max_length are set.
+// Among a few sizes it takes the coarsest that keeps the error within table_share of max_error; if
+// none does, the one with the least error found. `depth`: the largest optical depth of a segment,
+// or 0 if the limit of short segments is enough for all.
+void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth, TablePlan& table,
+                  TableCache& tables);
+
+// Takes the table that the scene asks for, over the range that is set. If the longest segment of
+// this view, of `longest` world units, is longer than that table knows, the table is extended, with
+// layers as close, for all views of such a camera. The table is built, and its error measured, if
+// there are Facts::scalar_rays.
+void take_table(const Scene& scene, const Facts& facts, int slabs, double longest, double unit,
+                TablePlan& table, TableCache& tables);
+
+// A compositing tree over the slabs of a picture.
+struct TreePlan {
+    std::vector<int> factors;  // children of a node, for each level from the root to the leaves
+    NodeArithmetic nodes = NodeArithmetic::shader;
+    NodeCode code = NodeCode::minimax;
+    int alpha_bits = 8;
+    double largest_color = 1;  // the colour component that images of shader nodes store as 1
+
+    friend bool operator==(const TreePlan&, const TreePlan&) = default;
+};
+
+// Facts that the choice of "tree": "auto" depends on.
+struct TreeQuestion {
+    Target target = Target::float32;
+    Emulation emulation;
+    int slabs = 1;
+    int visible_slabs = 1;  // largest number of visible slabs that are composited on one ray
+    Order order = Order::back_to_front;
+    std::optional<Dither> dither;  // rounds opacity to codes
+    double largest_color = 1;      // largest colour component of what is composited
+    double max_error = 1;          // in 1/255, as the scene has it
+    double slab_error = 0;  // the share of max_error that the slabs were found to use, in 1/255
+};
+
+struct TreeChoice {
+    std::optional<TreePlan> tree;  // none: slabs are blended one after the other
+    // In 1/255, relative to an exact compositing of these slabs; none for a tree that was given.
+    std::optional<double> error_bound;
+    std::string reason;
+};
+
+// Bounds on the error of the picture, in 1/255 (docs/precision.md derives them).
+double straight_error_bound(const TreeQuestion& question);
+double one_level_error_bound(const TreeQuestion& question);
+
+// Bounds the error of a plan's compositing by blending (no tree), or by any tree whose nodes' code
+// has such a bound: the minimax code of shader nodes. Otherwise none.
+std::optional<double> rounding_bound(const TreeQuestion& question,
+                                     const std::optional<TreePlan>& tree);
+
+// Chooses between blending and a tree: the cheaper one whose error bound fits into the share of
+// max_error that the slabs leave, or, if neither fits, the one with the smaller bound. Throws Error
+// if compositing alone exceeds max_error and the scene asks for another target than float32.
+TreeChoice choose_tree(const TreeQuestion& question);
+
+// Throws Error if a tree whose factors the scene gives cannot be drawn. `single_color`: everything
+// visible has one colour.
+void check_slice_tree(const Scene& scene, bool single_color);
+void check_project_tree(const Scene& scene, bool single_color);
+
+// Throws Error if a leaf has more than `most` slabs, the limit of the context's loops
+//.
+void check_leaves(const Scene& scene, const TreeShape& shape, int most,
+                  const Capabilities& capabilities);
+
+}  // namespace lamina

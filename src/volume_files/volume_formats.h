@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// The readers of volumes, one pair or three of functions a format. is_NAME() tells a file or folder
+// by its content and never throws. open_NAME() throws Error: one line that names the file.
+// files_of_NAME() returns the file and those that belong to it, and throws Error.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/value_type.h"
+#include "lamina/volume.h"
+#include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
+
+namespace lamina {
+
+// NRRD (http://teem.sourceforge.net/nrrd/format.html): three orthogonal axes of samples of any
+// scalar type. World coordinates are the file's own: `space origin` (or axis min) is the position
+// of the first sample, `space directions` (or `spacings`) are the steps between samples. Beyond
+// three, axes of one sample are dropped; kinds and directions must identify the others, which are
+// the request's channel and time. Encodings are raw, gzip, bzip2 and ascii; the header is attached
+// or names its data files; both byte orders are read. The sizes in the header are checked against
+// the files' lengths before memory is taken. NaN and infinite samples are kept.
+bool is_nrrd(const std::filesystem::path& path);
+Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request = {},
+                 const VolumeUse& use = {});
+std::vector<std::filesystem::path> files_of_nrrd(const std::filesystem::path& path);
+
+// A folder with an array of Zarr version 2, or with an OME-Zarr image, of which a level is read. A
+// plain array has the axes z, y, x, before these the channel, before that the time; its samples are
+// 1 apart. If the folder is a group, `request.array` names an array or image in it; else it must
+// have only one.
+bool is_zarr(const std::filesystem::path& path);
+Volume open_zarr(const std::filesystem::path& path, const VolumeRequest& request,
+                 const VolumeUse& use);
+std::vector<std::filesystem::path> files_of_zarr(const std::filesystem::path& path);
+
+// HDF5 (NetCDF-4 is one), or an array in such a file, "FILE.h5:/PATH": three dimensions of numbers,
+// in the order z, y, x; before these may come the channel, and before that the time. The path names
+// the array, or `request.array`; else it is the only one of three dimensions or more. Distances and
+// places come from dimension scales (NetCDF's coordinate variables) or the attribute
+// element_size_um; the attributes scale_factor and add_offset are applied, and such a volume does
+// not stay in its file. libhdf5 runs in a process of its own (volume_files/isolated_process.h).
+bool is_hdf5(const std::filesystem::path& path);
+Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request,
+                 const VolumeUse& use);
+std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path);
+
+// One series of a folder of DICOM files, or a file of several frames: the largest series unless
+// request.array names another by its UID or description; and the request's time of a series that
+// has several images at each place. Samples are what RescaleSlope and RescaleIntercept make of the
+// pixels. Slices that are missing or do not go together are errors. A folder is DICOM if one of its
+// first files is.
+bool is_dicom(const std::filesystem::path& path);
+Volume open_dicom(const std::filesystem::path& path, const VolumeRequest& request,
+                  const VolumeUse& use);
+std::vector<std::filesystem::path> files_of_dicom(const std::filesystem::path& path);
+
+// MetaImage files (.mha, .mhd), as ITK writes them
+// (https://itk.org/Wiki/ITK/MetaIO/Documentation): an image of three dimensions, or of four, the
+// last of which is time; of all element types, with channels; binary, compressed or as text; in the
+// file itself, in another, in a list or in a numbered series. `Offset` is the first sample's place,
+// the rows of `TransformMatrix` are the axes. If `AnatomicalOrientation` names directions, the
+// world's axes are LPS, as ITK has them.
+bool is_metaimage(const std::filesystem::path& path);
+Volume open_metaimage(const std::filesystem::path& path, const VolumeRequest& request,
+                      const VolumeUse& use);
+std::vector<std::filesystem::path> files_of_metaimage(const std::filesystem::path& path);
+
+// NIfTI-1 and NIfTI-2, packed or not, a single file or a pair (either name stands for both), of any
+// real type, or of RGB and RGBA, whose colours are channels. The fourth axis is time; the fifth, of
+// vectors, is channels. scl_slope and scl_inter are applied.
+bool is_nifti(const std::filesystem::path& path);
+Volume open_nifti(const std::filesystem::path& path, const VolumeRequest& request,
+                  const VolumeUse& use);
+std::vector<std::filesystem::path> files_of_nifti(const std::filesystem::path& path);
+
+// VTK XML image data: the request's array, else the one that its piece calls Scalars, else the
+// first; arrays of points come before those of cells. Points are nodes; cells are cells, whose
+// samples lie in their middles. Components are channels. Pieces are put together.
+bool is_vti(const std::filesystem::path& path);
+Volume open_vti(const std::filesystem::path& path, const VolumeRequest& request,
+                const VolumeUse& use);
+
+// TIFF or BigTIFF: pages of one size and type are slices from the first to the last; those of one
+// file, or of the files of a folder, in the order of the numbers in their names. Integers of 8 to
+// 64 bits and floats of 32 and 64, in strips or tiles, with every compression that libtiff knows.
+// The samples of a pixel are channels; ImageJ's and OME's descriptions give channels, times and
+// distances. Samples are nodes.
+bool is_tiff(const std::filesystem::path& path);
+Volume open_tiff(const std::filesystem::path& path, const VolumeRequest& request,
+                 const VolumeUse& use);
+std::vector<std::filesystem::path> files_of_tiff(const std::filesystem::path& path);
+
+// NumPy's format (NEP 1): an array [z, y, x] of any real type, byte order and memory order. Samples
+// lie 1 apart from 0 on, as nodes.
+bool is_npy(const std::filesystem::path& path);
+Volume open_npy(const std::filesystem::path& path, const VolumeRequest& request,
+                const VolumeUse& use);
+
+// Returns the type that NumPy writes as "f8" and the like, behind the byte order; a truth value is
+// a byte.
+std::optional<ValueType> numpy_type(std::string_view word);
+
+}  // namespace lamina

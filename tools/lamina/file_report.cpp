@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "file_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <optional>
+
+#include "base/error.h"
+#include "base/output_file.h"
+#include "image/png.h"
+#include "mesh/mesh_picture.h"
+#include "mesh/mesh_shape.h"
+#include "mesh/tet_mesh.h"
+#include "mesh_files/mesh_file.h"
+#include "volume/middle_slices.h"
+#include "volume/min_max_bricks.h"
+#include "volume/volume_data.h"
+#include "volume_files/volume_file.h"
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_rows = 16;
+constexpr int bar_letters = 40, narrowest_picture = 480;
+constexpr std::size_t narrowest_end = 8;
+
+std::string row_end(const std::vector<double>& edges, std::size_t number) {
+    return number_text(edges[number], fineness_of(edges.front(), edges.back()), 5);
+}
+
+constexpr int panel_side = 480;  // pixels
+
+Json describe(std::span<const MeshScalar> scalars) {
+    Json list = Json::array();
+    for (const MeshScalar& scalar : scalars) {
+        const auto [range, non_finite] = measure_range(scalar.values);
+        Json entry{{"name", scalar.name}, {"range", nullptr}};  // null: no finite value
+        if (!range.empty()) entry["range"] = Json::array({range.lo, range.hi});
+        entry["nan_count"] = non_finite;
+        list.push_back(entry);
+    }
+    return list;
+}
+
+Json describe(const TetMesh& mesh, const ValueStatistics& statistics) {
+    const MeshFindings& findings = mesh.findings();
+    const double ratio = edge_lengths(mesh).ratio();
+    Json info;
+    info["kind"] = "mesh";
+    info["points"] = mesh.points().size();
+    info["tets"] = findings.tets_read;
+    info["bounds"] = {{"min", json_vector(mesh.bounds().min)},
+                      {"max", json_vector(mesh.bounds().max)}};
+    info["scalars"] = describe(mesh.point_scalars());
+    info["cell_scalars"] = describe(mesh.cell_scalars());
+    info["boundary_faces"] = findings.boundary_faces;
+    info["conforming"] = findings.conforming();
+    info["degenerate"] = findings.degenerate;
+    info["inverted"] = findings.inverted;
+    info["duplicates"] = findings.duplicates;
+    info["nonmanifold_faces"] = findings.nonmanifold_faces;
+    info["folded_faces"] = findings.folded_faces;
+    info["unused_points"] = findings.unused_points;
+    info["edge_ratio"] = nullptr;  // infinite: an edge without length
+    if (std::isfinite(ratio)) info["edge_ratio"] = ratio;
+    info["convex"] = convex(mesh);
+    info["split_cells"] = findings.cells.split;
+    info["skipped_cells"] = findings.cells.skipped;
+    info["straightened_cells"] = findings.cells.straightened;
+    info["ghost_cells"] = findings.cells.ghosts;
+    info["merged_points"] = findings.cells.merged_points;
+    add_statistics(statistics, info);
+    return info;
+}
+
+// Returns the first scalar at points, or nothing if the mesh has none.
+std::span<const double> first_scalar(const TetMesh& mesh) {
+    if (mesh.point_scalars().empty()) return {};
+    return mesh.point_scalars().front().values;
+}
+
+CodedImage picture_of(const TetMesh& mesh, const ValueStatistics& statistics) {
+    const std::span<const double> values = first_scalar(mesh);
+    const ValueRange range = values.empty() ? ValueRange{0, 0} : measure_range(values).range;
+    return above_one_another(mesh_picture(mesh, values, range, panel_side),
+                             [&](int width) { return histogram_picture(statistics, width); });
+}
+
+// Returns one word if all axes agree, else one word an axis.
+Json json_of(const std::array<Centering, 3>& centering) {
+    const auto word = [](Centering c) { return c == Centering::cell ? "cell" : "node"; };
+    if (centering[0] == centering[1] && centering[1] == centering[2]) return word(centering[0]);
+    return Json::array({word(centering[0]), word(centering[1]), word(centering[2])});
+}
+
+Json describe(const Volume& volume, const MinMaxBricks& bricks, const ValueStatistics& statistics) {
+    const Grid& grid = volume.grid();
+    const Grid::Bounds bounds = grid.bounds();
+    Json info;
+    info["kind"] = "volume";
+    info["size"] = grid.size;
+    info["type"] = name_of(volume.type());
+    info["centers"] = json_of(grid.centering);
+    info["bounds"] = {{"min", json_vector(bounds.min)}, {"max", json_vector(bounds.max)}};
+    info["range"] = nullptr;  // no finite value
+    if (!bricks.whole.empty()) info["range"] = Json::array({bricks.whole.lo, bricks.whole.hi});
+    info["nan_count"] = bricks.non_finite;
+    info["spacing"] = json_vector(
+        {glm::length(grid.step[0]), glm::length(grid.step[1]), glm::length(grid.step[2])});
+    info["origin"] = json_vector(grid.origin);  // the centre of the first sample
+    add_statistics(statistics, info);
+    return info;
+}
+
+CodedImage picture_of(const Volume& volume, const ValueRange& range,
+                      const ValueStatistics& statistics) {
+    return above_one_another(middle_slices(volume, range),
+                             [&](int width) { return histogram_picture(statistics, width); });
+}
+
+}  // namespace
+
+void add_statistics(const ValueStatistics& statistics, Json& info) {
+    info["percentiles"] = nullptr;
+    info["histogram"] = nullptr;
+    if (statistics.percentiles.empty()) return;
+    Json percentiles = Json::object();
+    for (std::size_t i = 0; i < statistics.percentiles.size(); ++i) {
+        const std::string name = fmt::format("{:g}", 0.1 * ValueStatistics::places[i]);
+        percentiles[name] = statistics.percentiles[i];
+    }
+    info["percentiles"] = percentiles;
+    info["histogram"] = {{"edges", statistics.histogram.edges},
+                         {"counts", statistics.histogram.counts}};
+}
+
+std::string percentiles_text(const Json& percentiles) {
+    const double fineness =
+        fineness_of(percentiles.front().get<double>(), percentiles.back().get<double>());
+    std::string text;
+    for (const auto& [name, value] : percentiles.items()) {
+        text += fmt::format("{}{} %: {}", text.empty() ? "" : ", ", name,
+                            number_text(value.get<double>(), fineness, 6));
+    }
+    return text;
+}
+
+std::string histogram_text(const Json& histogram) {
+    const auto edges = histogram["edges"].get<std::vector<double>>();
+    const auto counts = histogram["counts"].get<std::vector<std::int64_t>>();
+    // All rows have as many intervals, but for the last.
+    const std::size_t together = (counts.size() + most_rows - 1) / most_rows;
+    std::vector<std::int64_t> sums;
+    std::vector<std::string> ends{row_end(edges, 0)};
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (i % together == 0) sums.push_back(0);
+        sums.back() += counts[i];
+        if ((i + 1) % together == 0 || i + 1 == counts.size())
+            ends.push_back(row_end(edges, i + 1));
+    }
+    const auto most = static_cast<double>(*std::max_element(sums.begin(), sums.end()));
+    const auto all = static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::int64_t{}));
+    std::size_t width = narrowest_end;
+    for (const std::string& end : ends) width = std::max(width, end.size());
+    std::string text = "(# is the logarithm of the count)\n";
+    for (std::size_t row = 0; row < sums.size(); ++row) {
+        const auto sum = static_cast<double>(sums[row]);
+        const auto letters =
+            static_cast<std::size_t>(std::lround(bar_letters * std::log1p(sum) / std::log1p(most)));
+        text += fmt::format("  {:>{}} .. {:<{}} {:>7.3f} % {}\n", ends[row], width, ends[row + 1],
+                            width, 100 * sum / all, std::string(letters, '#'));
+    }
+    return text;
+}
+
+CodedImage above_one_another(const CodedImage& above, const std::function<CodedImage(int)>& below) {
+    const int width = std::max(above.width, narrowest_picture);
+    const CodedImage second = below(width);
+    CodedImage image(width, above.height + second.height, 3, 8);
+    fill_rectangle(image, 0, 0, image.width, image.height, {255, 255, 255});
+    copy_into(image, above, 0, 0);
+    copy_into(image, second, 0, above.height);
+    return image;
+}
+
+nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png) {
+    std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
+    if (!png.empty()) picture.emplace(png);
+    const TetMesh mesh(read_mesh(file), file);
+    const ValueStatistics statistics = measure_values(first_scalar(mesh));
+    if (picture) {
+        write_png(*picture, picture_of(mesh, statistics));
+        picture->commit();
+    }
+    return describe(mesh, statistics);
+}
+
+nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png,
+                                        const VolumeRequest& request) {
+    std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
+    if (!png.empty()) picture.emplace(png);
+    const VolumeData data(open_volume(file, request, {.residence = VolumeUse::Residence::as_fits}));
+    const auto& [volume, bricks, values] = data;
+    const ValueStatistics statistics = measure_values(data);
+    if (picture) {
+        write_png(*picture, picture_of(volume, bricks.whole, statistics));
+        picture->commit();
+    }
+    return describe(volume, bricks, statistics);
+}
+
+}  // namespace lamina
