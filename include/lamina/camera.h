@@ -3,8 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "lamina/export.h"
-#include "lamina/grid.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

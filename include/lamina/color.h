@@ -4,9 +4,10 @@
 #include <glm/vec3.hpp>
 
 #include <string>
+#include <vector>
 
-#include "lamina/export.h"
-#include "lamina/image_color_space.h"
+#include "lamina/error.h"
+#include "lamina/image.h"
 
 namespace lamina {
 
@@ -22,5 +23,33 @@ LAMINA_API glm::dvec3 color_of_display(const glm::dvec3& display,
 // Components above 1 become 1.
 LAMINA_API glm::dvec3 display_of_color(const glm::dvec3& color,
                                        ImageColorSpace space = ImageColorSpace::linear);
+
+struct ColorPoint {
+    double value = 0;
+    glm::dvec3 color{0};
+};
+
+struct OpacityPoint {
+    double value = 0;
+    double opacity = 0;  // 0..1, over a unit length
+};
+
+// Piecewise linear functions of the scalar, constant outside their points; two points at one value
+// make a step.
+struct Colormap {
+    std::vector<ColorPoint> colors;       // at least one
+    std::vector<OpacityPoint> opacities;  // empty if the file has no opacity function
+    // True if its values are data values (a preset in HU), not to be stretched over other data.
+    bool own_range = true;
+};
+
+// Returns the names of the shipped colour maps (docs/scene.md), in alphabetical order.
+LAMINA_API std::vector<std::string> colormap_names();
+
+// Returns the shipped map of this name, or else the ParaView preset (JSON) of this path, with
+// colours in the numbers of `space`. Lines between its points follow the map within 5e-4. Throws
+// Error, with the most similar name, if there is neither.
+LAMINA_API Colormap load_colormap(const std::string& name_or_path,
+                                  ImageColorSpace space = ImageColorSpace::linear);
 
 }  // namespace lamina

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <stdexcept>
+#include <string>
 
-#include "lamina/export.h"
+// Marks what programs outside the library may use. All other symbols are hidden from them.
+#define LAMINA_API __attribute__((visibility("default")))
 
 namespace lamina {
 
@@ -20,5 +23,10 @@ class LAMINA_API Interrupted : public std::runtime_error {
     Interrupted() : std::runtime_error("interrupted, nothing written") {}
     using std::runtime_error::runtime_error;
 };
+
+// Called with the progress of long work: the present activity ("slicing") and its share from 0
+// to 1. Calls come from one thread at a time, not always the caller's, and must not call the
+// session.
+using ProgressCallback = std::function<void(const std::string& activity, double share)>;
 
 }  // namespace lamina

@@ -1,21 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
-#include "lamina/export.h"
+#include "lamina/error.h"
 
 namespace lamina {
 
-// An image of associated (premultiplied) RGBA before any background, in linear light unless
-// Scene::color_space says otherwise. Row 0 is the top. Pixels are stored row by row, four numbers
-// each.
+// Numbers in which a picture is composited. linear: linear light. display: the values that a screen
+// gets, code / 255 of sRGB, as VTK and ParaView composite them.
+enum class ImageColorSpace { linear, display };
+
+LAMINA_API const char* name_of(ImageColorSpace space);
+
+// An image of associated (premultiplied) RGBA before any background. Row 0 is the top. Pixels are
+// stored row by row, four numbers each.
 template <typename Real>
 struct RgbaImage {
     int width = 0;
     int height = 0;
     std::vector<Real> rgba;
+    ImageColorSpace space = ImageColorSpace::linear;  // Scene::color_space of the scene it shows
 
     RgbaImage() = default;
     RgbaImage(int width_pixels, int height_pixels)
@@ -47,5 +61,79 @@ using PreciseImage = RgbaImage<double>;  // what the reference tracer writes
 LAMINA_API Image to_float(const PreciseImage& image);
 // Returns the same numbers in double precision.
 LAMINA_API PreciseImage to_double(const Image& image);
+
+// A rectangle of pixels; row 0 is the top.
+struct PictureTile {
+    int column = 0, row = 0;  // upper left pixel
+    int width = 0, height = 0;
+};
+
+// Writes a picture, which appears under its name when it is complete. The suffix decides: .png is
+// for looking at (over `background`, in the numbers of picture.space; 8 bits, sRGB); .exr and .npy
+// (NumPy's, of shape (height, width, 4)) keep every number as 32-bit float. `attributes` are texts
+// by name that .exr has beside the pixels. Throws Error for other suffixes and if the file cannot
+// be written.
+LAMINA_API void save_picture(const Image& picture, const std::filesystem::path& file,
+                             const glm::dvec3& background = glm::dvec3(0),
+                             const std::map<std::string, std::string>& attributes = {});
+// Writes a traced picture: .npy keeps double precision, the others have its numbers as float32.
+LAMINA_API void save_picture(const PreciseImage& picture, const std::filesystem::path& file,
+                             const glm::dvec3& background = glm::dvec3(0),
+                             const std::map<std::string, std::string>& attributes = {});
+
+// Returns the bytes of the PNG file.
+LAMINA_API std::string picture_png(const Image& picture,
+                                   const glm::dvec3& background = glm::dvec3(0));
+// Returns the codes of the PNG file's pixels, red, green and blue, row 0 on top: for a screen.
+LAMINA_API std::vector<std::uint8_t> screen_codes(const Image& picture,
+                                                  const glm::dvec3& background = glm::dvec3(0));
+
+// Norms of the error e of a picture, in units of 1/255 (docs/numerics.md).
+struct ErrorNorms {
+    double linf = 0;  // largest |e|
+    // Mean of e, with its sign. Files and the command line call it `l1`, as LaMar's Table 4 does.
+    double mean = 0;
+    double l2 = 0;  // root of the mean of e^2
+};
+
+// Measures a picture against the truth, over all pixels and channels (red, green, blue, opacity).
+// Throws Error if their sizes or colour spaces differ or a number is NaN or infinite.
+LAMINA_API ErrorNorms error_of(const Image& picture, const Image& truth);
+LAMINA_API ErrorNorms error_of(const Image& picture, const PreciseImage& truth);
+
+// Difference of a picture A from a picture B: e = A - B in units of 1/255.
+struct PictureComparison {
+    std::vector<std::string> channels;  // R, G, B, A; for PNG files those that they have
+    std::vector<ErrorNorms> of_channel;
+    ErrorNorms all;
+    // Pixel and channel of the largest |e|, the first if there are several.
+    int column = 0, row = 0;
+    std::size_t channel = 0;  // index into `channels`
+};
+
+// Throws Error if the sizes or colour spaces differ or a number is NaN or infinite.
+LAMINA_API PictureComparison compare(const PreciseImage& a, const PreciseImage& b);
+// Compares EXR and NPY files with each other, or PNG files by their stored codes.
+LAMINA_API PictureComparison compare_files(const std::filesystem::path& a,
+                                           const std::filesystem::path& b);
+
+// Returns the bytes of a PNG file that shows the largest difference of each pixel's channels in
+// false colour, from -range (dark blue) over 0 (white) to range (dark red), in 1/255, over a colour
+// bar.
+LAMINA_API std::string difference_png(const PreciseImage& a, const PreciseImage& b, double range);
+
+// Returns the false colours in which difference_png() shows these differences (in 1/255): codes of
+// red, green and blue for each. Throws Error if a difference is NaN or infinite, or if the range is
+// not above 0.
+LAMINA_API std::vector<std::uint8_t> difference_codes(std::span<const float> differences,
+                                                      double range);
+
+struct LoadedPicture {
+    PreciseImage image;                    // its space is linear if the file does not say
+    std::optional<ImageColorSpace> space;  // known only for EXR files
+};
+
+// Reads an EXR or NPY file. Throws Error.
+LAMINA_API LoadedPicture load_picture(const std::filesystem::path& file);
 
 }  // namespace lamina

@@ -6,9 +6,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "lamina/export.h"
-#include "lamina/mesh_data.h"
+#include "lamina/error.h"
+#include "lamina/mesh.h"
 #include "lamina/volume.h"
 
 namespace lamina {
@@ -17,6 +18,13 @@ namespace lamina {
 struct FieldPoint {
     double value = 0;
     glm::dvec3 gradient{0};  // units of the value per world unit
+};
+
+// A segment of a ray inside one cell of a volume or one tet: between its ends the field has no
+// kink.
+struct RaySegment {
+    double begin = 0, end = 0;   // distances from the ray's origin, world; begin < end
+    double least = 0, most = 0;  // bounds of the field; NaN if a corner has no finite value
 };
 
 // Samples the field that pictures show, for those who write their own integrator. Copies are cheap,
@@ -41,9 +49,37 @@ class LAMINA_API FieldSampler {
     // on the boundary of a mesh that is not convex, rounding may decide otherwise.
     std::optional<FieldPoint> at(const glm::dvec3& position) const;
 
+    // Returns the segments of the ray from `origin` in `direction` (of any finite length above 0,
+    // else there are none), front to back. Between two of them the ray may be outside of the mesh,
+    // or of both by rounding.
+    std::vector<RaySegment> along(const glm::dvec3& origin, const glm::dvec3& direction) const;
+
   private:
     struct Parts;
     std::shared_ptr<const Parts> parts_;
+};
+
+// Point at which a ray has half of its opacity: what an eye takes for the place of what it sees.
+struct SeenPoint {
+    glm::dvec3 position{0};  // world
+    double value = 0;        // value of the data there
+    double opacity = 0;      // opacity of the whole ray, 0..1
+};
+
+// Finds what is seen at a place of a picture. Session::probe() makes it, with the scene and the
+// data as they are then. A copy is cheap, and any thread may use it while the session goes on.
+class LAMINA_API PointProbe {
+  public:
+    struct Parts;
+    explicit PointProbe(std::shared_ptr<Parts> parts);
+
+    // Returns the point that is seen at (column, row), or nothing if the ray there has no opacity.
+    // Whole numbers are the centres of pixels, row 0 on top; fractions and places outside the
+    // picture are allowed.
+    std::optional<SeenPoint> seen(double column, double row) const;
+
+  private:
+    std::shared_ptr<Parts> parts_;
 };
 
 }  // namespace lamina

@@ -9,19 +9,13 @@
 #include <string>
 #include <variant>
 
-#include "lamina/auto.h"
 #include "lamina/camera.h"
-#include "lamina/clip.h"
-#include "lamina/emulation.h"
-#include "lamina/export.h"
-#include "lamina/generator_request.h"
-#include "lamina/image_color_space.h"
-#include "lamina/lighting.h"
-#include "lamina/mesh_settings.h"
-#include "lamina/project_settings.h"
-#include "lamina/slice_settings.h"
+#include "lamina/error.h"
+#include "lamina/image.h"
+#include "lamina/mesh.h"
+#include "lamina/settings.h"
 #include "lamina/transfer_function.h"
-#include "lamina/volume_request.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 
@@ -50,7 +44,8 @@ struct MeshFile {
 using VolumeSource = std::variant<std::monostate, VolumeFile, GeneratorRequest>;
 using MeshSource = std::variant<std::monostate, MeshFile, MeshSettings>;
 
-struct GivenTransfer;  // internal (scene/given_transfer.h)
+// Internal (scene/given_transfer.h).
+struct GivenTransfer;
 
 // A scene file as read (docs/scene.md): what to draw and how, nothing measured yet.
 struct Scene {
@@ -104,22 +99,51 @@ inline bool is_fixed_point(Target target) {
 }
 LAMINA_API const char* name_of(TraceOf of);
 LAMINA_API const char* name_of(NanPolicy policy);
-LAMINA_API const char* name_of(Classification classification);
-LAMINA_API const char* name_of(Order order);
-LAMINA_API const char* name_of(Filter filter);
-LAMINA_API const char* name_of(NodeArithmetic nodes);
-LAMINA_API const char* name_of(NodeCode code);
-LAMINA_API const char* name_of(AlphaRounding rounding);
-LAMINA_API const char* name_of(OverRounding rounding);
 
 // Loads the volume that the scene names: reads its file, or generates it. `only_below` means what
-// it means for files (lamina/data_files.h).
+// it means for files (lamina/volume.h).
 LAMINA_API Volume load_volume(const Scene& scene, const std::filesystem::path& only_below = {});
+
+enum class FileKind { scene, volume, mesh };
+
+// Returns what a file holds, by its content, or by its name if the content does not tell. Throws
+// Error if neither does.
+LAMINA_API FileKind kind_of_file(const std::filesystem::path& file,
+                                 const std::filesystem::path& only_below = {});
 
 // load_scene() reads a scene file (docs/scene.md), or makes a scene that draws a data file, with
 // all else automatic. save_scene() writes one with every key written out. Both throw Error.
 LAMINA_API Scene load_scene(const std::filesystem::path& file,
                             const std::filesystem::path& only_below = {});
 LAMINA_API void save_scene(const Scene& scene, const std::filesystem::path& file);
+
+// Reads a scene (docs/scene.md) from text instead of a file. `name` stands for the file: messages
+// name it, and relative paths start at its folder. If data in memory are given, the scene need not
+// name any: a Session of scene and data draws these. `only_below` means what it means for
+// load_volume() (lamina/volume.h). Throws Error.
+LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::path& name,
+                             const std::filesystem::path& only_below = {});
+LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::path& name,
+                             const Volume& data, const std::filesystem::path& only_below = {});
+LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::path& name,
+                             const MeshData& data, const std::filesystem::path& only_below = {});
+
+// Returns a scene file with every key written out, as save_scene() writes it. Data in memory are
+// not in it.
+LAMINA_API std::string scene_text(const Scene& scene);
+
+// Returns the automatic camera (docs/first-picture.md), which fits what the scene shows of the
+// data, turned around that by degrees to the right (azimuth) and up (elevation). It depends on the
+// scene's transfer function, which may be automatic, and on the picture's size. Throws Error if the
+// data have no finite value.
+LAMINA_API Camera fitted_camera(const Scene& scene, const Volume& volume, double azimuth = 0,
+                                double elevation = 0);
+LAMINA_API Camera fitted_camera(const Scene& scene, const MeshData& mesh, double azimuth = 0,
+                                double elevation = 0);
+
+// Returns the transfer function that a picture of the volume has: the scene's, or one chosen from
+// the data if it is automatic. A colour map without a range is stretched over the data. Throws
+// Error.
+LAMINA_API TransferFunction chosen_transfer_function(const Scene& scene, const Volume& volume);
 
 }  // namespace lamina

@@ -8,16 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "lamina/context_choice.h"
-#include "lamina/export.h"
-#include "lamina/frame_statistics.h"
 #include "lamina/image.h"
-#include "lamina/mesh_data.h"
-#include "lamina/picture_tile.h"
-#include "lamina/plan_summary.h"
-#include "lamina/point_probe.h"
+#include "lamina/mesh.h"
+#include "lamina/report.h"
+#include "lamina/sampling.h"
 #include "lamina/scene.h"
-#include "lamina/value_histogram.h"
 #include "lamina/volume.h"
 
 namespace lamina {
@@ -34,11 +29,6 @@ struct SessionOptions {
     // Ends the constructor, which reads and measures the data, by Interrupted.
     std::stop_token stop = {};
 };
-
-// Called with the progress of a picture: the present activity ("slicing") and its share from 0
-// to 1. Calls come from one thread at a time, not always the caller's, and must not call the
-// session.
-using ProgressCallback = std::function<void(const std::string& activity, double share)>;
 
 // Called with each complete tile of a picture that is being traced. Only pixels of such tiles have
 // a meaning yet. Calls come as those of ProgressCallback do.

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lamina/export.h"
-#include "lamina/session.h"
+#include "lamina/error.h"
 
 namespace lamina {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "lamina/export.h"
+#include "lamina/error.h"
 
 namespace lamina {
 

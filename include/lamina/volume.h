@@ -1,15 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/vec3.hpp>
+
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "lamina/export.h"
-#include "lamina/grid.h"
+#include "lamina/error.h"
 
 namespace lamina {
+
+// Which box belongs to the samples along an axis: with `node` it spans the samples, with `cell` it
+// spans whole voxels, half a voxel more at each end, and the border value repeats there. A single
+// sample along an axis is a voxel with either.
+enum class Centering { node, cell };
+
+// Directions in a patient's body to which the world's x, y and z grow, if the file says so. In all
+// of them z grows to the head.
+enum class WorldAxes {
+    unnamed,
+    left_posterior_superior,
+    right_anterior_superior,
+    left_anterior_superior
+};
+
+// Places of the samples of a regular grid in the world. In index space sample (i, j, k) lies at (i,
+// j, k). The box that is rendered is chosen axis by axis.
+struct LAMINA_API Grid {
+    std::array<std::int64_t, 3> size{1, 1, 1};
+    std::array<Centering, 3> centering{Centering::node, Centering::node, Centering::node};
+    glm::dvec3 origin{0};  // world position of sample (0, 0, 0)
+    std::array<glm::dvec3, 3> step{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0},
+                                   glm::dvec3{0, 0, 1}};  // orthogonal
+    WorldAxes axes = WorldAxes::unnamed;                  // used by the automatic camera only
+
+    std::int64_t sample_count() const { return size[0] * size[1] * size[2]; }
+    glm::dvec3 index_min() const;  // of the box, index space
+    glm::dvec3 index_max() const;
+    glm::dvec3 to_world(const glm::dvec3& index) const;
+    glm::dvec3 to_index(const glm::dvec3& world) const;
+    glm::dvec3 direction_to_index(const glm::dvec3& world) const;  // for directions: no translation
+
+    struct Bounds {
+        glm::dvec3 min{0}, max{0};
+    };
+    Bounds bounds() const;  // axis-aligned, world
+};
 
 enum class SampleType { uint8, int16, uint16, float32 };
 
@@ -19,7 +60,7 @@ LAMINA_API const char* name_of(SampleType type);  // "uint8", "int16", "uint16",
 class VolumeStore;
 
 // Scalars on a regular grid, in the file's own type; x changes fastest. A volume is immutable, and
-// copies share the samples. Volumes that do not fit the memory limit (lamina/memory.h) stay in
+// copies share the samples. Volumes that do not fit the memory limit (lamina/volume.h) stay in
 // their files, and parts of them are read when they are drawn. The library's functions return and
 // take only volumes in memory.
 class Volume {
@@ -73,5 +114,59 @@ class Volume {
     std::shared_ptr<const void> samples_;
     std::shared_ptr<const VolumeStore> store_;
 };
+
+// Layout of the samples in a file without a header; x changes fastest.
+struct RawLayout {
+    std::array<std::int64_t, 3> size{1, 1, 1};  // samples along x, y and z
+    // int8, uint8, int16, uint16, int32, uint32, int64, uint64, float or double
+    std::string type = "uint8";
+    std::int64_t offset = 0;  // bytes before the first sample
+    bool big_endian = false;
+
+    bool operator==(const RawLayout&) const = default;
+};
+
+// Selects a volume of a data file that holds several, and gives what the file itself does not say
+// (docs/scene.md, "What is drawn"). Numbers count from 0.
+struct LAMINA_API VolumeRequest {
+    std::string array;  // name of the array; empty for the first
+    // Level of a pyramid, component of the samples, step in time. The first is taken unless one is
+    // given, and a warning says so.
+    std::optional<std::int64_t> level, channel, time;
+    // Distances between samples, above 0, and place of the first one, instead of the file's.
+    std::optional<glm::dvec3> spacing;
+    std::optional<glm::dvec3> origin;
+    std::optional<RawLayout> raw;  // given if the file has no header
+
+    bool operator==(const VolumeRequest&) const = default;
+};
+
+// Asks for a volume that is made by a formula (docs/scene.md, volume.generate).
+struct GeneratorRequest {
+    std::string name;  // "gaussians", "ramp", ...: docs/scene.md
+    // Samples along x, y and z. Without a size a volume has 128^3 samples, and a ramp 256 x 4 x 1.
+    std::optional<std::array<std::int64_t, 3>> size;
+    SampleType type = SampleType::uint8;  // or uint16, float32
+
+    bool operator==(const GeneratorRequest&) const = default;
+};
+
+// Memory that the process may take for data, in bytes. Volumes that a scene names and that do not
+// fit stay in their files, and parts of them are read when they are drawn. The default is half of
+// the machine's memory, or of its control group's. A change counts for volumes that are opened
+// later.
+LAMINA_API std::uint64_t memory_limit();
+LAMINA_API void set_memory_limit(std::uint64_t bytes);  // 0: the default
+
+// Reads a volume of any kind that scenes may name (docs/scene.md, "What is drawn"). If `only_below`
+// is a folder, this function and all others that take it refuse files that are not below it with
+// all links followed, whoever names them (docs/files.md). Throws Error: one line that names the
+// file, what was found and what was expected.
+LAMINA_API Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request = {},
+                              const std::filesystem::path& only_below = {});
+
+// Writes a volume as .nrrd, from which load_volume() reads the same bits. The file appears under
+// its name when it is complete. Throws Error, also for other suffixes.
+LAMINA_API void save_volume(const Volume& volume, const std::filesystem::path& file);
 
 }  // namespace lamina

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "bindings.h"
-#include "lamina/camera_choice.h"
+#include "lamina/scene.h"
 #include "shared_array.h"
 #include "waiting.h"
 

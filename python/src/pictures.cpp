@@ -14,9 +14,10 @@ using FloatPixels = py::array_t<float, py::array::c_style | py::array::forcecast
 
 // A copy. The package's Python code has checked the shape (height, width, 4).
 template <typename Real, typename Array>
-RgbaImage<Real> image_of(const Array& array) {
+RgbaImage<Real> image_of(const Array& array, ImageColorSpace space = {}) {
     RgbaImage<Real> image(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)));
     std::copy_n(array.data(), array.size(), image.rgba.begin());
+    image.space = space;
     return image;
 }
 
@@ -31,20 +32,20 @@ void save(const py::array& pixels, const std::filesystem::path& file, const Vect
           const std::string& space, const Attributes& attributes) {
     const auto write = [&](const auto& image) {
         const py::gil_scoped_release released;
-        save_picture(image, file, to_glm(background), space_of(space), attributes);
+        save_picture(image, file, to_glm(background), attributes);
     };
     if (pixels.dtype().itemsize() == sizeof(double))
-        write(image_of<double>(Pixels(pixels)));
+        write(image_of<double>(Pixels(pixels), space_of(space)));
     else
-        write(image_of<float>(FloatPixels(pixels)));
+        write(image_of<float>(FloatPixels(pixels), space_of(space)));
 }
 
 py::bytes png_of(const FloatPixels& pixels, const Vector& background, const std::string& space) {
-    const Image image = image_of<float>(pixels);
+    const Image image = image_of<float>(pixels, space_of(space));
     std::string bytes;
     {
         const py::gil_scoped_release released;
-        bytes = picture_png(image, to_glm(background), space_of(space));
+        bytes = picture_png(image, to_glm(background));
     }
     return bytes;
 }

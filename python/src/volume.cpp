@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "bindings.h"
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 #include "sample_hash.h"
 #include "shared_array.h"
 #include "vectors.h"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-#include "lamina/memory.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

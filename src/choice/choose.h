@@ -9,8 +9,8 @@
 #include "choice/automatic_transfer.h"
 #include "choice/field.h"
 #include "lamina/camera.h"
-#include "lamina/grid.h"
 #include "lamina/scene.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "choice/value_distribution.h"
-#include "lamina/grid.h"
 #include "lamina/scene.h"
 #include "lamina/volume.h"
 #include "mesh/tet_mesh.h"

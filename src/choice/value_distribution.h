@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "lamina/value_histogram.h"
+#include "lamina/report.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

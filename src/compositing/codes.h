@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "base/enum_words.h"
-#include "lamina/emulation.h"
-#include "lamina/tree_settings.h"
+#include "lamina/settings.h"
 
 namespace lamina {
 

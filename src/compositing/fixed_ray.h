@@ -9,8 +9,7 @@
 
 #include "compositing/codes.h"
 #include "compositing/tree_shape.h"
-#include "lamina/emulation.h"
-#include "lamina/order.h"
+#include "lamina/settings.h"
 
 namespace lamina {
 

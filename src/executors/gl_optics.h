@@ -8,7 +8,7 @@
 #include "executors/transfer_tables.h"
 #include "gl/program.h"
 #include "gl/texture.h"
-#include "lamina/lighting.h"
+#include "lamina/settings.h"
 
 namespace lamina {
 

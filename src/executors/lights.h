@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "lamina/lighting.h"
+#include "lamina/settings.h"
 
 namespace lamina {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "lamina/tet.h"
+#include "lamina/mesh.h"
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
 #include "optics/pieces.h"

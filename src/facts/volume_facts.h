@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "facts/bricks.h"
-#include "lamina/clip.h"
-#include "lamina/grid.h"
 #include "lamina/scene.h"
+#include "lamina/settings.h"
 #include "lamina/volume.h"
 #include "scene/camera.h"
 #include "volume/min_max_bricks.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lamina/image_color_space.h"
+#include "lamina/image.h"
 
 namespace lamina {
 

@@ -128,11 +128,17 @@ ImageError measure(const Difference& difference) {
     return error;
 }
 
+void check_spaces(ImageColorSpace a, ImageColorSpace b) {
+    if (a != b) fail("the images differ in colour space: {} and {}", name_of(a), name_of(b));
+}
+
 ErrorNorms error_of(const Image& picture, const Image& truth) {
+    check_spaces(picture.space, truth.space);
     return image_error(picture, truth).all;
 }
 
 ErrorNorms error_of(const Image& picture, const PreciseImage& truth) {
+    check_spaces(picture.space, truth.space);
     return image_error(picture, truth).all;
 }
 

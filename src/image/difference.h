@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "image/coded_image.h"
-#include "lamina/error_norms.h"
 #include "lamina/image.h"
 
 namespace lamina {
@@ -45,6 +44,9 @@ struct ImageError {
     ErrorNorms all;
     Worst worst;  // the first component with |e| = all.linf
 };
+
+// Throws Error if the spaces differ.
+void check_spaces(ImageColorSpace a, ImageColorSpace b);
 
 // Throws Error if some e is not finite.
 ImageError measure(const Difference& difference);

@@ -7,7 +7,6 @@
 
 #include "base/output_file.h"
 #include "lamina/image.h"
-#include "lamina/image_color_space.h"
 
 namespace lamina {
 

@@ -10,7 +10,7 @@
 
 #include "base/enum_words.h"
 #include "base/error.h"
-#include "lamina/image_color_space.h"
+#include "lamina/image.h"
 
 namespace lamina {
 
@@ -59,6 +59,7 @@ template void require_finite(const std::string&, const PreciseImage&);
 
 Image to_float(const PreciseImage& image) {
     Image rounded(image.width, image.height);
+    rounded.space = image.space;
     std::transform(image.rgba.begin(), image.rgba.end(), rounded.rgba.begin(),
                    [](double value) { return static_cast<float>(value); });
     return rounded;
@@ -66,6 +67,7 @@ Image to_float(const PreciseImage& image) {
 
 PreciseImage to_double(const Image& image) {
     PreciseImage precise(image.width, image.height);
+    precise.space = image.space;
     precise.rgba.assign(image.rgba.begin(), image.rgba.end());
     return precise;
 }

@@ -13,7 +13,6 @@
 #include "image/coded_image.h"
 #include "image/difference.h"
 #include "lamina/image.h"
-#include "lamina/image_color_space.h"
 
 namespace lamina {
 

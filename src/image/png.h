@@ -11,7 +11,6 @@
 #include "base/output_file.h"
 #include "image/coded_image.h"
 #include "lamina/image.h"
-#include "lamina/image_color_space.h"
 
 namespace lamina {
 

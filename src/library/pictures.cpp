@@ -8,8 +8,7 @@
 #include "image/npy.h"
 #include "image/picture.h"
 #include "image/png.h"
-#include "lamina/picture_comparison.h"
-#include "lamina/picture_file.h"
+#include "lamina/image.h"
 
 namespace lamina {
 namespace {
@@ -27,6 +26,7 @@ void check_range(double range) {
 }  // namespace
 
 PictureComparison compare(const PreciseImage& a, const PreciseImage& b) {
+    check_spaces(a.space, b.space);
     return compared(difference(a, b));
 }
 
@@ -52,42 +52,45 @@ std::vector<std::uint8_t> difference_codes(std::span<const float> differences, d
 }
 
 LoadedPicture load_picture(const std::filesystem::path& file) {
-    LoadedImage image = load_image(file);
-    if (const auto* const pixels = std::get_if<Image>(&image.pixels))
-        return {to_double(*pixels), image.space};
-    if (auto* const pixels = std::get_if<PreciseImage>(&image.pixels))
-        return {std::move(*pixels), image.space};
-    fail("{}: holds codes over a background, expected .exr or .npy", file.string());
+    LoadedImage loaded = load_image(file);
+    LoadedPicture picture{{}, loaded.space};
+    if (const auto* const pixels = std::get_if<Image>(&loaded.pixels))
+        picture.image = to_double(*pixels);
+    else if (auto* const precise = std::get_if<PreciseImage>(&loaded.pixels))
+        picture.image = std::move(*precise);
+    else
+        fail("{}: holds codes over a background, expected .exr or .npy", file.string());
+    picture.image.space = picture.space.value_or(ImageColorSpace::linear);
+    return picture;
 }
 
 void save_picture(const Image& picture, const std::filesystem::path& file,
-                  const glm::dvec3& background, ImageColorSpace space,
+                  const glm::dvec3& background,
                   const std::map<std::string, std::string>& attributes) {
     const std::string suffix = file.extension().string();
     if (suffix != ".png" && suffix != ".exr" && suffix != ".npy")
         fail("{}: found the suffix \"{}\", expected .png, .exr or .npy", file.string(), suffix);
     AtomicFile output(file);
-    write_picture(output, picture, background, attributes, space);
+    write_picture(output, picture, background, attributes, picture.space);
     output.commit();
 }
 
 void save_picture(const PreciseImage& picture, const std::filesystem::path& file,
-                  const glm::dvec3& background, ImageColorSpace space,
+                  const glm::dvec3& background,
                   const std::map<std::string, std::string>& attributes) {
     if (file.extension() != ".npy")
-        return save_picture(to_float(picture), file, background, space, attributes);
+        return save_picture(to_float(picture), file, background, attributes);
     AtomicFile output(file);
     write_npy(output, picture);
     output.commit();
 }
 
-std::string picture_png(const Image& picture, const glm::dvec3& background, ImageColorSpace space) {
-    return encode_png(picture, background, space);
+std::string picture_png(const Image& picture, const glm::dvec3& background) {
+    return encode_png(picture, background, picture.space);
 }
 
-std::vector<std::uint8_t> screen_codes(const Image& picture, const glm::dvec3& background,
-                                       ImageColorSpace space) {
-    return png_codes(picture, background, space);
+std::vector<std::uint8_t> screen_codes(const Image& picture, const glm::dvec3& background) {
+    return png_codes(picture, background, picture.space);
 }
 
 }  // namespace lamina

@@ -14,7 +14,9 @@
 #include "mesh/face_tree.h"
 #include "mesh/predicates.h"
 #include "mesh/ray_walk.h"
+#include "reference/cell_walk.h"
 #include "reference/cells.h"
+#include "reference/chord.h"
 #include "reference/mesh_walk.h"
 #include "scene/scene.h"
 #include "volume/volume_store.h"
@@ -77,6 +79,8 @@ struct MeshField {
     }
 
     std::optional<FieldPoint> at(const glm::dvec3& position) const;
+    // `direction` has length 1.
+    std::vector<RaySegment> along(const glm::dvec3& origin, const glm::dvec3& direction) const;
 
   private:
     FieldPoint in_tet(const TetSegment& segment) const;
@@ -124,6 +128,53 @@ std::optional<FieldPoint> MeshField::at(const glm::dvec3& position) const {
     return in_tet(*nearest);
 }
 
+// Returns the segment, with the bounds of the values at corners: NaN if one is not finite.
+template <typename Values>
+RaySegment bounded(double begin, double end, const Values& values) {
+    if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
+        return {begin, end, no_number, no_number};
+    const auto [least, most] = std::ranges::minmax(values);
+    return {begin, end, least, most};
+}
+
+std::vector<RaySegment> MeshField::along(const glm::dvec3& origin,
+                                         const glm::dvec3& direction) const {
+    RayWalk walk(mesh.mesh, open_faces);
+    walk.aim(origin, direction);
+    std::vector<TetSegment> segments;
+    walk.list(segments);
+    std::vector<RaySegment> result;
+    for (const TetSegment& segment : segments) {
+        const double begin = std::max(segment.in.at, 0.0);
+        if (!(begin < segment.out.at)) continue;
+        std::array<double, 4> values;
+        std::ranges::transform(mesh.mesh.tets()[static_cast<std::size_t>(segment.tet)],
+                               values.begin(), [&](std::int32_t corner) {
+                                   return mesh.scalar.values[static_cast<std::size_t>(corner)];
+                               });
+        result.push_back(bounded(begin, segment.out.at, values));
+    }
+    return result;
+}
+
+// `direction` has length 1.
+std::vector<RaySegment> segments_in(const Volume& volume, const glm::dvec3& origin,
+                                    const glm::dvec3& direction) {
+    const Grid& grid = volume.grid();
+    const Chord chord = clip_to_box(grid, View::Ray{origin, direction});
+    const double entry = std::max(glm::dot(grid.to_world(chord.entry) - origin, direction), 0.0);
+    std::vector<RaySegment> result;
+    if (!(chord.length_z > 0)) return result;
+    visit_samples(volume, [&](const auto& samples) {
+        const CellSamples<std::remove_cvref_t<decltype(samples)>> cells(grid, samples);
+        CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
+            result.push_back(bounded(entry + from, entry + to, cells.corners(cell).v));
+            return true;
+        });
+    });
+    return result;
+}
+
 SceneMesh mesh_of(MeshData data, const std::string& scalar) {
     Scene scene;
     scene.scalar = scalar;
@@ -149,6 +200,15 @@ std::optional<FieldPoint> FieldSampler::at(const glm::dvec3& position) const {
     if (!place) return {};
     return visit_samples(
         volume, [&](const auto& samples) { return point_at(volume.grid(), samples, *place); });
+}
+
+std::vector<RaySegment> FieldSampler::along(const glm::dvec3& origin,
+                                            const glm::dvec3& direction) const {
+    const double length = glm::length(direction);
+    if (!(length > 0 && std::isfinite(length) && std::isfinite(norm1(origin)))) return {};
+    if (const auto* const mesh = std::get_if<MeshField>(&parts_->field))
+        return mesh->along(origin, direction / length);
+    return segments_in(std::get<Volume>(parts_->field), origin, direction / length);
 }
 
 }  // namespace lamina

@@ -16,7 +16,7 @@
 #include "base/error.h"
 #include "base/profile.h"
 #include "choice/value_distribution.h"
-#include "lamina/point_probe.h"
+#include "lamina/sampling.h"
 #include "lamina/scene.h"
 #include "mesh/face_tree.h"
 #include "reference/tracer.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lamina/tet.h"
+#include "lamina/mesh.h"
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
 

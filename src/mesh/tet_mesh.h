@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lamina/mesh_data.h"
-#include "lamina/tet.h"
+#include "lamina/mesh.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

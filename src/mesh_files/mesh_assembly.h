@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "lamina/mesh_data.h"
-#include "lamina/tet.h"
+#include "lamina/mesh.h"
 
 namespace lamina {
 

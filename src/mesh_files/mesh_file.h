@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/output_file.h"
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
 
 namespace lamina {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
 
 namespace lamina {
 

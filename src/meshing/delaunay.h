@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include "lamina/tet.h"
+#include "lamina/mesh.h"
 
 namespace lamina {
 

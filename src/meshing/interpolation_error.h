@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lamina/tet.h"
+#include "lamina/mesh.h"
 #include "lamina/transfer_function.h"
 #include "meshing/trilinear_field.h"
 

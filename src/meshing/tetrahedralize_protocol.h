@@ -4,7 +4,7 @@
 // Question (stdin):  int64 number of points n, n * 3 doubles (x, y, z).
 // Answer (stdout):   int64 number of tets m, m * 4 int32 corners, m * 4 int32 neighbours.
 //
-// Corners count from 0 and are positively oriented (lamina/tet.h); neighbour i is the tet opposite
+// Corners count from 0 and are positively oriented (lamina/mesh.h); neighbour i is the tet opposite
 // corner i, -1 on the hull. Points that equal an earlier one are in no tet. Without an answer of
 // that length the question has failed: the exit code is then not 0, and stderr says why.
 //

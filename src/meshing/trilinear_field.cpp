@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include "base/error.h"
 #include "base/parallel.h"
-#include "lamina/tet.h"
+#include "lamina/mesh.h"
 #include "volume/sample_source.h"
 #include "volume/volume_store.h"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lamina/mesh_data.h"
-#include "lamina/mesh_settings.h"
+#include "lamina/mesh.h"
 #include "meshing/delaunay.h"
 #include "meshing/interpolation_error.h"
 

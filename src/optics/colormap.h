@@ -7,8 +7,8 @@
 #include <optional>
 #include <string_view>
 #include "base/input_file.h"
-#include "lamina/colormap.h"
-#include "lamina/image_color_space.h"
+#include "lamina/color.h"
+#include "lamina/image.h"
 #include "lamina/transfer_function.h"
 #include "optics/opacity.h"
 

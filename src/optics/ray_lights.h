@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "lamina/lighting.h"
+#include "lamina/settings.h"
 
 namespace lamina {
 

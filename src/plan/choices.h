@@ -11,8 +11,8 @@
 #include "compositing/codes.h"
 #include "compositing/tree_shape.h"
 #include "facts/volume_facts.h"
-#include "lamina/lighting.h"
 #include "lamina/scene.h"
+#include "lamina/settings.h"
 #include "plan/capabilities.h"
 #include "preintegration/preintegration_table.h"
 

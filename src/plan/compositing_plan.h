@@ -4,9 +4,8 @@
 #include <optional>
 
 #include "compositing/codes.h"
-#include "lamina/emulation.h"
-#include "lamina/order.h"
 #include "lamina/scene.h"
+#include "lamina/settings.h"
 #include "plan/capabilities.h"
 
 namespace lamina {

@@ -10,10 +10,10 @@
 
 #include "base/client.h"
 #include "facts/mesh_facts.h"
-#include "lamina/error_figure.h"
-#include "lamina/grid.h"
 #include "lamina/image.h"
-#include "lamina/project_settings.h"
+#include "lamina/report.h"
+#include "lamina/settings.h"
+#include "lamina/volume.h"
 #include "plan/choices.h"
 #include "plan/compositing_plan.h"
 #include "scene/camera.h"

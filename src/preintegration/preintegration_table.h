@@ -12,7 +12,7 @@
 #include <mutex>
 #include <vector>
 
-#include "lamina/table_settings.h"
+#include "lamina/settings.h"
 #include "lamina/transfer_function.h"
 #include "optics/segment_integral.h"
 

@@ -3,7 +3,7 @@
 
 #include <glm/vec4.hpp>
 
-#include "lamina/tet.h"
+#include "lamina/mesh.h"
 #include "plan/plan.h"
 #include "projection/tet_projector.h"
 #include "scene/scene.h"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "facts/drawn_range.h"
-#include "lamina/lighting.h"
+#include "lamina/settings.h"
 #include "mesh/tet_mesh.h"
 #include "optics/pieces.h"
 #include "projection/screen_polygon.h"

@@ -13,7 +13,7 @@
 // are known, a packet of chords goes side by side and crosses blocks of invisible cells likewise.
 #pragma once
 
-#include "lamina/grid.h"
+#include "lamina/volume.h"
 #include "reference/cells.h"
 #include "reference/chord.h"
 #include "simd/lane_set.h"

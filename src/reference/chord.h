@@ -14,7 +14,7 @@
 #include <span>
 
 #include "base/arithmetic.h"
-#include "lamina/grid.h"
+#include "lamina/volume.h"
 #include "scene/camera.h"
 #include "scene/clip.h"
 

@@ -14,8 +14,7 @@
 
 #include "base/client.h"
 #include "lamina/image.h"
-#include "lamina/lighting.h"
-#include "lamina/picture_tile.h"
+#include "lamina/settings.h"
 #include "scene/camera.h"
 #include "scene/clip.h"
 

@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include "lamina/image.h"
-#include "lamina/point_probe.h"
+#include "lamina/sampling.h"
 #include "lamina/scene.h"
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"

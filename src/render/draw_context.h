@@ -5,8 +5,7 @@
 #include <string>
 
 #include "gl/context.h"
-#include "lamina/auto.h"
-#include "lamina/context_choice.h"
+#include "lamina/settings.h"
 #include "plan/capabilities.h"
 
 namespace lamina {

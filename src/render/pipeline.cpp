@@ -313,6 +313,7 @@ void Pipeline::read(Image& picture) {
         return;
     }
     in_context([&] { frames_->read(picture); });
+    picture.space = scene_.color_space;
 }
 
 void Pipeline::draw_quietly(Image& picture) {
@@ -329,6 +330,7 @@ void Pipeline::draw_quietly(Image& picture) {
         frame_ms_ = frame.end();
         Stage reading("read");
         drawing.read(picture);
+        picture.space = scene_.color_space;
         stages_ms_["read"] = reading.end();
         warn_of_scene();
         warn_of_all(drawing.warnings());
@@ -388,8 +390,10 @@ void Pipeline::check_data() {
 }
 
 TracedPicture Pipeline::traced_now(const TileDone& tile_done) {
-    return options_.trace_plainly ? plainly_traced_picture(scene_, data_)
-                                  : trace_picture(scene_, data_, tile_done);
+    TracedPicture made = options_.trace_plainly ? plainly_traced_picture(scene_, data_)
+                                                : trace_picture(scene_, data_, tile_done);
+    made.image.space = scene_.color_space;
+    return made;
 }
 
 const TracedPicture& Pipeline::trace(const TileDone& tile_done) {

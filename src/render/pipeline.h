@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "choice/choose.h"
-#include "lamina/context_choice.h"
-#include "lamina/frame_statistics.h"
 #include "lamina/image.h"
+#include "lamina/report.h"
 #include "lamina/scene.h"
+#include "lamina/settings.h"
 #include "reference/tiles.h"
 #include "render/draw_context.h"
 #include "render/scene_data.h"

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "choice/field.h"
-#include "lamina/frame_statistics.h"
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
+#include "lamina/report.h"
 #include "lamina/scene.h"
 #include "mesh/face_tree.h"
 #include "render/warnings.h"

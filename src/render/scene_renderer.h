@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "lamina/frame_statistics.h"
 #include "lamina/image.h"
+#include "lamina/report.h"
 #include "lamina/scene.h"
 #include "plan/capabilities.h"
 #include "plan/plan.h"

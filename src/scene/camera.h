@@ -8,8 +8,8 @@
 #include <glm/vec3.hpp>
 
 #include "lamina/camera.h"
-#include "lamina/grid.h"
 #include "lamina/transfer_function.h"
+#include "lamina/volume.h"
 #include "mesh/predicates.h"
 
 namespace lamina {

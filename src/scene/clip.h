@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "lamina/clip.h"
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
+#include "lamina/settings.h"
 #include "scene/scene.h"
 
 namespace lamina {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "lamina/colormap.h"
+#include "lamina/color.h"
 #include "lamina/scene.h"
 #include "lamina/transfer_function.h"
 #include "optics/opacity.h"

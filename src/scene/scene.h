@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "base/enum_words.h"
-#include "lamina/lighting.h"
-#include "lamina/mesh_settings.h"
-#include "lamina/project_settings.h"
+#include "lamina/mesh.h"
 #include "lamina/scene.h"
+#include "lamina/settings.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina {

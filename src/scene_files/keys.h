@@ -20,8 +20,8 @@
 #include "base/enum_words.h"
 #include "base/error.h"
 #include "base/json_text.h"
-#include "lamina/auto.h"
-#include "lamina/image_color_space.h"
+#include "lamina/image.h"
+#include "lamina/settings.h"
 
 namespace lamina {
 

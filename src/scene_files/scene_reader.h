@@ -5,8 +5,8 @@
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
-#include "lamina/data_files.h"
 #include "lamina/scene.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

@@ -6,7 +6,7 @@
 
 #include "base/enum_words.h"
 #include "facts/volume_facts.h"
-#include "lamina/grid.h"
+#include "lamina/volume.h"
 #include "scene/camera.h"
 #include "slicing/gradient_map.h"
 #include "volume/brick_cache.h"

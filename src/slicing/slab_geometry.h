@@ -10,8 +10,8 @@
 
 #include "compositing/tree_shape.h"
 #include "facts/volume_facts.h"
-#include "lamina/grid.h"
 #include "lamina/scene.h"
+#include "lamina/volume.h"
 #include "plan/plan.h"
 #include "scene/camera.h"
 #include "tiles/tile_image.h"

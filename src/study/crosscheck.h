@@ -10,7 +10,6 @@
 
 #include "image/difference.h"
 #include "lamina/image.h"
-#include "lamina/image_color_space.h"
 #include "plan/capabilities.h"
 #include "study/data_store.h"
 #include "study/study_frames.h"

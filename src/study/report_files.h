@@ -11,7 +11,6 @@
 #include "image/coded_image.h"
 #include "image/difference.h"
 #include "lamina/image.h"
-#include "lamina/image_color_space.h"
 
 namespace lamina::study {
 
@@ -63,8 +62,8 @@ std::string escaped_markup(const std::string& text);
 // cmake/EmbedFiles.cmake.
 std::span<const EmbeddedFile> embedded_report_files();
 
-// Returns one HTML page that shows a report (results.json of a study or a cross-check): page.html of
-// share/report with its style, its scripts and the report. It makes no network requests. Without
+// Returns one HTML page that shows a report (results.json of a study or a cross-check): page.html
+// of share/report with its style, its scripts and the report. It makes no network requests. Without
 // JavaScript it shows the title, the summary and the findings. Bytes that are not UTF-8 are U+FFFD
 // in it, and control characters \n, \t and \xNN. `report` has "title" and "findings": a list of
 // strings, or of {anchor, text} if the name of a section (letters, digits and _) leads to it. Its

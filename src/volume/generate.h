@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/output_file.h"
-#include "lamina/generator_request.h"
 #include "lamina/volume.h"
 
 namespace lamina {

@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include "base/enum_words.h"
-#include "lamina/grid.h"
 #include "lamina/volume.h"
 
 namespace lamina {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "lamina/volume.h"
-#include "lamina/volume_request.h"
 #include "volume_files/volume_opening.h"
 
 namespace lamina {

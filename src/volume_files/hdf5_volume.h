@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "base/value_type.h"
-#include "lamina/grid.h"
-#include "lamina/volume_request.h"
+#include "lamina/volume.h"
 #include "volume/sample_source.h"
 
 namespace lamina {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "lamina/grid.h"
+#include "lamina/volume.h"
 #include "volume_files/stored_samples.h"
 
 namespace lamina {

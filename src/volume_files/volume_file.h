@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "lamina/volume.h"
-#include "lamina/volume_request.h"
 #include "volume_files/volume_opening.h"
 
 namespace lamina {

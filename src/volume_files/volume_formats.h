@@ -11,7 +11,6 @@
 
 #include "base/value_type.h"
 #include "lamina/volume.h"
-#include "lamina/volume_request.h"
 #include "volume_files/volume_opening.h"
 
 namespace lamina {

@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "lamina/grid.h"
 #include "lamina/volume.h"
 #include "volume/sample_source.h"
 #include "volume_files/stored_data.h"

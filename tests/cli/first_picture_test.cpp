@@ -144,7 +144,8 @@ TEST_F(FirstPicture, TheSceneNamesDataBelowItFromThere) {
     const std::string name = std::filesystem::path(volume).filename();
     std::filesystem::create_directory(folder / "below");
     std::filesystem::copy_file(volume, folder / "below/v.nrrd");
-    run({"scene", folder / "below/v.nrrd", "-o", folder / "s.json", "--size", "160x120", "--quiet"});
+    run({"scene", folder / "below/v.nrrd", "-o", folder / "s.json", "--size", "160x120",
+         "--quiet"});
     EXPECT_EQ(document("s.json")["volume"], "below/v.nrrd");
     render(folder / "s.json", "a.exr");
     render(volume, "b.exr");

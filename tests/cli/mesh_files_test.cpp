@@ -160,7 +160,8 @@ TEST_F(MeshFiles, WhatIsLeftOutIsCounted) {
     const ProgramResult result =
         lamina_run({"render", path("q.json"), "-o", path("q.exr"), "--stats", path("stats.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_NE(result.err.find("1 quadratic cells are drawn with straight edges"), std::string::npos);
+    EXPECT_NE(result.err.find("1 quadratic cells are drawn with straight edges"),
+              std::string::npos);
     EXPECT_EQ(json::parse(read(path("stats.json")))["counts"]["straightened_cells"], 1);
 }
 

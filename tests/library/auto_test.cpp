@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamina/auto.h"
+#include "lamina/settings.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "lamina/color.h"
-#include "lamina/colormap.h"
 #include "support/expect_error.h"
 
 namespace lamina {

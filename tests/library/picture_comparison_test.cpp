@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamina/picture_comparison.h"
+#include "lamina/image.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "image/png.h"
-#include "lamina/picture_file.h"
 #include "lamina/session.h"
 #include "lamina/study.h"
 #include "support/expect_error.h"
@@ -64,9 +63,13 @@ TEST(PictureFiles, ComeBack) {
     const Image picture = to_float(precise);
     save_picture(precise, folder.path() / "a.npy");
     EXPECT_EQ(load_picture(folder.path() / "a.npy").image.rgba, precise.rgba);
-    save_picture(precise, folder.path() / "a.exr", {}, ImageColorSpace::display, {{"note", "x"}});
+    precise.space = ImageColorSpace::display;
+    save_picture(precise, folder.path() / "a.exr", {}, {{"note", "x"}});
     const LoadedPicture exr = load_picture(folder.path() / "a.exr");
     EXPECT_EQ(exr.space, ImageColorSpace::display);
+    EXPECT_EQ(exr.image.space, ImageColorSpace::display);
+    expect_error([&] { compare(exr.image, to_double(picture)); }, {"display", "linear"});
+    expect_error([&] { error_of(picture, exr.image); }, {"display", "linear"});
     EXPECT_EQ(to_float(exr.image).rgba, picture.rgba);
     save_picture(picture, folder.path() / "a.png", {0, 0, 1});
     EXPECT_EQ(compare_files(folder.path() / "a.npy", folder.path() / "a.npy").all.linf, 0);

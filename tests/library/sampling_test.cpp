@@ -113,6 +113,44 @@ TEST(Sampling, HasNoNumberBesideANan) {
     EXPECT_EQ(field.at(1.5 * step)->value, 1);
 }
 
+// Holds the segments of a ray against the field: they follow each other from `begin` to `end`, the
+// field between their ends lies in their bounds, and there is a segment for each cell.
+void expect_covered(const FieldSampler& field, const glm::dvec3& origin,
+                    const glm::dvec3& direction, double begin, double end) {
+    const std::vector<RaySegment> segments = field.along(origin, 3.0 * direction);
+    ASSERT_FALSE(segments.empty());
+    EXPECT_NEAR(segments.front().begin, begin, tolerance);
+    EXPECT_NEAR(segments.back().end, end, tolerance);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const RaySegment& segment = segments[i];
+        EXPECT_LT(segment.begin, segment.end);
+        if (i > 0) {
+            EXPECT_NEAR(segment.begin, segments[i - 1].end, tolerance);
+        }
+        for (const double share : {0., .3, 1.}) {
+            const double t = segment.begin + share * (segment.end - segment.begin);
+            EXPECT_GE(linear(origin + t * direction), segment.least - tolerance);
+            EXPECT_LE(linear(origin + t * direction), segment.most + tolerance);
+        }
+    }
+}
+
+TEST(Sampling, FollowsARayThroughCellsAndTets) {
+    // The grid's x axis is the world's y: 4 cells of .5 from y = -2 on.
+    const FieldSampler volume(linear_volume(Centering::node));
+    const glm::dvec3 y(0, 1, 0);
+    expect_covered(volume, {.7, -3, 5.5}, y, 1, 3);
+    EXPECT_EQ(volume.along({.7, -3, 5.5}, y).size(), 4u);
+    expect_covered(volume, {.7, -1.2, 5.5}, y, 0, 1.2);  // from inside
+    EXPECT_TRUE(volume.along({.7, 3, 5.5}, y).empty());
+    const FieldSampler mesh(test::kuhn_box({2, 2, 2}, linear));
+    // From x = -1 to the box 0..2 and through it.
+    const glm::dvec3 slanted(1, .2, .3);
+    const double length = glm::length(slanted);
+    expect_covered(mesh, {-1, .45, .35}, slanted / length, length, 3 * length);
+    EXPECT_TRUE(mesh.along({.5, .5, .5}, {0, 0, 0}).empty());
+}
+
 TEST(Sampling, NamesAScalarThatIsNotThere) {
     EXPECT_THROW(FieldSampler(test::kuhn_box({1, 1, 1}, linear), "heat"), Error);
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 
-#include "lamina/camera_choice.h"
-#include "lamina/data_files.h"
-#include "lamina/mesh_making.h"
+#include "lamina/mesh.h"
 #include "lamina/session.h"
+#include "lamina/volume.h"
 #include "support/expect_error.h"
 #include "support/split_box.h"
 #include "support/temporary_folder.h"

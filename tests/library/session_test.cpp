@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "lamina/error.h"
-#include "lamina/error_norms.h"
+#include "lamina/image.h"
 #include "support/expect_error.h"
 #include "support/split_box.h"
 #include "support/temporary_folder.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lamina/lighting.h"
+#include "lamina/settings.h"
 #include "mesh/ray_walk.h"
 #include "mesh_files/mesh_file.h"
 #include "projection/projection_fixture.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fixtures.h"
-#include "lamina/lighting.h"
+#include "lamina/settings.h"
 
 namespace lamina::reference_test {
 

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
 
 namespace lamina::test {
 

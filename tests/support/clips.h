@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lamina/clip.h"
+#include "lamina/settings.h"
 #include "scene/camera.h"
 
 namespace lamina::test {

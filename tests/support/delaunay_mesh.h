@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
 
 namespace lamina::test {
 

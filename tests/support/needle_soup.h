@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
 
 namespace lamina::test {
 

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <random>
 
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
 #include "mesh/predicates.h"
 
 namespace lamina::test {

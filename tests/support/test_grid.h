@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
 #include "mesh_files/mesh_assembly.h"
 
 namespace lamina::testing {

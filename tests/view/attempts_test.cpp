@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lamina/error.h"
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 #include "model/document.h"
 #include "model/factors_text.h"
 #include "support/temporary_folder.h"

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lamina/picture_comparison.h"
-#include "lamina/picture_file.h"
+#include "lamina/image.h"
 
 namespace lamina::view {
 namespace {

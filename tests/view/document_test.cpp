@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lamina/error.h"
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 
 namespace lamina::view {
 namespace {

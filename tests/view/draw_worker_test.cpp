@@ -10,8 +10,8 @@
 #include <mutex>
 #include <vector>
 
-#include "lamina/data_files.h"
-#include "lamina/picture_file.h"
+#include "lamina/image.h"
+#include "lamina/volume.h"
 #include "model/navigator.h"
 #include "support/temporary_folder.h"
 

@@ -4,16 +4,17 @@
 #include <gtest/gtest.h>
 
 #include "lamina/error.h"
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 
 namespace lamina::view {
 namespace {
 
 Scene scene_of(const std::string& render) {
-    return parse_scene(R"({"version": 1, "volume": {"generate": "gaussians"}, "mesh": {"kuhn": true},
+    return parse_scene(
+        R"({"version": 1, "volume": {"generate": "gaussians"}, "mesh": {"kuhn": true},
                            "render": )" +
-                           render + "}",
-                       "scene.json");
+            render + "}",
+        "scene.json");
 }
 
 TEST(FactorsText, IsWhatSceneFilesHave) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 #include "lamina/session.h"
 
 namespace lamina::view {

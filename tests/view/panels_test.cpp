@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 #include "panels/help_window.h"
 #include "panels/panel.h"
 #include "view/headless_imgui.h"

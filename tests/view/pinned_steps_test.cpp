@@ -6,8 +6,8 @@
 #include <fstream>
 #include <set>
 
-#include "lamina/picture_file.h"
-#include "lamina/scene_text.h"
+#include "lamina/image.h"
+#include "lamina/scene.h"
 #include "lamina/session.h"
 #include "model/frame_history.h"
 #include "support/temporary_folder.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 #include "model/frame_history.h"
 #include "panels/attempts_panel.h"
 #include "panels/comparison_panel.h"

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 #include "model/scene_keys.h"
 #include "view/headless_imgui.h"
 

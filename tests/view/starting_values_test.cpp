@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 #include "model/scene_keys.h"
 
 namespace lamina::view {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <random>
 
-#include "lamina/colormap.h"
+#include "lamina/color.h"
 #include "lamina/error.h"
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 
 namespace lamina::view {
 namespace {

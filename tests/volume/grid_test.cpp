@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lamina/grid.h"
+#include "lamina/volume.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "expect_boxes.h"
-#include "lamina/memory.h"
+#include "lamina/volume.h"
 #include "support/expect_error.h"
 #include "support/heard_warnings.h"
 #include "support/temporary_folder.h"

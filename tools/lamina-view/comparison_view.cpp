@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "lamina/picture_comparison.h"
+#include "lamina/image.h"
 #include "panels/theme.h"
 
 namespace lamina::view {

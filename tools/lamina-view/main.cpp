@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "lamina/context_choice.h"
+#include "lamina/settings.h"
 #include "window.h"
 
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "lamina/error.h"
-#include "lamina/picture_file.h"
+#include "lamina/image.h"
 #include "panels/theme.h"
 #include "script_player.h"
 #include "viewer.h"
@@ -301,6 +301,7 @@ void Window::write_screenshot(int width, int height) {
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, codes.data());
     Image picture(width, height);
+    picture.space = ImageColorSpace::display;
     for (int row = 0; row < height; ++row) {
         const std::uint8_t* const from = &codes[4 * static_cast<std::size_t>(height - 1 - row) *
                                                 static_cast<std::size_t>(width)];
@@ -308,7 +309,7 @@ void Window::write_screenshot(int width, int height) {
                        [](std::uint8_t code) { return static_cast<float>(code) / 255; });
         for (int column = 0; column < width; ++column) picture.pixel(column, row)[3] = 1;
     }
-    save_picture(picture, std::exchange(screenshot_, {}), glm::dvec3(0), ImageColorSpace::display);
+    save_picture(picture, std::exchange(screenshot_, {}));
 }
 
 }  // namespace lamina::view

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "image/coded_image.h"
-#include "lamina/volume_request.h"
+#include "lamina/volume.h"
 #include "volume/value_statistics.h"
 
 namespace lamina {

@@ -16,7 +16,6 @@
 #include "base/output_file.h"
 #include "data_series.h"
 #include "lamina/image.h"
-#include "lamina/image_color_space.h"
 #include "output_files.h"
 #include "render/pipeline.h"
 #include "render_stats.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lamina/frame_statistics.h"
+#include "lamina/report.h"
 #include "plan/plan.h"
 
 namespace lamina {

@@ -10,7 +10,7 @@
 
 #include "choice/choose.h"
 #include "lamina/scene.h"
-#include "lamina/volume_request.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

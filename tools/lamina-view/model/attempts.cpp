@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 #include "model/comparison.h"
 
 namespace lamina::view {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lamina/error_norms.h"
-#include "lamina/frame_statistics.h"
+#include "lamina/image.h"
+#include "lamina/report.h"
 #include "lamina/scene.h"
 
 namespace lamina::view {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "lamina/error_norms.h"
 #include "lamina/image.h"
 #include "lamina/scene.h"
 #include "work/shown.h"

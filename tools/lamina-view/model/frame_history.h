@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "lamina/frame_statistics.h"
+#include "lamina/report.h"
 #include "model/attempts.h"
 #include "model/comparison.h"
 #include "model/document.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lamina/camera.h"
-#include "lamina/grid.h"
-#include "lamina/point_probe.h"
+#include "lamina/sampling.h"
+#include "lamina/volume.h"
 #include "model/document.h"
 
 namespace lamina::view {

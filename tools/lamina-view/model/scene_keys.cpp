@@ -8,7 +8,7 @@
 
 #include "lamina/color.h"
 #include "lamina/error.h"
-#include "lamina/scene_text.h"
+#include "lamina/scene.h"
 
 namespace lamina::view {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lamina/image_color_space.h"
+#include "lamina/image.h"
 #include "lamina/scene.h"
 
 namespace lamina::view {

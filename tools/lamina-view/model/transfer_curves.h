@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lamina/colormap.h"
+#include "lamina/color.h"
 #include "lamina/transfer_function.h"
 
 namespace lamina::view {

@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "lamina/colormap.h"
-#include "lamina/image_color_space.h"
+#include "lamina/color.h"
+#include "lamina/image.h"
 #include "lamina/transfer_function.h"
 #include "model/transfer_curves.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "lamina/grid.h"
 #include "lamina/scene.h"
+#include "lamina/volume.h"
 #include "model/scene_keys.h"
 
 namespace lamina::view {

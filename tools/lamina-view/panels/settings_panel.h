@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "lamina/image_color_space.h"
+#include "lamina/image.h"
 #include "model/scene_keys.h"
 #include "panels/panel.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "lamina/image_color_space.h"
-#include "lamina/value_histogram.h"
+#include "lamina/image.h"
+#include "lamina/report.h"
 #include "model/transfer_curves.h"
 #include "model/transfer_editor.h"
 

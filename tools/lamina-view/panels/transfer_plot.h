@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "lamina/image_color_space.h"
-#include "lamina/value_histogram.h"
+#include "lamina/image.h"
+#include "lamina/report.h"
 #include "model/transfer_editor.h"
 #include "panels/transfer_drawing.h"
 

@@ -5,8 +5,8 @@
 #include <exception>
 #include <utility>
 
-#include "lamina/picture_file.h"
-#include "lamina/scene_text.h"
+#include "lamina/image.h"
+#include "lamina/scene.h"
 
 namespace lamina::view {
 namespace {
@@ -18,9 +18,9 @@ void write(const std::filesystem::path& file, const Shown& shown) {
                                                            {"plan", shown.explanation},
                                                            {"renderer", shown.statistics.drawn_by}};
     if (scene.method == Method::trace)
-        save_picture(*shown.truth, file, scene.background, scene.color_space, attributes);
+        save_picture(*shown.truth, file, scene.background, attributes);
     else
-        save_picture(*shown.full, file, scene.background, scene.color_space, attributes);
+        save_picture(*shown.full, file, scene.background, attributes);
 }
 
 }  // namespace

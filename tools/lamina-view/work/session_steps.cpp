@@ -12,9 +12,8 @@
 #include <utility>
 
 #include "lamina/error.h"
-#include "lamina/picture_file.h"
-#include "lamina/picture_tile.h"
-#include "lamina/scene_text.h"
+#include "lamina/image.h"
+#include "lamina/scene.h"
 #include "model/comparison.h"
 
 namespace lamina::view {
@@ -65,13 +64,14 @@ TracedPicture::TracedPicture(std::shared_ptr<const Image> full,
 
 void TracedPicture::add(const PictureTile& tile, const PreciseImage& truth) {
     Image traced(tile.width, tile.height);
+    traced.space = space_;
     for (int row = 0; row < tile.height; ++row) {
         const double* const from = truth.pixel(tile.column, tile.row + row);
         std::transform(from, from + 4 * tile.width, traced.pixel(0, row),
                        [](double number) { return static_cast<float>(number); });
         if (full_) measure(tile, traced, row);
     }
-    const std::vector<std::uint8_t> codes = screen_codes(traced, background_, space_);
+    const std::vector<std::uint8_t> codes = screen_codes(traced, background_);
     const auto line = static_cast<std::ptrdiff_t>(3 * tile.width);
     for (std::ptrdiff_t row = 0; row < tile.height; ++row) {
         const std::ptrdiff_t to =
@@ -134,7 +134,7 @@ std::shared_ptr<const ScreenPicture> screen_of(const Image& picture, const Scene
     auto screen = std::make_shared<ScreenPicture>();
     screen->width = picture.width;
     screen->height = picture.height;
-    screen->rgb = screen_codes(picture, scene.background, scene.color_space);
+    screen->rgb = screen_codes(picture, scene.background);
     return screen;
 }
 

@@ -8,14 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "lamina/error_norms.h"
-#include "lamina/frame_statistics.h"
-#include "lamina/grid.h"
 #include "lamina/image.h"
-#include "lamina/plan_summary.h"
-#include "lamina/point_probe.h"
+#include "lamina/report.h"
+#include "lamina/sampling.h"
 #include "lamina/scene.h"
-#include "lamina/value_histogram.h"
+#include "lamina/volume.h"
 #include "model/document.h"
 
 namespace lamina::view {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "lamina/clip.h"
-#include "lamina/mesh_data.h"
+#include "lamina/mesh.h"
 #include "lamina/scene.h"
+#include "lamina/settings.h"
 #include "lamina/volume.h"
 #include "scene/camera.h"
 #include "selftest/pixel_bounds.h"

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "lamina/lighting.h"
+#include "lamina/settings.h"
 #include "lamina/transfer_function.h"
 #include "selftest/layered_box.h"
 #include "selftest/pixel_bounds.h"

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lamina/error.h"
+#include "lamina/scene.h"
+
+namespace lamina {
+
+// Evidence for the figure of a picture's error.
+enum class ErrorKind {
+    unknown,  // nothing was measured for a setting of the scene, or the mesh overlaps itself
+    derived,  // a bound: no pixel is worse
+    trials,   // measured on rays of the view that were traced, or drawn with finer settings
+    sampled   // measured on those rays of the view and tets of the mesh that promise the worst
+};
+// Returns the word in statistics: "unknown", "derived", "trials" or "sampled".
+LAMINA_API const char* name_of(ErrorKind kind);
+
+// Largest error of any pixel and channel of a picture against the truth, in 1/255. Only a derived
+// figure is a bound. Other figures are exceeded in at most one of 1000 pictures, and then at most
+// 1.5 times (tools/fuzz_scenes tests that).
+struct ErrorFigure {
+    ErrorKind kind = ErrorKind::unknown;
+    double value = 0;       // 0 if unknown
+    std::int64_t rays = 0;  // number of rays of trials and samples
+
+    // Returns the value, or nothing if it is unknown.
+    std::optional<double> known() const {
+        return kind == ErrorKind::unknown ? std::nullopt : std::optional(value);
+    }
+    friend bool operator==(const ErrorFigure&, const ErrorFigure&) = default;
+};
+
+// Returns a text: "at most 0.05 / 255", "0.9 / 255 by trials on 1024 rays", "0.06 / 255, sampled on
+// 1024 rays", or "unknown".
+LAMINA_API std::string text_of(const ErrorFigure& error);
+
+// Short account of what runs for a picture.
+struct PlanSummary {
+    // Something that the scene does not need, and why it may be left out.
+    struct LeftOut {
+        std::string name, reason;
+    };
+
+    Method method = Method::slice;
+    Target target = Target::float32;
+    int slabs = 0;  // number of slabs of slicing
+    // Error of the picture, with the rounding of compositing; below 255.
+    ErrorFigure error;
+    std::vector<LeftOut> left_out;
+};
+
+// Cost of a picture, and what was counted on the way (docs/stats.md has the names).
+struct FrameStatistics {
+    std::string drawn_by;                     // the renderer, and its threads if they are known
+    double draw_ms = 0;                       // all of draw()
+    std::map<std::string, double> stages_ms;  // time of each stage when it last ran
+    std::int64_t fragments = 0;  // segments of rays that were composited; 0: not counted
+    std::int64_t bytes = 0;      // memory beside the data itself
+    double trace_error = 0;      // the tracer's estimate of its error, in 1/255
+
+    std::string renderer;         // drawn_by without its threads
+    bool native = false;          // the native engine drew
+    int slabs = 0;                // number of slabs of the method slice
+    std::int64_t tets_drawn = 0;  // tets that cover the centre of a pixel
+    std::int64_t bytes_gpu = 0;   // OpenGL memory, with the data
+    // Error of a mesh that was made from a volume, as a share of the volume's range of values.
+    std::optional<double> mesh_error;
+    std::map<std::string, std::int64_t> counts;  // what was clamped, skipped, dropped, ...
+};
+
+// Distribution of the data's values, by volume: the share shares[i] of all finite values lies in
+// interval i. The intervals are equally wide and reach from `lo` to `hi`.
+struct ValueHistogram {
+    double lo = 0, hi = 0;
+    double least = 0, most = 0;  // the finite values' range
+    std::vector<double> shares;  // >= 0, their sum is 1; empty if no value is finite
+};
+
+}  // namespace lamina
