@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# How every target of the project is made: one library a room, one test program a room.
+# How every target of the project is made: one library a module, one test program a module.
 
 include(CheckCXXSourceCompiles)
 
@@ -35,9 +35,9 @@ if(NOT LAMINA_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|Mi
     endif()
 endif()
 
-# lamina_room(NAME SOURCES ... LINK rooms and libraries ...): a folder in src or, of a program's own, in that program's
+# lamina_module(NAME SOURCES ... LINK modules and libraries ...): a folder in src or, of a program's own, in that program's
 # folder. Files include what it has as "NAME/FILE.h".
-function(lamina_room name)
+function(lamina_module name)
     cmake_parse_arguments(ROOM "" "" "SOURCES;LINK" ${ARGN})
     add_library(lamina_${name} STATIC ${ROOM_SOURCES})
     target_include_directories(lamina_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
@@ -75,9 +75,9 @@ function(lamina_test name)
         PROPERTIES TIMEOUT 300)
 endfunction()
 
-# Sources of this room are compiled once for each instruction set (src/simd/foreach_target.h). The least of them is
+# Sources of this module are compiled once for each instruction set (src/simd/foreach_target.h). The least of them is
 # taken for granted, so that there is no version without vectors.
-function(lamina_vector_room name)
+function(lamina_vector_module name)
     target_link_libraries(lamina_${name} PUBLIC hwy::hwy)
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
         target_compile_options(lamina_${name} PUBLIC -msse4.2)

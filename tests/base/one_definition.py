@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Looks through the rooms for what C++ takes in silence: two definitions of one name, and functions of one name in two
-rooms of which a call may take the other.
+"""Looks through the modules for what C++ takes in silence: two definitions of one name, and functions of one name in two
+modules of which a call may take the other.
 
     one_definition.py --source DIR liblamina_base.a liblamina_image.a ...
 
@@ -27,15 +27,15 @@ ARITHMETIC = {
 
 
 class Symbol(NamedTuple):
-    room: str
+    module: str
     size: int
     kind: str  # as nm has it: T, W, V, ...
     name: str  # mangled
 
 
 class Function(NamedTuple):
-    place: str  # a room, or a header
-    room: str
+    place: str  # a module, or a header
+    module: str
     name: str  # qualified
     parameters: tuple
     symbol: str  # mangled, "" in headers
@@ -70,11 +70,11 @@ def free_function(symbol, demangled):
     found = re.fullmatch(r"((?:lamina::)(?:[a-z]\w*::|N_\w+::)*[a-z]\w*)(?:\[abi:\w+\])?\((.*)\)", demangled)
     if not found:
         return None
-    return Function(f"lamina_{symbol.room}", symbol.room, found[1],
+    return Function(f"lamina_{symbol.module}", symbol.module, found[1],
                     tuple(type_of(part) for part in parts_of(found[2])), symbol.name)
 
 
-def functions_in_header(path, room, text):
+def functions_in_header(path, module, text):
     """Free functions that a header defines: such definitions begin a line in this code."""
     text = re.sub(r"//.*", "", text)
     namespace, found = "", []
@@ -86,7 +86,7 @@ def functions_in_header(path, room, text):
         else:
             parts = [part.split("=")[0].strip() for part in parts_of(match[3])]
             parameters = tuple(type_of(re.sub(r"(?<=[\w&*> ])\b\w+$", "", part)) for part in parts)
-            found.append(Function(path, room, f"{namespace}::{match[2]}", parameters, ""))
+            found.append(Function(path, module, f"{namespace}::{match[2]}", parameters, ""))
     return found
 
 
@@ -105,12 +105,12 @@ def twice_defined(symbols, names):
         by_name.setdefault(symbol.name, []).append(symbol)
     for name, several in by_name.items():
         strong = [symbol for symbol in several if symbol.kind in "TDBR"]
-        rooms = ", ".join(sorted({symbol.room for symbol in several}))
+        modules = ", ".join(sorted({symbol.module for symbol in several}))
         data = {symbol.size for symbol in several if symbol.kind in "VuDBR"}
         if len(strong) > 1 or (strong and len(several) > 1):
-            findings.append(f"{names[name]} is defined more than once: {rooms}")
+            findings.append(f"{names[name]} is defined more than once: {modules}")
         elif len(data) > 1:
-            findings.append(f"{names[name]} has several sizes: {rooms}")
+            findings.append(f"{names[name]} has several sizes: {modules}")
     return findings
 
 
@@ -118,7 +118,7 @@ def overlapping(functions):
     findings = []
     for name, several in same_names(functions):
         for a, b in itertools.combinations(sorted(set(several)), 2):
-            if a.room != b.room and a.symbol != b.symbol and overlap(a.parameters, b.parameters):
+            if a.module != b.module and a.symbol != b.symbol and overlap(a.parameters, b.parameters):
                 findings.append(f"{name}({', '.join(a.parameters)}) in {a.place} and "
                                 f"{name}({', '.join(b.parameters)}) in {b.place}: a call may take the other")
     return findings
@@ -140,13 +140,13 @@ def demangled(names):
 
 
 def symbols_of(nm, archive):
-    room = pathlib.Path(archive).stem.removeprefix("liblamina_")
+    module = pathlib.Path(archive).stem.removeprefix("liblamina_")
     answer = subprocess.run([nm, "--defined-only", "-P", archive], capture_output=True, text=True, check=True)
     found = []
     for line in answer.stdout.splitlines():
         fields = line.split()  # name, kind, value, size
         if len(fields) >= 3 and re.match(r"_Z\w*?6lamina", fields[0]) and fields[1] in "TDBRWVu":
-            found.append(Symbol(room, int(fields[3], 16) if len(fields) > 3 else 0, fields[1], fields[0]))
+            found.append(Symbol(module, int(fields[3], 16) if len(fields) > 3 else 0, fields[1], fields[0]))
     return found
 
 
@@ -170,7 +170,7 @@ def check_itself():
     assert found([("a", 8, "W", sum_int), ("b", 9, "W", sum_int)]) == 0
     assert found([("a", 8, "V", "_ZTVN6lamina5ShapeE"), ("b", 16, "V", "_ZTVN6lamina5ShapeE")]) == 1
     assert found([("a", 8, "T", sum_int), ("b", 8, "T", sum_double)]) == 1
-    assert found([("a", 8, "T", sum_int), ("a", 8, "T", sum_double)]) == 0  # one room sees both
+    assert found([("a", 8, "T", sum_int), ("a", 8, "T", sum_double)]) == 0  # one module sees both
     assert found([("a", 8, "T", sum_int), ("b", 8, "T", "_ZN6lamina3sumEid")]) == 0
     assert found([("a", 8, "T", sum_int), ("b", 8, "T", "_ZN6lamina5study3sumEi")]) == 0
     assert found([("a", 8, "T", "_ZN6lamina3sumENS_5ShapeE"), ("b", 8, "T", "_ZN6lamina3sumERKNS_5ShapeE")]) == 1
@@ -195,14 +195,14 @@ def main():
     check_itself()
     missing = [archive for archive in options.archives if not pathlib.Path(archive).exists()]
     if missing:
-        print(f"not built, build all rooms first: {', '.join(missing)}")
+        print(f"not built, build all modules first: {', '.join(missing)}")
         return 1
     symbols = [symbol for archive in options.archives for symbol in symbols_of(options.nm, archive)]
     headers = []
     for folder in ("include", "src", "tools/lamina", "tools/lamina-mpi"):
         for path in sorted((options.source / folder).glob("*/**/*.h")):
-            room = path.relative_to(options.source / folder).parts[0]
-            headers += functions_in_header(str(path.relative_to(options.source)), room, path.read_text())
+            module = path.relative_to(options.source / folder).parts[0]
+            headers += functions_in_header(str(path.relative_to(options.source)), module, path.read_text())
     if len(symbols) < 1000 or len(headers) < 250:  # an empty answer would hide everything
         print(f"found {len(symbols)} symbols of lamina and {len(headers)} definitions in headers, expected more")
         return 1

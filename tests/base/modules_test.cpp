@@ -24,15 +24,17 @@ std::vector<std::string> words_of(const char* text) {
     return {std::istream_iterator<std::string>(words), {}};
 }
 
-// Lowest first: a room includes only itself and the rooms before it. src/CMakeLists.txt lists them.
-const std::vector<std::string> rooms = words_of(LAMINA_ROOMS);
+// Lowest first: a module includes only itself and the modules before it. src/CMakeLists.txt lists
+// them.
+const std::vector<std::string> modules = words_of(LAMINA_MODULES);
 const fs::path source = LAMINA_SOURCE_DIR;
 
-std::size_t height_of(const std::string& room) {
-    return static_cast<std::size_t>(std::find(rooms.begin(), rooms.end(), room) - rooms.begin());
+std::size_t height_of(const std::string& module) {
+    return static_cast<std::size_t>(std::find(modules.begin(), modules.end(), module) -
+                                    modules.begin());
 }
-bool is_room(const std::string& name) {
-    return height_of(name) < rooms.size();
+bool is_module(const std::string& name) {
+    return height_of(name) < modules.size();
 }
 
 std::vector<fs::path> files_under(const std::vector<std::string>& folders) {
@@ -46,8 +48,8 @@ std::vector<fs::path> files_under(const std::vector<std::string>& folders) {
     return files;
 }
 
-// Folders of rooms: those of the library, and those that belong to one program.
-std::vector<std::string> room_folders() {
+// Folders of modules: those of the library, and those that belong to one program.
+std::vector<std::string> module_folders() {
     std::vector<std::string> folders;
     for (const char* const parent : {"src", "tools/lamina", "tools/lamina-mpi"}) {
         for (const auto& entry : fs::directory_iterator(source / parent)) {
@@ -67,30 +69,31 @@ std::vector<std::string> all_matches(const std::string& text, const char* patter
     return found;
 }
 
-std::string room_of(const std::string& include) {
+std::string module_of(const std::string& include) {
     return include.substr(0, include.find('/'));
 }
 
-// What a file of the room includes, or its CMakeLists.txt links, against the rules; one line
+// What a file of the module includes, or its CMakeLists.txt links, against the rules; one line
 // each.
-std::vector<std::string> wrong_includes(const std::string& room, const std::string& file_name,
+std::vector<std::string> wrong_includes(const std::string& module, const std::string& file_name,
                                         const std::string& text) {
     std::vector<std::string> wrong;
     const bool may_use_gl =
-        room == "gl" || ((room == "executors" || room == "slicing" || room == "projection") &&
-                         file_name.starts_with("gl_"));
+        module == "gl" ||
+        ((module == "executors" || module == "slicing" || module == "projection") &&
+         file_name.starts_with("gl_"));
     for (const std::string& include : all_matches(text, R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])")) {
         if (include == "glad/gl.h" && !may_use_gl) wrong.push_back(include);
     }
     for (const std::string& include : all_matches(text, R"(^\s*#\s*include\s*"([^"]+)\")")) {
         if (include == "glad/gl.h") continue;
-        const std::string other = room_of(include);
-        if (other == "lamina") continue;  // include/lamina: below all rooms
-        if (!is_room(other) || height_of(other) > height_of(room)) wrong.push_back(include);
+        const std::string other = module_of(include);
+        if (other == "lamina") continue;  // include/lamina: below all modules
+        if (!is_module(other) || height_of(other) > height_of(module)) wrong.push_back(include);
     }
     if (file_name == "CMakeLists.txt") {
         for (const std::string& other : all_matches(text, R"(\blamina_([a-z_]+)\b)")) {
-            if (is_room(other) && height_of(other) > height_of(room)) {
+            if (is_module(other) && height_of(other) > height_of(module)) {
                 wrong.push_back("lamina_" + other);
             }
         }
@@ -141,7 +144,7 @@ bool is_code(const fs::path& path) {
     return suffix.empty() || std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end();
 }
 
-TEST(Rooms, TheCheckItselfSeesViolations) {
+TEST(Modules, TheCheckItselfSeesViolations) {
     using Wrong = std::vector<std::string>;
     EXPECT_EQ(wrong_includes("image", "a.h", "#include \"slicing/x.h\"\n"), Wrong{"slicing/x.h"});
     EXPECT_EQ(wrong_includes("image", "a.h", "\n  # include \"scene/x.h\"\n"), Wrong{"scene/x.h"});
@@ -156,27 +159,27 @@ TEST(Rooms, TheCheckItselfSeesViolations) {
     EXPECT_EQ(wrong_includes("gl", "texture.h", "#include <glad/gl.h>\n"), Wrong{});
     EXPECT_EQ(wrong_includes("scene", "gl_facts.h", "#include <glad/gl.h>\n"), Wrong{"glad/gl.h"});
     EXPECT_EQ(
-        wrong_includes("optics", "CMakeLists.txt", "lamina_room(x LINK lamina_gl lamina_base)"),
+        wrong_includes("optics", "CMakeLists.txt", "lamina_module(x LINK lamina_gl lamina_base)"),
         Wrong{"lamina_gl"});
 }
 
-TEST(Rooms, IncludeOnlyThemselvesAndLowerRooms) {
+TEST(Modules, IncludeOnlyThemselvesAndLowerRooms) {
     int seen = 0;
     std::set<std::string> found;
-    for (const std::string& folder : room_folders()) {
-        const std::string room = fs::path(folder).filename();
-        EXPECT_TRUE(is_room(room)) << folder << " is not a room of the list";
-        EXPECT_TRUE(found.insert(room).second) << folder << " has the name of another room";
+    for (const std::string& folder : module_folders()) {
+        const std::string module = fs::path(folder).filename();
+        EXPECT_TRUE(is_module(module)) << folder << " is not a module of the list";
+        EXPECT_TRUE(found.insert(module).second) << folder << " has the name of another module";
         for (const fs::path& file : files_under({folder})) {
             ++seen;
             for (const std::string& wrong :
-                 wrong_includes(room, file.filename(), read_bytes_of(file))) {
+                 wrong_includes(module, file.filename(), read_bytes_of(file))) {
                 ADD_FAILURE() << file << " may not use " << wrong;
             }
         }
     }
     EXPECT_GT(seen, 20);
-    EXPECT_EQ(found.size(), rooms.size());
+    EXPECT_EQ(found.size(), modules.size());
 }
 
 // What a text has of Highway that only the module simd may name. HWY_TARGET_TOGGLE guards headers
@@ -203,7 +206,7 @@ TEST(Simd, IsTheOnlyModuleThatNamesHighway) {
     for (const fs::path& file : files_under({"include", "src", "python", "tools", "tests"})) {
         const std::string name = fs::relative(file, source).generic_string();
         if (name.starts_with("src/simd/") || name.starts_with("tools/lab/measure_cpu/") ||
-            name == "tests/base/rooms_test.cpp" ||
+            name == "tests/base/modules_test.cpp" ||
             !(name.ends_with(".h") || name.ends_with(".cpp")))
             continue;
         for (const std::string& word : highway_words(read_bytes_of(file)))
@@ -247,7 +250,7 @@ TEST(PythonModule, IncludesPublicHeadersAndItsOwn) {
     for (const fs::path& file : files_under({"python/src"})) {
         for (const std::string& include :
              all_matches(read_bytes_of(file), R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])")) {
-            EXPECT_FALSE(is_room(room_of(include))) << file << " includes " << include;
+            EXPECT_FALSE(is_module(module_of(include))) << file << " includes " << include;
         }
     }
 }
