@@ -209,19 +209,32 @@ std::string temporary_folder() {
     return named != nullptr && *named != '\0' ? named : "/tmp";
 }
 
-PipedFile::PipedFile() : OutputFile("stdout") {
+TemporaryFile::TemporaryFile() {
     const int descriptor = open_nameless(temporary_folder());
-    if (descriptor >= 0) stream_ = fdopen(descriptor, "w+b");
+    if (descriptor < 0) fail_temporary(errno);
+    stream_ = fdopen(descriptor, "w+b");
     if (stream_ != nullptr) return;
     const int error = errno;
-    if (descriptor >= 0) close(descriptor);
+    close(descriptor);
     fail_temporary(error);
+}
+
+void TemporaryFile::write(const void* bytes, std::size_t count) {
+    if (std::fwrite(bytes, 1, count, stream_) != count) fail_temporary(errno);
+}
+
+void TemporaryFile::rewind() {
+    if (std::fflush(stream_) != 0 || std::fseek(stream_, 0, SEEK_SET) != 0) fail_temporary(errno);
+}
+
+PipedFile::PipedFile() : OutputFile("stdout") {
+    stream_ = file_.stream();
 }
 
 void PipedFile::commit() {
     // Some libraries write in their destructors and pass over errors there, so the stream is asked.
     if (std::ferror(stream_) != 0) give_up(EIO);
-    if (std::fflush(stream_) != 0 || std::fseek(stream_, 0, SEEK_SET) != 0) fail_temporary(errno);
+    file_.rewind();
     std::array<char, 1 << 16> bytes{};
     for (std::size_t count = bytes.size(); count == bytes.size();) {
         count = std::fread(bytes.data(), 1, bytes.size(), stream_);

@@ -72,12 +72,31 @@ class AtomicFile : public OutputFile {
 // Returns the folder of temporary files: TMPDIR, or /tmp if it is not set.
 std::string temporary_folder();
 
+// A temporary file without a name, which disappears with this object or the process.
+class TemporaryFile {
+  public:
+    TemporaryFile();  // throws Error
+    ~TemporaryFile() { std::fclose(stream_); }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    std::FILE* stream() const { return stream_; }
+    void write(const void* bytes, std::size_t count);  // throws Error
+    // Writes out what is buffered and goes to the first byte, for any reader. Throws Error.
+    void rewind();
+
+  private:
+    std::FILE* stream_ = nullptr;
+};
+
 // An output to stdout, kept in a temporary file until commit(): a reader gets all or nothing.
 class PipedFile : public OutputFile {
   public:
-    PipedFile();  // throws Error
-    ~PipedFile() override { std::fclose(stream_); }
+    PipedFile();             // throws Error
     void commit() override;  // throws Error
+
+  private:
+    TemporaryFile file_;
 };
 
 // Makes a folder and its parent folders if they do not exist yet. Throws Error.

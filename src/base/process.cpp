@@ -67,8 +67,8 @@ void make_streams_safe() {
     std::signal(SIGXFSZ, SIG_IGN);
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-        // /dev/null is opened so that reading from stdin and writing to the others fails. open()
-        // returns the lowest free descriptor, which is this one.
+        // Reading from stdin and writing to the others must fail. open() takes the lowest
+        // descriptor.
         open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     }
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -45,7 +44,10 @@ auto with_type(ValueType type, const Action& action) {
     return action(double{});
 }
 
-// The names of the types, in their order.
+constexpr ValueType value_types[] = {
+    ValueType::int8,   ValueType::uint8, ValueType::int16,  ValueType::uint16,  ValueType::int32,
+    ValueType::uint32, ValueType::int64, ValueType::uint64, ValueType::float32, ValueType::float64};
+// The names of the types, in the order of value_types.
 constexpr const char* value_type_words[] = {"int8",   "uint8", "int16",  "uint16", "int32",
                                             "uint32", "int64", "uint64", "float",  "double"};
 
@@ -54,12 +56,11 @@ inline const char* name_of(ValueType type) {
 }
 
 inline std::optional<ValueType> value_type_of(std::string_view word) {
-    const auto* const found = std::ranges::find(value_type_words, word);
-    if (found == std::end(value_type_words)) return {};
-    return static_cast<ValueType>(found - value_type_words);
+    for (const ValueType type : value_types)
+        if (word == name_of(type)) return type;
+    return {};
 }
 
-// Returns all names, for messages.
 inline std::string value_type_list() {
     std::string list;
     for (const char* const word : value_type_words)

@@ -27,7 +27,6 @@ class Field {
     // Returns the world distance over which the scalar is known to change: the smallest distance of
     // neighbouring samples (infinite if no axis has two), or the mean edge of the tets.
     virtual double spacing() const = 0;
-    // Tells whether all values are whole, as labels are.
     virtual bool whole_numbers() const = 0;
     // Returns the share of the field that a value must have to be padding (find_padding()).
     virtual double least_padding_share() const = 0;
@@ -37,7 +36,6 @@ class Field {
     // Returns points whose hull, if any, contains all of more than `least` >= 0 extinction.
     virtual std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                                  double least) const = 0;
-    // The corners of the data's bounding box.
     virtual std::array<glm::dvec3, 8> corners() const = 0;
 
     // Returns the optical depths of about 1000 rays all over the scene's view, of which only

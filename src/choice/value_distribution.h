@@ -71,8 +71,7 @@ struct Padding {
     // Returns a value between padding and rest, from which on interpolated values show.
     double edge_below() const;
     double edge_above() const;
-    // Tells whether cells between padding and rest would show values up to `lo`, or from `hi` on,
-    // as a thick shell.
+    // Tells whether values up to `lo`, or from `hi` on, would be a thick shell towards the padding.
     bool shell_below(double lo) const;
     bool shell_above(double hi) const;
 };

@@ -119,8 +119,7 @@ struct Facts {
 // Measures all facts. Throws Error as check_finite() does.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
-// These measure in three steps, in this order: facts of the volume and the transfer function; of
-// the view except for rays; of rays of the view.
+// These measure in three steps: volume and transfer function; view without rays; rays.
 Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 void measure_view(const Scene& scene, Facts& facts);
 void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);

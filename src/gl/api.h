@@ -96,7 +96,6 @@ class SharedLibrary {
     // Loads the first of `names` that is found. Throws Error, which says why each was not.
     explicit SharedLibrary(std::initializer_list<const char*> names);
 
-    // Tells whether this process has loaded the library already.
     static bool is_loaded(const char* name);
 
     // Returns the function `name`. Throws Error, which names the library, if it has none.

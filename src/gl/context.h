@@ -12,7 +12,6 @@
 
 namespace lamina::gl {
 
-// Counts of one context.
 struct ContextCounts {
     std::int64_t bytes_allocated = 0;  // those that buffers and textures hold now
     std::int64_t bytes_uploaded = 0;   // those that textures got so far

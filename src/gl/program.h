@@ -50,7 +50,6 @@ struct ShaderLine {
     int number;
 };
 
-// A shader ready for the compiler.
 struct ShaderSource {
     std::string name;
     std::string text;

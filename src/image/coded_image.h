@@ -30,8 +30,7 @@ struct CodedImage {
 
 using PixelColor = std::array<std::uint16_t, 3>;  // sRGB codes of 8 bits
 
-// Height in dots of the letters of pictures' labels: ASCII in 5 x 7 dots, each `dot` x `dot`
-// pixels, 6 dots apart. Other characters show as "?".
+// Height in dots of the letters of labels: ASCII in 5 x 7 dots, 6 dots apart; "?" for others.
 inline constexpr int text_dots_high = 7;
 int text_width(std::string_view text, int dot);  // pixels
 

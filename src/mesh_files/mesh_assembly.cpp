@@ -20,6 +20,18 @@ namespace {
 
 constexpr std::int64_t tetra = 10, voxel = 11, hexahedron = 12, wedge = 13, pyramid = 14;
 
+// Most points of a cell type that is read: those of a triquadratic hexahedron.
+constexpr std::size_t most_cell_points = 27;
+
+// A type of cell with volume. Only the corners of a quadratic cell are used, which come first: it
+// is straightened to the cell of type `straight`.
+struct CellType {
+    std::int64_t number;  // VTK's
+    const char* name;     // for messages
+    std::size_t points;   // in the file
+    std::size_t corners;  // the first of these
+    std::int64_t straight;
+};
 // vtkCellType.h; the corners of each come first (vtkQuadraticHexahedron.h and so on).
 constexpr CellType types[] = {
     {tetra, "tetrahedron", 4, 4, tetra},
@@ -102,15 +114,9 @@ CellUse use_of_cell(std::int64_t type) {
     return std::ranges::count(without_volume, type) > 0 ? CellUse::skip : CellUse::unsupported;
 }
 
-CellType cell_type(std::int64_t type) {
-    const CellType* const found = find_type(type);
-    assert(found != nullptr);
-    return *found;
-}
-
 SplitCell split_cell(std::int64_t type, std::span<const std::int32_t> corners,
                      std::span<const glm::dvec3> points) {
-    assert(use_of_cell(type) == CellUse::split && corners.size() == cell_type(type).points);
+    assert(use_of_cell(type) == CellUse::split && corners.size() == find_type(type)->points);
     std::array<std::int32_t, 8> order{};
     std::copy(corners.begin(), corners.end(), order.begin());
     if (type == voxel) {  // its corners lie in the order of the axes
@@ -172,7 +178,7 @@ std::span<const std::int32_t> corners_of(const MeshPiece& piece, std::size_t cel
                                          std::array<std::int32_t, most_cell_points>& corners) {
     const std::int64_t begin = cell == 0 ? 0 : piece.cells.ends[cell - 1];
     const auto found = static_cast<std::size_t>(piece.cells.ends[cell] - begin);
-    const CellType type = cell_type(piece.cells.types[cell]);
+    const CellType& type = *find_type(piece.cells.types[cell]);
     if (found != type.points) {
         fail("{}: cell {} (the first is 0), a {}: found {} points, expected {}", piece.label, cell,
              type.name, found, type.points);
@@ -364,10 +370,10 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
         const auto used = corners_of(piece, cell, indices, corners);
         SplitCell split{{{{used[0], used[1], used[2], used[3]}}}, 1};
         if (use == CellUse::split) {
-            split = split_cell(cell_type(type).straight, used, mesh_.points);
+            split = split_cell(find_type(type)->straight, used, mesh_.points);
             ++mesh_.cells.split;
         }
-        mesh_.cells.straightened += cell_type(type).straight != type;
+        mesh_.cells.straightened += find_type(type)->straight != type;
         mesh_.tets.insert(mesh_.tets.end(), split.tets.begin(),
                           split.tets.begin() + static_cast<std::ptrdiff_t>(split.count));
         cell_of_tet.insert(cell_of_tet.end(), split.count, static_cast<std::int64_t>(cell));

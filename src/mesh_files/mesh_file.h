@@ -16,13 +16,10 @@ bool is_mesh_file(const std::filesystem::path& path);
 
 // Reads a mesh: a VTK XML or legacy VTK unstructured grid; one in several files, which a .pvtu
 // names; one step of a .pvd; or TetGen's pair of .node and .ele (either name stands for both).
-// Pieces are joined (mesh_files/mesh_assembly.h). Hexahedra, voxels, wedges and pyramids are cut
-// into tets (split_cell()), quadratic cells are straightened; cells without volume are
+// Pieces are joined and cells cut into tets (mesh_files/mesh_assembly.h); cells without volume are
 // counted. Point and cell arrays of one component become scalars, and those of three components the
-// lengths of their vectors and three scalars NAME.x, .y and .z. Other arrays are skipped. All
-// corner indices of the result are in range. `time`: the step, counted from 0 in the order of time;
-// only a .pvd has several. Throws Error: one line that names the file, what was found and what was
-// expected. Takes no memory for data that the file cannot hold.
+// lengths of their vectors and three scalars NAME.x, .y and .z. All corner indices are in range.
+// `time`: the step, from 0 in the order of time; only a .pvd has several. Throws Error.
 MeshData read_mesh(const std::filesystem::path& path, std::int64_t time = 0);
 
 // The extensions of mesh files, for people.

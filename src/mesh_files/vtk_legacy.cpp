@@ -393,14 +393,12 @@ class VtkReader {
 
     // Returns false if `word` is not an attribute.
     bool read_attribute(const std::string& word) {
-        if (word == "lookup_table") {
+        // Colours are bytes in a binary file and fractions in an ASCII one.
+        if (const bool table = word == "lookup_table"; table || word == "color_scalars") {
             const std::string name = tokens_.name();
-            skip_colors(name, product(tokens_.count("LOOKUP_TABLE"), 4, name));
-            return true;
-        }
-        if (word == "color_scalars") {
-            const std::string name = tokens_.name();
-            skip_colors(name, product(tokens_.count("COLOR_SCALARS"), tuples_, name));
+            const std::int64_t each = tokens_.count(table ? "LOOKUP_TABLE" : "COLOR_SCALARS");
+            tokens_.skip_values({VtkType::Kind::number, ValueType::uint8},
+                                product(each, table ? 4 : tuples_, name), name);
             return true;
         }
         for (const Attribute& attribute : attributes) {
@@ -425,12 +423,6 @@ class VtkReader {
         }
         tokens_.name();
         return components;
-    }
-
-    // Skips colours, which are bytes in a binary file and fractions in an ASCII one: `count` values
-    // in both.
-    void skip_colors(const std::string& name, std::int64_t count) {
-        tokens_.skip_values({VtkType::Kind::number, ValueType::uint8}, count, name);
     }
 
     void read_field() {

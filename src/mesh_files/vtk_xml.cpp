@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstring>
 #include <new>
-#include <optional>
 #include <utility>
 
 #include "base/client.h"
@@ -332,13 +331,6 @@ void warn_behind_end(const std::string& name, std::string_view text) {
 // Most tags and attributes, which take some 100 bytes of memory each.
 constexpr std::ptrdiff_t most_marks = 1'000'000;
 
-std::optional<ValueType> type_named(std::string_view name) {
-    for (int i = 0; i <= static_cast<int>(ValueType::float64); ++i) {
-        if (name == vtk_name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
-    }
-    return std::nullopt;
-}
-
 // Sets `text` to the text in an element. VTK's writer may put information keys before or after it;
 // parts are then joined into the string that is returned.
 std::string text_of(pugi::xml_node node, std::string_view& text) {
@@ -500,7 +492,8 @@ std::int64_t VtkXmlFile::components_of(pugi::xml_node array, const std::string& 
 
 ValueType VtkXmlFile::type_of(pugi::xml_node array, const std::string& what) const {
     const char* const text = array.attribute("type").value();
-    if (const auto type = type_named(text)) return *type;
+    for (const ValueType type : value_types)
+        if (std::string_view(vtk_name_of(type)) == text) return type;
     fail("{}: type: found {}, expected Int8 ... UInt64, Float32 or Float64", what, said(text));
 }
 

@@ -120,7 +120,6 @@ std::vector<NamedTet> by_name(const std::vector<Tet>& tets) {
     return names;
 }
 
-// The tets of one round, and what is known of their errors.
 struct Round {
     DelaunayTets mesh;
     std::vector<NamedTet> names;

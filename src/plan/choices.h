@@ -3,10 +3,8 @@
 // tree.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "compositing/codes.h"
 #include "compositing/tree_shape.h"

@@ -42,15 +42,11 @@ std::string work_and_left_out(const Plan& plan) {
     return text;
 }
 
-const char* text_of(Blending blending) {
-    return word_of(blending, {"the blending unit", "framebuffer fetch", "texture barriers",
-                              "the native engine"});
-}
-
 std::string text_of_codes(const CompositingPlan& plan) {
+    const char* const unit = word_of(plan.blending, {"the blending unit", "framebuffer fetch",
+                                                     "texture barriers", "the native engine"});
     return fmt::format("{} bits, alpha {}, over {}, by {}", plan.emulation->bits,
-                       name_of(plan.emulation->alpha), name_of(plan.emulation->over),
-                       text_of(plan.blending));
+                       name_of(plan.emulation->alpha), name_of(plan.emulation->over), unit);
 }
 
 std::string text_of_light(const SlicePlan& slice) {

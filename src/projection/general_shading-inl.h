@@ -20,9 +20,9 @@ LAMINA_SIMD_BEGIN
 // drawn; 0 if its output does not depend on them.
 LAMINA_INLINE Word random_of_fragments(const TetFragments& fragments, const TileGrid::Tile& area,
                                        std::size_t place, std::uint32_t number) {
-    const bool nearest = fragments.blend.alpha_rounding != AlphaRounding::stochastic;
+    const bool stochastic = fragments.blend.alpha_rounding == AlphaRounding::stochastic;
     if (fragments.output == FragmentOutput::native ||
-        (fragments.output == FragmentOutput::emulated && nearest))
+        (fragments.output == FragmentOutput::emulated && !stochastic))
         return Word(0);
     const TileGrid::Place first = TileGrid::pixel_at(static_cast<int>(place));
     return random_of_pixels(area.column + first.column, area.row + first.row, number,

@@ -65,20 +65,13 @@ std::vector<Code> to_codes(const std::vector<float>& texels) {
 
 // The leaves of a tree, drawn by a function.
 template <typename DrawLeaf>
-class TetLeaves : public TreeLeaves {
-  public:
-    explicit TetLeaves(DrawLeaf& draw_leaf) : draw_leaf_(draw_leaf) {}
+struct TetLeaves : TreeLeaves {
+    explicit TetLeaves(DrawLeaf& function) : draw_leaf(function) {}
     void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override {
-        draw_leaf_(span, target, depth_scale);
+        draw_leaf(span, target, depth_scale);
     }
-
-  private:
-    DrawLeaf& draw_leaf_;
+    DrawLeaf& draw_leaf;
 };
-
-bool is_fan(const ProjectPlan& plan) {
-    return plan.geometry == ProjectGeometry::triangles;
-}
 
 }  // namespace
 
@@ -89,14 +82,14 @@ bool has_program(const ProjectPlan& plan, FragmentKind kind) {
         case FragmentKind::plain:
             return plan.plain;
         case FragmentKind::careful:
-            return !is_fan(plan);
+            return plan.geometry == ProjectGeometry::silhouette;
     }
     unreachable_enum();
 }
 
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     gl::Defines defines;
-    if (is_fan(plan)) defines.set("FAN", 1);
+    if (plan.geometry == ProjectGeometry::triangles) defines.set("FAN", 1);
     if (kind == FragmentKind::thin) defines.set("THIN", 1);
     if (kind == FragmentKind::careful) defines.set("CAREFUL", 1);
     if (!plan.tree.empty()) defines.set("OPACITY_ONLY", 1);
@@ -123,50 +116,18 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     return defines;
 }
 
-GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
-                                     const TransferFunction& transfer_function,
-                                     const ProjectPlan& plan, const Capabilities& capabilities,
-                                     int width, int height, std::shared_ptr<VisibilityOrder> order,
-                                     std::shared_ptr<GlTetStream> stream)
-    : ProjectRenderer(mesh, transfer_function, plan, std::move(order)),
-      margin_(margin_steps / std::exp2(capabilities.subpixel_bits)),
-      target_(gl::Texture::make_2d(color_format(plan), width, height)) {
-    if (plan_.nothing_visible) return;
-    make_tables();
-    if (plan_.lighting)
-        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
-    for (std::size_t i = 0; i < fragment_kinds; ++i) {
-        const auto kind = static_cast<FragmentKind>(i);
-        if (!has_program(plan_, kind)) continue;
-        gl::Defines defines = project_defines(plan_, kind);
-        set_table_defines(defines);
-        programs_[i].emplace(is_fan() ? "projection/fan.vert" : "projection/silhouette.vert",
-                             "projection/tet.frag", defines);
-    }
-    find_visible_parts();
-    if (visible_->count() == 0) return;
-    make_stream(std::move(stream));
-    if (plan_.tree.empty()) return;
-    // The samples of a ray are the cell fragments, as many in every view.
-    CompositingPlan nodes = plan_;
-    if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered
-    const TreeShape shape(plan_.tree, static_cast<int>(visible_->count()));
-    tree_.emplace(nodes, shape, single_color_, target_.width(), target_.height());
-}
-
-void GlProjectRenderer::make_tables() {
-    Stage stage("tables");
-    single_color_ = glm::vec3(first_color(transfer_function_, plan_.range.lo, plan_.range.hi));
-    switch (plan_.source) {
+GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan)
+    : plan_(plan), single_color_(first_color(transfer_function, plan.range.lo, plan.range.hi)) {
+    switch (plan.source) {
         case SegmentSource::constant:
-            constant_ = transfer_function_.at(plan_.range.lo);
+            constant_ = transfer_function.at(plan.range.lo);
             break;
         case SegmentSource::table:
-            table_ = plan_.table.uniform_table();
+            table_ = plan.table.uniform_table();
             upload(*table_);
             break;
         case SegmentSource::parts:
-            if (!plan_.single_color) {
+            if (!plan.single_color) {
                 constexpr int nodes = FrontWeightTable::nodes;
                 texture_ = gl::Texture::make_2d(gl::TextureFormat::r32f, nodes, nodes);
                 texture_->upload({0, 0, 0, nodes, nodes, 1},
@@ -174,21 +135,20 @@ void GlProjectRenderer::make_tables() {
             }
             break;
         case SegmentSource::cut_table:
-            intervals_.emplace(transfer_function_, plan_.range, plan_.table.knot_table().get(),
-                               plan_.table_filtered, 0);
+            intervals_.emplace(transfer_function, plan.range, plan.table.knot_table().get(),
+                               plan.table_filtered, 0);
             break;
         case SegmentSource::analytic:
-            intervals_.emplace(transfer_function_, plan_.range, nullptr, false, 0);
+            intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
             break;
         case SegmentSource::mean:
         case SegmentSource::vertices:
             break;
     }
-    if (texture_ && plan_.table_filtered) texture_->set_filter(gl::TextureFilter::linear);
-    table_ms_ = stage.end();
+    if (texture_ && plan.table_filtered) texture_->set_filter(gl::TextureFilter::linear);
 }
 
-void GlProjectRenderer::upload(const UniformTable& table) {
+void GlProjectTables::upload(const UniformTable& table) {
     const int nodes = table.request.scalar_nodes;
     const gl::TextureFormat format = format_of(table);
     texture_ = table.layers > 1 ? gl::Texture::make_3d(format, nodes, nodes, table.layers)
@@ -210,7 +170,7 @@ void GlProjectRenderer::upload(const UniformTable& table) {
     }
 }
 
-void GlProjectRenderer::set_table_defines(gl::Defines& defines) const {
+void GlProjectTables::set_defines(gl::Defines& defines) const {
     defines.set("SOURCE", static_cast<int>(plan_.source));
     if (!plan_.single_color) defines.set("TABLE_COLORED", 1);
     if (plan_.table_filtered) defines.set("TABLE_FILTERED", 1);
@@ -231,7 +191,7 @@ void GlProjectRenderer::set_table_defines(gl::Defines& defines) const {
     defines.set("TABLE_STORE", static_cast<int>(table_->request.store));
 }
 
-void GlProjectRenderer::bind_tables(gl::Program& program) const {
+void GlProjectTables::bind(gl::Program& program) const {
     if (plan_.source == SegmentSource::constant) {
         const double extinction = std::min(constant_.extinction, max_shader_extinction);
         program.set("constant_optics", glm::vec4(constant_.color, extinction));
@@ -247,6 +207,39 @@ void GlProjectRenderer::bind_tables(gl::Program& program) const {
     if (table_->layers > 1) {
         program.set("inverse_first_length", static_cast<float>(table_->inverse_first_length()));
     }
+}
+
+GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
+                                     const TransferFunction& transfer_function,
+                                     const ProjectPlan& plan, const Capabilities& capabilities,
+                                     int width, int height, std::shared_ptr<VisibilityOrder> order,
+                                     std::shared_ptr<GlTetStream> stream)
+    : ProjectRenderer(mesh, transfer_function, plan, std::move(order)),
+      margin_(margin_steps / std::exp2(capabilities.subpixel_bits)),
+      target_(gl::Texture::make_2d(color_format(plan), width, height)) {
+    if (plan_.nothing_visible) return;
+    Stage tables("tables");
+    tables_.emplace(transfer_function_, plan_);
+    table_ms_ = tables.end();
+    if (plan_.lighting)
+        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
+    for (std::size_t i = 0; i < fragment_kinds; ++i) {
+        const auto kind = static_cast<FragmentKind>(i);
+        if (!has_program(plan_, kind)) continue;
+        gl::Defines defines = project_defines(plan_, kind);
+        tables_->set_defines(defines);
+        programs_[i].emplace(is_fan() ? "projection/fan.vert" : "projection/silhouette.vert",
+                             "projection/tet.frag", defines);
+    }
+    find_visible_parts();
+    if (visible_->count() == 0) return;
+    make_stream(std::move(stream));
+    if (plan_.tree.empty()) return;
+    // The samples of a ray are the cell fragments, as many in every view.
+    CompositingPlan nodes = plan_;
+    if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered
+    const TreeShape shape(plan_.tree, static_cast<int>(visible_->count()));
+    tree_.emplace(nodes, shape, tables_->single_color(), target_.width(), target_.height());
 }
 
 void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
@@ -294,7 +287,7 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
 }
 
 void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
-    bind_tables(program);
+    tables_->bind(program);
     const glm::vec2 size(view.width, view.height);
     program.set("image_size", size);
     program.set("image_middle", 0.5f * size);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
 #include "executors/gl_compositing.h"
 #include "executors/gl_optics.h"
 #include "gl/framebuffer.h"
@@ -19,6 +16,28 @@ bool has_program(const ProjectPlan& plan, FragmentKind kind);
 // Returns the definitions that specialise projection/tet.frag and its vertex shader, except for the
 // tables.
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
+
+// The transfer function in the form that the fragments of tets read
+// (shaders/projection/tet_color.glsl). The plan must outlive it.
+class GlProjectTables {
+  public:
+    GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan);
+
+    void set_defines(gl::Defines& defines) const;
+    void bind(gl::Program& program) const;  // textures and uniforms
+    const glm::vec3& single_color() const { return single_color_; }
+
+  private:
+    void upload(const UniformTable& table);
+
+    const ProjectPlan& plan_;
+    glm::vec3 single_color_;
+    OpticalProperties constant_;
+    std::shared_ptr<const UniformTable> table_;
+    // Holds table_, or FrontWeightTable for SegmentSource::parts.
+    std::optional<gl::Texture> texture_;
+    std::optional<GlTransferTables> intervals_;  // for SegmentSource::analytic and ::cut_table
+};
 
 // Draws a mesh as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlProjectRenderer : public ProjectRenderer {
@@ -38,25 +57,14 @@ class GlProjectRenderer : public ProjectRenderer {
     ProjectParts parts() const override { return {order_, stream_}; }
 
   private:
-    void make_tables();
-    void upload(const UniformTable& table);
-    void set_table_defines(gl::Defines& defines) const;
-    void bind_tables(gl::Program& program) const;  // textures and uniforms
     void make_stream(std::shared_ptr<GlTetStream> ready);
     void set_view(gl::Program& program, const View& view) const;
     void draw_parts(const DrawOrder<TetPart>& parts, const View& view, Progress* progress);
 
     double margin_;
     gl::Framebuffer target_;
-    // The transfer function in the form that the fragments of tets read
-    // (shaders/projection/tet_color.glsl).
-    glm::vec3 single_color_{0};
-    OpticalProperties constant_;
-    std::shared_ptr<const UniformTable> table_;
-    // Holds table_, or FrontWeightTable for SegmentSource::parts.
-    std::optional<gl::Texture> texture_;
-    std::optional<GlTransferTables> intervals_;  // for SegmentSource::analytic and ::cut_table
-    StoredGradients gradients_;                  // empty if nothing is lit
+    std::optional<GlProjectTables> tables_;                            // none if nothing is visible
+    StoredGradients gradients_;                                        // empty if nothing is lit
     std::array<std::optional<gl::Program>, fragment_kinds> programs_;  // by FragmentKind
     std::shared_ptr<GlTetStream> stream_;
     std::optional<GlFixedTree> tree_;  // if the plan has one

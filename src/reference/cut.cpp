@@ -45,7 +45,6 @@ LAMINA_INLINE void append_steps(std::size_t count, std::size_t first_segment, Pi
     }
 }
 
-// A vector of cubic segments on their way from front to back.
 class SegmentLanes {
   public:
     LAMINA_INLINE SegmentLanes(const SegmentBatch& segments, std::size_t first,

@@ -216,7 +216,6 @@ LAMINA_INLINE WeightLanes closed_weights(Double p, Double q) {
     return {load<Double>(fronts), load<Double>(backs)};
 }
 
-// Weighs pieces as piece_weights() does.
 LAMINA_INLINE WeightLanes weights_of(Double p, Double q, Double depth) {
     const double most = largest_of(depth);
     if (!(most < largest_gauss_depth)) return closed_weights(p, q);

@@ -26,7 +26,6 @@ constexpr double place_epsilons = 16;
 
 class MeshTile {
   public:
-    // Data that all tiles of a picture share.
     struct Picture {
         const TetMesh& mesh;
         const FaceTree& open_faces;

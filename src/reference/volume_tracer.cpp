@@ -26,7 +26,6 @@
 namespace lamina {
 namespace {
 
-// The result of a ray.
 struct TracedRay : TraceTotals {
     glm::dvec4 rgba{0};  // associated
 };

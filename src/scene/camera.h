@@ -35,7 +35,6 @@ struct View {
     glm::dvec3 eye, right, up, forward;  // orthonormal
 };
 
-// Returns the eye of a view, for visibility orders.
 inline Eye eye_of(const View& view) {
     if (view.projection == Projection::orthographic) return {view.forward, true};
     return {view.eye, false};

@@ -52,8 +52,6 @@ Alternative<Scene> object_alternative(Source Scene::*source,
         table().schema()};
 }
 
-// --- volume
-
 void generator_keys(KeyTable<GeneratorRequest>& keys) {
     std::vector<std::pair<const char*, SampleType>> types;  // generated_grid() knows no others
     for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32})
@@ -132,8 +130,6 @@ void add_volume(KeyTable<Scene>& keys) {
         "Path of a file or folder (relative to the scene; ${LAMINA_DATA} expands), with what of it "
         "is drawn, or a generated volume.");
 }
-
-// --- mesh
 
 void mesh_file_keys(KeyTable<MeshFile>& keys) {
     keys.key("path", &MeshFile::path, path_form()).required();

@@ -10,8 +10,6 @@
 namespace lamina {
 namespace {
 
-// --- tree
-
 // Reads a list [root, ..., leaf], or a text from the command line: 32x32, 4^5, 1024.
 std::vector<int> read_factors(JsonReader& reader, const std::string& key) {
     const std::string expected = fmt::format(
@@ -73,8 +71,6 @@ Form<Auto<TreeSettings>> tree_form() {
     return form;
 }
 
-// --- slice
-
 void dither_keys(KeyTable<DitherSettings>& keys) {
     keys.key("seed", &DitherSettings::seed, seed_form());
     keys.key("color", &DitherSettings::color, flag_form());
@@ -128,8 +124,6 @@ void emulation_keys(KeyTable<Emulation>& keys) {
     keys.key("seed", &Emulation::seed, seed_form());
 }
 
-// --- project
-
 void project_table_keys(KeyTable<TableSettings>& keys) {
     keys.key("scalar", &TableSettings::scalar, whole_form<int>(2, 4096));
     keys.key("length", &TableSettings::length, whole_form<int>(1, 64));
@@ -164,8 +158,6 @@ void project_keys(KeyTable<ProjectSettings>& keys) {
     keys.check(check_geometry);
     keys.key("tree", &ProjectSettings::tree, optional_form(tree_form()), "Of nodes fixed.");
 }
-
-// --- trace, and what all methods have
 
 void trace_keys(KeyTable<Scene>& keys) {
     keys.key("of", &Scene::trace_of, words_form<TraceOf>(), "The volume if the scene has one.")

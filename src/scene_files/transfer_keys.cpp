@@ -13,8 +13,6 @@ namespace lamina {
 
 namespace {
 
-// --- points
-
 bool is_point_color(const glm::dvec3& color) {
     return !glm::any(glm::lessThan(color, glm::dvec3(0))) &&
            !glm::any(glm::greaterThan(color, glm::dvec3(1e30)));
@@ -101,8 +99,6 @@ std::vector<GivenPoint> read_points(JsonReader& reader, bool colored) {
     }
     return points;
 }
-
-// --- colour map
 
 ValueRange read_range(JsonReader& reader) {
     const nlohmann::json& range = reader.value("colormap_range");

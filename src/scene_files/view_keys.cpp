@@ -14,8 +14,6 @@ bool is_place(const glm::dvec3& v) {
            std::abs(v.z) <= largest_scene_coordinate;
 }
 
-// --- camera
-
 void check_camera(JsonReader& reader, const Camera& camera) {
     const std::pair<const char*, const glm::dvec3*> vectors[] = {
         {"eye", &camera.eye}, {"center", &camera.center}, {"up", &camera.up}};
@@ -35,8 +33,6 @@ void add_camera(KeyTable<Scene>& scene) {
              "auto: chosen from the data (docs/first-picture.md).")
         .otherwise("auto");
 }
-
-// --- clip
 
 void plane_keys(KeyTable<ClipPlane>& keys) {
     keys.key("point", &ClipPlane::point,
@@ -71,8 +67,6 @@ void clip_keys(KeyTable<Clip>& keys) {
     keys.key("box", &Clip::box, optional_form(object_form(table_of<box_keys>)),
              "World; min at most max on each axis.");
 }
-
-// --- lighting
 
 void light_keys(KeyTable<Light>& keys) {
     keys.key("direction", &Light::direction,
@@ -117,8 +111,6 @@ void add_lighting(KeyTable<Scene>& scene) {
               "Emission is lit by the gradient of the scalar, on both of its sides; absent: "
               "colours are shown as they are.");
 }
-
-// --- image
 
 void image_keys(KeyTable<Scene>& keys) {
     keys.key("width", &Scene::width, whole_form<int>(1, max_image_side));

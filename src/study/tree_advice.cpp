@@ -15,7 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using RunPointers = std::vector<const RunResult*>;
 
-constexpr const char* factors_key = "render.slice.tree.factors";
 constexpr const char* target_key = "render.target";
 
 struct TreePoint {

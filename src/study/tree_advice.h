@@ -12,6 +12,8 @@
 
 namespace lamina::study {
 
+constexpr const char* factors_key = "render.slice.tree.factors";
+
 // The report's `plots` for runs of one scene with trees: L2 error and frame time over the tree's
 // height and over its irregularity (LaMar 2004, section 6.3, asks for both). There is one series
 // for each setting of the other swept keys. Empty if no run has a tree.

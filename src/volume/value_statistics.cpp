@@ -42,10 +42,6 @@ RankedKey ranked_key(std::span<const std::int64_t> counts, std::int64_t rank) {
     while (counts[key] < rank) rank -= counts[key++];
     return {key, rank};
 }
-std::size_t key_of_rank(const Counts& counts, std::int64_t rank) {
-    return ranked_key(counts, rank).key;
-}
-
 // Adds up, in parallel, the counts that `count_part(samples, count, counts)` makes of parts of the
 // samples: of layers, if the volume stays in its files.
 template <typename CountPart>
@@ -114,10 +110,10 @@ ValueStatistics measure_whole(const Counts& counts, int lowest) {
     const auto value_of = [&](std::size_t key) { return static_cast<double>(key) + lowest; };
     for (const int place : ValueStatistics::places)
         found.percentiles.push_back(
-            value_of(key_of_rank(counts, ValueStatistics::rank(place, found.count))));
+            value_of(ranked_key(counts, ValueStatistics::rank(place, found.count)).key));
 
-    const std::size_t lo = key_of_rank(counts, 1),
-                      values = key_of_rank(counts, found.count) - lo + 1;
+    const std::size_t lo = ranked_key(counts, 1).key,
+                      values = ranked_key(counts, found.count).key - lo + 1;
     constexpr auto most = static_cast<std::size_t>(Histogram::most_intervals);
     const std::size_t width = (values + most - 1) / most;
     found.histogram.counts.resize((values + width - 1) / width);

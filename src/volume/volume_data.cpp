@@ -52,7 +52,7 @@ namespace {
 
 using Triple = std::array<std::int64_t, 3>;
 
-constexpr std::int64_t edge = MinMaxBricks::edge;
+constexpr std::int64_t brick_edge = MinMaxBricks::edge;
 
 // Most bytes of a block's samples, which a thread holds in memory.
 constexpr std::int64_t block_bytes = std::int64_t{1} << 23;
@@ -68,11 +68,12 @@ Triple block_of(const Volume& volume, const MinMaxBricks& bricks) {
     Triple block{bricks.count[0], 8, 8};
     if (own[0] > 0) {
         for (std::size_t axis = 0; axis < 3; ++axis)
-            block[axis] = up_to_multiple(std::max<std::int64_t>(own[axis], 32), edge) / edge;
+            block[axis] =
+                up_to_multiple(std::max<std::int64_t>(own[axis], 32), brick_edge) / brick_edge;
     } else {
         const std::int64_t row =
             volume.grid().size[0] * static_cast<std::int64_t>(bytes_of(volume.type()));
-        block[1] = std::max<std::int64_t>(1, block_bytes / (row * 33 * edge));
+        block[1] = std::max<std::int64_t>(1, block_bytes / (row * 33 * brick_edge));
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
         block[axis] = std::min(block[axis], bricks.count[axis]);
@@ -113,11 +114,11 @@ class IndexMaker {
         Triple count{}, owned{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             count[axis] = std::min(block_[axis], index_.bricks.count[axis] - first[axis]);
-            const std::int64_t begin = first[axis] * edge, size = grid_.size[axis];
+            const std::int64_t begin = first[axis] * brick_edge, size = grid_.size[axis];
             const bool last = first[axis] + count[axis] == index_.bricks.count[axis];
             window.box.first[axis] = begin;
-            window.box.size[axis] = std::min(size - begin, count[axis] * edge + 1);
-            owned[axis] = last ? size - begin : count[axis] * edge;
+            window.box.size[axis] = std::min(size - begin, count[axis] * brick_edge + 1);
+            owned[axis] = last ? size - begin : count[axis] * brick_edge;
         }
         Found found;
         if (source_.known_as_zero(window.box)) {

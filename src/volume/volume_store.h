@@ -101,10 +101,6 @@ class SamplesInFiles {
     std::int64_t first_ = 0;
 };
 
-// The type of the samples behind a pointer or SamplesInFiles.
-template <typename Samples>
-using SampleOf = std::remove_cvref_t<decltype(std::declval<const Samples&>()[0])>;
-
 // Calls visitor(samples) with a pointer to the first sample, or with SamplesInFiles: for work that
 // looks at few samples.
 template <typename Visitor>

@@ -44,7 +44,7 @@ void write_small_file(const std::filesystem::path& path, const void* bytes, std:
     if (!written) fail("{}: cannot write: {}", path.string(), std::strerror(errno));
 }
 
-void write_json_file(const std::filesystem::path& path, const nlohmann::json& json) {
+void write_json_file(const Path& path, const Json& json) {
     const std::string text = json_text(json, 2) + "\n";
     write_small_file(path, text.data(), text.size());
 }
@@ -271,11 +271,6 @@ std::array<std::int64_t, 3> chunk_edge(const Grid& grid, SampleType type) {
     return edge;
 }
 
-// Returns the type of a file's samples that are drawn as they are.
-ValueType stored_type(SampleType type) {
-    return *std::ranges::find(value_types, std::optional(type), drawn_type);
-}
-
 void write_layers(const Volume& volume, ZarrWriter& writer) {
     const auto& size = volume.grid().size;
     const auto slice = static_cast<std::size_t>(size[0] * size[1]) * bytes_of(volume.type());
@@ -322,8 +317,8 @@ BrickedCopy write_bricked_copy(const Path& file, const VolumeRequest& request) {
     ReplacedFolder folder(bricked_copy_of(file));
     const Json attributes{{attribute, {{"of", of}, {"grid", json_of(volume.grid())}}}};
     ZarrWriter writer(folder.temporary(), volume.grid().size,
-                      chunk_edge(volume.grid(), volume.type()), stored_type(volume.type()),
-                      attributes);
+                      chunk_edge(volume.grid(), volume.type()),
+                      *value_type_of(name_of(volume.type())), attributes);
     write_layers(volume, writer);
     writer.finish();
     if (copied(file, stored) != of)
@@ -361,10 +356,9 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
         chunks.expect(std::move(*hashes));
         return stored_volume(grid, *type, std::make_unique<ZarrSource>(std::move(chunks)));
     } catch (const Json::exception&) {
-        return is_not_used("damaged");
     } catch (const Error&) {
-        return is_not_used("damaged");
     }
+    return is_not_used("damaged");
 }
 
 }  // namespace lamina

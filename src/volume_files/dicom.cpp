@@ -232,80 +232,60 @@ DicomSeries read_dicom_series(const Path& path, const VolumeRequest& request) {
     return series;
 }
 
+// Checks compressed slices before memory is taken; the pixels of others are known to be there.
+void expect_pixels(const DicomSeries& series) {
+    constexpr std::uint64_t most_expansion = 1 << 16;
+    for (const DicomImage& slice : series.slices) {
+        const std::uint64_t there = std::filesystem::file_size(slice.file);
+        if (slice.compressed && slice.byte_count() / most_expansion > there) {
+            fail("{}: the header promises {} bytes of pixels, the file has {} in all",
+                 slice.file.string(), slice.byte_count(), there);
+        }
+    }
+}
+
+// Reads a slice as scaled floats. Returns the end of these.
+float* read_scaled(const DicomImage& slice, float* to) {
+    std::string raw(slice.byte_count(), '\0');
+    read_dicom_pixels(slice, raw.data());
+    const std::size_t count = raw.size() / bytes_of(slice.type);
+    for (const double value : values_from_bytes<double>(slice.type, raw.data(), count, false))
+        *to++ = static_cast<float>(slice.slope * value + slice.intercept);
+    return to;
+}
+
 // Reads the samples of a series. Slices whose slope or intercept differ, as those of PET, are
-// scaled one by one.
-class SliceReader {
-  public:
-    explicit SliceReader(const DicomSeries& series) : series_(series) {
-        const DicomImage& first = series.slices.front();
-        samples_.file = series.name;
-        type_ = first.type;
-        scales_alike_ = std::ranges::all_of(series.slices, [&](const DicomImage& slice) {
-            return slice.slope == first.slope && slice.intercept == first.intercept;
-        });
-        if (scales_alike_) {
-            samples_.scale = first.slope;
-            samples_.offset = first.intercept;
+// scaled one by one. `line`: that of the process of its own in which a library reads compressed
+// slices.
+StoredSamples read_slices(const DicomSeries& series, IsolatedLine* line = nullptr) {
+    expect_pixels(series);
+    const DicomImage& first = series.slices.front();
+    StoredSamples samples{series.name, first.type, nullptr, first.slope, first.intercept};
+    const bool scales_alike = std::ranges::all_of(series.slices, [&](const DicomImage& slice) {
+        return slice.slope == first.slope && slice.intercept == first.intercept;
+    });
+    if (!scales_alike) samples = {series.name, ValueType::float32, nullptr};
+    const auto& size = series.grid.size;
+    const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
+    const std::size_t bytes = stored_bytes(series.name, axes, bytes_of(samples.type));
+    if (line != nullptr) line->allow_bytes(bytes);
+    samples.bytes = line != nullptr ? line->shared_memory(bytes) : filled_memory(bytes);
+    auto* to = static_cast<char*>(samples.bytes.get());
+    for (const DicomImage& slice : series.slices) {
+        check_interrupt();
+        if (slice.type != first.type) {
+            fail("{}: found {} pixels, expected {}, as the other slices have", slice.file.string(),
+                 name_of(slice.type), name_of(first.type));
+        }
+        if (scales_alike) {
+            read_dicom_pixels(slice, to);
+            to += slice.byte_count();
+        } else {
+            to = reinterpret_cast<char*>(read_scaled(slice, reinterpret_cast<float*>(to)));
         }
     }
-
-    // Reads all slices. `line`: that of the process of its own in which a library reads compressed
-    // slices.
-    StoredSamples read(IsolatedLine* line = nullptr) {
-        expect_room();
-        const auto& size = series_.grid.size;
-        const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
-        samples_.type = scales_alike_ ? type_ : ValueType::float32;
-        const std::size_t bytes = stored_bytes(series_.name, axes, bytes_of(samples_.type));
-        if (line != nullptr) line->allow_bytes(bytes);
-        samples_.bytes = line != nullptr ? line->shared_memory(bytes) : filled_memory(bytes);
-        std::size_t done = 0;
-        for (const DicomImage& slice : series_.slices) {
-            check_interrupt();
-            if (slice.type != type_) {
-                fail("{}: found {} pixels, expected {}, as the other slices have",
-                     slice.file.string(), name_of(slice.type), name_of(type_));
-            }
-            char* const to = static_cast<char*>(samples_.bytes.get());
-            if (scales_alike_) {
-                read_dicom_pixels(slice, to + done);
-                done += slice.byte_count();
-            } else {
-                done = read_scaled(slice, to, done);
-            }
-        }
-        return samples_;
-    }
-
-  private:
-    // Checks compressed slices before memory is taken; the pixels of others are known to be there.
-    void expect_room() const {
-        constexpr std::uint64_t most_expansion = 1 << 16;
-        for (const DicomImage& slice : series_.slices) {
-            const std::uint64_t there = std::filesystem::file_size(slice.file);
-            if (slice.compressed && slice.byte_count() / most_expansion > there) {
-                fail("{}: the header promises {} bytes of pixels, the file has {} in all",
-                     slice.file.string(), slice.byte_count(), there);
-            }
-        }
-    }
-
-    std::size_t read_scaled(const DicomImage& slice, char* to, std::size_t done) const {
-        std::string raw(slice.byte_count(), '\0');
-        read_dicom_pixels(slice, raw.data());
-        const std::size_t count = raw.size() / bytes_of(type_);
-        const auto values = values_from_bytes<double>(type_, raw.data(), count, false);
-        auto* const scaled = reinterpret_cast<float*>(to + done);
-        for (std::size_t i = 0; i < count; ++i)
-            scaled[i] = static_cast<float>(slice.slope * values[i] + slice.intercept);
-        return done + count * sizeof(float);
-    }
-
-    const DicomSeries& series_;
-    StoredSamples samples_;
-    bool scales_alike_ = true;
-    ValueType type_ = ValueType::uint8;
-};
+    return samples;
+}
 
 }  // namespace
 
@@ -325,9 +305,9 @@ Volume open_dicom(const std::filesystem::path& path, const VolumeRequest& reques
     const DicomSeries series = read_dicom_series(path, request);
     const auto compressed = [](const DicomImage& slice) { return slice.compressed; };
     if (std::ranges::none_of(series.slices, compressed))
-        return drawn_volume(series.grid, SliceReader(series).read());
+        return drawn_volume(series.grid, read_slices(series));
     const ReadSamples found = read_isolated(series.name, "GDCM", [&](IsolatedLine& line) {
-        return ReadSamples{series.grid, SliceReader(series).read(&line)};
+        return ReadSamples{series.grid, read_slices(series, &line)};
     });
     return drawn_volume(series.grid, found.samples);
 }

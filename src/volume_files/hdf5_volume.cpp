@@ -202,8 +202,8 @@ constexpr const char* missing_keys[] = {"_FillValue", "missing_value"};
 
 std::optional<double> missing_value(const Hdf5Array& array, const char* key) {
     const std::vector<double> numbers = array.attribute(key);
-    if (numbers.size() != 1 || std::isnan(numbers[0])) return {};
-    return numbers[0];
+    return numbers.size() == 1 && !std::isnan(numbers[0]) ? std::optional(numbers[0])
+                                                          : std::nullopt;
 }
 
 }  // namespace

@@ -139,9 +139,13 @@ class MetaImage {
 
     Grid grid() const {
         Grid grid = plain_grid({sizes_[0], sizes_[1], sizes_[2]});
-        const std::vector<double> spacing = spacings();
-        const std::vector<double> rows = row_vectors();
-        const std::vector<double> origin = vector_of({"Offset", "Position", "Origin"}, 0);
+        const std::vector<double> zeros(dimensions_, 0), ones(dimensions_, 1);
+        std::vector<double> unit(dimensions_ * dimensions_, 0);
+        for (std::size_t axis = 0; axis < dimensions_; ++axis) unit[axis * (dimensions_ + 1)] = 1;
+        // ElementSize, the voxel's size, counts if there is no spacing.
+        const auto spacing = numbers_of({"ElementSpacing", "ElementSize"}, ones);
+        const auto rows = numbers_of({"TransformMatrix", "Rotation", "Orientation"}, unit);
+        const auto origin = numbers_of({"Offset", "Position", "Origin"}, zeros);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (!(spacing[axis] > 0)) fields_.reject("ElementSpacing", "numbers above 0");
             const double* const row = &rows[axis * dimensions_];
@@ -249,22 +253,12 @@ class MetaImage {
         return *names;
     }
 
-    // Returns the numbers of the first key that is there, one a dimension.
-    std::vector<double> vector_of(std::initializer_list<const char*> keys, double otherwise) const {
+    // Returns the numbers of the first key that is there.
+    std::vector<double> numbers_of(std::initializer_list<const char*> keys,
+                                   const std::vector<double>& otherwise) const {
         for (const char* const key : keys)
-            if (fields_.has(key)) return fields_.numbers(key, dimensions_);
-        return std::vector<double>(dimensions_, otherwise);
-    }
-
-    // ElementSize, the voxel's size, counts if there is no spacing.
-    std::vector<double> spacings() const { return vector_of({"ElementSpacing", "ElementSize"}, 1); }
-
-    std::vector<double> row_vectors() const {
-        for (const char* const key : {"TransformMatrix", "Rotation", "Orientation"})
-            if (fields_.has(key)) return fields_.numbers(key, dimensions_ * dimensions_);
-        std::vector<double> rows(dimensions_ * dimensions_, 0);
-        for (std::size_t axis = 0; axis < dimensions_; ++axis) rows[axis * (dimensions_ + 1)] = 1;
-        return rows;
+            if (fields_.has(key)) return fields_.numbers(key, otherwise.size());
+        return otherwise;
     }
 
     Path path_;

@@ -24,18 +24,14 @@ bool has_direction(const Nrrd& nrrd, unsigned axis) {
     return nrrd.spaceDim > 0 && !std::isnan(nrrd.axis[axis].spaceDirection[0]);
 }
 
-bool any_direction(const Nrrd& nrrd) {
-    for (unsigned axis = 0; axis < nrrd.dim; ++axis)
-        if (has_direction(nrrd, axis)) return true;
-    return false;
-}
-
 // Tells if the header says that an axis does not lie in space.
 bool is_apart(const Nrrd& nrrd, unsigned axis) {
     const int kind = nrrd.axis[axis].kind;
     if (kind != nrrdKindUnknown && kind != nrrdKindDomain)
         return !nrrdKindIsDomain(kind) || kind == nrrdKindTime;
-    return any_direction(nrrd) && !has_direction(nrrd, axis);
+    for (unsigned other = 0; other < nrrd.dim; ++other)
+        if (has_direction(nrrd, other)) return !has_direction(nrrd, axis);
+    return false;
 }
 
 // Returns the three axes that span the volume. If there are more axes, those are left out first
@@ -443,13 +439,6 @@ DataEncoding encoding_of(const std::string& path, const ::NrrdEncoding* encoding
     fail("{}: encoding: found '{}', expected raw, gzip, bzip2 or ascii", path, encoding->name);
 }
 
-void check_required_fields(const std::string& path, const HeaderText& header) {
-    for (const char* const field : {"type", "dimension", "sizes", "encoding"}) {
-        if (!header.fields.contains(field))
-            fail("{}: the NRRD header has no '{}' field", path, field);
-    }
-}
-
 struct NrrdHeader {
     Grid grid;
     StoredData data;
@@ -469,7 +458,9 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
     const bool bad = nrrdStringRead(nrrd.get(), text.text.c_str(), state.get()) != 0;
     const std::string reason = bad ? teem_message() : "";
     if (bad && reason.starts_with("trouble parsing")) fail("{}: bad NRRD header: {}", name, reason);
-    check_required_fields(name, text);
+    for (const char* const field : {"type", "dimension", "sizes", "encoding"})
+        if (!text.fields.contains(field))
+            fail("{}: the NRRD header has no '{}' field", name, field);
     if (bad) fail("{}: bad NRRD header: {}", name, reason);
 
     NrrdHeader header;

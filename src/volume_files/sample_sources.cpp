@@ -71,6 +71,13 @@ std::uint64_t bytes_to_keep(const Triple& edge, const Triple& count, std::uint64
         {std::min(most_kept, limit / 8), std::min(row, limit / 4), fewest * chunk_bytes});
 }
 
+// Tells if three axes are taken as a whole, of samples that are drawn as they are.
+bool is_drawn_volume(const StoredData& data) {
+    const auto axes = std::ranges::count_if(
+        data.axes, [](const StoredAxis& axis) { return !axis.taken.has_value(); });
+    return axes == 3 && drawn_type(data.type) && !data.is_scaled();
+}
+
 }  // namespace
 
 FileState FileState::of(const std::filesystem::path& path) {
@@ -108,10 +115,7 @@ std::string FileState::bytes_hash() const {
 }
 
 bool FileSource::can_read(const StoredData& data) {
-    const auto axes = std::ranges::count_if(
-        data.axes, [](const StoredAxis& axis) { return !axis.taken.has_value(); });
-    return data.encoding == DataEncoding::raw && axes == 3 && drawn_type(data.type) &&
-           !data.is_scaled();
+    return data.encoding == DataEncoding::raw && is_drawn_volume(data);
 }
 
 FileSource::FileSource(const StoredData& data, const std::array<std::int64_t, 3>& size)
@@ -334,10 +338,8 @@ std::string FileSource::identity() const {
 }
 
 bool StreamSource::can_read(const StoredData& data) {
-    const auto axes = std::ranges::count_if(
-        data.axes, [](const StoredAxis& axis) { return !axis.taken.has_value(); });
     const bool packed = data.encoding == DataEncoding::gzip || data.encoding == DataEncoding::bzip2;
-    return packed && axes == 3 && drawn_type(data.type) && !data.is_scaled();
+    return packed && is_drawn_volume(data);
 }
 
 StreamSource::StreamSource(const StoredData& data, const std::array<std::int64_t, 3>& size)

@@ -97,6 +97,9 @@ bool parse(const std::string& word, T& sample) {
     }
 }
 
+// Reads `count` numbers, separated by blanks or commas, into `samples` of `type`. (teem 1.12 reads
+// words of any length into a buffer of fixed length, and wraps numbers that do not fit their type.)
+// Throws Error; `file` is for messages.
 template <typename T>
 void read_numbers(std::FILE* stream, const std::string& file, ValueType type, std::int64_t count,
                   T* samples) {
@@ -120,22 +123,18 @@ void read_numbers(std::FILE* stream, const std::string& file, ValueType type, st
     }
 }
 
-// Reads `count` numbers, separated by blanks or commas, into `samples` of `type`. (teem 1.12 reads
-// words of any length into a buffer of fixed length, and wraps numbers that do not fit their type.)
-// Throws Error; `file` is for messages.
-void read_text_samples(std::FILE* stream, const std::string& file, ValueType type,
-                       std::int64_t count, void* samples) {
-    with_type(type, [&](auto zero) {
-        read_numbers(stream, file, type, count, static_cast<decltype(zero)*>(samples));
-    });
-}
-
 // Bytes of an array up to which it is read as a whole and cut up in memory.
 constexpr std::size_t scratch_bytes = std::size_t{1} << 22;
 
 std::size_t product(Axes axes, std::size_t value_bytes) {
     for (const StoredAxis& axis : axes) value_bytes *= static_cast<std::size_t>(axis.size);
     return value_bytes;
+}
+
+std::string sizes_text(Axes axes) {
+    std::vector<std::int64_t> sizes;
+    for (const StoredAxis& axis : axes) sizes.push_back(axis.size);
+    return fmt::format("{}", fmt::join(sizes, " x "));
 }
 
 bool takes_all(Axes axes) {
@@ -167,25 +166,6 @@ char* gather_row(const char* from, Axes axes, std::size_t value_bytes, char* to)
     }
 }
 
-// Copies the part that is taken of the array at `from`, and returns the end of the copy.
-char* gather(const char* from, Axes axes, std::size_t value_bytes, char* to) {
-    if (takes_all(axes)) {
-        const std::size_t bytes = product(axes, value_bytes);
-        std::memcpy(to, from, bytes);
-        return to + bytes;
-    }
-    if (axes.size() == 2 && axes[0].taken && !axes[1].taken)
-        return gather_row(from, axes, value_bytes, to);
-    const Axes inner = axes.first(axes.size() - 1);
-    const StoredAxis& outer = axes.back();
-    const std::size_t step = product(inner, value_bytes);
-    const std::int64_t first = outer.taken.value_or(0);
-    const std::int64_t end = outer.taken ? first + 1 : outer.size;
-    for (std::int64_t i = first; i < end; ++i)
-        to = gather(from + static_cast<std::size_t>(i) * step, inner, value_bytes, to);
-    return to;
-}
-
 class TakenReader {
   public:
     TakenReader(ByteReader& reader, std::size_t value_bytes, char* to)
@@ -205,7 +185,7 @@ class TakenReader {
         if (bytes <= scratch_bytes) {
             scratch_.resize(bytes);
             reader_.read(scratch_.data(), bytes);
-            to_ = gather(scratch_.data(), axes, value_bytes_, to_);
+            to_ = take_of_memory(scratch_.data(), axes, value_bytes_, to_);
         } else if (outer.taken) {
             reader_.skip(static_cast<std::size_t>(*outer.taken) * inner_bytes);
             read(inner);
@@ -232,23 +212,6 @@ class TakenReader {
     char* to_;
     std::vector<char> scratch_;
 };
-
-std::size_t checked_product(const std::string& file, Axes axes, std::size_t value_bytes,
-                            bool taken_only) {
-    std::uint64_t bytes = value_bytes;
-    bool overflow = false;
-    for (const StoredAxis& axis : axes) {
-        if (taken_only && axis.taken) continue;
-        overflow |= __builtin_mul_overflow(bytes, static_cast<std::uint64_t>(axis.size), &bytes);
-    }
-    if (overflow || bytes > (std::uint64_t{1} << 62)) {
-        std::vector<std::int64_t> sizes;
-        for (const StoredAxis& axis : axes) sizes.push_back(axis.size);
-        fail("{}: the header promises {} samples of {} bytes, more than any file holds", file,
-             fmt::join(sizes, " x "), value_bytes);
-    }
-    return bytes;
-}
 
 // Checks the number of files: one for each step of the axes that a single file does not hold. The
 // last axis may be cut into equal pieces, too.
@@ -280,29 +243,48 @@ bool skips_stored(const StoredData& data) {
 }
 
 std::string named_size(const StoredData& data) {
-    std::vector<std::int64_t> sizes;
-    for (const StoredAxis& axis : data.axes) sizes.push_back(axis.size);
     const std::size_t files = data.files.size();
-    return fmt::format("{} {} samples{}", fmt::join(sizes, " x "), name_of(data.type),
+    return fmt::format("{} {} samples{}", sizes_text(data.axes), name_of(data.type),
                        files > 1 ? fmt::format(" in {} files", files) : "");
 }
 
 }  // namespace
 
-std::size_t stored_bytes(const std::string& file, Axes axes, std::size_t value_bytes) {
-    return checked_product(file, axes, value_bytes, false);
-}
-
-std::size_t taken_bytes(const std::string& file, Axes axes, std::size_t value_bytes) {
-    return checked_product(file, axes, value_bytes, true);
+std::size_t stored_bytes(const std::string& file, Axes axes, std::size_t value_bytes,
+                         bool taken_only) {
+    std::uint64_t bytes = value_bytes;
+    bool overflow = false;
+    for (const StoredAxis& axis : axes) {
+        if (taken_only && axis.taken) continue;
+        overflow |= __builtin_mul_overflow(bytes, static_cast<std::uint64_t>(axis.size), &bytes);
+    }
+    if (overflow || bytes > (std::uint64_t{1} << 62)) {
+        fail("{}: the header promises {} samples of {} bytes, more than any file holds", file,
+             sizes_text(axes), value_bytes);
+    }
+    return bytes;
 }
 
 void read_taken(ByteReader& reader, Axes axes, std::size_t value_bytes, void* to) {
     TakenReader(reader, value_bytes, static_cast<char*>(to)).read(axes);
 }
 
-void take_of_memory(const char* from, Axes axes, std::size_t value_bytes, char* to) {
-    gather(from, axes, value_bytes, to);
+char* take_of_memory(const char* from, Axes axes, std::size_t value_bytes, char* to) {
+    if (takes_all(axes)) {
+        const std::size_t bytes = product(axes, value_bytes);
+        std::memcpy(to, from, bytes);
+        return to + bytes;
+    }
+    if (axes.size() == 2 && axes[0].taken && !axes[1].taken)
+        return gather_row(from, axes, value_bytes, to);
+    const Axes inner = axes.first(axes.size() - 1);
+    const StoredAxis& outer = axes.back();
+    const std::size_t step = product(inner, value_bytes);
+    const std::int64_t first = outer.taken.value_or(0);
+    const std::int64_t end = outer.taken ? first + 1 : outer.size;
+    for (std::int64_t i = first; i < end; ++i)
+        to = take_of_memory(from + static_cast<std::size_t>(i) * step, inner, value_bytes, to);
+    return to;
 }
 
 StoredAxis taken_axis(const std::string& file, const char* what,
@@ -371,14 +353,14 @@ StoredSamples StoredReader::read() const {
     if (data_.encoding == DataEncoding::ascii) {
         samples.bytes = taken(text_samples());
     } else {
-        samples.bytes = filled_memory(taken_bytes(name_, data_.axes, bytes_of(data_.type)));
+        samples.bytes = filled_memory(stored_bytes(name_, data_.axes, bytes_of(data_.type), true));
         const std::unique_ptr<ByteReader> reader = open_all();
         read_taken(*reader, data_.axes, bytes_of(data_.type), samples.bytes.get());
         warn_of_surplus(*reader);
     }
     if (data_.swap_bytes) {
         swap_bytes(samples.bytes.get(),
-                   static_cast<std::int64_t>(taken_bytes(name_, data_.axes, 1)),
+                   static_cast<std::int64_t>(stored_bytes(name_, data_.axes, 1, true)),
                    bytes_of(data_.type));
     }
     return samples;
@@ -467,15 +449,18 @@ std::shared_ptr<void> StoredReader::text_samples() const {
     for (const Path& path : data_.files) {
         const OpenedFile file = open(path);
         skip_bytes(file.get());
-        read_text_samples(file.get(), path.string(), data_.type,
-                          static_cast<std::int64_t>(bytes_each_ / bytes_of(data_.type)), to);
+        const auto count = static_cast<std::int64_t>(bytes_each_ / bytes_of(data_.type));
+        with_type(data_.type, [&](auto zero) {
+            read_numbers(file.get(), path.string(), data_.type, count,
+                         reinterpret_cast<decltype(zero)*>(to));
+        });
         to += bytes_each_;
     }
     return all;
 }
 
 std::shared_ptr<void> StoredReader::taken(std::shared_ptr<void> all) const {
-    const std::size_t bytes = taken_bytes(name_, data_.axes, bytes_of(data_.type));
+    const std::size_t bytes = stored_bytes(name_, data_.axes, bytes_of(data_.type), true);
     if (bytes == bytes_) return all;
     std::shared_ptr<void> some = filled_memory(bytes);
     take_of_memory(static_cast<const char*>(all.get()), data_.axes, bytes_of(data_.type),

@@ -36,22 +36,20 @@ StoredAxis taken_axis(const std::string& file, const char* what,
 // Warns of every axis of which the first is taken because the request names none.
 void say_taken(const std::string& file, std::span<const StoredAxis> axes);
 
-// Return the number of bytes of an array, and of the part of it that is taken. Throw Error if no
+// Returns the number of bytes of an array, or of the part of it that is taken. Throws Error if no
 // file holds as much. `file`: for messages.
 std::size_t stored_bytes(const std::string& file, std::span<const StoredAxis> axes,
-                         std::size_t value_bytes);
-std::size_t taken_bytes(const std::string& file, std::span<const StoredAxis> axes,
-                        std::size_t value_bytes);
+                         std::size_t value_bytes, bool taken_only = false);
 
 // Reads the part of an array that is taken. `axes`: the fastest first, as in the file; those that
-// are taken as a whole keep their order. `to` has room for taken_bytes(). Uses all of the array's
+// are taken as a whole keep their order. `to` has room for its bytes. Uses all of the array's
 // bytes.
 void read_taken(ByteReader& reader, std::span<const StoredAxis> axes, std::size_t value_bytes,
                 void* to);
 
-// Copies the part that is taken of an array in memory.
-void take_of_memory(const char* from, std::span<const StoredAxis> axes, std::size_t value_bytes,
-                    char* to);
+// Copies the part that is taken of an array in memory, and returns the end of the copy.
+char* take_of_memory(const char* from, std::span<const StoredAxis> axes, std::size_t value_bytes,
+                     char* to);
 
 // Returns the index that taken_axis() takes, and warns as say_taken() does.
 std::int64_t taken_of(const std::string& file, const char* what,

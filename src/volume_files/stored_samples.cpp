@@ -165,10 +165,6 @@ Volume narrowed(const Grid& grid, const StoredSamples& samples) {
     return Volume(grid, SampleType::float32, memory);
 }
 
-bool is_whole(double number) {
-    return number == std::trunc(number);
-}
-
 template <typename From>
 Volume scaled(const Grid& grid, const StoredSamples& samples) {
     const auto* const from = static_cast<const From*>(samples.bytes.get());
@@ -177,7 +173,7 @@ Volume scaled(const Grid& grid, const StoredSamples& samples) {
         return scale * static_cast<double>(from[i]) + offset;
     };
     SampleType type = SampleType::float32;
-    if (std::is_integral_v<From> && is_whole(scale) && is_whole(offset)) {
+    if (std::is_integral_v<From> && scale == std::trunc(scale) && offset == std::trunc(offset)) {
         const Range<From> range = range_of(from, grid.sample_count());
         const double ends[] = {scale * static_cast<double>(range.lo) + offset,
                                scale * static_cast<double>(range.hi) + offset};

@@ -46,6 +46,12 @@ std::vector<Path> that_file(const Path& path) {
     return {path};
 }
 
+#ifdef LAMINA_HAS_GDCM
+constexpr const char* dicom_name = "DICOM";
+#else
+constexpr const char* dicom_name = "DICOM without compression";
+#endif
+
 // Tried in this order: the first that recognizes a file reads it.
 constexpr VolumeFormat formats[] = {
     {"NRRD", {".nrrd", ".nhdr"}, is_nrrd, open_nrrd, files_of_nrrd, has_channels | has_times},
@@ -63,17 +69,7 @@ constexpr VolumeFormat formats[] = {
      files_of_hdf5,
      has_arrays | has_channels | has_times},
 #endif
-#ifdef LAMINA_HAS_GDCM
-    {"DICOM", {".dcm"}, is_dicom, open_dicom, files_of_dicom, has_arrays | has_times, true},
-#else
-    {"DICOM without compression",
-     {".dcm"},
-     is_dicom,
-     open_dicom,
-     files_of_dicom,
-     has_arrays | has_times,
-     true},
-#endif
+    {dicom_name, {".dcm"}, is_dicom, open_dicom, files_of_dicom, has_arrays | has_times, true},
     {"MetaImage",
      {".mha", ".mhd"},
      is_metaimage,

@@ -15,13 +15,10 @@
 
 namespace lamina {
 
-// NRRD (http://teem.sourceforge.net/nrrd/format.html): three orthogonal axes of samples of any
-// scalar type. World coordinates are the file's own: `space origin` (or axis min) is the position
-// of the first sample, `space directions` (or `spacings`) are the steps between samples. Beyond
-// three, axes of one sample are dropped; kinds and directions must identify the others, which are
-// the request's channel and time. Encodings are raw, gzip, bzip2 and ascii; the header is attached
-// or names its data files; both byte orders are read. The sizes in the header are checked against
-// the files' lengths before memory is taken. NaN and infinite samples are kept.
+// NRRD (http://teem.sourceforge.net/nrrd/format.html): three orthogonal axes of any scalar type in
+// the file's own coordinates (`space origin` and `space directions`, or axis mins and `spacings`).
+// Other axes have one sample, or kinds and directions make them the request's channel and time.
+// Encodings are raw, gzip, bzip2 and ascii; the header is attached or names its data files.
 bool is_nrrd(const std::filesystem::path& path);
 Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request = {},
                  const VolumeUse& use = {});
@@ -36,12 +33,10 @@ Volume open_zarr(const std::filesystem::path& path, const VolumeRequest& request
                  const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_zarr(const std::filesystem::path& path);
 
-// HDF5 (NetCDF-4 is one), or an array in such a file, "FILE.h5:/PATH": three dimensions of numbers,
-// in the order z, y, x; before these may come the channel, and before that the time. The path names
-// the array, or `request.array`; else it is the only one of three dimensions or more. Distances and
-// places come from dimension scales (NetCDF's coordinate variables) or the attribute
-// element_size_um; the attributes scale_factor and add_offset are applied, and such a volume does
-// not stay in its file. libhdf5 runs in a process of its own (volume_files/isolated_process.h).
+// HDF5 (NetCDF-4 is one), or an array in such a file, "FILE.h5:/PATH", which `request.array` may
+// name, too: the axes z, y, x, before these the channel, before that the time. Distances and places
+// come from dimension scales (NetCDF's coordinate variables) or the attribute element_size_um;
+// arrays with scale_factor or add_offset do not stay in the file.
 bool is_hdf5(const std::filesystem::path& path);
 Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use);
@@ -49,20 +44,16 @@ std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& pa
 
 // One series of a folder of DICOM files, or a file of several frames: the largest series unless
 // request.array names another by its UID or description; and the request's time of a series that
-// has several images at each place. Samples are what RescaleSlope and RescaleIntercept make of the
-// pixels. Slices that are missing or do not go together are errors. A folder is DICOM if one of its
-// first files is.
+// has several images at each place. A folder is DICOM if one of its first files is.
 bool is_dicom(const std::filesystem::path& path);
 Volume open_dicom(const std::filesystem::path& path, const VolumeRequest& request,
                   const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_dicom(const std::filesystem::path& path);
 
-// MetaImage files (.mha, .mhd), as ITK writes them
-// (https://itk.org/Wiki/ITK/MetaIO/Documentation): an image of three dimensions, or of four, the
-// last of which is time; of all element types, with channels; binary, compressed or as text; in the
-// file itself, in another, in a list or in a numbered series. `Offset` is the first sample's place,
-// the rows of `TransformMatrix` are the axes. If `AnatomicalOrientation` names directions, the
-// world's axes are LPS, as ITK has them.
+// MetaImage files (.mha, .mhd; https://itk.org/Wiki/ITK/MetaIO/Documentation): an image of three
+// dimensions, or of four, the last of which is time, with channels; binary, compressed or as text;
+// in the file itself, in another, in a list or in a numbered series. The rows of `TransformMatrix`
+// are the axes. If `AnatomicalOrientation` names directions, the world's axes are LPS.
 bool is_metaimage(const std::filesystem::path& path);
 Volume open_metaimage(const std::filesystem::path& path, const VolumeRequest& request,
                       const VolumeUse& use);
@@ -83,11 +74,9 @@ bool is_vti(const std::filesystem::path& path);
 Volume open_vti(const std::filesystem::path& path, const VolumeRequest& request,
                 const VolumeUse& use);
 
-// TIFF or BigTIFF: pages of one size and type are slices from the first to the last; those of one
-// file, or of the files of a folder, in the order of the numbers in their names. Integers of 8 to
-// 64 bits and floats of 32 and 64, in strips or tiles, with every compression that libtiff knows.
-// The samples of a pixel are channels; ImageJ's and OME's descriptions give channels, times and
-// distances. Samples are nodes.
+// TIFF or BigTIFF: pages of one size and type are slices, those of one file, or of the files of a
+// folder in the order of the numbers in their names, with every compression that libtiff knows. The
+// samples of a pixel are channels; ImageJ's and OME's descriptions give channels, times, distances.
 bool is_tiff(const std::filesystem::path& path);
 Volume open_tiff(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use);

@@ -115,8 +115,6 @@ class ImageFile {
         return size;
     }
 
-    static std::string name_of_array(Node array) { return array.attribute("Name").value(); }
-
     // Chooses the array, and finds if cells have it, by the first piece.
     void choose_array() {
         std::vector<std::string> names;
@@ -126,7 +124,8 @@ class ImageFile {
             if (preferred.empty()) preferred = data.attribute("Scalars").value();
             for (const Node array : data.children("DataArray")) {
                 const std::string_view type = array.attribute("type").value();
-                if (type != "String" && type != "Bit") names.push_back(name_of_array(array));
+                if (type != "String" && type != "Bit")
+                    names.emplace_back(array.attribute("Name").value());
             }
         }
         if (names.empty()) fail("{}: no array of numbers in PointData and CellData", file_.name());
@@ -151,7 +150,7 @@ class ImageFile {
 
     Node find_array(Node piece, const char* section) const {
         for (const Node array : piece.child(section).children("DataArray"))
-            if (name_of_array(array) == array_) return array;
+            if (array.attribute("Name").value() == array_) return array;
         return {};
     }
 
@@ -174,7 +173,7 @@ class ImageFile {
         axes.insert(axes.begin(), channel);
         if (piece == pieces_[0]) say_taken(what, axes);
         const std::size_t word = bytes_of(values->type);
-        samples.bytes = filled_memory(taken_bytes(what, axes, word));
+        samples.bytes = filled_memory(stored_bytes(what, axes, word, true));
         take_of_memory(values->bytes.text().data(), axes, word,
                        static_cast<char*>(samples.bytes.get()));
         return samples;

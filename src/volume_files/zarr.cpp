@@ -43,8 +43,8 @@ class OmeReader {
         const auto level = static_cast<std::size_t>(taken_of(
             folder_.string(), "level", wanted, static_cast<std::int64_t>(datasets.size())));
         const Json& dataset = datasets[level];
-        const auto path = dataset.is_object() ? dataset.find("path") : dataset.end();
-        if (!dataset.is_object() || path == dataset.end() || !path->is_string())
+        const Json* const path = member_of(dataset, "path");
+        if (path == nullptr || !path->is_string())
             fail("{}: datasets: found {}, expected a \"path\"", name_, json_excerpt(dataset));
         ZarrImage image{folder_ / path->get<std::string>(), read_axes(), {}, {}};
         image.scale.assign(image.axes.size(), 1);
@@ -56,8 +56,8 @@ class OmeReader {
 
   private:
     const Json& list_in(const Json& object, const char* key) const {
-        const auto found = object.is_object() ? object.find(key) : object.end();
-        if (!object.is_object() || found == object.end() || !found->is_array() || found->empty())
+        const Json* const found = member_of(object, key);
+        if (found == nullptr || !found->is_array() || found->empty())
             fail("{}: multiscales: found no list \"{}\", expected one", name_, key);
         return *found;
     }
@@ -69,8 +69,8 @@ class OmeReader {
         std::vector<std::string> axes;
         std::string unit;
         for (const Json& axis : list_in(image_, "axes")) {
-            const auto named = axis.is_object() ? axis.find("name") : axis.end();
-            const Json& name = axis.is_object() && named != axis.end() ? *named : axis;
+            const Json* const named = member_of(axis, "name");
+            const Json& name = named != nullptr ? *named : axis;
             const std::string word = name.is_string() ? name.get<std::string>() : "";
             if (word.size() != 1 || std::string("tczyx").find(word) == std::string::npos) {
                 fail("{}: axes: found {}, expected \"t\", \"c\", \"z\", \"y\" or \"x\"", name_,
@@ -85,8 +85,8 @@ class OmeReader {
     }
 
     void expect_unit(const Json& axis, std::string& unit) const {
-        const auto found = axis.is_object() ? axis.find("unit") : axis.end();
-        if (!axis.is_object() || found == axis.end() || !found->is_string()) return;
+        const Json* const found = member_of(axis, "unit");
+        if (found == nullptr || !found->is_string()) return;
         const auto here = found->get<std::string>();
         if (!unit.empty() && here != unit) {
             fail("{}: axes: found the units \"{}\" and \"{}\", expected one for all", name_,
@@ -152,16 +152,8 @@ Json zarr_attributes(const std::filesystem::path& folder) {
 
 // Tells if the attributes are those of an OME-Zarr image.
 bool is_ome_zarr(const Json& attributes) {
-    const auto found = attributes.find("multiscales");
-    return found != attributes.end() && found->is_array() && !found->empty() &&
-           found->front().is_object();
-}
-
-// Returns the wanted level of an OME-Zarr image (version 0.4 and before), 0 the finest; by default
-// the first, with a warning. Throws Error.
-ZarrImage ome_zarr_level(const std::filesystem::path& folder, const Json& attributes,
-                         const std::optional<std::int64_t>& level) {
-    return OmeReader(folder, attributes).read(level);
+    const Json* const found = member_of(attributes, "multiscales");
+    return found != nullptr && found->is_array() && !found->empty() && found->front().is_object();
 }
 
 bool has_file(const Path& folder, const char* name) {
@@ -201,7 +193,7 @@ ZarrImage image_in(const Path& path, const VolumeRequest& request) {
     const Path folder = request.array.empty() ? path : path / request.array;
     if (has_file(folder, ".zarray")) return {folder, {}, {}, {}};
     const nlohmann::json attributes = zarr_attributes(folder);
-    if (is_ome_zarr(attributes)) return ome_zarr_level(folder, attributes, request.level);
+    if (is_ome_zarr(attributes)) return OmeReader(folder, attributes).read(request.level);
     if (has_file(folder, "zarr.json"))
         fail("{}: found Zarr version 3, expected version 2", folder.string());
     if (!request.array.empty())

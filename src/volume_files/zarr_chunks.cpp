@@ -23,11 +23,21 @@
 #include "volume_files/volume_formats.h"
 
 namespace lamina {
+
+// How the chunks of an array are packed. decode() returns false unless the stored bytes give
+// exactly the chunk's.
+struct ZarrCodec {
+    const char* id;
+    bool (*decode)(std::span<const char> stored, std::span<char> chunk);
+};
+
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* codec_names[] = {"none", "zlib", "gzip", "zstd", "lz4", "blosc"};
+// Most bytes that a stored byte gives, whatever the codec: zstd repeats a byte 2^17 times in four
+// bytes.
+constexpr std::size_t most_chunk_expansion = 1 << 16;
 
 // Decodes zlib and gzip streams alike, each as a whole.
 bool inflate_all(std::span<const char> stored, std::span<char> chunk) {
@@ -77,30 +87,40 @@ bool decode_blosc(std::span<const char> stored, std::span<char> chunk) {
            static_cast<int>(size);
 }
 
-bool decode(ZarrCodec codec, std::span<const char> stored, std::span<char> chunk) {
-    switch (codec) {
-        case ZarrCodec::zlib:
-        case ZarrCodec::gzip:
-            return inflate_all(stored, chunk);
-        case ZarrCodec::zstd:
-            return decode_zstd(stored, chunk);
-        case ZarrCodec::lz4:
-            return decode_lz4(stored, chunk);
-        case ZarrCodec::blosc:
-            return decode_blosc(stored, chunk);
-        case ZarrCodec::none:
-            break;
+constexpr ZarrCodec codecs[] = {{"zlib", inflate_all},
+                                {"gzip", inflate_all},
+                                {"zstd", decode_zstd},
+                                {"lz4", decode_lz4},
+                                {"blosc", decode_blosc}};
+
+// Returns the codec by its id; null if that is empty. Throws Error for others.
+const ZarrCodec* zarr_codec(const std::string& id, const std::string& name) {
+    if (id.empty()) return nullptr;
+    for (const ZarrCodec& codec : codecs)
+        if (id == codec.id) return &codec;
+    fail("{}: compressor: found \"{}\", expected blosc, zlib, gzip, zstd, lz4 or null", name,
+         one_line(id));
+}
+
+// Decodes a chunk that has exactly chunk.size() bytes. Throws Error if it is damaged, or has
+// another number of bytes. `name`: the chunk's file, for messages.
+void decode_chunk(const ZarrCodec* codec, std::span<const char> stored, std::span<char> chunk,
+                  const std::string& name) {
+    if (codec == nullptr) {
+        if (stored.size() != chunk.size())
+            fail("{}: found {} bytes, expected {}", name, stored.size(), chunk.size());
+        std::memcpy(chunk.data(), stored.data(), chunk.size());
+    } else if (!codec->decode(stored, chunk)) {
+        fail("{}: damaged {} data in its {} bytes, or not of the {} bytes that a chunk has", name,
+             codec->id, stored.size(), chunk.size());
     }
-    if (stored.size() != chunk.size()) return false;
-    std::memcpy(chunk.data(), stored.data(), chunk.size());
-    return true;
 }
 
 constexpr std::size_t most_zarr_axes = 16;
 
 const Json& zarray_member(const Json& document, const char* key, const std::string& name) {
-    const auto found = document.find(key);
-    if (found == document.end()) fail("{}: {}: found none, expected one", name, key);
+    const Json* const found = member_of(document, key);
+    if (found == nullptr) fail("{}: {}: found none, expected one", name, key);
     return *found;
 }
 
@@ -149,33 +169,14 @@ double fill_value(const Json& document, const std::string& name) {
 std::string compressor_id(const Json& document, const std::string& name) {
     const Json& compressor = zarray_member(document, "compressor", name);
     if (compressor.is_null()) return "";
-    const auto id = compressor.is_object() ? compressor.find("id") : compressor.end();
-    if (!compressor.is_object() || id == compressor.end() || !id->is_string())
+    const Json* const id = member_of(compressor, "id");
+    if (id == nullptr || !id->is_string())
         fail("{}: compressor: found {}, expected one with an \"id\"", name,
              json_excerpt(compressor));
     return id->get<std::string>();
 }
 
 }  // namespace
-
-ZarrCodec zarr_codec(const std::string& id, const std::string& name) {
-    if (id.empty()) return ZarrCodec::none;
-    for (const ZarrCodec codec :
-         {ZarrCodec::zlib, ZarrCodec::gzip, ZarrCodec::zstd, ZarrCodec::lz4, ZarrCodec::blosc}) {
-        if (id == codec_names[static_cast<std::size_t>(codec)]) return codec;
-    }
-    fail("{}: compressor: found \"{}\", expected blosc, zlib, gzip, zstd, lz4 or null", name,
-         one_line(id));
-}
-
-void decode_chunk(ZarrCodec codec, std::span<const char> stored, std::span<char> chunk,
-                  const std::string& name) {
-    if (decode(codec, stored, chunk)) return;
-    if (codec == ZarrCodec::none)
-        fail("{}: found {} bytes, expected {}", name, stored.size(), chunk.size());
-    fail("{}: damaged {} data in its {} bytes, or not of the {} bytes that a chunk has", name,
-         codec_names[static_cast<std::size_t>(codec)], stored.size(), chunk.size());
-}
 
 std::int64_t ZarrArray::chunk_samples() const {
     std::int64_t samples = 1;
@@ -213,10 +214,10 @@ ZarrArray read_zarray(const std::filesystem::path& folder) {
     array.fortran = order == "F";
     array.fill = fill_value(document, name);
     array.codec = zarr_codec(compressor_id(document, name), name);
-    if (const auto filters = document.find("filters");
-        filters != document.end() && !filters->is_null() && !filters->empty())
+    const Json* const filters = member_of(document, "filters");
+    if (filters != nullptr && !filters->is_null() && !filters->empty())
         fail("{}: filters: found {}, expected null", name, json_excerpt(*filters));
-    if (const auto separator = document.find("dimension_separator"); separator != document.end()) {
+    if (const Json* const separator = member_of(document, "dimension_separator")) {
         if (*separator != "." && *separator != "/") {
             fail("{}: dimension_separator: found {}, expected \".\" or \"/\"", name,
                  json_excerpt(*separator));

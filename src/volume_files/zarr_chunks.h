@@ -20,20 +20,13 @@
 
 namespace lamina {
 
-// How the chunks of a Zarr array are compressed (the "compressor" of its .zarray).
-enum class ZarrCodec { none, zlib, gzip, zstd, lz4, blosc };
+struct ZarrCodec;
 
-// Returns the codec by its id; an empty id is none. Throws Error for others. `name`: for messages.
-ZarrCodec zarr_codec(const std::string& id, const std::string& name);
-
-// Most bytes that a stored byte gives, whatever the codec: zstd repeats a byte 2^17 times in four
-// bytes.
-inline constexpr std::size_t most_chunk_expansion = 1 << 16;
-
-// Decodes a chunk that has exactly chunk.size() bytes. Throws Error if it is damaged, or has
-// another number of bytes. `name`: the chunk's file, for messages.
-void decode_chunk(ZarrCodec codec, std::span<const char> stored, std::span<char> chunk,
-                  const std::string& name);
+// Returns a member of an object, or null if it has none of that name or is no object.
+inline const nlohmann::json* member_of(const nlohmann::json& object, const char* key) {
+    const auto found = object.is_object() ? object.find(key) : object.end();
+    return found == object.end() ? nullptr : &*found;
+}
 
 // Returns a value as messages show it: one short line.
 inline std::string json_excerpt(const nlohmann::json& value) {
@@ -48,7 +41,8 @@ struct ZarrArray {
     bool swap = false;     // the other byte order than this machine's
     bool fortran = false;  // the first axis is the fastest in a chunk
     double fill = 0;
-    ZarrCodec codec = ZarrCodec::none;
+    // How chunks are packed (the "compressor"); null: they are not.
+    const ZarrCodec* codec = nullptr;
     char separator = '.';  // between the numbers of a chunk
 
     std::int64_t chunk_count(std::size_t axis) const {

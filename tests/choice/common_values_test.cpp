@@ -50,7 +50,7 @@ TEST(UsualRange, LeavesOutAFewExtremeValuesAlone) {
     add(values, -40, 40, 1000);
     values.push_back({-5000, 20});
     values.push_back({1800, 20});  // 81040 in all: 20 is a quarter of a thousandth
-    const UsualRange range = usual_range(ValueDistribution(values));
+    const ValueRange range = usual_range(ValueDistribution(values));
     EXPECT_EQ(range.lo, -40);
     EXPECT_EQ(range.hi, 40);
     values.push_back({-5000, 2000});  // these are no longer few

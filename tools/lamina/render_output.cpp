@@ -4,16 +4,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
 #include "base/client.h"
 #include "base/error.h"
-#include "base/json_text.h"
 #include "base/profile.h"
 #include "image/exr.h"
 #include "image/npy.h"
 #include "image/png.h"
+#include "time_series.h"
 #include "turntable.h"
 
 namespace lamina {
