@@ -21,7 +21,7 @@ LAMINA_INLINE Float dot(const Float (&a)[3], const Float (&b)[3]) {
 // Replaces each x, 0 to 1, by x^half_power. All are computed side by side, because each
 // multiplication waits for the one before.
 template <std::size_t count>
-LAMINA_INLINE void set_shine(const TileLight& light, Float (&x)[count]) {
+LAMINA_INLINE void set_shine(const CpuLight& light, Float (&x)[count]) {
     if (light.whole_half_power == 0) {
         for (Float& each : x) {
             const Float log = log_of(max(each, 1e-37f));
@@ -50,7 +50,7 @@ struct EffectLanes {
 // Computes the effects at some places of a ray, with the gradients g. `smallest_square`: square of
 // the smallest gradient, in the unit of g.
 template <std::size_t channels, std::size_t count>
-LAMINA_INLINE void set_effects(const TileLight& light, const Float (&g)[count][3],
+LAMINA_INLINE void set_effects(const CpuLight& light, const Float (&g)[count][3],
                                Float smallest_square, const Float (&to_eye_unit)[3],
                                EffectLanes<channels> (&effects)[count]) {
     Float inverse_root[count], to_eye[count];
@@ -63,7 +63,7 @@ LAMINA_INLINE void set_effects(const TileLight& light, const Float (&g)[count][3
             effects[i].highlight[c] = Float(0);
         }
     }
-    for (const TileLight::Direction& direction : light.directions) {
+    for (const CpuLight::Direction& direction : light.directions) {
         const Float to_light[3] = {Float(direction.to_light[0]), Float(direction.to_light[1]),
                                    Float(direction.to_light[2])};
         // |l + v|^2; if it is 0 there is no highlight.
@@ -102,7 +102,7 @@ LAMINA_INLINE void set_effects(const TileLight& light, const Float (&g)[count][3
 }
 
 template <std::size_t channels>
-LAMINA_INLINE EffectLanes<channels> effect_of(const TileLight& light, const Float (&g)[3],
+LAMINA_INLINE EffectLanes<channels> effect_of(const CpuLight& light, const Float (&g)[3],
                                               Float smallest_square,
                                               const Float (&to_eye_unit)[3]) {
     const Float there[1][3] = {{g[0], g[1], g[2]}};
@@ -115,7 +115,7 @@ LAMINA_INLINE EffectLanes<channels> effect_of(const TileLight& light, const Floa
 // in the middle and differs from that by up to the root of `reach`. If it stays near, nothing is
 // hidden. Otherwise a highlight may lie between the nodes; everything else changes without peaks,
 // and its full effect is possible only if the gradient differs three times as much.
-LAMINA_INLINE Float hidden_effect(const TileLight& light, Float square, Float reach,
+LAMINA_INLINE Float hidden_effect(const CpuLight& light, Float square, Float reach,
                                   Float smallest_square) {
     const FloatMask peaks = reach > light.most_turn * light.most_turn * square;
     const Float near = light.most_plain_turn * light.most_plain_turn * square;
@@ -168,7 +168,7 @@ struct LitNodes {
 
 // Returns the length of a piece's first sub-piece. The error at a kink falls with the square of
 // that. It is half as long again, since most pieces bend by less than they may hide.
-LAMINA_INLINE Float longest_piece(const TileLight& light, Float bend) {
+LAMINA_INLINE Float longest_piece(const CpuLight& light, Float bend) {
     const Float least(1.0f / 8), longer(1.5f);
     const Float share = light.most_bend / max(bend, 1e-30f);
     return max(min(longer * sqrt(share), 1), least);
@@ -178,7 +178,7 @@ LAMINA_INLINE Float longest_piece(const TileLight& light, Float bend) {
 inline constexpr float shortest_lit_piece = 1.0f / 256;
 
 // Returns the pieces whose light bends too much for one rule.
-LAMINA_INLINE FloatMask bends(const TileLight& light, Float bend, Float opacity) {
+LAMINA_INLINE FloatMask bends(const CpuLight& light, Float bend, Float opacity) {
     return (bend > light.most_bend) & (bend * opacity > light.faint_bend);
 }
 

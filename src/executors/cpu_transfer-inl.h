@@ -22,7 +22,7 @@ enum class Lookup { one, permute, gather };
 
 // Calls body(std::integral_constant<Lookup, ...>).
 template <class Body>
-LAMINA_INLINE void with_lookup(const TileTransfer& transfer, const Body& body) {
+LAMINA_INLINE void with_lookup(const CpuTransfer& transfer, const Body& body) {
     if (transfer.intervals == 1) {
         body(std::integral_constant<Lookup, Lookup::one>());
     } else if (transfer.intervals <= static_cast<int>(Float::lanes)) {
@@ -45,10 +45,10 @@ LAMINA_INLINE Float look_up(const std::vector<float>& values, Int interval) {
 
 // Returns the interval that holds a scalar in [0, 1]. At the value of a step it is the upper one.
 template <Lookup kind>
-LAMINA_INLINE Int find_interval(const TileTransfer& transfer, Float scalar) {
+LAMINA_INLINE Int find_interval(const CpuTransfer& transfer, Float scalar) {
     Int interval(0);
     if constexpr (kind == Lookup::one) return interval;
-    if (kind == Lookup::permute || transfer.intervals <= TileTransfer::few) {
+    if (kind == Lookup::permute || transfer.intervals <= CpuTransfer::few) {
         for (int i = 1; i < transfer.intervals; ++i) {
             const FloatMask beyond = scalar >= transfer.left_end[static_cast<std::size_t>(i)];
             interval += zero_unless(beyond, Int(1));
@@ -68,13 +68,13 @@ LAMINA_INLINE Int find_interval(const TileTransfer& transfer, Float scalar) {
 
 // Returns the position of a scalar in its interval, 0 to 1.
 template <Lookup kind>
-LAMINA_INLINE Float share_of_interval(const TileTransfer& transfer, Int interval, Float scalar) {
+LAMINA_INLINE Float share_of_interval(const CpuTransfer& transfer, Int interval, Float scalar) {
     const Float end = look_up<kind>(transfer.left_end, interval);
     return clamp01((scalar - end) * look_up<kind>(transfer.inverse_width, interval));
 }
 
 template <Lookup kind>
-LAMINA_INLINE Float optics_at(const TileTransfer& transfer, std::size_t channel, Int interval,
+LAMINA_INLINE Float optics_at(const CpuTransfer& transfer, std::size_t channel, Int interval,
                               Float share) {
     return share * look_up<kind>(transfer.change[channel], interval) +
            look_up<kind>(transfer.left[channel], interval);
@@ -84,7 +84,7 @@ LAMINA_INLINE Float optics_at(const TileTransfer& transfer, std::size_t channel,
 // `largest`: in an interval before the last one, or in the last one. The last interval does not
 // count if `largest` is its left end and the extinction there is 0.
 template <Lookup kind>
-LAMINA_INLINE FloatMask shows_something(const TileTransfer& transfer, Int first, Float largest) {
+LAMINA_INLINE FloatMask shows_something(const CpuTransfer& transfer, Int first, Float largest) {
     const Int last = find_interval<kind>(transfer, largest);
     const FloatMask before =
         look_up<kind>(transfer.shown_before, last) > look_up<kind>(transfer.shown_before, first);
@@ -92,7 +92,7 @@ LAMINA_INLINE FloatMask shows_something(const TileTransfer& transfer, Int first,
 }
 
 template <Lookup kind>
-LAMINA_INLINE Float64 precise_extinction_at(const TileTransfer& transfer, Int interval,
+LAMINA_INLINE Float64 precise_extinction_at(const CpuTransfer& transfer, Int interval,
                                             Float share) {
     const auto sum = [&](const std::vector<float>& value,
                          const std::vector<float>& rest) LAMINA_LAMBDA {
@@ -170,7 +170,7 @@ struct EntryPlaces {
     alignas(64) float front[most_lanes], back[most_lanes], layer[most_lanes];
 };
 
-LAMINA_INLINE void set_places(const TileTransfer& transfer, const TableCell& cell, Float length,
+LAMINA_INLINE void set_places(const CpuTransfer& transfer, const TableCell& cell, Float length,
                               EntryPlaces& places) {
     const auto layers = static_cast<std::int32_t>(transfer.table->lengths.size());
     const Float layer = min(length * transfer.layers_per_length, static_cast<float>(layers - 1));
@@ -206,7 +206,7 @@ LAMINA_INLINE void set_entries(FloatMask wanted, EntryNumbers<lit>& entries,
 }
 
 template <bool lit>
-LAMINA_INLINE void look_up_entries(const TileTransfer& transfer, const EntryPlaces& places,
+LAMINA_INLINE void look_up_entries(const CpuTransfer& transfer, const EntryPlaces& places,
                                    FloatMask wanted, EntryNumbers<lit>& entries) {
     constexpr std::ptrdiff_t size = lit ? 8 : 4;
     const auto nodes = static_cast<std::ptrdiff_t>(transfer.table->nodes.size());
@@ -252,7 +252,7 @@ LAMINA_INLINE EntryOf<lit> load_entry(const EntryNumbers<lit>& entries) {
 }
 
 template <bool lit>
-LAMINA_INLINE EntryOf<lit> table_entry(const TileTransfer& transfer, const TableCell& cell,
+LAMINA_INLINE EntryOf<lit> table_entry(const CpuTransfer& transfer, const TableCell& cell,
                                        Float length, FloatMask wanted) {
     EntryPlaces places;
     EntryNumbers<lit> entries;
@@ -268,7 +268,7 @@ struct TablePlace {
 };
 
 template <Lookup kind>
-LAMINA_INLINE TablePlace table_place(const TileTransfer& transfer, Float scalar) {
+LAMINA_INLINE TablePlace table_place(const CpuTransfer& transfer, Float scalar) {
     const Int interval = find_interval<kind>(transfer, scalar);
     const Float share = share_of_interval<kind>(transfer, interval, scalar);
     return {interval, share * look_up<kind>(transfer.nodes, interval) +
@@ -347,13 +347,13 @@ struct Segment {
     bool some_cut;
 };
 
-LAMINA_INLINE std::int32_t table_nodes(const TileTransfer& transfer) {
+LAMINA_INLINE std::int32_t table_nodes(const CpuTransfer& transfer) {
     return static_cast<std::int32_t>(transfer.table->nodes.size());
 }
 
 // Sets first, between and last in the lanes that are cut.
 template <Lookup kind>
-LAMINA_INLINE void cut_segment(const TileTransfer& transfer, const RunEnds& run, Segment& segment) {
+LAMINA_INLINE void cut_segment(const CpuTransfer& transfer, const RunEnds& run, Segment& segment) {
     const std::int32_t nodes = table_nodes(transfer);
     const FloatMask rising = run.front < run.back;
     const Int front_interval = run.front_place.interval, back_interval = run.back_place.interval;
@@ -394,8 +394,8 @@ LAMINA_INLINE RunEnds ends_of_cut(const RunEnds& run, FloatMask cut) {
 }
 
 template <Lookup kind>
-LAMINA_INLINE Segment segment_of(const TileTransfer& transfer, Float front, Float back,
-                                 Float length, FloatMask seen) {
+LAMINA_INLINE Segment segment_of(const CpuTransfer& transfer, Float front, Float back, Float length,
+                                 FloatMask seen) {
     const RunEnds ends{front, back, length, table_place<kind>(transfer, front),
                        table_place<kind>(transfer, back)};
     Segment segment;
@@ -420,7 +420,7 @@ struct SegmentEntries {
 // Returns associated colour and optical depth of the lanes that are cut. The values of other lanes
 // have no meaning.
 template <bool lit>
-LAMINA_INLINE SumOf<lit> sum_of_parts(const TileTransfer& transfer, const Segment& segment,
+LAMINA_INLINE SumOf<lit> sum_of_parts(const CpuTransfer& transfer, const Segment& segment,
                                       const SegmentEntries<lit>& entries) {
     SumOf<lit> sum = no_sum<lit>();
     RunShares first, between, last;
@@ -445,7 +445,7 @@ LAMINA_INLINE SumOf<lit> sum_of_parts(const TileTransfer& transfer, const Segmen
 
 // Returns the segment's optical depth, and its colour, not associated, from its table entries.
 template <bool lit>
-LAMINA_INLINE SumOf<lit> integrate_colors(const TileTransfer& transfer, const Segment& segment,
+LAMINA_INLINE SumOf<lit> integrate_colors(const CpuTransfer& transfer, const Segment& segment,
                                           const SegmentEntries<lit>& entries) {
     const EntryOf<lit>& entry = entries.first;
     SumOf<lit> sum;
@@ -476,7 +476,7 @@ LAMINA_INLINE SumOf<lit> integrate_colors(const TileTransfer& transfer, const Se
 }
 
 // Returns the optical depth alone, from tables without colour.
-LAMINA_INLINE Float integrate_depth(const TileTransfer& transfer, const Segment& segment) {
+LAMINA_INLINE Float integrate_depth(const CpuTransfer& transfer, const Segment& segment) {
     const auto depth_of = [&](const TableRun& run) LAMINA_LAMBDA {
         return table_extinction(*transfer.table, run.cell) * run.length;
     };
@@ -492,7 +492,7 @@ LAMINA_INLINE Float integrate_depth(const TileTransfer& transfer, const Segment&
 // Returns a segment's colour, not associated, and its optical depth. `entries` are used for tables
 // with colour.
 template <bool lit>
-LAMINA_INLINE SumOf<lit> integrate_segment(const TileTransfer& transfer, bool colored,
+LAMINA_INLINE SumOf<lit> integrate_segment(const CpuTransfer& transfer, bool colored,
                                            const Segment& segment,
                                            const SegmentEntries<lit>& entries) {
     SumOf<lit> sum;
@@ -506,7 +506,7 @@ LAMINA_INLINE SumOf<lit> integrate_segment(const TileTransfer& transfer, bool co
 }
 
 template <Lookup kind>
-LAMINA_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Float front,
+LAMINA_INLINE RunSum integrate_run(const CpuTransfer& transfer, bool colored, Float front,
                                    Float back, Float length, FloatMask seen) {
     const Segment segment = segment_of<kind>(transfer, front, back, length, seen);
     SegmentEntries<false> entries;

@@ -107,7 +107,7 @@ Swizzles make_swizzles(const TreeShape& shape, int bits) {
 LAMINA_EXPORT(swizzle_pixels);
 LAMINA_EXPORT(colorize_pixels);
 
-struct TileFixedTree::Evaluation {
+struct CpuFixedTree::Evaluation {
     const TileGrid::Tile& area;
     const TileLeaves& leaves;
     std::uint32_t swizzled = 0;  // number of nodes so far
@@ -115,34 +115,34 @@ struct TileFixedTree::Evaluation {
     alignas(64) std::array<TilePixels::Plane, max_tree_levels + 1> planes;
 };
 
-TileFixedTree::TileFixedTree(const CompositingPlan& plan, const TreeShape& shape,
-                             const std::array<float, 3>& single_color)
+CpuFixedTree::CpuFixedTree(const CompositingPlan& plan, const TreeShape& shape,
+                           const std::array<float, 3>& single_color)
     : blend_(target_blend(plan)),
       emulated_(plan.emulation.has_value()),
       shape_(shape),
       single_color_(single_color),
       swizzles_(make_swizzles(shape, blend_.bits)) {}
 
-void TileFixedTree::draw(const TileGrid::Tile& area, const TileLeaves& leaves,
-                         TilePixels& pixels) const {
+void CpuFixedTree::draw(const TileGrid::Tile& area, const TileLeaves& leaves,
+                        TilePixels& pixels) const {
     Evaluation evaluation{area, leaves, 0, {}};
     evaluate(0, shape_.root(), evaluation);
     colorize(evaluation.planes[0], pixels);
 }
 
-void TileFixedTree::colorize(const TilePixels::Plane& root, TilePixels& pixels) const {
+void CpuFixedTree::colorize(const TilePixels::Plane& root, TilePixels& pixels) const {
     LAMINA_DISPATCH(colorize_pixels)(blend_, emulated_, single_color_, root, pixels);
 }
 
-void TileFixedTree::put_into_parent(const SampleSpan& child, const SampleSpan& node,
-                                    std::uint32_t number, const TileGrid::Tile& area,
-                                    const TilePixels::Plane& from, TilePixels::Plane& to) const {
+void CpuFixedTree::put_into_parent(const SampleSpan& child, const SampleSpan& node,
+                                   std::uint32_t number, const TileGrid::Tile& area,
+                                   const TilePixels::Plane& from, TilePixels::Plane& to) const {
     const std::uint32_t stage = static_cast<std::uint32_t>(shape_.samples()) + number;
     LAMINA_DISPATCH(swizzle_pixels)
     (blend_, emulated_, swizzles_.at({child.count, node.count}), stage, area, from, to);
 }
 
-void TileFixedTree::evaluate(int level, const SampleSpan& node, Evaluation& evaluation) const {
+void CpuFixedTree::evaluate(int level, const SampleSpan& node, Evaluation& evaluation) const {
     TilePixels::Plane& plane = evaluation.planes[static_cast<std::size_t>(level)];
     plane.fill(0);
     if (shape_.is_leaf(level, node)) {
@@ -161,7 +161,7 @@ void TileFixedTree::evaluate(int level, const SampleSpan& node, Evaluation& eval
     }
 }
 
-std::int64_t TileFixedTree::byte_count() const {
+std::int64_t CpuFixedTree::byte_count() const {
     std::size_t bytes = 0;
     for (const auto& [sizes, swizzle] : swizzles_)
         bytes += sizeof(float) * (swizzle.whole.size() + swizzle.rest.size());

@@ -34,11 +34,11 @@ using TileLeaves =
 // LaMar's exponent-factoring (2004, section 6) on the CPU; GlFixedTree does it with OpenGL. Every
 // node composites opacity in a plane of fixed-point codes, which goes through a table into the
 // plane of its parent. One plane a level is enough, because a node's plane is used up at once.
-class TileFixedTree {
+class CpuFixedTree {
   public:
     // `plan`: how the nodes composite. Leaves may be drawn in another way.
-    TileFixedTree(const CompositingPlan& plan, const TreeShape& shape,
-                  const std::array<float, 3>& single_color);
+    CpuFixedTree(const CompositingPlan& plan, const TreeShape& shape,
+                 const std::array<float, 3>& single_color);
 
     // Replaces a tile by the picture of the leaves. Safe from several threads at a time.
     void draw(const TileGrid::Tile& area, const TileLeaves& leaves, TilePixels& pixels) const;

@@ -20,8 +20,8 @@ constexpr double peak_widths = 3;
 // with the sixth power of the turn.
 constexpr double usual_effect = 25, order = 6;
 
-TileLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {
-    TileLight::Direction direction;
+CpuLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {
+    CpuLight::Direction direction;
     direction.to_eye = !light.direction;
     for (std::size_t i = 0; i < 3; ++i) {
         direction.color[i] = static_cast<float>(light.color[static_cast<int>(i)]);
@@ -48,9 +48,9 @@ LightCuts light_cuts(const Lighting& lighting) {
     return cuts;
 }
 
-TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
-                          double most_bend, double faint_share) {
-    TileLight light;
+CpuLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
+                         double most_bend, double faint_share) {
+    CpuLight light;
     light.smallest = smallest_gradient_of(lighting);
     light.gray = true;
     for (const Light& each : lighting.lights) {

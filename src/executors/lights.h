@@ -41,7 +41,7 @@ inline constexpr double faint_share_of_cells = 1.0 / 2, faint_share_of_tets = 1.
 LightCuts light_cuts(const Lighting& lighting);
 
 // A lighting as vectors compute it, in three orthogonal axes.
-struct TileLight {
+struct CpuLight {
     struct Direction {
         bool to_eye = false;  // a headlight
         std::array<float, 3> to_light{};
@@ -67,7 +67,7 @@ struct TileLight {
 };
 
 // `axes`: orthogonal, in the unit of lengths along rays.
-TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
-                          double most_bend, double faint_share);
+CpuLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
+                         double most_bend, double faint_share);
 
 }  // namespace lamina

@@ -40,10 +40,10 @@ float low_part(const OpticalProperties& optics) {
 }
 
 // Coloured tables are read entry by entry, so extinction stands beside emission.
-TileTransfer::Aligned texels_of(const KnotTable& table) {
+CpuTransfer::Aligned texels_of(const KnotTable& table) {
     const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
     const std::size_t size = table.request.lit ? 8 : 4;
-    TileTransfer::Aligned texels(entries * size * layers);
+    CpuTransfer::Aligned texels(entries * size * layers);
     const auto place = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
     for (std::size_t entry = 0; entry < entries; ++entry) {
         for (std::size_t layer = 0; layer < layers; ++layer) {
@@ -70,9 +70,9 @@ std::array<std::vector<float>, 2> bends_of(const std::vector<CurvedPiece>& piece
     return bends;
 }
 
-TileTransfer::Aligned records_of(const TileTransfer& transfer) {
-    const std::size_t size = TileTransfer::record_size;
-    TileTransfer::Aligned records(size * transfer.left_end.size());
+CpuTransfer::Aligned records_of(const CpuTransfer& transfer) {
+    const std::size_t size = CpuTransfer::record_size;
+    CpuTransfer::Aligned records(size * transfer.left_end.size());
     for (std::size_t i = 0; i < transfer.left_end.size(); ++i) {
         float* to = records.data() + size * i;
         const auto &left = transfer.left, &change = transfer.change;
@@ -135,9 +135,9 @@ ShaderIntervals make_intervals(const std::vector<CurvedPiece>& pieces, const Val
     return intervals;
 }
 
-TileTransfer::TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
-                           std::shared_ptr<const KnotTable> knot_table, double step_advance,
-                           bool curved)
+CpuTransfer::CpuTransfer(const TransferFunction& transfer_function, const ValueRange& range,
+                         std::shared_ptr<const KnotTable> knot_table, double step_advance,
+                         bool curved)
     : table(std::move(knot_table)) {
     std::vector<KnotTable::Anchor> anchors;
     if (table) {
@@ -188,7 +188,7 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
     for (const float start : shader.starts) starts.push_back(static_cast<std::int32_t>(start));
 }
 
-std::int64_t TileTransfer::byte_count() const {
+std::int64_t CpuTransfer::byte_count() const {
     const std::size_t per_interval = 4 + 8 + 6 + (bend[0].empty() ? 0 : 2) + record_size;
     return static_cast<std::int64_t>(sizeof(float) *
                                          (per_interval * left_end.size() + texels.size()) +

@@ -52,15 +52,15 @@ ShaderIntervals make_intervals(const std::vector<CurvedPiece>& pieces, const Val
 // The transfer function in the form in which vectors look it up: ShaderIntervals with one array a
 // component. Arrays end with copies of the last interval, so that a whole vector may be loaded from
 // their beginning.
-struct TileTransfer {
+struct CpuTransfer {
     static constexpr int few = 16;  // largest number of intervals that are searched by comparisons
 
     // `range`: the scalars that become [0, 1]; lo < hi. `knot_table`: the pre-integration table, or
     // null. `step_advance`: see make_intervals(). `curved`: intervals are curves if points are
     // smooth (optics/pieces.h); not with a table.
-    TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
-                 std::shared_ptr<const KnotTable> knot_table, double step_advance,
-                 bool curved = false);
+    CpuTransfer(const TransferFunction& transfer_function, const ValueRange& range,
+                std::shared_ptr<const KnotTable> knot_table, double step_advance,
+                bool curved = false);
 
     int intervals = 0;
     std::vector<float> left_end, inverse_width;  // for each interval: its beginning, 1 / width

@@ -7,12 +7,12 @@
 namespace lamina {
 
 // Abilities and limits of the context: an OpenGL context (gl::Context fills this in) or the engine
-// `cpu` (tile_capabilities()).
+// `cpu` (cpu_capabilities()).
 struct Capabilities {
     std::string renderer;  // GL_RENDERER, with how the context was made: "OSMesa: llvmpipe (...)"
     int threads = 0;       // of the engine `cpu`; they do not change the picture
     bool software = true;  // no GPU behind it
-    bool tiles = false;    // the engine `cpu`
+    bool cpu = false;      // the engine `cpu`
     int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
     int max_3d_texture_size = 0;     // GL_MAX_3D_TEXTURE_SIZE
     int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS

@@ -40,7 +40,7 @@ constexpr int search_cells = 1024;  // parts of the range at which searches for 
 constexpr int deep_part_rounds = 8192;
 
 bool is_unlimited(const Capabilities& capabilities) {
-    return !capabilities.software || capabilities.tiles;
+    return !capabilities.software || capabilities.cpu;
 }
 
 // Returns the rounds of one search: knots in the fullest cell, and one to see that it is done.

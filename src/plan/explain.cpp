@@ -13,9 +13,8 @@ namespace lamina {
 namespace {
 
 const char* text_of(VolumeSampling sampling, const Capabilities& capabilities) {
-    if (capabilities.tiles && sampling == VolumeSampling::fetch)
-        return "8 samples, float arithmetic";
-    if (capabilities.tiles && sampling == VolumeSampling::hardware)
+    if (capabilities.cpu && sampling == VolumeSampling::fetch) return "8 samples, float arithmetic";
+    if (capabilities.cpu && sampling == VolumeSampling::hardware)
         return "8 samples, weights of 8 bits as graphics hardware has them";
     return word_of(sampling,
                    {"none", "8 fetches, float arithmetic",
@@ -194,7 +193,7 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         if (!slice.clip.empty()) row("clip", fmt::format("{} planes", slice.clip.size()));
         row("rays", slice.precise_rays ? "double" : "float");
         row("scalar", with_reason(text_of(slice.sampling, capabilities), slice.filter_reason));
-        if (!capabilities.tiles) {
+        if (!capabilities.cpu) {
             row("textures", fmt::format("{} of {}", slice.bricks.size(),
                                         slice.float_texture ? "float" : name_of(facts.type)));
         }
@@ -221,7 +220,7 @@ std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities
         fmt::format("\"{}\" from {:.6g} to {:.6g}", facts.scalar, facts.range.lo, facts.range.hi));
     if (plan.method == Method::project) {
         row("context", capabilities.renderer);
-        explain_projection(plan.project, facts, capabilities.tiles, row);
+        explain_projection(plan.project, facts, capabilities.cpu, row);
     }
     if (plan.method != Method::trace) row("error", text_of(plan.error()));
     return text + work_and_left_out(plan);

@@ -191,7 +191,7 @@ Work planned_work(const ProjectPlan& plan, const MeshFacts& facts, const Scene& 
 void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
                  const Capabilities& capabilities, const OmissionSwitch& omissions,
                  const SampleTrials& trials, TableCache& tables) {
-    plan.work = planned_work(plan.slice, facts, scene, capabilities.tiles);
+    plan.work = planned_work(plan.slice, facts, scene, capabilities.cpu);
     const std::vector<std::string> names = omission_names();
     for (Omission& omission : plan.omitted) {
         if (std::ranges::find(names, omission.name) == names.end()) continue;
@@ -199,8 +199,7 @@ void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
         kept.kept.insert(omission.name);
         try {
             const Plan other = plan_slicing(scene, facts, capabilities, kept, trials, tables);
-            omission.saves =
-                planned_work(other.slice, facts, scene, capabilities.tiles) - plan.work;
+            omission.saves = planned_work(other.slice, facts, scene, capabilities.cpu) - plan.work;
         } catch (const Error&) {
             // Without this omission the context could not draw the scene at all: there is no work
             // to compare.
@@ -307,7 +306,7 @@ void check_limits(const Scene& scene, const Capabilities& capabilities) {
 }
 
 Blending programmable_blending(const Capabilities& capabilities) {
-    if (capabilities.tiles) return Blending::tiles;
+    if (capabilities.cpu) return Blending::tiles;
     return capabilities.framebuffer_fetch ? Blending::fetch : Blending::barrier;
 }
 

@@ -181,7 +181,7 @@ struct SlicePlanner {
     // too small.
     double choose_curves() {
         const double error = largest_curve_error * std::max(facts.max_color, 1.0);
-        const bool pay = capabilities.tiles && facts.curves != facts.pieces &&
+        const bool pay = capabilities.cpu && facts.curves != facts.pieces &&
                          error <= curve_share * scene.max_error;
         const bool taken = omissions.leave_out(
             pay, "smooth_points",
@@ -238,7 +238,7 @@ struct SlicePlanner {
     std::vector<TextureBrick> choose_bricks(VolumeSampling sampling, bool float_texture) const {
         if (sampling == VolumeSampling::none) return {TextureBrick{{0, 0, 0}, facts.grid.size}};
         const std::uint64_t sample_bytes = float_texture ? 4 : bytes_of(facts.type);
-        const bool gradients = scene.lighting && !capabilities.tiles;
+        const bool gradients = scene.lighting && !capabilities.cpu;
         return cut_into_bricks(facts.grid, facts.non_finite > 0,
                                gradients ? gradient_bytes : sample_bytes, capabilities);
     }
@@ -351,11 +351,11 @@ struct SlicePlanner {
         const bool jumps = facts.non_finite > 0 && classification == Classification::preintegrated;
         const std::int64_t longest = std::ranges::max(facts.occupied_bricks.count);
         const bool leaps =
-            capabilities.tiles ||
+            capabilities.cpu ||
             (marched && longest <= capabilities.max_3d_texture_size &&
              facts.occupied_bricks.distance.size() <= capabilities.max_texture_bytes);
         const RayShares& shares = facts.ray_shares;
-        const double least = capabilities.tiles ? least_empty_in_tiles : least_empty_in_shaders;
+        const double least = capabilities.cpu ? least_empty_in_tiles : least_empty_in_shaders;
         const bool pays = shares.occupied <= (1 - least) * shares.box;
         return leaps && pays && facts.occupied_share < 1 && !jumps;
     }
@@ -365,7 +365,7 @@ struct SlicePlanner {
     bool choose_constant_regions(bool one_program) {
         const ConstantBricks& constant = facts.constant_bricks;
         return omissions.leave_out(
-            capabilities.tiles && one_program && !constant.kinds.empty() && !scene.lighting,
+            capabilities.cpu && one_program && !constant.kinds.empty() && !scene.lighting,
             "constant_regions",
             fmt::format("{} of the bricks that show something have one colour and one extinction: "
                         "rays take them in one step, by maps of {} bytes",
@@ -377,7 +377,7 @@ struct SlicePlanner {
     // another program.
     double choose_end_of_rays(std::size_t bricks, const std::optional<double>& error_bound) {
         constexpr double never = std::numeric_limits<double>::infinity();
-        if (!capabilities.tiles && bricks > 1) return never;
+        if (!capabilities.cpu && bricks > 1) return never;
         if (error_bound && *error_bound + hidden_error() > scene.max_error) return never;
         const double depth = opaque_depth(scene.max_error, max_color);
         const DepthRange& seen = facts.occupied_depth;

@@ -113,7 +113,7 @@ struct AnalyticSum {
 
 // The piece of a segment in one interval of the transfer function.
 struct AnalyticPiece {
-    const TileTransfer& transfer;
+    const CpuTransfer& transfer;
     FloatMask counted;  // lanes that have such a piece; the depth of others is 0
     FloatMask last;     // it ends at the end of the segment
     Int interval;
@@ -138,7 +138,7 @@ struct EndWeights {
 // Calls visit(AnalyticPiece) for the pieces of segments, front to back. Scalars may lie outside [0,
 // 1], beyond which the first and the last interval go on.
 template <class Visit>
-LAMINA_INLINE void for_each_analytic_piece(const TileTransfer& transfer, Float front, Float back,
+LAMINA_INLINE void for_each_analytic_piece(const CpuTransfer& transfer, Float front, Float back,
                                            Float world_length, const Visit& visit) {
     constexpr Lookup kind = Lookup::gather;
     Int interval = find_interval<kind>(transfer, clamp01(front));
@@ -182,8 +182,8 @@ LAMINA_INLINE EndWeights end_weights(const AnalyticPiece& piece, Float opacity) 
 }
 
 // `colored`: otherwise only the optical depth is computed.
-LAMINA_INLINE AnalyticSum integrate_analytic(const TileTransfer& transfer, bool colored,
-                                             Float front, Float back, Float world_length) {
+LAMINA_INLINE AnalyticSum integrate_analytic(const CpuTransfer& transfer, bool colored, Float front,
+                                             Float back, Float world_length) {
     Float transmittance(1);
     AnalyticSum sum{{0, 0, 0}, 0};
     const auto add = [&](const AnalyticPiece& piece) LAMINA_LAMBDA {
@@ -222,7 +222,7 @@ LAMINA_INLINE Fragment analytic_color(const TetFragments& fragments, const TetRu
 
 LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments, const TetRun& run) {
     constexpr Lookup kind = Lookup::gather;
-    const TileTransfer& transfer = *fragments.transfer;
+    const CpuTransfer& transfer = *fragments.transfer;
     const Float front = clamp01(run.front), back = clamp01(run.back);
     const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
     const auto node = [&](Float scalar)

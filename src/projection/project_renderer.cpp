@@ -2,8 +2,8 @@
 #include "projection/project_renderer.h"
 
 #include "base/profile.h"
+#include "projection/cpu_project_renderer.h"
 #include "projection/gl_project_renderer.h"
-#include "projection/tile_project_renderer.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -31,9 +31,9 @@ std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const ProjectPlan& plan,
                                                        const Capabilities& capabilities, int width,
                                                        int height, const ProjectParts& ready) {
-    if (capabilities.tiles) {
-        return std::make_unique<TileProjectRenderer>(mesh, transfer_function, plan, width, height,
-                                                     ready.order);
+    if (capabilities.cpu) {
+        return std::make_unique<CpuProjectRenderer>(mesh, transfer_function, plan, width, height,
+                                                    ready.order);
     }
     return std::make_unique<GlProjectRenderer>(mesh, transfer_function, plan, capabilities, width,
                                                height, ready.order, ready.stream);

@@ -9,7 +9,7 @@
 #endif
 
 #include "optics/segment_integral.h"
-#include "projection/tile_fragments.h"
+#include "projection/cpu_fragments.h"
 #include "simd/vectors-inl.h"
 #include "tiles/segment_optics-inl.h"
 #include "tiles/target_pixels-inl.h"

@@ -8,7 +8,7 @@
 #include "base/enum_words.h"
 #include "base/error.h"
 #include "simd/instruction_set.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina {
 namespace {
@@ -67,7 +67,7 @@ void restrict_instructions_as_asked() {
 
 DrawContext::DrawContext(const Auto<ContextChoice>& choice)
     : opengl_(make_opengl(choice)),
-      capabilities_(opengl_ ? opengl_->capabilities() : tile_capabilities()) {}
+      capabilities_(opengl_ ? opengl_->capabilities() : cpu_capabilities()) {}
 
 DrawContext::DrawContext(gl::ContextKind kind)
     : opengl_(gl::Context::create(kind)), capabilities_(opengl_->capabilities()) {}

@@ -297,7 +297,7 @@ void Pipeline::draw_frame() {
 // OpenGL counts fragments by a query, which costs time.
 void Pipeline::draw_counted() {
     counted_fragments_.reset();
-    if (!options_.count_fragments || options_.make_frames || capabilities().tiles)
+    if (!options_.count_fragments || options_.make_frames || capabilities().cpu)
         return frames_->draw();
     gl::Query query(gl::Query::Kind::samples_passed);
     query.begin();
@@ -423,7 +423,7 @@ FrameStatistics Pipeline::statistics() {
     if (!options_.make_frames) {
         found.renderer = capabilities().renderer;
         found.drawn_by = renderer_and_threads(capabilities());
-        found.native = capabilities().tiles;
+        found.native = capabilities().cpu;
     }
     in_context([&] {
         frames_->add_to(found);

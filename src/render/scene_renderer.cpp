@@ -369,7 +369,7 @@ SceneRenderer::SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volu
       omissions_(std::move(omissions)),
       drawing_(std::make_unique<SliceDrawing>(std::move(volume), share, std::move(tables))) {
     assert(asked_.method == Method::slice);
-    assert(share.count == 1 || capabilities_.tiles);
+    assert(share.count == 1 || capabilities_.cpu);
 }
 
 SceneRenderer::SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,

@@ -188,7 +188,7 @@ class CellIntegrator {
     // Integrates every segment by one rule. Those that leave their interval, are too deep or have
     // light that bends too much are `hard`: they are cut instead.
     template <Lookup kind, bool curved>
-    void integrate(const TileTransfer& transfer) {
+    void integrate(const CpuTransfer& transfer) {
         cut_.clear();
         for_each_vector([&](std::size_t i) LAMINA_LAMBDA {
             const CubicLanes cubic = cubic_of(i);
@@ -231,7 +231,7 @@ class CellIntegrator {
                                     LitCutSegment& segment, FloatMask& hard) {
         const FloatMask seen = members_from(i) & (depth > 0);
         if (none_of(seen | hard)) return;
-        const TileLight& light = *slabs_.light;
+        const CpuLight& light = *slabs_.light;
         segment.gradient =
             set_gradients(view_->brick, seen | hard, i, light, segments_, gradient_rows_);
         Float color[3];

@@ -52,8 +52,7 @@ class CutSegments {
 
     // Sets colour, opacity and depth of the segments that were added. `light`: for lit ones alone.
     template <Lookup kind, bool curved>
-    void run(const TileTransfer& transfer, const TileLight* light, bool colored,
-             CellSegments& all) {
+    void run(const CpuTransfer& transfer, const CpuLight* light, bool colored, CellSegments& all) {
         light_ = light;
         run_round<kind, curved, true>(transfer, colored, all);
         while (count_ > 0) run_round<kind, curved, false>(transfer, colored, all);
@@ -92,7 +91,7 @@ class CutSegments {
 
     // Composites the next piece of each segment.
     template <Lookup kind, bool curved, bool first>
-    void run_round(const TileTransfer& transfer, bool colored, CellSegments& all) {
+    void run_round(const CpuTransfer& transfer, bool colored, CellSegments& all) {
         constexpr std::size_t step = Float::lanes;
         const std::size_t count = count_;
         count_ = 0;
@@ -126,7 +125,7 @@ class CutSegments {
 
     // Begins at the front. On a knot a segment begins in the interval to which its scalar goes.
     template <Lookup kind>
-    static LAMINA_INLINE Progress begin(const TileTransfer& transfer, const Segment& segment) {
+    static LAMINA_INLINE Progress begin(const CpuTransfer& transfer, const Segment& segment) {
         const Turns turns = turns_of(segment.scalar);
         const Float start = segment.scalar.c[0];
         const FloatMask falling = segment.scalar.at(turns.first) < start;
@@ -174,7 +173,7 @@ class CutSegments {
 
     // Adds a piece to each segment; `ended` gets the lanes that are done.
     template <Lookup kind, bool curved>
-    LAMINA_INLINE void add_pieces(const TileTransfer& transfer, bool colored, std::size_t used,
+    LAMINA_INLINE void add_pieces(const CpuTransfer& transfer, bool colored, std::size_t used,
                                   Lanes (&lanes)[vectors], FloatMask (&ended)[vectors]) {
         // Most roots are found in two steps of the third order; asking earlier costs more.
         constexpr int usual_steps = 2, most_steps = 30;
@@ -194,7 +193,7 @@ class CutSegments {
     }
 
     template <Lookup kind, bool curved>
-    static LAMINA_INLINE Stretch<curved> next_stretch(const TileTransfer& transfer,
+    static LAMINA_INLINE Stretch<curved> next_stretch(const CpuTransfer& transfer,
                                                       const Lanes& lanes) {
         const auto& [segment, done] = lanes;
         Stretch<curved> next;
@@ -343,7 +342,7 @@ class CutSegments {
         return again;
     }
 
-    const TileLight* light_ = nullptr;
+    const CpuLight* light_ = nullptr;
     std::size_t count_ = 0;
     Columns<Segment, CellSegments::capacity> segments_;
     Columns<Progress, CellSegments::capacity> progress_;  // from the second round on

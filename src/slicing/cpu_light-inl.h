@@ -85,7 +85,7 @@ LAMINA_INLINE Float power_of_biased(Int exponent) {
 
 // Returns the square of the smallest gradient, in the unit of gradients with this largest exponent.
 // It is limited to the numbers that float32 can square: outside, all or nothing is lit.
-LAMINA_INLINE Float smallest_square_of(const TileLight& light, Int largest) {
+LAMINA_INLINE Float smallest_square_of(const CpuLight& light, Int largest) {
     constexpr int most = 62;
     const Int exponent = light.smallest.exponent + unit_octaves - largest;
     const Int kept = clamp(exponent, -most, most);
@@ -157,7 +157,7 @@ struct PointGradient {
     Float along[3];
     Float smallest_square;
 };
-LAMINA_INLINE PointGradient gradient_at(const CpuBrick& brick, const TileLight& light,
+LAMINA_INLINE PointGradient gradient_at(const CpuBrick& brick, const CpuLight& light,
                                         const std::int32_t* index, const Float (&share)[3]) {
     Corners corners[3];
     alignas(64) GradientRows rows;
@@ -183,7 +183,7 @@ struct GradientLanes {
 // Sets the gradients of the `members` of a vector of segments from segment i on. Those of the
 // others are undefined. `rows`: kept from vector to vector.
 LAMINA_INLINE GradientLanes set_gradients(const CpuBrick& brick, FloatMask members, std::size_t i,
-                                          const TileLight& light, const CellSegments& segments,
+                                          const CpuLight& light, const CellSegments& segments,
                                           GradientRows& rows) {
     Corners corners[3];
     fetch_gradients(brick, segments.index + i, bits_of(members), rows);
@@ -201,7 +201,7 @@ LAMINA_INLINE GradientLanes set_gradients(const CpuBrick& brick, FloatMask membe
 
 // Returns a bound on the light that the nodes of a piece of `extent` from `at` on miss, as a bend.
 // `middle_gradient`: the gradient at the middle one.
-LAMINA_INLINE Float hidden_bend(const TileLight& light, const GradientLanes& gradient,
+LAMINA_INLINE Float hidden_bend(const CpuLight& light, const GradientLanes& gradient,
                                 const Float (&middle_gradient)[3], Float at, Float extent) {
     const Float half = 0.5f * extent, middle = at + half;
     Float reach(0);
@@ -231,11 +231,11 @@ LAMINA_INLINE CubicLanes component_along(const GradientLanes& gradient,
 // a light, as a bend: a kink in the middle costs .045 of that. A kink at k of the piece's length
 // from an end, up to .5, costs up to .113 of the cosine at that end: k of it if k < .113, which no
 // node sees, and less beyond.
-LAMINA_INLINE Float hidden_kinks(const TileLight& light, const GradientLanes& gradient, Float at,
+LAMINA_INLINE Float hidden_kinks(const CpuLight& light, const GradientLanes& gradient, Float at,
                                  Float extent) {
     const Float ends[2] = {at, at + extent};
     Float beyond[2] = {Float(0), Float(0)};
-    for (const TileLight::Direction& direction : light.directions) {
+    for (const CpuLight::Direction& direction : light.directions) {
         const Float to_light[3] = {Float(direction.to_light[0]), Float(direction.to_light[1]),
                                    Float(direction.to_light[2])};
         const CubicLanes cosine =
@@ -272,7 +272,7 @@ struct LitPiece {
 
 // Adds light to the piece's colour by Gauss' rule with three nodes. Returns its bend.
 template <std::size_t channels, bool curved>
-LAMINA_INLINE Float add_light_of(const TileLight& light, const GradientLanes& gradient,
+LAMINA_INLINE Float add_light_of(const CpuLight& light, const GradientLanes& gradient,
                                  const LitPiece<curved>& lit, Float (&color)[3]) {
     const PieceOptics<curved>& piece = lit.piece;
     const CubicLanes mean_depth = piece.mean_depth();
@@ -304,7 +304,7 @@ LAMINA_INLINE Float add_light_of(const TileLight& light, const GradientLanes& gr
 }
 
 template <bool curved>
-LAMINA_INLINE Float add_light(const TileLight& light, const GradientLanes& gradient,
+LAMINA_INLINE Float add_light(const CpuLight& light, const GradientLanes& gradient,
                               const LitPiece<curved>& lit, Float (&color)[3]) {
     return light.gray ? add_light_of<1>(light, gradient, lit, color)
                       : add_light_of<3>(light, gradient, lit, color);

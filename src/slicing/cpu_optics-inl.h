@@ -139,7 +139,7 @@ struct RootLanes {
     FloatMask rising_, active_;
 };
 
-// The bends of an interval (TileTransfer::bend).
+// The bends of an interval (CpuTransfer::bend).
 template <bool curved>
 struct IntervalBend {};
 template <>
@@ -168,7 +168,7 @@ struct IntervalLanes : IntervalBend<curved> {
 
 // Records are fetched one by one and transposed, which is faster than a gather for each number.
 template <bool curved>
-LAMINA_INLINE IntervalLanes<curved> fetched_intervals(const TileTransfer& transfer, Int number) {
+LAMINA_INLINE IntervalLanes<curved> fetched_intervals(const CpuTransfer& transfer, Int number) {
     constexpr std::size_t groups = curved ? 4 : 3, size = 4;
     alignas(64) std::int32_t numbers[most_lanes];
     alignas(64) float records[groups][size * most_lanes];
@@ -176,7 +176,7 @@ LAMINA_INLINE IntervalLanes<curved> fetched_intervals(const TileTransfer& transf
     for (std::size_t lane = 0; lane < Float::lanes; ++lane) {
         const float* const from =
             transfer.records.data() +
-            TileTransfer::record_size * static_cast<std::size_t>(numbers[lane]);
+            CpuTransfer::record_size * static_cast<std::size_t>(numbers[lane]);
         for (std::size_t group = 0; group < groups; ++group)
             std::memcpy(records[group] + size * lane, from + size * group, size * sizeof(float));
     }
@@ -194,7 +194,7 @@ LAMINA_INLINE IntervalLanes<curved> fetched_intervals(const TileTransfer& transf
 }
 
 template <Lookup kind, bool curved>
-LAMINA_INLINE IntervalLanes<curved> interval_lanes(const TileTransfer& transfer, Int number) {
+LAMINA_INLINE IntervalLanes<curved> interval_lanes(const CpuTransfer& transfer, Int number) {
     if constexpr (kind == Lookup::gather) return fetched_intervals<curved>(transfer, number);
     IntervalLanes<curved> lanes;
     lanes.left_end = look_up<kind>(transfer.left_end, number);

@@ -32,7 +32,7 @@ struct PacketRays {
 };
 
 // Sets the unit vector to the eye along each ray, along the grid's axes.
-LAMINA_INLINE void set_eye(const TileLight& light, const PacketRays& rays, Float (&to_eye)[3]) {
+LAMINA_INLINE void set_eye(const CpuLight& light, const PacketRays& rays, Float (&to_eye)[3]) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Float step = rays.direction_float[axis] * light.spacing[axis];
         to_eye[axis] = 0 - step / rays.length_float;

@@ -43,7 +43,7 @@ constexpr std::size_t at(int slab) {
 
 // Calls visit(i, effect of light at point_at(i)) for i = first .. end - 1, in stages of a few.
 template <std::size_t channels, PointKind kind, class PointAt, class Visit>
-LAMINA_INLINE void visit_light(const TileLight& light, const CpuBrick& brick,
+LAMINA_INLINE void visit_light(const CpuLight& light, const CpuBrick& brick,
                                const Float (&to_eye)[3], int first, int end,
                                const PointAt& point_at, const Visit& visit) {
     constexpr int stage = 8;
@@ -100,7 +100,7 @@ template <std::size_t channels, PointKind kind, class Middle, class Edge, class 
 LAMINA_INLINE void light_slabs(const CpuSlabs& slabs, const CpuBrick& brick, const PacketRays& rays,
                                const Middle& middle, const Edge& edge, const Shows& shows,
                                SlabBlock& block) {
-    const TileLight& light = *slabs.light;
+    const CpuLight& light = *slabs.light;
     Float to_eye[3];
     set_eye(light, rays, to_eye);
     const bool ends = slabs.plan->integrates_runs();
@@ -165,7 +165,7 @@ LAMINA_INLINE void straighten(RunScalars& run) {
 
 // Integrates in closed form if the transfer function is one linear piece, as
 // shaders/slicing/segment.glsl does.
-LAMINA_INLINE RunSum integrate_linear(const TileTransfer& transfer, bool colored,
+LAMINA_INLINE RunSum integrate_linear(const CpuTransfer& transfer, bool colored,
                                       const RunScalars& run) {
     constexpr Lookup one = Lookup::one;
     const Int piece(0);
@@ -203,7 +203,7 @@ LAMINA_INLINE void store_run(const LitSum& run, bool colored, int slab, SlabBloc
 // A segment is invisible if the transfer function shows nothing between the least and the largest
 // of its three scalars.
 template <Lookup kind, bool lit>
-LAMINA_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored,
+LAMINA_INLINE void integrate_by_table(const CpuTransfer& transfer, bool colored,
                                       bool nan_transparent, SlabBlock& block) {
     constexpr int stage = 8;
     Segment segments[stage];
@@ -253,7 +253,7 @@ LAMINA_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored
 
 // Integrates the whole block. Lit plans have tables.
 template <Lookup kind>
-LAMINA_INLINE void integrate_runs(const TileTransfer& transfer, bool colored, const SlicePlan& plan,
+LAMINA_INLINE void integrate_runs(const CpuTransfer& transfer, bool colored, const SlicePlan& plan,
                                   SlabBlock& block) {
     if (colored && plan.lighting)
         return integrate_by_table<kind, true>(transfer, colored, plan.nan_transparent, block);
@@ -432,7 +432,7 @@ inline void set_precise_depths(SlabBlock& block) {
 }
 
 template <bool precise, Lookup kind>
-LAMINA_INLINE void classify(const TileTransfer& transfer, bool colored, bool nan_transparent,
+LAMINA_INLINE void classify(const CpuTransfer& transfer, bool colored, bool nan_transparent,
                             SlabBlock& block) {
     for (int i = block.from; i < block.end; ++i) {
         Float scalar = load<Float>(block.scalars + at(i));
@@ -503,7 +503,7 @@ std::int64_t set_run(const CpuSlabs& slabs, const CpuBrickView& view, const Pack
         sample_points<decltype(kind)::value>(brick, hardware, block.from, block.end + 1, edge,
                                              block.edge_scalars);
     });
-    const TileTransfer& transfer = *slabs.transfer;
+    const CpuTransfer& transfer = *slabs.transfer;
     with_lookup(transfer, [&](auto kind) LAMINA_LAMBDA {
         constexpr Lookup lookup = decltype(kind)::value;
         if (plan.integrates_runs()) {

@@ -64,12 +64,12 @@ struct CpuBrickView {
 // Everything that the segments of slabs depend on.
 struct CpuSlabs {
     const SlicePlan* plan = nullptr;
-    const TileTransfer* transfer = nullptr;    // null if no scalar is fetched
+    const CpuTransfer* transfer = nullptr;     // null if no scalar is fetched
     const OccupiedBricks* occupied = nullptr;  // null if all slabs are evaluated
     const ConstantBricks* constant = nullptr;  // null if constant bricks are not used
     // In place of both if rays are integrated cell by cell; otherwise null.
     const CellMap* cells = nullptr;
-    const TileLight* light = nullptr;  // null if nothing is lit
+    const CpuLight* light = nullptr;  // null if nothing is lit
     CpuRays rays;
     std::vector<CpuBrickView> bricks;  // visible bricks, in the plan's order
     std::array<float, 3> single_color{};

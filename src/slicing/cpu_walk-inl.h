@@ -78,7 +78,7 @@ class CellWalk {
     // Begins the rays between the depths of `span`, inside the box of a brick. `light`: for lit
     // rays alone.
     void begin(const CellMap& map, const CpuBrickView& view, const PacketRays& rays,
-               const DepthSpan& span, const TileLight* light) {
+               const DepthSpan& span, const CpuLight* light) {
         map_ = map.kinds.empty() ? nullptr : &map;
         view_ = &view;
         rays_ = &rays;

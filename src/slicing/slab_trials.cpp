@@ -16,7 +16,7 @@
 #include "plan/planners.h"
 #include "slicing/slice_renderer.h"
 #include "slicing/trial_truth.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina {
 namespace {
@@ -211,7 +211,7 @@ class SlabTrials {
     Image draw(int slabs, Filter filter, const OmissionSwitch& omissions) {
         scene_.slice.samples = slabs;
         scene_.slice.filter = filter;
-        Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions, {}, tables_);
+        Plan plan = plan_slicing(scene_, facts_, cpu_capabilities(), omissions, {}, tables_);
         build_drawn_table(scene_, facts_, plan.slice, tables_);
         CpuSliceRenderer renderer(volume_, *scene_.transfer_function, facts_, plan.slice,
                                   scene_.width, scene_.height, ready_);

@@ -89,14 +89,14 @@ class CpuSliceRenderer : public SliceRenderer {
     ConstantBricks constant_;
     CellMap cells_;
     bool cells_leave_out_empty_ = false;  // differs between views
-    std::optional<TileTransfer> transfer_;
+    std::optional<CpuTransfer> transfer_;
     std::vector<std::uint32_t> shown_pages_;  // that hold something visible, of a paged volume
-    std::optional<TileLight> light_;
+    std::optional<CpuLight> light_;
     CpuSlabs slabs_;
     PixelBox seen_;                   // pixels in which the view may show something
     std::vector<std::size_t> order_;  // of the bricks
     std::optional<TreeShape> shape_;
-    std::optional<TileFixedTree> fixed_tree_;
+    std::optional<CpuFixedTree> fixed_tree_;
     std::atomic<std::int64_t> samples_{0};
     double upload_ms_ = 0, table_ms_ = 0;
     double geometry_ms_ = 0, draw_ms_ = 0;  // of the last frame

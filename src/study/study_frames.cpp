@@ -84,10 +84,10 @@ const Capabilities& DrawContexts::use(const std::string& word) {
         before_switch_();
         current_.reset();
         std::erase_if(contexts_,
-                      [](const auto& context) { return !context.second.capabilities().tiles; });
+                      [](const auto& context) { return !context.second.capabilities().cpu; });
     }
     const DrawContext& context = contexts_.try_emplace(word, choice).first->second;
-    if (!context.capabilities().tiles) current_ = context.make_current();
+    if (!context.capabilities().cpu) current_ = context.make_current();
     return context.capabilities();
 }
 

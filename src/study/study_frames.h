@@ -79,7 +79,7 @@ class StudyFrames {
     // Time of the facts, the choice of what is automatic, the set-up and the first frame. Reading
     // the data is not in it.
     double first_ms() const { return first_ms_; }
-    bool on_tiles() const { return pipeline_->capabilities().tiles; }
+    bool on_cpu() const { return pipeline_->capabilities().cpu; }
     // Bytes of OpenGL memory after the first frame.
     std::int64_t bytes_gpu() const { return bytes_gpu_; }
     std::int64_t bytes_host() const { return pipeline_->renderer().renderer().byte_count(); }

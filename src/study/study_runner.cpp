@@ -391,7 +391,7 @@ nlohmann::ordered_json StudyRunner::time_round(std::size_t run, int round, Study
 }
 
 void StudyRunner::drop_opengl() {
-    std::erase_if(frames_, [](const auto& kept) { return !kept.second.on_tiles(); });
+    std::erase_if(frames_, [](const auto& kept) { return !kept.second.on_cpu(); });
 }
 
 }  // namespace lamina::study

@@ -38,7 +38,7 @@ bool has_numbers(hid_t type) {
 }
 
 // Returns nothing if samples of that type are no numbers that can be drawn.
-std::optional<ValueType> value_type_of(hid_t type) {
+std::optional<ValueType> type_of_hdf5(hid_t type) {
     if (!has_numbers(type)) return {};
     const bool integers = H5Tget_class(type) == H5T_INTEGER;
     const std::size_t bytes = H5Tget_size(type);
@@ -231,7 +231,7 @@ Hdf5Array::Hdf5Array(hid_t file, const std::string& path, std::string name)
         shape_.push_back(static_cast<std::int64_t>(sizes[axis]));
     }
     const Hdf5Handle stored(H5Dget_type(set_.id()), H5Tclose);
-    const auto type = value_type_of(stored.id());
+    const auto type = type_of_hdf5(stored.id());
     if (!type)
         fail("{}: found a type that is none of numbers of 1, 2, 4 or 8 bytes, expected one", name_);
     type_ = *type;

@@ -424,7 +424,7 @@ std::string teem_message() {
     return one_line(outer ? messages[last - 1] + ": " + messages[last] : messages[last]);
 }
 
-ValueType value_type_of(const std::string& path, int type) {
+ValueType type_of_nrrd(const std::string& path, int type) {
     static_assert(nrrdTypeDouble - nrrdTypeChar == std::size(value_types) - 1);  // in our order
     if (type >= nrrdTypeChar && type <= nrrdTypeDouble) return value_types[type - nrrdTypeChar];
     fail("{}: type: found '{}', expected a type of numbers, such as uint8 or float", path,
@@ -467,7 +467,7 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
     header.grid = nrrd_grid(name, *nrrd, text.fields.contains("spacings"));
     StoredData& data = header.data;
     data.path = path;
-    data.type = value_type_of(name, nrrd->type);
+    data.type = type_of_nrrd(name, nrrd->type);
     data.axes = nrrd_axes(name, *nrrd, request);
     data.encoding = encoding_of(name, state->encoding);
     set_byte_order(data, state->endian == airEndianBig);

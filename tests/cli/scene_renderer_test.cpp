@@ -14,7 +14,7 @@
 #include "scene_files/scene_reader.h"
 #include "support/temporary_folder.h"
 #include "support/transfer_functions.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina {
 namespace {
@@ -51,7 +51,7 @@ TEST_F(SceneRendererAndProgram, DrawSlabsAlike) {
     document["render"]["slice"]["samples"] = "auto";
     const Scene scene = scene_of(document);
     SceneRenderer frames(scene, std::make_shared<const VolumeData>(load_volume(scene)),
-                         tile_capabilities());
+                         cpu_capabilities());
     expect_the_programs(frames, "the first picture");
     int changes = 0;
     for (int degrees = 18; degrees < 360; degrees += 18) {
@@ -78,7 +78,7 @@ TEST_F(SceneRendererAndProgram, DrawTetsAlike) {
     document["render"]["target"] = "auto";
     const Scene scene = scene_of(document);
     SceneRenderer frames(scene, std::make_shared<const SceneMesh>(load_mesh(scene)),
-                         tile_capabilities());
+                         cpu_capabilities());
     for (int degrees = 0; degrees < 360; degrees += 72) {
         turn(frames, degrees);
         expect_the_programs(frames, "turned by " + std::to_string(degrees));

@@ -13,12 +13,12 @@
 namespace lamina::fuzz {
 namespace {
 
-// As tiles/tile_capabilities.h and, of OpenGL, Mesa's and a GPU's.
+// As tiles/cpu_capabilities.h and, of OpenGL, Mesa's and a GPU's.
 std::array<Capabilities, 3> usual_capabilities() {
     constexpr int any = std::numeric_limits<int>::max();
     Capabilities native, mesa, gpu;
     native.renderer = "native";
-    native.tiles = native.framebuffer_fetch = true;
+    native.cpu = native.framebuffer_fetch = true;
     native.max_texture_size = 32768;
     native.max_3d_texture_size = native.max_array_layers = any;
     native.max_texture_bytes = any;

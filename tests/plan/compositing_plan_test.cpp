@@ -68,7 +68,7 @@ TEST(CompositingPlan, EmulatedTargetsAreBlendedByTheProgram) {
     EXPECT_EQ(slice.code_bits(), 12);
     capabilities.framebuffer_fetch = true;
     EXPECT_EQ(slice_of(document, capabilities).blending, Blending::fetch);
-    capabilities.tiles = true;
+    capabilities.cpu = true;
     EXPECT_EQ(slice_of(document, capabilities).blending, Blending::tiles);
     // Other targets never need it.
     slice = slice_of(scene_with({{"target", "fixed8"}}), capabilities);

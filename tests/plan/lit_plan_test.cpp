@@ -10,7 +10,7 @@ namespace {
 Capabilities native() {
     Capabilities capabilities;
     capabilities.renderer = "test";
-    capabilities.tiles = true;
+    capabilities.cpu = true;
     capabilities.max_texture_size = capabilities.max_3d_texture_size = 16384;
     capabilities.max_array_layers = 2048;
     return capabilities;

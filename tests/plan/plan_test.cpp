@@ -84,7 +84,7 @@ TEST(Plan, EmptyBricksAreLeaptOverWhereEnoughIsEmpty) {
     facts.occupied_share = .5;
     facts.ray_shares.box = .6;
     Capabilities native = usual();
-    native.tiles = true;
+    native.cpu = true;
     const auto leaps = [&](double empty, const Capabilities& capabilities) {
         facts.ray_shares.occupied = (1 - empty) * facts.ray_shares.box;
         return make_plan(scene, facts, capabilities, {}).slice.occupied_only;
@@ -132,7 +132,7 @@ TEST(Plan, InSoftwareAFragmentMarchesNoMoreSlabsThanItsLoopsCan) {
     gpu.software = false;
     EXPECT_EQ(factors(gpu), std::vector{65536});
     Capabilities native = usual();
-    native.tiles = true;
+    native.cpu = true;
     EXPECT_EQ(factors(native), std::vector{65536});
 
     nlohmann::json points = nlohmann::json::array();

@@ -8,7 +8,7 @@ namespace {
 
 Capabilities tiles() {
     Capabilities capabilities;
-    capabilities.tiles = true;
+    capabilities.cpu = true;
     capabilities.max_texture_size = capabilities.max_3d_texture_size = 16384;
     return capabilities;
 }

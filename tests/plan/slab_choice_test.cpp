@@ -26,7 +26,7 @@ Tried with_trials(const Scene& scene, std::vector<SlabTrial> trials) {
 
 Capabilities tiles() {
     Capabilities capabilities;
-    capabilities.tiles = true;
+    capabilities.cpu = true;
     capabilities.max_texture_size = capabilities.max_3d_texture_size = 16384;
     return capabilities;
 }

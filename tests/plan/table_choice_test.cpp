@@ -116,7 +116,7 @@ TEST(TableChoice, OfOnePieceTheErrorOfLongSegmentsIsFoundOnRays) {
 TEST(TableChoice, PlansHaveTheirTablesAndShareThoseOfOneCache) {
     const Volume volume = blobs();
     Capabilities native;
-    native.tiles = true;
+    native.cpu = true;
     native.max_texture_size = native.max_3d_texture_size = 64;
     for (const TransferFunction& transfer_function :
          {zigzag(4), TransferFunction::linear({knot(0, {1, .2, 0}, 0), knot(.4, {1, .2, 0}, 9),

@@ -190,10 +190,10 @@ TEST(LitTets, EveryInstructionSetGivesTheSameBits) {
         for (const Coloring coloring : {Coloring::preintegrated, Coloring::analytic}) {
             Scene scene = lit_scene(4, lighting);
             scene.project.coloring = coloring;
-            const Image best = project(mesh, scene, tile_capabilities());
+            const Image best = project(mesh, scene, cpu_capabilities());
             for (const std::string& name : names) {
                 restrict_instructions(name);
-                EXPECT_EQ(project(mesh, scene, tile_capabilities()).rgba, best.rgba) << name;
+                EXPECT_EQ(project(mesh, scene, cpu_capabilities()).rgba, best.rgba) << name;
             }
             restrict_instructions(names.front());
         }
@@ -209,7 +209,7 @@ TEST(LitTets, ExtremesAreNumbers) {
         for (const double smallest : {Lighting::least_gradient, 1., Lighting::largest_gradient}) {
             Lighting lighting = directional();
             lighting.smallest_gradient = smallest;
-            const Image image = project(mesh, lit_scene(extinction, lighting), tile_capabilities());
+            const Image image = project(mesh, lit_scene(extinction, lighting), cpu_capabilities());
             for (const float value : image.rgba) ASSERT_TRUE(std::isfinite(value) && value >= 0);
         }
     }
@@ -220,15 +220,15 @@ TEST(LitTets, ThePlanLeavesOutWhatLightDoesNotNeed) {
     Scene scene = projection_scene(TransferFunction::linear({knot(0, {1, .5, .2}, .5)}), 20, 15);
     scene.camera->eye = {9, -3, 4};
     const auto left_out = [&](const std::string& name) {
-        const Plan plan = plan_of(mesh, scene, tile_capabilities());
+        const Plan plan = plan_of(mesh, scene, cpu_capabilities());
         return std::ranges::find(plan.omitted, name, &Omission::name) != plan.omitted.end();
     };
     for (const char* const name : {"color", "scalars", "order"}) EXPECT_TRUE(left_out(name));
     scene.lighting = lit_scene(1, Lighting{}).lighting;
     for (const char* const name : {"color", "scalars", "order"}) EXPECT_FALSE(left_out(name));
-    const Plan plan = plan_of(mesh, scene, tile_capabilities());
+    const Plan plan = plan_of(mesh, scene, cpu_capabilities());
     EXPECT_EQ(plan.project.source, SegmentSource::parts);
-    const std::string text = explain(plan, measure(scene, mesh), tile_capabilities());
+    const std::string text = explain(plan, measure(scene, mesh), cpu_capabilities());
     EXPECT_NE(text.find("the gradient needs scalars and colour"), std::string::npos) << text;
 }
 
@@ -238,7 +238,7 @@ TEST(LitTets, WhatCannotBeDrawnLitIsRefused) {
     const auto refused = [&](const auto& change, std::initializer_list<std::string> words) {
         Scene scene = lit;
         change(scene);
-        expect_error([&] { plan_of(mesh, scene, tile_capabilities()); }, words);
+        expect_error([&] { plan_of(mesh, scene, cpu_capabilities()); }, words);
     };
     for (const Coloring coloring : {Coloring::vertex, Coloring::attenuation}) {
         refused([&](Scene& scene) { scene.project.coloring = coloring; },

@@ -12,11 +12,11 @@
 #include "gl/gl_fixture.h"
 #include "image/difference.h"
 #include "plan/plan.h"
+#include "projection/cpu_project_renderer.h"
 #include "projection/gl_project_renderer.h"
-#include "projection/tile_project_renderer.h"
 #include "reference/tracer.h"
 #include "support/transfer_functions.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina {
 
@@ -35,7 +35,7 @@ class ProjectionTest : public gl::ContextTest<testing::TestWithParam<Engine>> {
         if (GetParam() == Engine::opengl) make_context(gl::ContextKind::osmesa);
     }
     Capabilities capabilities() const {
-        return GetParam() == Engine::opengl ? ContextTest::capabilities() : tile_capabilities();
+        return GetParam() == Engine::opengl ? ContextTest::capabilities() : cpu_capabilities();
     }
 };
 
@@ -66,9 +66,9 @@ inline std::unique_ptr<ProjectRenderer> make_renderer(const SceneMesh& mesh, con
                                                       const Capabilities& capabilities,
                                                       const OmissionSwitch& omissions = {}) {
     const Plan plan = plan_of(mesh, scene, capabilities, omissions);
-    if (capabilities.tiles) {
-        return std::make_unique<TileProjectRenderer>(mesh, *scene.transfer_function, plan.project,
-                                                     scene.width, scene.height);
+    if (capabilities.cpu) {
+        return std::make_unique<CpuProjectRenderer>(mesh, *scene.transfer_function, plan.project,
+                                                    scene.width, scene.height);
     }
     return std::make_unique<GlProjectRenderer>(mesh, *scene.transfer_function, plan.project,
                                                capabilities, scene.width, scene.height);

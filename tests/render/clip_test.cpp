@@ -8,7 +8,7 @@
 #include "renderer_scenes.h"
 #include "support/clips.h"
 #include "support/heard_warnings.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina {
 namespace {
@@ -19,7 +19,7 @@ TEST(ChangedClip, DrawsEveryFrameAsANewRenderer) {
          {Auto<Classification>(automatic), Auto<Classification>(Classification::preintegrated)}) {
         Scene scene = volume_scene();
         scene.slice.classification = classification;
-        SceneRenderer frames(scene, data, tile_capabilities());
+        SceneRenderer frames(scene, data, cpu_capabilities());
         frames.draw();
         for (const test::NamedClip& named : test::clips_of_unit_box()) {
             frames.set_clip(named.clip);
@@ -28,7 +28,7 @@ TEST(ChangedClip, DrawsEveryFrameAsANewRenderer) {
                           ? frames.renderer().stages_ms().at("upload")
                           : 0,
                       0);
-            SceneRenderer other(frames.resolved().scene(), data, tile_capabilities());
+            SceneRenderer other(frames.resolved().scene(), data, cpu_capabilities());
             EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << named.name;
         }
         EXPECT_EQ(frames.counts().trials, 1);
@@ -37,7 +37,7 @@ TEST(ChangedClip, DrawsEveryFrameAsANewRenderer) {
 
 TEST(ChangedClip, MeshesLikewise) {
     const auto mesh = split_box();
-    SceneRenderer frames(mesh_scene(), mesh, tile_capabilities());
+    SceneRenderer frames(mesh_scene(), mesh, cpu_capabilities());
     const Image whole = frames.draw_picture();
     const int views = frames.counts().data;
     for (const test::NamedClip& named : test::clips_of_unit_box()) {
@@ -45,7 +45,7 @@ TEST(ChangedClip, MeshesLikewise) {
         const Image drawn = frames.draw_picture();
         frames.set_camera(orbit(20));  // the cut mesh stays
         EXPECT_EQ(frames.draw_picture().rgba, drawn.rgba) << named.name;
-        SceneRenderer other(frames.resolved().scene(), mesh, tile_capabilities());
+        SceneRenderer other(frames.resolved().scene(), mesh, cpu_capabilities());
         EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << named.name;
     }
     EXPECT_EQ(frames.counts().data, views + static_cast<int>(test::clips_of_unit_box().size()));
@@ -60,7 +60,7 @@ TEST(ChangedClip, NothingIsLeftOfAMesh) {
     for (const OmissionSwitch& omissions : {OmissionSwitch{}, nothing_left_out}) {
         Scene scene = mesh_scene();
         scene.clip.planes = {{{5, 0, 0}, {1, 0, 0}}};  // of a box 3 wide
-        SceneRenderer frames(scene, split_box(), tile_capabilities(), omissions);
+        SceneRenderer frames(scene, split_box(), cpu_capabilities(), omissions);
         EXPECT_EQ(frames.draw_picture().rgba, Image(scene.width, scene.height).rgba);
         EXPECT_NE(frames.explanation().find("the clip cuts the whole mesh away"),
                   std::string::npos);

@@ -15,7 +15,7 @@
 #include "render/scene_renderer.h"
 #include "support/split_box.h"
 #include "support/volume_of.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 #include "volume/generate.h"
 
 namespace lamina {
@@ -217,7 +217,7 @@ TEST(LinearOpacity, TheTracerIntegratesIt) {
 TEST(LinearOpacity, SlicingIntegratesIt) {
     const auto data = std::make_shared<const VolumeData>(volume());
     for (const Case& given : cases) {
-        SceneRenderer frames(scene_of(given, Method::slice), data, tile_capabilities());
+        SceneRenderer frames(scene_of(given, Method::slice), data, cpu_capabilities());
         const double claimed = frames.plan().slice.found_error();  // .05 / 255: exact segments
         EXPECT_TRUE(frames.plan().slice.integrates_cells());
         expect_near(frames.draw_picture(), given, claimed / 255, "sliced");
@@ -226,7 +226,7 @@ TEST(LinearOpacity, SlicingIntegratesIt) {
 
 TEST(LinearOpacity, ProjectedTetsIntegrateIt) {
     for (const Case& given : cases) {
-        SceneRenderer frames(scene_of(given, Method::project), mesh(), tile_capabilities());
+        SceneRenderer frames(scene_of(given, Method::project), mesh(), cpu_capabilities());
         // Beside what the plan claims, weights of coloured parts are polynomials, good to 3e-5, and
         // sums of tens of fragments are rounded to float32.
         const double claimed = frames.plan().project.trial_error.segments / 255 + 3e-5 + 1e-5;
@@ -245,7 +245,7 @@ TEST(LinearOpacity, SlicingIsTheTracersOnCurvedFields) {
         scene.camera->projection = Projection::perspective;
         scene.camera->center = glm::dvec3(.5);
         scene.camera->eye = {1.4, 1.1, 2.2};
-        SceneRenderer frames(scene, data, tile_capabilities());
+        SceneRenderer frames(scene, data, cpu_capabilities());
         const Image picture = frames.draw_picture();
         const PreciseImage truth = trace(scene, data->volume).image;
         double worst = 0;

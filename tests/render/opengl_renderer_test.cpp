@@ -15,7 +15,7 @@
 #include "render/scene_renderer.h"
 #include "renderer_scenes.h"
 #include "slicing/gl_slice_renderer.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina {
 namespace {
@@ -249,7 +249,7 @@ TEST_F(OpenGlSession, MeshesKeepOrderBuffersAndPrograms) {
 
 TEST(SessionOfTheNativeEngine, KeepsAMeshsOrder) {
     const auto data = split_box();
-    SceneRenderer frames(mesh_scene(), data, tile_capabilities());
+    SceneRenderer frames(mesh_scene(), data, cpu_capabilities());
     const auto order = [&] {
         return dynamic_cast<const ProjectRenderer&>(frames.renderer()).parts().order;
     };

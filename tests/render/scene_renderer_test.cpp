@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "renderer_scenes.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina {
 namespace {
@@ -26,7 +26,7 @@ Image fresh(SceneRenderer& frames, const std::shared_ptr<const VolumeData>& data
 
 TEST(SceneRenderer, DrawsEveryFrameAsANewOne) {
     const auto data = blobs();
-    SceneRenderer frames(volume_scene(), data, tile_capabilities());
+    SceneRenderer frames(volume_scene(), data, cpu_capabilities());
     const auto expect_fresh = [&](const std::string& what) {
         const Image drawn = frames.draw_picture();
         EXPECT_EQ(drawn.rgba, fresh(frames, data).rgba) << what;
@@ -66,7 +66,7 @@ TEST(SceneRenderer, DrawsEveryFrameAsANewOne) {
 
 TEST(SceneRenderer, SettingsAreChosenAgain) {
     const auto data = blobs();
-    SceneRenderer frames(volume_scene(), data, tile_capabilities());
+    SceneRenderer frames(volume_scene(), data, cpu_capabilities());
     for (const Target target : {Target::fixed8, Target::float16, Target::float32}) {
         for (const bool chosen : {false, true}) {
             Scene scene = volume_scene();
@@ -89,7 +89,7 @@ TEST(SceneRenderer, SettingsAreChosenAgain) {
 TEST(SceneRenderer, DoesAgainWhatAChangeNeeds) {
     Scene scene = volume_scene();
     scene.transfer_function = smooth(1);  // segments are short: a table of one layer, in any view
-    SceneRenderer frames(scene, blobs(), tile_capabilities());
+    SceneRenderer frames(scene, blobs(), cpu_capabilities());
     frames.draw();
     SceneRenderer::Counts expected{1, 1, 1, 1, 1};
     EXPECT_EQ(frames.counts(), expected);
@@ -128,7 +128,7 @@ TEST(SceneRenderer, DoesAgainWhatAChangeNeeds) {
 }
 
 TEST(SceneRenderer, CopiesOfTheVolumeAreTakenOver) {
-    SceneRenderer frames(volume_scene(), blobs(), tile_capabilities());
+    SceneRenderer frames(volume_scene(), blobs(), cpu_capabilities());
     frames.draw();
     frames.set_transfer_function(smooth(3));
     frames.draw();
@@ -144,10 +144,10 @@ TEST(SceneRenderer, MeshesLikewise) {
          {Auto<ProjectGeometry>(automatic), Auto<ProjectGeometry>(ProjectGeometry::triangles)}) {
         Scene scene = mesh_scene();
         scene.project.geometry = geometry;
-        SceneRenderer frames(scene, mesh, tile_capabilities());
+        SceneRenderer frames(scene, mesh, cpu_capabilities());
         const auto expect_fresh = [&](const std::string& what) {
             const Image drawn = frames.draw_picture();
-            SceneRenderer other(frames.resolved().scene(), mesh, tile_capabilities());
+            SceneRenderer other(frames.resolved().scene(), mesh, cpu_capabilities());
             EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << what;
         };
         for (int degrees = 0; degrees < 360; degrees += 30) {
@@ -181,7 +181,7 @@ std::int64_t bytes_in_use() {
 // A picture has 1.9 MB, the copy of the volume .05: of 48 further frames a tenth of that is
 // allowed.
 TEST(SceneRenderer, MemoryDoesNotGrowAfterTheFirstRound) {
-    SceneRenderer frames(volume_scene(), blobs(), tile_capabilities());
+    SceneRenderer frames(volume_scene(), blobs(), cpu_capabilities());
     frames.set_size(400, 300);
     const auto round = [&] {
         for (int degrees = 0; degrees < 360; degrees += 15) {
@@ -199,7 +199,7 @@ TEST(SceneRenderer, MemoryDoesNotGrowAfterTheFirstRound) {
 
 TEST(SceneRenderer, AStopEndsAFrameAndTheNextIsWhole) {
     const auto data = blobs();
-    SceneRenderer frames(volume_scene(), data, tile_capabilities());
+    SceneRenderer frames(volume_scene(), data, cpu_capabilities());
     const Image whole = frames.draw_picture();
     std::stop_source stop;
     stop.request_stop();
@@ -221,12 +221,12 @@ void turn(SceneRenderer& frames) {
 TEST(SceneRenderer, TwoInTwoThreadsDrawWhatEachDrawsAlone) {
     const auto data = blobs();
     const auto mesh = split_box();
-    SceneRenderer alone(volume_scene(), data, tile_capabilities());
-    SceneRenderer alone_too(mesh_scene(), mesh, tile_capabilities());
+    SceneRenderer alone(volume_scene(), data, cpu_capabilities());
+    SceneRenderer alone_too(mesh_scene(), mesh, cpu_capabilities());
     turn(alone);
     turn(alone_too);
-    SceneRenderer first(volume_scene(), data, tile_capabilities());
-    SceneRenderer second(mesh_scene(), mesh, tile_capabilities());
+    SceneRenderer first(volume_scene(), data, cpu_capabilities());
+    SceneRenderer second(mesh_scene(), mesh, cpu_capabilities());
     std::thread other([&] {
         std::stop_source stop;  // of the one, no matter to the other
         stop.request_stop();

@@ -9,13 +9,13 @@
 
 #include "selftest/mistaken_maker.h"
 #include "selftest/selftest.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina::selftest {
 namespace {
 
 std::vector<SelftestResult> run_with(Mistake mistake) {
-    static const Capabilities capabilities = tile_capabilities();
+    static const Capabilities capabilities = cpu_capabilities();
     std::vector<SelftestCase> cases =
         selftest_cases({"optics", "meshes", "views", "clips", "light", "metamorphic"});
     std::erase_if(cases, [](const SelftestCase& each) { return each.scene == "hub_1e6"; });

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "support/expect_error.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina::selftest {
 namespace {
@@ -27,7 +27,7 @@ std::vector<SelftestCase> cases_but_the_large(const std::string& group) {
 class SelftestGroup : public testing::TestWithParam<std::string> {};
 
 TEST_P(SelftestGroup, Passes) {
-    const Capabilities capabilities = tile_capabilities();
+    const Capabilities capabilities = cpu_capabilities();
     const PictureMaker maker(capabilities);
     for (const SelftestResult& result : run_selftest(cases_but_the_large(GetParam()), maker)) {
         EXPECT_EQ(result.outcome.verdict, Verdict::passed)
@@ -54,7 +54,7 @@ TEST(Selftest, RefusesUnknownGroups) {
 
 // A case that cannot be drawn is neither passed nor failed, and says why.
 TEST(Selftest, ReportsWhatWasRefused) {
-    const Capabilities capabilities = tile_capabilities();
+    const Capabilities capabilities = cpu_capabilities();
     const PictureMaker maker(capabilities);
     const SelftestCase refused{"g", "s", "w", "about", [](const PictureMaker&) -> CaseOutcome {
                                    fail("no such extension");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours above 1: what exact segments claim grows with them.
+#include "cpu_fixture.h"
 #include "exact_fixture.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -50,7 +50,7 @@ Scene sparse_scene(double brightest) {
 
 double claimed_error(const Volume& volume, const Scene& scene) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
-    return make_plan(scene, facts, tile_capabilities(), {}).slice.found_error();
+    return make_plan(scene, facts, cpu_capabilities(), {}).slice.found_error();
 }
 
 TEST(BrightColors, ExactSegmentsKeepToTheirClaim) {

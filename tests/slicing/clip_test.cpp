@@ -5,9 +5,9 @@
 #include <cmath>
 #include <span>
 
+#include "cpu_fixture.h"
 #include "scene/camera.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -281,7 +281,7 @@ TEST(ClippedTiles, RaysEndEarlyBehindThePlane) {
         scene.slice.classification = classification;
         scene.slice.samples = 2000;
         const Facts facts = measure(scene, volume, measure_bricks(volume));
-        EXPECT_TRUE(make_plan(scene, facts, tile_capabilities(), {}).slice.ends_early());
+        EXPECT_TRUE(make_plan(scene, facts, cpu_capabilities(), {}).slice.ends_early());
         // Post-classified slabs of .03 voxels: an error of the plane's place of one slab is .3 of
         // optical depth, tens of 255; their own error is of second order.
         EXPECT_LE(linf(render_tiles(volume, scene), trace(volume, scene, 1e-7)),
@@ -299,10 +299,10 @@ TEST(ClippedTiles, BricksBehindPlanesAreLeftOut) {
     EXPECT_EQ(facts.occupied.min, glm::dvec3(8, 12, 16));
     EXPECT_EQ(facts.occupied.max, glm::dvec3(20, 24, 20));
     EXPECT_FALSE(facts.clipped_away);
-    const auto drawn = tile_renderer(volume, scene);
+    const auto drawn = cpu_renderer(volume, scene);
     drawn->draw(View(*scene.camera, scene.width, scene.height));
     scene.clip = {};
-    const auto whole = tile_renderer(volume, scene);
+    const auto whole = cpu_renderer(volume, scene);
     whole->draw(View(*scene.camera, scene.width, scene.height));
     EXPECT_LT(10 * drawn->fragments(), whole->fragments());
 }
@@ -313,8 +313,8 @@ TEST(ClippedTiles, PlanesThatCutNothingAreLeftOut) {
     scene.clip = test::clips_of_unit_box()[8].clip;  // all of it
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     EXPECT_EQ(facts.clip.size(), 7u);
-    EXPECT_TRUE(make_plan(scene, facts, tile_capabilities(), {}).slice.clip.empty());
-    EXPECT_EQ(make_plan(scene, facts, tile_capabilities(), leave_nothing_out()).slice.clip.size(),
+    EXPECT_TRUE(make_plan(scene, facts, cpu_capabilities(), {}).slice.clip.empty());
+    EXPECT_EQ(make_plan(scene, facts, cpu_capabilities(), leave_nothing_out()).slice.clip.size(),
               7u);
     const Image clipped = render_tiles(volume, scene);
     scene.clip = {};
@@ -327,7 +327,7 @@ TEST(ClippedTiles, NothingIsDrawnWhereNothingIsLeft) {
     scene.clip.planes = {{{1.5, .5, .5}, {1, 0, 0}}};
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     EXPECT_TRUE(facts.clipped_away);
-    const Plan plan = make_plan(scene, facts, tile_capabilities(), {});
+    const Plan plan = make_plan(scene, facts, cpu_capabilities(), {});
     EXPECT_TRUE(plan.slice.nothing_visible);
     EXPECT_EQ(plan.omitted.back().reason,
               "the clip cuts all away that the transfer function shows");

@@ -3,8 +3,8 @@
 // step.
 #include <random>
 
+#include "cpu_fixture.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -14,8 +14,7 @@ Facts facts_of(const Volume& volume, const Scene& scene) {
 }
 
 bool takes_regions(const Volume& volume, const Scene& scene) {
-    return make_plan(scene, facts_of(volume, scene), tile_capabilities(), {})
-        .slice.constant_regions;
+    return make_plan(scene, facts_of(volume, scene), cpu_capabilities(), {}).slice.constant_regions;
 }
 
 Grid unit_grid(std::int64_t edge, Centering centering = Centering::node) {
@@ -64,7 +63,7 @@ TEST(ConstantRegionsTest, KeepThePicture) {
                     scene.slice.samples = 150;
                     ASSERT_TRUE(takes_regions(volume, scene));
                     for (const std::uint64_t texture_bytes : {1 << 30, 60000}) {
-                        Capabilities tiles = tile_capabilities();
+                        Capabilities tiles = cpu_capabilities();
                         tiles.max_texture_bytes = texture_bytes;
                         const Image all =
                             render_tiles(volume, scene, keep("constant_regions"), tiles);

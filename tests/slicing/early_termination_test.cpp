@@ -2,8 +2,8 @@
 // Rays end where what lies behind changes the picture by less than a 1024th of the wanted error.
 #include <random>
 
+#include "cpu_fixture.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -12,7 +12,7 @@ class EarlyTerminationTest : public SlicingTest {
   protected:
     SlicePlan plan_of(const Volume& volume, const Scene& scene, bool tiles) const {
         const Facts facts = measure(scene, volume, measure_bricks(volume));
-        return make_plan(scene, facts, tiles ? tile_capabilities() : capabilities(), {}).slice;
+        return make_plan(scene, facts, tiles ? cpu_capabilities() : capabilities(), {}).slice;
     }
 
     bool ends_early(const Volume& volume, const Scene& scene) const {
@@ -95,10 +95,10 @@ TEST_F(EarlyTerminationTest, LeavesOutWhatLiesBehind) {
     const Scene scene = fog(130);  // 400 slabs over the depth of the box, 1.7 or so: .55 a slab
     const OmissionSwitch all = keep("early_termination");
     const View view(*scene.camera, scene.width, scene.height);
-    const auto some = tile_renderer(volume, scene), every = tile_renderer(volume, scene, all);
+    const auto some = cpu_renderer(volume, scene), every = cpu_renderer(volume, scene, all);
     some->draw(view);
     every->draw(view);
-    EXPECT_LT(some->samples(), every->samples() / 2);
+    EXPECT_LT(some->fragments(), every->fragments() / 2);
 }
 
 // As deep as a ray can get, almost; deeper than any that is met; and far behind something of a

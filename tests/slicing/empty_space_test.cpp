@@ -2,8 +2,8 @@
 // Rays that leap over empty space, on tiles and in OpenGL: the picture stays, bit for bit.
 #include <random>
 
+#include "cpu_fixture.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -13,7 +13,7 @@ class EmptySpaceTest : public SlicingTest {
     // Whether either executor leaps.
     bool leaps(const Volume& volume, const Scene& scene) const {
         const Facts facts = measure(scene, volume, measure_bricks(volume));
-        const bool tiles = make_plan(scene, facts, tile_capabilities(), {}).slice.occupied_only;
+        const bool tiles = make_plan(scene, facts, cpu_capabilities(), {}).slice.occupied_only;
         EXPECT_EQ(make_plan(scene, facts, capabilities(), {}).slice.occupied_only, tiles);
         return tiles;
     }
@@ -21,7 +21,7 @@ class EmptySpaceTest : public SlicingTest {
     // `texture_bytes`: at most so many a brick.
     void expect_same(const Volume& volume, const Scene& scene, const std::string& what,
                      std::uint64_t texture_bytes = std::uint64_t{1} << 30) const {
-        Capabilities tiles = tile_capabilities(), gl = capabilities();
+        Capabilities tiles = cpu_capabilities(), gl = capabilities();
         tiles.max_texture_bytes = gl.max_texture_bytes = texture_bytes;
         EXPECT_EQ(render_tiles(volume, scene, {}, tiles).rgba,
                   render_tiles(volume, scene, keep("empty_space"), tiles).rgba)

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "tile_fixture.h"
+#include "cpu_fixture.h"
 
 namespace lamina {
 
@@ -25,7 +25,7 @@ class EngineTest : public gl::ContextTest<testing::TestWithParam<const char*>> {
 
     bool is_native() const { return std::string(GetParam()) == native_engine; }
     Capabilities capabilities() const {
-        return is_native() ? tile_capabilities() : Base::capabilities();
+        return is_native() ? cpu_capabilities() : Base::capabilities();
     }
     Image draw(const Volume& volume, const Scene& scene, const OmissionSwitch& omissions = {}) {
         return draw(volume, scene, omissions, capabilities());

@@ -3,8 +3,8 @@
 // linear piece.
 #include <random>
 
+#include "cpu_fixture.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -29,7 +29,7 @@ Scene scene_of(const TransferFunction& transfer_function, Projection projection,
 }
 
 Plan plan_of(const Volume& volume, const Scene& scene, const OmissionSwitch& omissions = {}) {
-    return make_plan(scene, measure(scene, volume, measure_bricks(volume)), tile_capabilities(),
+    return make_plan(scene, measure(scene, volume, measure_bricks(volume)), cpu_capabilities(),
                      omissions);
 }
 

@@ -196,9 +196,9 @@ TEST(LitSlabs, AutomaticSamplesKeepMaxErrorAgainstTheLitTracer) {
                 const Facts facts = measure(scene, volume, bricks);
                 TableCache tables;
                 const SampleTrials trials =
-                    try_samples(scene, volume, bricks, facts, tile_capabilities(), false, tables);
+                    try_samples(scene, volume, bricks, facts, cpu_capabilities(), false, tables);
                 ASSERT_FALSE(trials.exact.empty());
-                const Plan plan = make_plan(scene, facts, tile_capabilities(), {}, trials);
+                const Plan plan = make_plan(scene, facts, cpu_capabilities(), {}, trials);
                 Scene chosen = scene;
                 chosen.slice.samples = plan.slice.slabs;
                 EXPECT_LE(linf(render_tiles(volume, chosen), traced), max_error)
@@ -301,7 +301,7 @@ TEST(LitSlabs, ThePlanLeavesOutNothingThatLightNeeds) {
         scene.slice.samples = 100;
         const Facts facts = measure(scene, volume, measure_bricks(volume));
         const auto plan_of = [&](const Scene& other) {
-            return make_plan(other, facts, tile_capabilities(), {});
+            return make_plan(other, facts, cpu_capabilities(), {});
         };
         const Plan lit = plan_of(scene);
         scene.lighting.reset();
@@ -312,7 +312,7 @@ TEST(LitSlabs, ThePlanLeavesOutNothingThatLightNeeds) {
             EXPECT_EQ(leaves_out(unlit, name), has_table || name != std::string("table")) << name;
         }
         EXPECT_TRUE(leaves_out(lit, "blending"));
-        const std::string text = explain(lit, facts, tile_capabilities());
+        const std::string text = explain(lit, facts, cpu_capabilities());
         EXPECT_NE(text.find("light"), std::string::npos);
         EXPECT_EQ(text.find("off by up to"), std::string::npos);
     }

@@ -201,7 +201,7 @@ TEST(LitPlans, LeaveOutWhatLightDoesNotNeed) {
                        Projection::perspective);
     scene.slice.classification = Classification::exact;
     const auto plan_of = [&](const Scene& each) {
-        return make_plan(each, measure(each, volume, measure_bricks(volume)), tile_capabilities(),
+        return make_plan(each, measure(each, volume, measure_bricks(volume)), cpu_capabilities(),
                          {});
     };
     const auto leaves_out = [](const Plan& plan, const std::string& name) {
@@ -215,7 +215,7 @@ TEST(LitPlans, LeaveOutWhatLightDoesNotNeed) {
         EXPECT_FALSE(leaves_out(plan, name)) << name;
     EXPECT_TRUE(leaves_out(plan, "blending"));
     const Facts facts = measure(scene, volume, measure_bricks(volume));
-    EXPECT_NE(explain(plan, facts, tile_capabilities()).find("light"), std::string::npos);
+    EXPECT_NE(explain(plan, facts, cpu_capabilities()).find("light"), std::string::npos);
 }
 
 // Values that stand for nothing, and a smallest gradient far below all that there are. Rays go

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random patterns of NaN: transparent are the cells with such a corner, and no others.
+#include "cpu_fixture.h"
 #include "simd/instruction_set.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -78,7 +78,7 @@ TEST(TileNanTest, EveryPatternIsTheTracers) {
         for (const auto way : {Classification::post, Classification::preintegrated}) {
             scene.slice.classification = way;
             SCOPED_TRACE(fmt::format("pattern {}, {}", pattern, name_of(way)));
-            const Capabilities all = tile_capabilities();
+            const Capabilities all = cpu_capabilities();
             expect_within(most, render_tiles(volume, scene), reference);
             expect_within(most, render_tiles(volume, scene, leave_nothing_out()), reference);
             expect_within(most, render_tiles(volume, scene, {}, with_bricks(all)), reference);

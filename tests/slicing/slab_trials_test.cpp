@@ -4,7 +4,7 @@
 #include "plan/choices.h"
 #include "slicing/slice_renderer.h"
 #include "slicing_fixture.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 #include "volume/generate.h"
 
 namespace lamina {
@@ -21,7 +21,7 @@ struct Tried {
 };
 
 Tried try_slabs(const Scene& scene, const Volume& volume,
-                const Capabilities& capabilities = tile_capabilities(), bool many_frames = false) {
+                const Capabilities& capabilities = cpu_capabilities(), bool many_frames = false) {
     const MinMaxBricks bricks = measure_bricks(volume);
     Tried tried{measure(scene, volume, bricks), {}};
     TableCache tables;
@@ -31,21 +31,20 @@ Tried try_slabs(const Scene& scene, const Volume& volume,
 }
 
 Image draw(const Volume& volume, const Scene& scene, const Tried& tried) {
-    const Plan plan = make_plan(scene, tried.facts, tile_capabilities(), {}, tried.trials);
+    const Plan plan = make_plan(scene, tried.facts, cpu_capabilities(), {}, tried.trials);
     const auto renderer =
         make_slice_renderer(volume, *scene.transfer_function, tried.facts, plan.slice,
-                            tile_capabilities(), scene.width, scene.height);
+                            cpu_capabilities(), scene.width, scene.height);
     renderer->draw(View(*scene.camera, scene.width, scene.height));
     return renderer->read();
 }
 
 Tried try_for_many_frames(const Scene& scene, const Volume& volume) {
-    return try_slabs(scene, volume, tile_capabilities(), true);
+    return try_slabs(scene, volume, cpu_capabilities(), true);
 }
 
 Classification classification_of(const Scene& scene, const Tried& tried) {
-    return make_plan(scene, tried.facts, tile_capabilities(), {}, tried.trials)
-        .slice.classification;
+    return make_plan(scene, tried.facts, cpu_capabilities(), {}, tried.trials).slice.classification;
 }
 
 // Of many frames each is to be quick: where few slabs keep the error, these are drawn.
@@ -252,8 +251,8 @@ TEST(SlabTrials, OfLargePicturesRaysAreTracedWhereTheyMissMost) {
 }
 
 Capabilities gpu() {
-    Capabilities capabilities = tile_capabilities();
-    capabilities.tiles = false;
+    Capabilities capabilities = cpu_capabilities();
+    capabilities.cpu = false;
     capabilities.eight_bit_filter = true;
     return capabilities;
 }

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cpu_fixture.h"
 #include "exact_fixture.h"
 #include "optics/pieces.h"
 #include "simd/instruction_set.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -41,7 +41,7 @@ Scene scene_of(const TransferFunction& function) {
 
 double claimed_error(const Scene& scene) {
     const Facts facts = measure(scene, cells(), measure_bricks(cells()));
-    return make_plan(scene, facts, tile_capabilities(), {}).slice.found_error();
+    return make_plan(scene, facts, cpu_capabilities(), {}).slice.found_error();
 }
 
 TEST(SmoothPoints, KeepToTheirClaim) {

@@ -5,11 +5,11 @@
 
 #include <limits>
 
+#include "cpu_fixture.h"
 #include "exact_fixture.h"
 #include "slicing/cpu_volume.h"
 #include "support/expect_error.h"
 #include "support/stored_volume.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -30,7 +30,7 @@ Image draw(CpuSliceRenderer& renderer, const Scene& scene) {
 }
 
 void expect_same(const Volume& volume, const Scene& scene, const char* what,
-                 const Capabilities& capabilities = tile_capabilities()) {
+                 const Capabilities& capabilities = cpu_capabilities()) {
     const auto in_memory = renderer_of(volume, volume, scene, capabilities);
     const Image expected = draw(*in_memory, scene);
     const auto in_files = renderer_of(test::stored(volume), volume, scene, capabilities);
@@ -131,7 +131,7 @@ TEST(StoredVolumes, WithSamplesThatAreNoNumbersLookTheSame) {
 }
 
 TEST(StoredVolumes, InPartsLookTheSame) {
-    Capabilities capabilities = tile_capabilities();
+    Capabilities capabilities = cpu_capabilities();
     capabilities.max_texture_bytes = 60 * 45 * 16;  // a picture of floats
     const Volume bytes = noise<std::uint8_t>({160, 70, 50}, Centering::node, 255);
     const Volume floats = noise<float>({80, 70, 50}, Centering::cell, 1);
@@ -181,7 +181,7 @@ TEST(StoredVolumes, ReadWhatShowsAndThatOnce) {
     scene.transfer_function =
         TransferFunction::linear({knot(100, {1, 1, 1}, 0), knot(200, {1, 1, 1}, .1)});
     in_files.store().bricks().expect({});
-    const auto renderer = renderer_of(in_files, volume, scene, tile_capabilities());
+    const auto renderer = renderer_of(in_files, volume, scene, cpu_capabilities());
     draw(*renderer, scene);
     EXPECT_GT(reads.samples_read, 0);
     // Two pages by one by one, and the pages that their last samples also belong to.
@@ -195,7 +195,7 @@ TEST(StoredVolumes, ReadWhatShowsAndThatOnce) {
 TEST(StoredVolumes, AViewFindsThePagesThatItSees) {
     const Volume volume = noise<std::uint8_t>({200, 200, 200}, Centering::node, 255);
     Scene scene = scene_of(volume, Classification::exact);
-    const auto renderer = renderer_of(test::stored(volume), volume, scene, tile_capabilities());
+    const auto renderer = renderer_of(test::stored(volume), volume, scene, cpu_capabilities());
     const BrickCache& cache = *renderer->volume()->pages();
     std::vector<std::uint32_t> all(cache.brick_count());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -219,7 +219,7 @@ TEST(StoredVolumes, ThatFailToBeReadAreAnError) {
         volume.grid(), volume.type(),
         std::make_shared<const VolumeStore>(volume.grid(), volume.type(), std::move(source)));
     const Scene scene = scene_of(volume, Classification::exact);
-    const auto renderer = renderer_of(in_files, volume, scene, tile_capabilities());
+    const auto renderer = renderer_of(in_files, volume, scene, cpu_capabilities());
     renderer->volume()->pages()->clear();
     files.before_read = [](const SampleBox&) { fail("volume.raw: truncated"); };
     expect_error([&] { draw(*renderer, scene); }, {"truncated"});
@@ -228,7 +228,7 @@ TEST(StoredVolumes, ThatFailToBeReadAreAnError) {
     expect_error([&] { draw(*renderer, scene); }, {"changed"});
     files.changed = false;
     EXPECT_EQ(draw(*renderer, scene).rgba,
-              draw(*renderer_of(volume, volume, scene, tile_capabilities()), scene).rgba);
+              draw(*renderer_of(volume, volume, scene, cpu_capabilities()), scene).rgba);
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "cpu_fixture.h"
 #include "exact_fixture.h"
 #include "plan/volume_shares.h"
 #include "support/put_behind.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -40,7 +40,7 @@ double largest_difference(const PreciseImage& image, const Image& other) {
 void expect_same_together(const Volume& volume, const Scene& scene, const char* what) {
     const MinMaxBricks bricks = measure_bricks(volume);
     const Facts facts = measure(scene, volume, bricks);
-    const Plan plan = make_plan(scene, facts, tile_capabilities(), {});
+    const Plan plan = make_plan(scene, facts, cpu_capabilities(), {});
     const Image whole = draw(volume, scene, facts, plan.slice);
     EXPECT_GT(*std::ranges::max_element(whole.rgba), .1) << what;
     for (const int count : counts) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Worlds as small as atoms and as large as galaxies give the picture of one of size 1.
+#include "cpu_fixture.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {

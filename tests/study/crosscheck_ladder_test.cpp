@@ -8,7 +8,7 @@
 
 #include "study/crosscheck.h"
 #include "support/transfer_functions.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina::study {
 namespace {
@@ -32,7 +32,7 @@ class CrosscheckLadder : public testing::Test {
         settings.ladder_tets = 2000;
         settings.say = [this](const std::string& text) { said += text; };
     }
-    Crosscheck made() const { return crosscheck(scene, settings, tile_capabilities()); }
+    Crosscheck made() const { return crosscheck(scene, settings, cpu_capabilities()); }
 
     Scene scene;
     CrosscheckSettings settings;

@@ -6,7 +6,7 @@
 #include "study/data_store.h"
 #include "study/study_frames.h"
 #include "support/transfer_functions.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina::study {
 namespace {
@@ -28,7 +28,7 @@ Scene lit_scene() {
 // The smallest gradient is the data's, for the picture and for what it is measured against.
 TEST(LitStudy, ChoosesTheSmallestGradientAndTracesWithLight) {
     DataStore data;
-    StudyFrames frames(lit_scene(), data, tile_capabilities(), std::make_shared<TableCache>());
+    StudyFrames frames(lit_scene(), data, cpu_capabilities(), std::make_shared<TableCache>());
     ASSERT_TRUE(frames.scene().lighting->smallest_gradient.is_given());
     // .01 of the range of values, which is up to 1, over the distance of samples.
     EXPECT_GT(*frames.scene().lighting->smallest_gradient, .005 * 11);

@@ -19,7 +19,7 @@
 #include "base/profile.h"
 #include "measure_cpu/kernels.h"
 #include "simd/instruction_set.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina {
 namespace {
@@ -151,7 +151,7 @@ class Machine {
 
 void run(const std::string& json_file) {
     const int threads = tbb::this_task_arena::max_concurrency();
-    const std::string renderer = renderer_and_threads(tile_capabilities());
+    const std::string renderer = renderer_and_threads(cpu_capabilities());
     const std::vector<Measurement> measurements = Machine(threads).measure();
     nlohmann::ordered_json json{{"engine", renderer}, {"threads", threads}};
     fmt::print("{}\n{:44} {:>10} {:>10}\n", renderer, "", "one core",

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "projection/tile_fragments.h"
+#include "projection/cpu_fragments.h"
 
 #undef LAMINA_TARGET_FILE
-#define LAMINA_TARGET_FILE "projection/tile_fragments.cpp"
+#define LAMINA_TARGET_FILE "projection/cpu_fragments.cpp"
 #include "simd/foreach_target.h"
 
 #include "projection/tet_drawing-inl.h"

@@ -4,11 +4,11 @@
 
 #include <random>
 
+#include "cpu_fixture.h"
 #include "reference/lit_fixtures.h"
 #include "simd/instruction_set.h"
 #include "support/allocation_count.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -89,19 +89,19 @@ TEST(TileFramesTest, ThreadsDoNotChangeThePicture) {
 TEST(TileFramesTest, FramesAfterTheFirstTakeNoMemory) {
     const Volume volume = gaussians(30);
     for (const Case& each : cases()) {
-        const auto renderer = tile_renderer(volume, each.scene, each.omissions);
+        const auto renderer = cpu_renderer(volume, each.scene, each.omissions);
         const View view(*each.scene.camera, each.scene.width, each.scene.height);
         renderer->draw(view);
         const std::int64_t before = test::allocation_count();
         renderer->draw(view);
         EXPECT_EQ(test::allocation_count(), before) << each.name;
-        EXPECT_GT(renderer->samples(), 0);
+        EXPECT_GT(renderer->fragments(), 0);
     }
 }
 
 // Of at most 25^3 samples in float; the image needs as much.
 Capabilities small_bricks() {
-    Capabilities small = tile_capabilities();
+    Capabilities small = cpu_capabilities();
     small.max_texture_bytes = 16 * 75 * 53;
     return small;
 }
@@ -109,7 +109,7 @@ Capabilities small_bricks() {
 TEST(TileFramesTest, FramesOfSeveralBricksTakeNoMemory) {
     const Volume volume = gaussians(30);
     for (const Case& each : cases()) {
-        const auto renderer = tile_renderer(volume, each.scene, each.omissions, small_bricks());
+        const auto renderer = cpu_renderer(volume, each.scene, each.omissions, small_bricks());
         renderer->draw(View(*each.scene.camera, 75, 53));
         const View turned_by_70(turned(*each.scene.camera, 70), 75, 53);
         const std::int64_t before = test::allocation_count();
@@ -141,11 +141,11 @@ TEST(TileFramesTest, EmptySpaceIsSkippedBitForBit) {
     keep_space.kept = {"empty_space"};
     for (const Case& each : cases(top, .2)) {
         if (each.omissions.none) continue;
-        for (const Capabilities& capabilities : {tile_capabilities(), small_bricks()}) {
+        for (const Capabilities& capabilities : {cpu_capabilities(), small_bricks()}) {
             const auto drawn = [&](const OmissionSwitch& omissions, std::int64_t& samples) {
-                const auto renderer = tile_renderer(volume, each.scene, omissions, capabilities);
+                const auto renderer = cpu_renderer(volume, each.scene, omissions, capabilities);
                 renderer->draw(View(*each.scene.camera, 75, 53));
-                samples = renderer->samples();
+                samples = renderer->fragments();
                 return renderer->read().rgba;
             };
             std::int64_t some = 0, all = 0;

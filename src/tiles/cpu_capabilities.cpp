@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -13,7 +13,7 @@
 
 namespace lamina {
 
-Capabilities tile_capabilities() {
+Capabilities cpu_capabilities() {
     constexpr int largest_edge = 32768;  // pixel coordinates are exact in floats
     Capabilities capabilities;
     capabilities.renderer = fmt::format("cpu: {}", instruction_set());
@@ -21,7 +21,7 @@ Capabilities tile_capabilities() {
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     capabilities.threads =
         std::min(tbb::this_task_arena::max_concurrency(), static_cast<int>(allowed));
-    capabilities.tiles = true;
+    capabilities.cpu = true;
     capabilities.max_texture_size = largest_edge;
     capabilities.max_3d_texture_size = std::numeric_limits<int>::max();
     // Gathers address memory by vectors of 32-bit numbers.

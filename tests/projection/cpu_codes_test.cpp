@@ -41,7 +41,7 @@ class TileCodes : public gl::GlTest {
     static int most_differing(int bits) { return bits > 8 ? 100 : 2; }
     // Codes that are not the same, of 101 * 83 * 4.
     int differing_of(const Scene& scene) const {
-        return differing(project(mesh_, scene, tile_capabilities()),
+        return differing(project(mesh_, scene, cpu_capabilities()),
                          project(mesh_, scene, capabilities()));
     }
 

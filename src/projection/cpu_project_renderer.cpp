@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "projection/tile_project_renderer.h"
+#include "projection/cpu_project_renderer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +32,10 @@ FragmentOutput output_of(const ProjectPlan& plan) {
 
 }  // namespace
 
-TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
-                                         const TransferFunction& transfer_function,
-                                         const ProjectPlan& plan, int width, int height,
-                                         std::shared_ptr<VisibilityOrder> order)
+CpuProjectRenderer::CpuProjectRenderer(const SceneMesh& mesh,
+                                       const TransferFunction& transfer_function,
+                                       const ProjectPlan& plan, int width, int height,
+                                       std::shared_ptr<VisibilityOrder> order)
     : ProjectRenderer(mesh, transfer_function, plan, std::move(order)),
       image_(width, height),
       fragment_counts_(static_cast<std::size_t>(image_.grid().count())) {
@@ -77,26 +77,26 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
 }
 
 // Returns the number of cell fragments that fit into a chunk in every view.
-std::size_t TileProjectRenderer::parts_a_chunk() const {
+std::size_t CpuProjectRenderer::parts_a_chunk() const {
     constexpr std::size_t most = TileBatch::chunk_parts;
     return is_fan() ? 3 * most / FanGeometry::most_indices : most;
 }
 
-std::size_t TileProjectRenderer::batch_count(std::size_t parts) const {
+std::size_t CpuProjectRenderer::batch_count(std::size_t parts) const {
     return (parts + parts_a_batch() - 1) / parts_a_batch();
 }
 
-int TileProjectRenderer::step_count() const {
+int CpuProjectRenderer::step_count() const {
     if (tree_) return tree_->step_count();
     return visible_ ? static_cast<int>(batch_count(static_cast<std::size_t>(visible_->count())))
                     : 0;
 }
 
-std::int64_t TileProjectRenderer::fragments() const {
+std::int64_t CpuProjectRenderer::fragments() const {
     return std::accumulate(fragment_counts_.begin(), fragment_counts_.end(), std::int64_t{0});
 }
 
-std::int64_t TileProjectRenderer::byte_count() const {
+std::int64_t CpuProjectRenderer::byte_count() const {
     std::int64_t bytes =
         image_.byte_count() + static_cast<std::int64_t>(slants_.size() * sizeof(TilePixels::Plane));
     for (const auto& batch : batches_) bytes += batch ? batch->byte_count() : 0;
@@ -107,7 +107,7 @@ std::int64_t TileProjectRenderer::byte_count() const {
     return bytes;
 }
 
-void TileProjectRenderer::draw(const View& view, Progress* progress) {
+void CpuProjectRenderer::draw(const View& view, Progress* progress) {
     order_ms_ = draw_ms_ = 0;
     tets_drawn_ = 0;
     last_tet_ = -1;
@@ -136,8 +136,8 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     draw_ms_ = drawing.end();
 }
 
-void TileProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrder<TetPart>& parts,
-                                     TileTetTree::Node* leaf, Progress* progress) {
+void CpuProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrder<TetPart>& parts,
+                                    CpuTetTree::Node* leaf, Progress* progress) {
     const std::size_t count = parts.items.size();
     const auto project_batch = [&](std::size_t batch) {
         const std::size_t first = batch * parts_a_batch();
@@ -162,17 +162,16 @@ void TileProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrd
 }
 
 // The samples of a ray are the cell fragments, the last one the farthest.
-void TileProjectRenderer::draw_tree(const Projectors& projectors, const DrawOrder<TetPart>& parts,
-                                    Progress* progress) {
-    const auto draw_leaf = [&](const SampleSpan& span, double depth_scale,
-                               TileTetTree::Node& leaf) {
+void CpuProjectRenderer::draw_tree(const Projectors& projectors, const DrawOrder<TetPart>& parts,
+                                   Progress* progress) {
+    const auto draw_leaf = [&](const SampleSpan& span, double depth_scale, CpuTetTree::Node& leaf) {
         fragments_.depth_scale = static_cast<float>(depth_scale);
         draw_parts(projectors, parts_of_leaf(parts, span, visible_->count()), &leaf, nullptr);
     };
     tree_->draw(std::ref(draw_leaf), image_, progress);
 }
 
-void TileProjectRenderer::set_tables() {
+void CpuProjectRenderer::set_tables() {
     Stage stage("tables");
     fragments_.source = plan_.source;
     fragments_.single_color = first_color(transfer_function_, plan_.range.lo, plan_.range.hi);
@@ -206,7 +205,7 @@ void TileProjectRenderer::set_tables() {
     table_ms_ = stage.end();
 }
 
-void TileProjectRenderer::set_view(const View& view) {
+void CpuProjectRenderer::set_view(const View& view) {
     fragments_.axes = {glm::vec3(view.right), glm::vec3(view.up), glm::vec3(view.forward)};
     fragments_.image_middle = 0.5f * glm::vec2(view.width, view.height);
     fragments_.image_rows = view.height;
@@ -240,8 +239,8 @@ void TileProjectRenderer::set_view(const View& view) {
     });
 }
 
-void TileProjectRenderer::project(const Projectors& projectors, const DrawOrder<TetPart>& parts,
-                                  TileBatch& batch) const {
+void CpuProjectRenderer::project(const Projectors& projectors, const DrawOrder<TetPart>& parts,
+                                 TileBatch& batch) const {
     const std::size_t count = parts.items.size();
     parallel_for(static_cast<std::int64_t>(batch.chunk_count()), 1, [&](std::int64_t number) {
         const std::size_t first =
@@ -251,9 +250,9 @@ void TileProjectRenderer::project(const Projectors& projectors, const DrawOrder<
     });
 }
 
-void TileProjectRenderer::project_chunk(const Projectors& projectors,
-                                        const DrawOrder<TetPart>& order,
-                                        TileBatch::Chunk& chunk) const {
+void CpuProjectRenderer::project_chunk(const Projectors& projectors,
+                                       const DrawOrder<TetPart>& order,
+                                       TileBatch::Chunk& chunk) const {
     chunk.clear();
     const std::span<const TetPart> parts = order.items;
     if (is_fan() || !plan_.plain) {
@@ -290,8 +289,8 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
     }
 }
 
-void TileProjectRenderer::project_doubtful(const TetProjector& projector, const TetPart& part,
-                                           const PixelArea* limit, TileBatch::Chunk& chunk) const {
+void CpuProjectRenderer::project_doubtful(const TetProjector& projector, const TetPart& part,
+                                          const PixelArea* limit, TileBatch::Chunk& chunk) const {
     const TileGrid& grid = image_.grid();
     ScreenOutline outline;
     const auto kind = projector.project(part, chunk.next(), outline, chunk.next_gradient());
@@ -306,8 +305,8 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
         part.tet, limit, chunk);
 }
 
-void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& part,
-                                      const PixelArea* limit, TileBatch::Chunk& chunk) const {
+void CpuProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& part,
+                                     const PixelArea* limit, TileBatch::Chunk& chunk) const {
     std::array<FanVertex, FanGeometry::most_vertices> vertices;
     std::array<std::uint32_t, FanGeometry::most_indices> indices;
     const TetGeometry::Written written = fans.write(
@@ -331,8 +330,8 @@ void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& pa
     }
 }
 
-void TileProjectRenderer::add(const PartArea& area, std::int32_t tet, const PixelArea* limit,
-                              TileBatch::Chunk& chunk) const {
+void CpuProjectRenderer::add(const PartArea& area, std::int32_t tet, const PixelArea* limit,
+                             TileBatch::Chunk& chunk) const {
     constexpr int edge = TileGrid::edge;
     if (limit != nullptr) {
         PartArea limited = area;
@@ -352,7 +351,7 @@ void TileProjectRenderer::add(const PartArea& area, std::int32_t tet, const Pixe
     }
 }
 
-void TileProjectRenderer::draw_batch(const TileBatch& batch, TileTetTree::Node* leaf) {
+void CpuProjectRenderer::draw_batch(const TileBatch& batch, CpuTetTree::Node* leaf) {
     const Stage drawing("tiles");
     parallel_for(image_.grid().count(), 1, [&](std::int64_t place) {
         const auto tile = static_cast<std::size_t>(place);
@@ -366,16 +365,16 @@ void TileProjectRenderer::draw_batch(const TileBatch& batch, TileTetTree::Node* 
     });
 }
 
-void TileProjectRenderer::read(Image& image) const {
+void CpuProjectRenderer::read(Image& image) const {
     image_.read(fragments_.blend.largest, image);
 }
 
-std::map<std::string, double> TileProjectRenderer::stages_ms() const {
+std::map<std::string, double> CpuProjectRenderer::stages_ms() const {
     return {{"tables", table_ms_}, {"order", order_ms_}, {"draw", draw_ms_}};
 }
 
-TileTetTree::TileTetTree(const CompositingPlan& plan, const TreeShape& shape,
-                         const std::array<float, 3>& single_color, const TileGrid& grid)
+CpuTetTree::CpuTetTree(const CompositingPlan& plan, const TreeShape& shape,
+                       const std::array<float, 3>& single_color, const TileGrid& grid)
     : shape_(shape),
       tree_(plan, shape, single_color),
       grid_(grid),
@@ -386,7 +385,7 @@ TileTetTree::TileTetTree(const CompositingPlan& plan, const TreeShape& shape,
     }
 }
 
-void TileTetTree::draw(const DrawLeaf& draw_leaf, TileImage& image, Progress* progress) {
+void CpuTetTree::draw(const DrawLeaf& draw_leaf, TileImage& image, Progress* progress) {
     swizzled_ = 0;
     evaluate(0, shape_.root(), draw_leaf, progress);
     parallel_for(grid_.count(), 8, [&](std::int64_t tile) {
@@ -395,8 +394,8 @@ void TileTetTree::draw(const DrawLeaf& draw_leaf, TileImage& image, Progress* pr
     });
 }
 
-void TileTetTree::evaluate(int level, const SampleSpan& span, const DrawLeaf& draw_leaf,
-                           Progress* progress) {
+void CpuTetTree::evaluate(int level, const SampleSpan& span, const DrawLeaf& draw_leaf,
+                          Progress* progress) {
     Node& node = nodes_[static_cast<std::size_t>(level)];
     for (std::size_t tile = 0; tile < node.touched.size(); ++tile) {
         if (node.touched[tile] != 0) node.opacity[tile].fill(0);
@@ -418,7 +417,7 @@ void TileTetTree::evaluate(int level, const SampleSpan& span, const DrawLeaf& dr
 }
 
 // A sample without opacity adds none, however it is rounded.
-void TileTetTree::put_into_parent(int level, const SampleSpan& child, const SampleSpan& parent) {
+void CpuTetTree::put_into_parent(int level, const SampleSpan& child, const SampleSpan& parent) {
     const Node& from = nodes_[static_cast<std::size_t>(level) + 1];
     Node& to = nodes_[static_cast<std::size_t>(level)];
     const std::uint32_t number = swizzled_++;
@@ -431,7 +430,7 @@ void TileTetTree::put_into_parent(int level, const SampleSpan& child, const Samp
     });
 }
 
-std::int64_t TileTetTree::byte_count() const {
+std::int64_t CpuTetTree::byte_count() const {
     std::int64_t bytes = tree_.byte_count();
     for (const Node& node : nodes_)
         bytes += static_cast<std::int64_t>(node.opacity.size() * (sizeof(TilePlane) + 1));

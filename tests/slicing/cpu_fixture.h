@@ -4,13 +4,13 @@
 
 #include "slicing/slice_renderer.h"
 #include "slicing_fixture.h"
-#include "tiles/tile_capabilities.h"
+#include "tiles/cpu_capabilities.h"
 
 namespace lamina {
 
-inline std::unique_ptr<CpuSliceRenderer> tile_renderer(
+inline std::unique_ptr<CpuSliceRenderer> cpu_renderer(
     const Volume& volume, const Scene& scene, const OmissionSwitch& omissions = {},
-    const Capabilities& capabilities = tile_capabilities()) {
+    const Capabilities& capabilities = cpu_capabilities()) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     const Plan plan = make_plan(scene, facts, capabilities, omissions);
     return std::make_unique<CpuSliceRenderer>(volume, *scene.transfer_function, facts, plan.slice,
@@ -19,8 +19,8 @@ inline std::unique_ptr<CpuSliceRenderer> tile_renderer(
 
 inline Image render_tiles(const Volume& volume, const Scene& scene,
                           const OmissionSwitch& omissions = {},
-                          const Capabilities& capabilities = tile_capabilities()) {
-    const auto renderer = tile_renderer(volume, scene, omissions, capabilities);
+                          const Capabilities& capabilities = cpu_capabilities()) {
+    const auto renderer = cpu_renderer(volume, scene, omissions, capabilities);
     renderer->draw(View(*scene.camera, scene.width, scene.height));
     return renderer->read();
 }

@@ -4,7 +4,7 @@
 #include "executors/lights.h"
 #include "executors/transfer_tables.h"
 #include "preintegration/preintegration_table.h"
-#include "projection/tile_batch.h"
+#include "projection/cpu_batch.h"
 #include "tiles/tile_image.h"
 
 namespace lamina {
@@ -38,17 +38,17 @@ struct TetFragments {
     // floats. It is not used for codes, because these must equal those of OpenGL's programs.
     bool one_division;
     glm::dvec3 ray_perturbation;
-    glm::vec4 constant_optics;               // SegmentSource::constant
-    glm::vec3 single_color;                  // if colored is false
-    const float* front_weights = nullptr;    // SegmentSource::parts, if colored
-    const UniformTable* table = nullptr;     // SegmentSource::table
-    float inverse_first_length = 0;          // of `table`
-    const TileTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
+    glm::vec4 constant_optics;              // SegmentSource::constant
+    glm::vec3 single_color;                 // if colored is false
+    const float* front_weights = nullptr;   // SegmentSource::parts, if colored
+    const UniformTable* table = nullptr;    // SegmentSource::table
+    float inverse_first_length = 0;         // of `table`
+    const CpuTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
     // The following are set if something is lit.
-    const TileLight* light = nullptr;  // in the axes of the world
-    float smallest_square = 0;         // of the smallest gradient, in the unit of GradientRecord
-    std::array<glm::vec3, 3> axes;     // unit vectors to the right, up and forward
-    bool slanted = false;              // lengths along rays are longer than differences of z
+    const CpuLight* light = nullptr;  // in the axes of the world
+    float smallest_square = 0;        // of the smallest gradient, in the unit of GradientRecord
+    std::array<glm::vec3, 3> axes;    // unit vectors to the right, up and forward
+    bool slanted = false;             // lengths along rays are longer than differences of z
 };
 
 // One tile of a frame; `number` is that of TileGrid. `slants`: world length per unit of z for each

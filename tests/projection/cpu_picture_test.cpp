@@ -63,7 +63,7 @@ class TilePicture : public gl::GlTest {
         GlProjectRenderer shaders(mesh_, *scene.transfer_function, plan, capabilities(),
                                   scene.width, scene.height);
         shaders.draw(view);
-        TileProjectRenderer tiles(mesh_, *scene.transfer_function, plan, scene.width, scene.height);
+        CpuProjectRenderer tiles(mesh_, *scene.transfer_function, plan, scene.width, scene.height);
         tiles.draw(view);
         const Difference found = difference(tiles.read(), shaders.read());
         // A hundred fragments, each good to float32's rounding of a sum or two: the same formulas.
@@ -84,7 +84,7 @@ class TilePicture : public gl::GlTest {
             for (const Thickness thickness : {Thickness::exact, Thickness::dz}) {
                 scene.camera->projection = projection;
                 scene.project.thickness = thickness;
-                ProjectPlan plan = plan_of(mesh_, scene, tile_capabilities()).project;
+                ProjectPlan plan = plan_of(mesh_, scene, cpu_capabilities()).project;
                 if (source == SegmentSource::cut_table) {
                     plan.source = source;
                     plan.table.request = {
@@ -161,7 +161,7 @@ TEST_F(TilePicture, TableFormats) {
          {TableFormat::fixed8, TableFormat::fixed16, TableFormat::float16, TableFormat::float32}) {
         Scene wanted = scene(crooked());
         wanted.project.table = TableSettings{.scalar = 64, .length = 4, .format = format};
-        const ProjectPlan plan = plan_of(mesh_, wanted, tile_capabilities()).project;
+        const ProjectPlan plan = plan_of(mesh_, wanted, cpu_capabilities()).project;
         expect_same(wanted, plan, "format " + std::to_string(static_cast<int>(format)));
     }
 }
@@ -171,11 +171,11 @@ TEST_F(TilePicture, TableFormats) {
 TEST_F(TilePicture, CountsAreAlike) {
     const Scene wanted = scene(crooked());
     const View view(*wanted.camera, wanted.width, wanted.height);
-    const ProjectPlan plan = plan_of(mesh_, wanted, tile_capabilities()).project;
+    const ProjectPlan plan = plan_of(mesh_, wanted, cpu_capabilities()).project;
     GlProjectRenderer shaders(mesh_, *wanted.transfer_function, plan, capabilities(), wanted.width,
                               wanted.height);
     shaders.draw(view);
-    TileProjectRenderer tiles(mesh_, *wanted.transfer_function, plan, wanted.width, wanted.height);
+    CpuProjectRenderer tiles(mesh_, *wanted.transfer_function, plan, wanted.width, wanted.height);
     tiles.draw(view);
     EXPECT_NEAR(static_cast<double>(tiles.tets_drawn()), static_cast<double>(shaders.tets_drawn()),
                 0.02 * static_cast<double>(shaders.tets_drawn()));

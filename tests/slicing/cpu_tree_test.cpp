@@ -2,7 +2,7 @@
 // Compositing trees in the native engine, against OpenGL's and against straight compositing.
 #include <algorithm>
 
-#include "tile_fixture.h"
+#include "cpu_fixture.h"
 
 namespace lamina {
 namespace {
@@ -78,7 +78,7 @@ TEST_F(TileTreeTest, ColourGoesThroughTheTree) {
 
 // The same bricks in both, as OpenGL keeps the volume's own type where it has no exact filter.
 TEST_F(TileTreeTest, BricksAreMarchedInOrder) {
-    Capabilities small = tile_capabilities(), small_textures = capabilities();
+    Capabilities small = cpu_capabilities(), small_textures = capabilities();
     small_textures.exact_float_filter = false;
     small.max_texture_bytes = small_textures.max_texture_bytes = 16 * 37 * 29 + 100;
     for (const std::vector<int>& factors : {std::vector<int>{}, {10, 6}}) {

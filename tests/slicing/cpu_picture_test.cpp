@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of the native engine: against OpenGL's float32, against exact chords and the tracer.
+#include "cpu_fixture.h"
 #include "reference/chord.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -228,7 +228,7 @@ TEST(TilePictureTest, BytesAndWordsGiveThePictureBitForBit) {
 // Bounds and reasons: bricks_test.cpp.
 TEST(TilePictureTest, BricksLeaveNoSeam) {
     const Volume volume = gaussians(40);
-    Capabilities small = tile_capabilities();
+    Capabilities small = cpu_capabilities();
     small.max_texture_bytes = 16 * 64 * 48 + 4 * 1000;
     for (const Classification classification :
          {Classification::post, Classification::preintegrated}) {

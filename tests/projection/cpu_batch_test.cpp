@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "projection/tile_batch.h"
+#include "projection/cpu_batch.h"
 
 #include <gtest/gtest.h>
 

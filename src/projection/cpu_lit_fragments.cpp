@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lit fragments: light along their segments (docs/numerics.md, section 10) is added to the colours
 // that they have without it.
-#include "projection/tile_fragments.h"
+#include "projection/cpu_fragments.h"
 
 #undef LAMINA_TARGET_FILE
-#define LAMINA_TARGET_FILE "projection/tile_lit_fragments.cpp"
+#define LAMINA_TARGET_FILE "projection/cpu_lit_fragments.cpp"
 #include "simd/foreach_target.h"
 
 #include "executors/cpu_light-inl.h"
@@ -39,7 +39,7 @@ struct LightSums {
 template <std::size_t channels>
 class LightAlong {
   public:
-    LightAlong(const TileLight& light, float smallest_square, const LitRun& run)
+    LightAlong(const CpuLight& light, float smallest_square, const LitRun& run)
         : light_(light), smallest_square_(smallest_square), run_(run) {
         // Limited depths have finite products.
         run_.front_depth = min(run.front_depth, deepest);
@@ -74,7 +74,7 @@ class LightAlong {
     // there is none.
     LAMINA_INLINE void find_kinks() {
         for (std::size_t i = 0; i < light_.directions.size(); ++i) {
-            const TileLight::Direction& direction = light_.directions[i];
+            const CpuLight::Direction& direction = light_.directions[i];
             Float from(0), change(0);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const Float to_light =
@@ -171,7 +171,7 @@ class LightAlong {
         return hidden_effect(light_, square, reach, smallest_square_);
     }
 
-    const TileLight& light_;
+    const CpuLight& light_;
     Float smallest_square_;
     LitRun run_;
     Float change_;  // change of extinction from front to back, times the length

@@ -5,8 +5,8 @@
 
 #include "compositing/codes.h"
 #include "compositing/fixed_ray.h"
+#include "cpu_fixture.h"
 #include "ramp_scene.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {

@@ -7,6 +7,6 @@ namespace lamina {
 
 // Returns the capabilities of the engine `cpu` on this machine. The renderer's name is, for
 // example, "cpu: AVX3".
-Capabilities tile_capabilities();
+Capabilities cpu_capabilities();
 
 }  // namespace lamina

@@ -5,16 +5,16 @@
 
 #include "executors/fixed_tree.h"
 #include "executors/transfer_tables.h"
+#include "projection/cpu_fragments.h"
 #include "projection/project_renderer.h"
 #include "projection/tet_setup.h"
-#include "projection/tile_fragments.h"
 #include "tiles/tile_image.h"
 
 namespace lamina {
 
 // A tree of fixed-point nodes whose samples are composited onto all tiles together. It keeps one
 // plane for each tile and level, and takes its memory once.
-class TileTetTree {
+class CpuTetTree {
   public:
     // The opacity of one node, and the tiles with opacity above 0.
     struct Node {
@@ -25,8 +25,8 @@ class TileTetTree {
     using DrawLeaf = std::function<void(const SampleSpan&, double depth_scale, Node&)>;
 
     // `plan`: how the nodes composite. Leaves may be drawn in another way.
-    TileTetTree(const CompositingPlan& plan, const TreeShape& shape,
-                const std::array<float, 3>& single_color, const TileGrid& grid);
+    CpuTetTree(const CompositingPlan& plan, const TreeShape& shape,
+               const std::array<float, 3>& single_color, const TileGrid& grid);
 
     int step_count() const { return static_cast<int>(shape_.leaf_count()); }
     // Replaces the picture by that of the leaves. Ctrl-C ends it between leaves.
@@ -38,7 +38,7 @@ class TileTetTree {
     void put_into_parent(int level, const SampleSpan& child, const SampleSpan& parent);
 
     TreeShape shape_;
-    TileFixedTree tree_;
+    CpuFixedTree tree_;
     TileGrid grid_;
     std::vector<Node> nodes_;  // by level
     // Number of nodes in this frame so far, which seeds stochastic rounding.
@@ -48,13 +48,13 @@ class TileTetTree {
 // Draws a mesh as the plan says, on the CPU. Cell fragments are projected in batches, in visibility
 // order, while the tiles of the picture draw the batch before. The picture does not depend on the
 // number of threads.
-class TileProjectRenderer : public ProjectRenderer {
+class CpuProjectRenderer : public ProjectRenderer {
   public:
     // Builds tables, and the order if that of another renderer cannot be used. The mesh must
     // outlive it.
-    TileProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
-                        const ProjectPlan& plan, int width, int height,
-                        std::shared_ptr<VisibilityOrder> order = nullptr);
+    CpuProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
+                       const ProjectPlan& plan, int width, int height,
+                       std::shared_ptr<VisibilityOrder> order = nullptr);
 
     // The steps of the progress are batches.
     void draw(const View& view, Progress* progress = nullptr) override;
@@ -81,7 +81,7 @@ class TileProjectRenderer : public ProjectRenderer {
     void set_tables();
     void set_view(const View& view);
     void draw_parts(const Projectors& projectors, const DrawOrder<TetPart>& parts,
-                    TileTetTree::Node* leaf, Progress* progress);
+                    CpuTetTree::Node* leaf, Progress* progress);
     void draw_tree(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                    Progress* progress);
     void project(const Projectors& projectors, const DrawOrder<TetPart>& parts,
@@ -95,14 +95,14 @@ class TileProjectRenderer : public ProjectRenderer {
                      TileBatch::Chunk& chunk) const;
     void add(const PartArea& area, std::int32_t tet, const PixelArea* limit,
              TileBatch::Chunk& chunk) const;
-    void draw_batch(const TileBatch& batch, TileTetTree::Node* leaf);
+    void draw_batch(const TileBatch& batch, CpuTetTree::Node* leaf);
 
     // The transfer function as fragments read it, which point to these.
     std::shared_ptr<const UniformTable> table_;
-    std::optional<TileTransfer> transfer_;  // for SegmentSource::cut_table and ::analytic
-    std::optional<TileTetTree> tree_;       // if the plan has one
-    StoredGradients gradients_;             // empty if nothing is lit, like this one:
-    std::optional<TileLight> light_;
+    std::optional<CpuTransfer> transfer_;  // for SegmentSource::cut_table and ::analytic
+    std::optional<CpuTetTree> tree_;       // if the plan has one
+    StoredGradients gradients_;            // empty if nothing is lit, like this one:
+    std::optional<CpuLight> light_;
     TetFragments fragments_{};
     TileImage image_;
     std::vector<TilePixels::Plane> slants_;  // for each tile; empty if all are 1

@@ -62,7 +62,7 @@ std::vector<Case> cases() {
 }
 
 Image draw(const SceneMesh& mesh, const Scene& scene) {
-    return project(mesh, scene, tile_capabilities());
+    return project(mesh, scene, cpu_capabilities());
 }
 
 TEST(TetTileFrames, EveryInstructionSetGivesTheSameBits) {
@@ -90,7 +90,7 @@ TEST(TetTileFrames, ThreadsDoNotChangeThePicture) {
 TEST(TetTileFrames, FramesAfterTheFirstTakeNoMemory) {
     const SceneMesh mesh = mesh_of(1500);
     for (const Case& each : cases()) {
-        const auto renderer = make_renderer(mesh, each.scene, tile_capabilities());
+        const auto renderer = make_renderer(mesh, each.scene, cpu_capabilities());
         const View view(*each.scene.camera, each.scene.width, each.scene.height);
         renderer->draw(view);
         const std::int64_t before = test::allocation_count();
