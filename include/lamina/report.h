@@ -66,7 +66,7 @@ struct FrameStatistics {
     double trace_error = 0;      // the tracer's estimate of its error, in 1/255
 
     std::string renderer;         // drawn_by without its threads
-    bool native = false;          // the native engine drew
+    bool native = false;          // the cpu engine drew
     int slabs = 0;                // number of slabs of the method slice
     std::int64_t tets_drawn = 0;  // tets that cover the centre of a pixel
     std::int64_t bytes_gpu = 0;   // OpenGL memory, with the data

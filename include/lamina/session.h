@@ -47,7 +47,7 @@ using TileCallback = std::function<void(const PictureTile&, const PreciseImage&)
 //
 // Automatic values ("auto" in scene files) are chosen for the first picture and kept; transfer
 // function and camera (docs/first-picture.md) are chosen when the session gets the scene.
-// resolved_scene() has all of them written out. With the native engine (ContextChoice::cpu) a
+// resolved_scene() has all of them written out. With the cpu engine (ContextChoice::cpu) a
 // picture is, bit for bit, the one that `lamina render` draws of that scene.
 //
 // Every call may throw Error. Sessions of several threads do not disturb each other; calls of one

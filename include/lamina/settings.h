@@ -277,8 +277,8 @@ LAMINA_API const char* name_of(ProjectOrder order);
 LAMINA_API const char* name_of(ProjectGeometry geometry);
 LAMINA_API const char* name_of(ProjectDither dither);
 
-// Names what draws. osmesa and egl: OpenGL 4.5 without a window; cpu: the native engine, which
-// needs no OpenGL. An automatic choice takes a GPU through EGL if there is one, else the native
+// Names what draws. osmesa and egl: OpenGL 4.5 without a window; cpu: lamina's own engine, which
+// needs no OpenGL. An automatic choice takes a GPU through EGL if there is one, else the cpu
 // engine.
 enum class ContextChoice { osmesa, egl, cpu };
 

@@ -27,7 +27,7 @@ class Lighting:
 
     ``ambient``, ``diffuse``, ``specular`` (0..1000) and ``power`` (1..1000) are those of Blinn and Phong.
     ``smallest_gradient``, in scalar units per world unit: what is hardly steeper fades into the unlit picture; ``"auto"``
-    is chosen from the data. Lit scenes are drawn by the method ``"trace"`` and by exact slices of the native engine
+    is chosen from the data. Lit scenes are drawn by the method ``"trace"`` and by exact slices of the cpu engine
     (``context="cpu"``); the others refuse them.
 
     >>> lamina.Lighting(specular=0.3, power=30).to_scene()["lights"]

@@ -95,7 +95,7 @@ class Picture:
     @functools.cached_property
     def scene(self) -> Scene:
         """The scene with every key written out, what was automatic as well: drawn again, by the command line too, it
-        gives the same picture, bit for bit on the native engine."""
+        gives the same picture, bit for bit on the cpu engine."""
         document = json.loads(self._drawn.scene.text())
         scene = Scene(document, self._data)
         return scene

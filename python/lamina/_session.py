@@ -28,7 +28,7 @@ class Session:
     what the change makes necessary.
 
     ``data``, ``transfer_function`` and keywords: as ``Scene`` lists them. ``context``: ``"auto"`` (a GPU where there is
-    one, else the native engine), ``"cpu"`` (the native engine), ``"egl"`` or ``"osmesa"``. ``threads``: at most so many,
+    one, else the cpu engine), ``"cpu"`` (that engine), ``"egl"`` or ``"osmesa"``. ``threads``: at most so many,
     0: one for each processor. ``many_frames``: choices may take longer where they make each picture quicker.
     ``only_below``: a folder; files that are not below it with all links followed, whoever names them, are refused.
 

@@ -154,7 +154,7 @@ VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, co
     if (!volume.in_memory()) {
         fail(
             "the volume does not fit the memory limit of {} bytes, and OpenGL draws volumes in "
-            "memory alone: expected the native engine, or more memory",
+            "memory alone: expected the cpu engine, or more memory",
             memory_limit());
     }
     std::int64_t layers = 0;

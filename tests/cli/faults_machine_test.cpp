@@ -28,7 +28,7 @@ TEST_F(FaultsOfMachines, NoLibraryOfOpenGL) {
                     {"OSMesa", "libOSMesa.so.8", "install"});
     expect_one_line(lamina_run(drawing_by("egl"), broken), 1, {"EGL", "libEGL.so.1", "install"});
     EXPECT_TRUE(contents(out).empty());
-    EXPECT_EQ(lamina_run(drawing_by("auto"), broken).exit_code, 0);  // the native engine
+    EXPECT_EQ(lamina_run(drawing_by("auto"), broken).exit_code, 0);  // the cpu engine
 }
 
 TEST_F(FaultsOfMachines, NoDeviceOfEGL) {

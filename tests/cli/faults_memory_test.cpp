@@ -29,7 +29,7 @@ class FaultsOfMemory : public FaultsTestCase {
     }
 };
 
-TEST_F(FaultsOfMemory, TooLittleIsOneLineForTheNativeEngine) {
+TEST_F(FaultsOfMemory, TooLittleIsOneLineForTheCpuEngine) {
     const std::string volume = folder / "volume.nrrd";
     make({"generate", "gaussians", "-o", volume, "--size", "32,32,32"});
     rlim_t to_start = mebibyte;  // below, the system's loader has no room for libraries

@@ -49,7 +49,7 @@ class FaultsTestCase : public testing::Test {
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return result;
     }
-    // By the native engine, quietly.
+    // By the cpu engine, quietly.
     std::vector<std::string> rendering(const std::filesystem::path& picture,
                                        const std::vector<std::string>& options = {}) const {
         std::vector<std::string> arguments{

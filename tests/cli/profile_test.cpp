@@ -167,7 +167,7 @@ class ProfileOption : public testing::Test {
     std::vector<Event> events;
 };
 
-TEST_F(ProfileOption, OfSlicingByTheNativeEngine) {
+TEST_F(ProfileOption, OfSlicingByTheCpuEngine) {
     profile("slice", "cpu");
     expect_stages({"scene", "load", "measure", "bricks", "facts", "plan", "context", "set_up",
                    "tables", "upload", "geometry", "draw", "read", "write"});
@@ -193,7 +193,7 @@ TEST_F(ProfileOption, OfSlicingByOpenGL) {
     check_opengl();
 }
 
-TEST_F(ProfileOption, OfProjectionByTheNativeEngine) {
+TEST_F(ProfileOption, OfProjectionByTheCpuEngine) {
     profile("project", "cpu");
     expect_stages({"load volume", "make mesh", "neighbours", "order graph", "visible parts",
                    "order", "sort", "parts", "draw", "set-up", "tiles"});

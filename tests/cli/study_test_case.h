@@ -17,7 +17,7 @@
 namespace lamina {
 
 // Two small scenes in a folder, ramp.json (a grey volume one voxel deep) and blobs.json (a coloured
-// one of 16^3 and its mesh), and a study of them, drawn by the native engine.
+// one of 16^3 and its mesh), and a study of them, drawn by the cpu engine.
 class StudyTestCase : public testing::Test {
   protected:
     using json = nlohmann::json;

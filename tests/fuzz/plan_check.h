@@ -8,7 +8,7 @@
 
 namespace lamina::fuzz {
 
-// Measures and plans for the native engine and for what OpenGL typically can do, with omissions and
+// Measures and plans for the cpu engine and for what OpenGL typically can do, with omissions and
 // without; throws Error where nothing can be planned, and Violation where a number of facts or plan
 // is none or beyond its limits.
 void check_slice_plans(const Scene& scene, const Volume& volume);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes of the native engine: those of OpenGL's programs and blending, pixel by pixel.
+// Codes of the cpu engine: those of OpenGL's programs and blending, pixel by pixel.
 #include <algorithm>
 
 #include "projection_fixture.h"

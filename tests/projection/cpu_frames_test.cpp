@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a picture of the native engine must not depend on, and what a frame must not take.
+// What a picture of the cpu engine must not depend on, and what a frame must not take.
 #include <tbb/global_control.h>
 
 #include "projection_fixture.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of the native engine against OpenGL's, for every source of colours and opacities.
+// Pictures of the cpu engine against OpenGL's, for every source of colours and opacities.
 #include <algorithm>
 
 #include "projection_fixture.h"

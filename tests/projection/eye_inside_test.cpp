@@ -75,7 +75,7 @@ class EyeInside : public ProjectionTest {
   protected:
     // Nine tenths of the pixels have roundings of float32, at most 50 in an optical depth of at
     // most 5, and what the weights of colours are off by, 2e-6 in at most 40 pieces, alone.
-    // Rasterisers put corners on a grid of 1/256 pixel, the native engine on one of 1/4096 (and
+    // Rasterisers put corners on a grid of 1/256 pixel, the cpu engine on one of 1/4096 (and
     // places of float32 are as coarse): a centre that is nearer to a tet's outline may get the tet
     // or miss it, with a run that is as short as it is near: of faces at least a pixel wide at most
     // such a share of the longest edge, 1.9. Silhouettes depend on no grid.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a mesh and a scene to the projected picture, by OpenGL or by the native engine, and to the
+// From a mesh and a scene to the projected picture, by OpenGL or by the cpu engine, and to the
 // exact one.
 #pragma once
 

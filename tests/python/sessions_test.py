@@ -106,7 +106,7 @@ def test_the_number_of_threads_changes_nothing(blob, function):
         lamina.Session(blob, function, context="gpu")
 
 
-def test_the_native_engine_needs_no_opengl(tmp_path):
+def test_the_cpu_engine_needs_no_opengl(tmp_path):
     import subprocess
     import sys
     code = ("import lamina, numpy\n"

@@ -247,7 +247,7 @@ TEST_F(OpenGlSession, MeshesKeepOrderBuffersAndPrograms) {
     }
 }
 
-TEST(SessionOfTheNativeEngine, KeepsAMeshsOrder) {
+TEST(SessionOfTheCpuEngine, KeepsAMeshsOrder) {
     const auto data = split_box();
     SceneRenderer frames(mesh_scene(), data, cpu_capabilities());
     const auto order = [&] {
@@ -262,7 +262,7 @@ TEST(SessionOfTheNativeEngine, KeepsAMeshsOrder) {
     expect_fresh(frames, data, frames.picture(), "another transfer function");
 }
 
-TEST(OpenGlSessions, TheNativeEngineNeedsNothingCurrent) {
+TEST(OpenGlSessions, TheCpuEngineNeedsNothingCurrent) {
     EXPECT_EQ(DrawContext(ContextChoice::cpu).make_current(), nullptr);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A renderer whose scene changes draws what a new one draws of its resolved scene, bit for bit on
-// the native engine, and does again only what a change makes necessary.
+// the cpu engine, and does again only what a change makes necessary.
 #include "render/scene_renderer.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The battery as it is shipped: complete, and passed by the native engine.
+// The battery as it is shipped: complete, and passed by the cpu engine.
 #include "selftest/selftest.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Regions of one colour and one extinction, which marched rays of the native engine take in one
+// Regions of one colour and one extinction, which marched rays of the cpu engine take in one
 // step.
 #include <random>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes of the native engine: those of OpenGL's shaders and blending, pixel by pixel, and those of
+// Codes of the cpu engine: those of OpenGL's shaders and blending, pixel by pixel, and those of
 // the core of compositing.
 #include <algorithm>
 
@@ -86,7 +86,7 @@ TEST_F(TileCodesTest, DitheredRampsAreTheShadersInEveryPixel) {
     }
 }
 
-// The core itself (compositing/fixed_ray.h), which shares nothing with the native engine's vectors.
+// The core itself (compositing/fixed_ray.h), which shares nothing with the cpu engine's vectors.
 TEST_F(TileCodesTest, StraightRampsAreTheCores) {
     for (const std::optional<Dither>& dither :
          {std::optional<Dither>(), {Dither{11, 5, true, 4}}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of the native engine: against OpenGL's float32, against exact chords and the tracer.
+// Pictures of the cpu engine: against OpenGL's float32, against exact chords and the tracer.
 #include "cpu_fixture.h"
 #include "reference/chord.h"
 #include "support/volume_of.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that run with the native engine and with OpenGL.
+// Tests that run with the cpu engine and with OpenGL.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-inline constexpr const char* native_engine = "cpu";
+inline constexpr const char* cpu_engine = "cpu";
 
 class EngineTest : public gl::ContextTest<testing::TestWithParam<const char*>> {
   protected:
@@ -23,7 +23,7 @@ class EngineTest : public gl::ContextTest<testing::TestWithParam<const char*>> {
             make_context(name == "egl" ? gl::ContextKind::egl : gl::ContextKind::osmesa);
     }
 
-    bool is_native() const { return std::string(GetParam()) == native_engine; }
+    bool is_native() const { return std::string(GetParam()) == cpu_engine; }
     Capabilities capabilities() const {
         return is_native() ? cpu_capabilities() : Base::capabilities();
     }
@@ -37,7 +37,7 @@ class EngineTest : public gl::ContextTest<testing::TestWithParam<const char*>> {
     }
 };
 
-inline const auto every_engine = testing::Values(native_engine, "osmesa", "egl");
+inline const auto every_engine = testing::Values(cpu_engine, "osmesa", "egl");
 inline std::string engine_name(const testing::TestParamInfo<const char*>& info) {
     return info.param;
 }

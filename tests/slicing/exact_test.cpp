@@ -208,7 +208,7 @@ TEST_P(ExactTest, FillValuesShowNothing) {
         const Image picture = draw(volume, scene);
         // No channel exceeds the largest colour, and opacity not 1, but for roundings.
         for (const float channel : picture.rgba) ASSERT_LE(std::abs(channel), 1 + 1e-5) << fill;
-        // The native engine's pixels beside such values may be off (docs/precision.md).
+        // The cpu engine's pixels beside such values may be off (docs/precision.md).
         if (is_native()) continue;
         EXPECT_LE(linf(picture, trace(same, scene, 1e-8)), promised) << fill;
     }

@@ -261,7 +261,7 @@ Tried measure_filter(const Scene& scene, const Volume& volume) {
     return try_slabs(scene, volume, gpu());
 }
 
-// Scalars of weights of 8 bits, as the native engine has them on request, in as many slabs as the
+// Scalars of weights of 8 bits, as the cpu engine has them on request, in as many slabs as the
 // trials of them choose: with automatic slabs all errors together, else that of the weights.
 TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
     for (const Volume& volume : {gaussians(32), mixing(24)}) {

@@ -53,7 +53,7 @@ def comparison(scene, count):
             "linf": random.uniform(2, 9) * error, "l1": random.uniform(-1, 1) * error, "l2": error,
             "channels": {c: {"linf": error, "l1": 0, "l2": error} for c in "RGBA"}, "stages": {"order": 0.25},
             "bytes_gpu": 1000 * i, "bytes_host": 24, "bytes": 1000 * (i % 7) + 24, "pareto": False,
-            "near_reference": target == "float32", "context": "native engine", "image": png(10 + i),
+            "near_reference": target == "float32", "context": "cpu engine", "image": png(10 + i),
             "difference": png(200)})
     for run in runs:
         run["pareto"] = run["id"] in front(runs, "l2")
@@ -82,7 +82,7 @@ def made_up_report(count):
               "failed": f"needs 4 GiB {HOSTILE}"}
     first["runs"].insert(2, failed)
     return {"title": HOSTILE, "kind": "study", "findings": ["the first", HOSTILE],
-            "environment": {"machine": HOSTILE, "processors": 2, "drivers": ["native engine", "Mesa"]},
+            "environment": {"machine": HOSTILE, "processors": 2, "drivers": ["cpu engine", "Mesa"]},
             "base": {"image.width": 128, "render.method": "slice", "render.target": "float16"},
             "swept": ["render.target", "render.slice.samples", "render.slice.tree.factors"],
             "comparisons": [first, second], "dropped": [{"because": HOSTILE, "runs": 12}]}

@@ -11,7 +11,7 @@ MESHES = ["bluntfin", "combustor", "torso"]
 
 
 def frames(bench):
-    """Every scene with its own settings, by the native engine and by OpenGL in software."""
+    """Every scene with its own settings, by the cpu engine and by OpenGL in software."""
     rows = []
     for scene in map(scenes.find, [*VOLUMES, *MESHES]):
         ways = bench.ways(scene, {"osmesa": OSMESA, "cpu": []}, frames=1)

@@ -3,7 +3,7 @@
 import html
 
 # Both contexts draw a scene with the same settings. EGL's picture may be off by what the scene allows, or by as much again
-# as the native engine's is.
+# as the cpu engine's is.
 ALLOWED = 1.0  # render.max_error by default, in 1/255
 
 STYLE = """body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem }
@@ -26,7 +26,7 @@ def failures(report):
         if "error" in result:
             found.append(f"{result['scene']}: {result['error']}")
         elif too_far(result):
-            found.append(f"{result['scene']}: by EGL off by {result['egl']['linf']:.3g} / 255, by the native engine by "
+            found.append(f"{result['scene']}: by EGL off by {result['egl']['linf']:.3g} / 255, by the cpu engine by "
                          f"{result['cpu']['linf']:.3g} / 255")
     if "error" in report["bench"]:
         found.append(f"bench: {report['bench']['error']}")
@@ -71,7 +71,7 @@ def html_of(report):
 <h2>Self test</h2>
 <p>{selftest.get("passed", 0)} of {selftest.get("cases", 0)} cases keep their bounds.</p>
 <h2>Pictures</h2>
-<p>Errors are the largest of any channel, in 1/255, against the reference tracer; "apart" is EGL against the native engine.
+<p>Errors are the largest of any channel, in 1/255, against the reference tracer; "apart" is EGL against the cpu engine.
 Times are of a frame, in ms.</p>
 {table(["scene", "plan", "EGL", "native", "apart", "EGL ms", "native ms"], map(picture_row, report["pictures"]))}
 <h2>Frames</h2>

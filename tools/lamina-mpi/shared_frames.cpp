@@ -15,7 +15,7 @@ namespace lamina {
 void check_shared(const Scene& scene, const Auto<ContextChoice>& context) {
     if (context.value_or(ContextChoice::cpu) != ContextChoice::cpu) {
         throw UsageError(fmt::format(
-            "--context {}: expected cpu: ranks draw with the native engine, which alone draws a "
+            "--context {}: expected cpu: ranks draw with the cpu engine, which alone draws a "
             "part of a volume",
             name_of(context)));
     }

@@ -25,7 +25,7 @@ constexpr const char* exit_codes =
 
 constexpr const char* environment =
     ".SH ENVIRONMENT\n"
-    ".TP\n.B LAMINA_INSTRUCTIONS\nKeeps the native engine to these instructions: SSE4, AVX2, AVX3 "
+    ".TP\n.B LAMINA_INSTRUCTIONS\nKeeps the cpu engine to these instructions: SSE4, AVX2, AVX3 "
     "or NEON. No picture changes.\n";
 
 // Text as roff prints it: no request at the start of a line, hyphens that can be copied.

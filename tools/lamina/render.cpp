@@ -293,7 +293,8 @@ CLI::App& add_render_with(CLI::App& app, const RenderExtras& extras) {
                    "Leave out nothing, or with =NAME keep one thing in");
     verb->add_option(
             "--context", options->context,
-            "What draws: auto (a GPU, else cpu), osmesa or egl (OpenGL), cpu (the native engine; "
+            "What draws: auto (a GPU, else cpu), osmesa or egl (OpenGL), cpu (lamina's own engine, "
+            "without OpenGL; "
             "LAMINA_INSTRUCTIONS=SSE4, AVX2, AVX3 or NEON keeps it to these instructions, and it "
             "takes as many threads as it may run on processors: taskset -c 0-3 lamina ...)")
         ->option_text("auto|osmesa|egl|cpu");

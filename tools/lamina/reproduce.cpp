@@ -190,7 +190,8 @@ void add_reproduce(CLI::App& app, int& exit_code) {
         ->type_name("FOLDER")
         ->required();
     verb->add_option("--context", options->context,
-                     "What draws: auto, osmesa, egl, or, of kraus, cpu (the native engine)")
+                     "What draws: auto, osmesa, egl, or, of kraus, cpu (lamina's own engine, "
+                     "without OpenGL)")
         ->option_text("auto|osmesa|egl|cpu");
     verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "No progress");

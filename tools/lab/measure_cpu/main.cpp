@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures what limits the native engine on this machine: arithmetic, gathers by cache level and
+// Measures what limits the cpu engine on this machine: arithmetic, gathers by cache level and
 // bandwidth, of one core and of all that the process may run on.
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -171,7 +171,7 @@ void run(const std::string& json_file) {
 }  // namespace lamina
 
 int main(int argc, char** argv) {
-    CLI::App app("What this machine's cores can do at most, for the native engine");
+    CLI::App app("What this machine's cores can do at most, for the cpu engine");
     std::string json_file, instructions;
     app.add_option("--json", json_file, "Write the figures to this file, too");
     app.add_option("--instructions", instructions, "SSE4, AVX2, AVX3 or NEON instead of the best");

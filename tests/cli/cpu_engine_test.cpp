@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-class NativeEngine : public testing::Test {
+class CpuEngine : public testing::Test {
   protected:
     void SetUp() override {
         json scene = gaussians_scene(24, 100, 75, 60);
@@ -56,7 +56,7 @@ bool has(const std::string& text, const char* part) {
 }
 
 // The dynamic linker's own record of the files that it opens.
-TEST_F(NativeEngine, LoadsNoOpenGL) {
+TEST_F(CpuEngine, LoadsNoOpenGL) {
     const std::vector<std::string> recorded = {"env", "LD_DEBUG=files"};
     const std::vector<std::string> output = {"-o", folder / "a.exr"};
     ASSERT_TRUE(has(render("osmesa", output, recorded).err, "libOSMesa")) << "nothing is recorded";
@@ -69,7 +69,7 @@ TEST_F(NativeEngine, LoadsNoOpenGL) {
     }
 }
 
-TEST_F(NativeEngine, SaysWhatItTookInTheStatistics) {
+TEST_F(CpuEngine, SaysWhatItTookInTheStatistics) {
     for (const char* method : methods) {
         const json stats = stats_of("cpu", method);
         for (const char* key :
@@ -92,7 +92,7 @@ TEST_F(NativeEngine, SaysWhatItTookInTheStatistics) {
 }
 
 // Without a GPU it is what draws; with one OpenGL.
-TEST_F(NativeEngine, IsTheDefaultWithoutAGpu) {
+TEST_F(CpuEngine, IsTheDefaultWithoutAGpu) {
     const json stats = stats_of("auto", "slice");
     const std::string context = stats["context"];
     EXPECT_TRUE(context.starts_with("cpu: ") || context.starts_with("EGL: ")) << context;
@@ -100,7 +100,7 @@ TEST_F(NativeEngine, IsTheDefaultWithoutAGpu) {
     EXPECT_EQ(stats["bytes_gpu"] == 0, context.starts_with("cpu: "));
 }
 
-TEST_F(NativeEngine, DrawsTheSameWithAllInstructions) {
+TEST_F(CpuEngine, DrawsTheSameWithAllInstructions) {
     for (const char* method : methods) {
         const Image expected = picture(method, {});
         for (const std::string& name : instruction_sets()) {
@@ -110,7 +110,7 @@ TEST_F(NativeEngine, DrawsTheSameWithAllInstructions) {
     }
 }
 
-TEST_F(NativeEngine, DrawsTheSameInOneThread) {
+TEST_F(CpuEngine, DrawsTheSameInOneThread) {
     if (run_program({"taskset", "-c", "0", "true"}).exit_code != 0) GTEST_SKIP() << "no taskset";
     for (const char* method : methods) {
         EXPECT_EQ(picture(method, {"taskset", "-c", "0"}).rgba, picture(method, {}).rgba) << method;
@@ -120,7 +120,7 @@ TEST_F(NativeEngine, DrawsTheSameInOneThread) {
 }
 
 // Attributes and all: also what the plan chooses, and says.
-TEST_F(NativeEngine, WritesTheSameBytesInOneThread) {
+TEST_F(CpuEngine, WritesTheSameBytesInOneThread) {
     if (run_program({"taskset", "-c", "0", "true"}).exit_code != 0) GTEST_SKIP() << "no taskset";
     const auto bytes_of = [&](const char* method, const std::vector<std::string>& before) {
         const ProgramResult result =
@@ -135,7 +135,7 @@ TEST_F(NativeEngine, WritesTheSameBytesInOneThread) {
         EXPECT_EQ(bytes_of(method, {"taskset", "-c", "0"}), bytes_of(method, {})) << method;
 }
 
-TEST_F(NativeEngine, RefusesInstructionsThatTheMachineHasNot) {
+TEST_F(CpuEngine, RefusesInstructionsThatTheMachineHasNot) {
     const ProgramResult result =
         render("cpu", {"-o", folder / "a.exr"}, {"env", "LAMINA_INSTRUCTIONS=abacus"});
     EXPECT_EQ(result.exit_code, 2);
@@ -144,15 +144,15 @@ TEST_F(NativeEngine, RefusesInstructionsThatTheMachineHasNot) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
 }
 
-TEST_F(NativeEngine, ExplainsItself) {
+TEST_F(CpuEngine, ExplainsItself) {
     const ProgramResult result = render("cpu", {"--explain", "--set", "render.target=emulated"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(has(result.out, "the native engine")) << result.out;
+    EXPECT_TRUE(has(result.out, "the cpu engine")) << result.out;
     for (const char* word : {"framebuffer", "texture"})
         EXPECT_FALSE(has(result.out, word)) << result.out;
 }
 
-TEST_F(NativeEngine, IsNoPlaceToReproduceAPaper) {
+TEST_F(CpuEngine, IsNoPlaceToReproduceAPaper) {
     const ProgramResult result = run_program(
         {LAMINA_BINARY, "reproduce", "lamar", "table3", "-o", folder / "x", "--context", "cpu"});
     EXPECT_EQ(result.exit_code, 2);
