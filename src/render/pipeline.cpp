@@ -47,7 +47,7 @@ TracedPicture trace_picture(const Scene& scene, SceneData& data, const TileDone&
         const SceneMesh& mesh = *data.mesh(scene);
         const FaceTree& open_faces = data.open_faces(scene);
         const Stage tracing("trace");
-        MeshTraceResult traced = trace(scene, mesh, open_faces, tile_done);
+        TraceResult traced = trace(scene, mesh, open_faces, tile_done);
         return {std::move(traced.image), traced.error_estimate, traced.segments,
                 traced.overlapping_rays};
     }
