@@ -9,6 +9,7 @@
 
 #include "base/content_hash.h"
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
 

@@ -6,6 +6,7 @@
 #include "base/client.h"
 #include "base/content_hash.h"
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
 #include "git_commit.h"
