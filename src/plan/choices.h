@@ -107,7 +107,7 @@ TargetChoice choose_project_target(const Scene& scene);
 
 // Gives the scene a target. If a target smaller than float32 was chosen for slicing without a tree,
 // the scene also gets a tree, because the bound of the choice is the bound of a tree.
-Scene with_target(Scene scene, Target target);
+Scene with_chosen_target(Scene scene, Target target);
 
 // Largest error of exact segments in float32, in 1/255, of colours up to 1, if extinction times the
 // length of a cell jumps by less than .2 (docs/precision.md, "Exact segments").

@@ -255,7 +255,7 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
     Plan plan = plan_alone(scene, facts, capabilities, omissions, trials, tables);
     const Scene chosen =
         with_classification(scene, {plan.slice.classification, plan.slice.slabs, {}});
-    add_savings(plan, with_target(chosen, plan.slice.target), facts, capabilities, omissions,
+    add_savings(plan, with_chosen_target(chosen, plan.slice.target), facts, capabilities, omissions,
                 trials, *tables);
     return plan;
 }
@@ -266,8 +266,8 @@ Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capa
     const ClassificationChoice way = choose_classification(scene, facts, capabilities, trials);
     const Scene chosen = with_classification(scene, way);
     const TargetChoice choice = choose_target(chosen, facts, trials);
-    Plan plan = plan_slicing(with_target(chosen, choice.target), facts, capabilities, omissions,
-                             trials, *tables);
+    Plan plan = plan_slicing(with_chosen_target(chosen, choice.target), facts, capabilities,
+                             omissions, trials, *tables);
     build_drawn_table(chosen, facts, plan.slice, *tables);
     plan.slice.classification_reason = way.reason;
     plan.slice.target_reason = choice.reason;
@@ -283,8 +283,8 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
     check_lit_projection(scene);
     check_limits(scene, capabilities);
     const TargetChoice choice = choose_project_target(scene);
-    Plan plan =
-        plan_projection(with_target(scene, choice.target), facts, capabilities, omissions, *tables);
+    Plan plan = plan_projection(with_chosen_target(scene, choice.target), facts, capabilities,
+                                omissions, *tables);
     plan.project.target_reason = choice.reason;
     add_savings(plan, scene, facts);
     return plan;

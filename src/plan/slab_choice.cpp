@@ -124,7 +124,7 @@ TargetChoice choose_target(const Scene& scene, const Facts& facts, const SampleT
     return choose_target(scene, largest_drawn_color(scene, facts.max_color), slabs);
 }
 
-Scene with_target(Scene scene, Target target) {
+Scene with_chosen_target(Scene scene, Target target) {
     if (scene.target.is_automatic() && target != Target::float32 && scene.method == Method::slice &&
         !scene.slice.tree)
         scene.slice.tree = automatic;
