@@ -446,7 +446,10 @@ struct NrrdHeader {
 
 NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
     const std::string name = path.string();
-    expect_regular_file(path);
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) fail("{}: no such file", name);
+    if (!std::filesystem::is_regular_file(status)) fail("{}: not a regular file", name);
     const HeaderText text = split_header(name, read_beginning(path));
 
     const std::unique_ptr<Nrrd, decltype(&nrrdNuke)> nrrd(nrrdNew(), &nrrdNuke);
