@@ -9,6 +9,8 @@ namespace lamina {
 
 enum class Projection { perspective, orthographic };
 
+// A camera at `eye` that looks at `center`, in world coordinates. `up` need not be at a right angle
+// to the view, but must not be parallel to it.
 struct Camera {
     Projection projection = Projection::perspective;
     glm::dvec3 eye{0, 0, 1};

@@ -17,16 +17,17 @@ class LAMINA_API Error : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Thrown if a stop was requested before the work was done. The message says what is left behind.
+// Thrown if a stop was requested before the work was done. The message says whether anything was
+// written.
 class LAMINA_API Interrupted : public std::runtime_error {
   public:
     Interrupted() : std::runtime_error("interrupted, nothing written") {}
     using std::runtime_error::runtime_error;
 };
 
-// Called with the progress of long work: the present activity ("slicing") and its share from 0
-// to 1. Calls come from one thread at a time, not always the caller's, and must not call the
-// session.
+// Called with the progress of long work: the present activity ("slicing") and its share from 0 to
+// 1. Calls come from one thread at a time, which need not be the caller's. The callback must not
+// call the session.
 using ProgressCallback = std::function<void(const std::string& activity, double share)>;
 
 }  // namespace lamina

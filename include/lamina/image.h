@@ -16,8 +16,8 @@
 
 namespace lamina {
 
-// Numbers in which a picture is composited. linear: linear light. display: the values that a screen
-// gets, code / 255 of sRGB, as VTK and ParaView composite them.
+// Colour space of the numbers in which a picture is composited. linear: linear light. display: the
+// values that a screen gets, code / 255 of sRGB, as VTK and ParaView composite them.
 enum class ImageColorSpace { linear, display };
 
 LAMINA_API const char* name_of(ImageColorSpace space);
@@ -38,7 +38,7 @@ struct RgbaImage {
           rgba(4 * static_cast<std::size_t>(width_pixels) *
                static_cast<std::size_t>(height_pixels)) {}
 
-    // Keeps its memory if that suffices; all numbers lose their meaning.
+    // Sets the size; keeps the memory if it suffices. The numbers are undefined afterwards.
     void resize(int width_pixels, int height_pixels) {
         width = width_pixels;
         height = height_pixels;
@@ -68,27 +68,28 @@ struct PictureTile {
     int width = 0, height = 0;
 };
 
-// Writes a picture, which appears under its name when it is complete. The suffix decides: .png is
-// for looking at (over `background`, in the numbers of picture.space; 8 bits, sRGB); .exr and .npy
-// (NumPy's, of shape (height, width, 4)) keep every number as 32-bit float. `attributes` are texts
-// by name that .exr has beside the pixels. Throws Error for other suffixes and if the file cannot
-// be written.
+// Writes a picture, which appears under its name when it is complete. The suffix decides on the
+// format: .png is for looking at (8 bits, sRGB, over `background`, whose numbers are in
+// picture.space); .exr and .npy (NumPy's, of shape (height, width, 4)) keep every number as 32-bit
+// float. `attributes`: texts by name that .exr stores beside the pixels. Throws Error for other
+// suffixes and if the file cannot be written.
 LAMINA_API void save_picture(const Image& picture, const std::filesystem::path& file,
                              const glm::dvec3& background = glm::dvec3(0),
                              const std::map<std::string, std::string>& attributes = {});
-// Writes a traced picture: .npy keeps double precision, the others have its numbers as float32.
+// Writes a traced picture: .npy keeps double precision, .exr has float32.
 LAMINA_API void save_picture(const PreciseImage& picture, const std::filesystem::path& file,
                              const glm::dvec3& background = glm::dvec3(0),
                              const std::map<std::string, std::string>& attributes = {});
 
-// Returns the bytes of the PNG file.
+// Returns the bytes of the PNG file that save_picture() writes.
 LAMINA_API std::string picture_png(const Image& picture,
                                    const glm::dvec3& background = glm::dvec3(0));
-// Returns the codes of the PNG file's pixels, red, green and blue, row 0 on top: for a screen.
+// Returns the codes of this file's pixels, red, green and blue, row 0 on top, to show on a screen.
 LAMINA_API std::vector<std::uint8_t> screen_codes(const Image& picture,
                                                   const glm::dvec3& background = glm::dvec3(0));
 
-// Norms of the error e of a picture, in units of 1/255 (docs/numerics.md).
+// Norms of the error e of a picture, over pixels and channels, in units of 1/255
+// (docs/numerics.md).
 struct ErrorNorms {
     double linf = 0;  // largest |e|
     // Mean of e, with its sign. Files and the command line call it `l1`, as LaMar's Table 4 does.
@@ -103,7 +104,7 @@ LAMINA_API ErrorNorms error_of(const Image& picture, const PreciseImage& truth);
 
 // Difference of a picture A from a picture B: e = A - B in units of 1/255.
 struct PictureComparison {
-    std::vector<std::string> channels;  // R, G, B, A; for PNG files those that they have
+    std::vector<std::string> channels;  // R, G, B, A; for PNG files the channels of the files
     std::vector<ErrorNorms> of_channel;
     ErrorNorms all;
     // Pixel and channel of the largest |e|, the first if there are several.
@@ -113,13 +114,13 @@ struct PictureComparison {
 
 // Throws Error if the sizes or colour spaces differ or a number is NaN or infinite.
 LAMINA_API PictureComparison compare(const PreciseImage& a, const PreciseImage& b);
-// Compares EXR and NPY files with each other, or PNG files by their stored codes.
+// Compares two EXR or NPY files, or two PNG files by their stored codes.
 LAMINA_API PictureComparison compare_files(const std::filesystem::path& a,
                                            const std::filesystem::path& b);
 
-// Returns the bytes of a PNG file that shows the largest difference of each pixel's channels in
-// false colour, from -range (dark blue) over 0 (white) to range (dark red), in 1/255, over a colour
-// bar.
+// Returns the bytes of a PNG file that shows, for each pixel, the difference a - b of the channel
+// in which it is largest, in false colour from -range (dark blue) over 0 (white) to range (dark
+// red), in 1/255, with a colour bar below.
 LAMINA_API std::string difference_png(const PreciseImage& a, const PreciseImage& b, double range);
 
 // Returns the false colours in which difference_png() shows these differences (in 1/255): codes of
@@ -128,8 +129,9 @@ LAMINA_API std::string difference_png(const PreciseImage& a, const PreciseImage&
 LAMINA_API std::vector<std::uint8_t> difference_codes(std::span<const float> differences,
                                                       double range);
 
+// A picture that was read from a file.
 struct LoadedPicture {
-    PreciseImage image;                    // its space is linear if the file does not say
+    PreciseImage image;                    // image.space is linear if the file does not say
     std::optional<ImageColorSpace> space;  // known only for EXR files
 };
 

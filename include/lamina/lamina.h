@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything: a scene, a session that draws it, pictures and their errors.
+// Includes all public headers: scenes, sessions that draw them, pictures and their errors.
 #pragma once
 
 #include "lamina/camera.h"

@@ -37,18 +37,19 @@ inline std::array<std::int32_t, 3> corners_of_face(const Tet& tet, std::size_t f
     return {tet[corner[0]], tet[corner[1]], tet[corner[2]]};
 }
 
+// A scalar of a mesh.
 struct MeshScalar {
     std::string name;
     std::vector<double> values;  // one for each point, or one for each tet
 };
 
-// How many cells and points of a file were changed or left out.
+// Counts the cells and points of a file that were changed or left out.
 struct CellCounts {
     std::int64_t split = 0;          // hexahedra, wedges and pyramids that were cut into tets
     std::int64_t skipped = 0;        // vertices, lines, polygons: no volume
     std::int64_t straightened = 0;   // quadratic cells, of which only the corners are used
-    std::int64_t ghosts = 0;         // cells that another piece of the mesh has, too: left out
-    std::int64_t merged_points = 0;  // points that another piece of the mesh has, too
+    std::int64_t ghosts = 0;         // cells that another piece of the mesh also has; left out
+    std::int64_t merged_points = 0;  // points that another piece of the mesh also has; merged
 };
 
 // A tetrahedral mesh as a file or a generator gives it: nothing is checked or repaired. TetMesh
@@ -76,8 +77,8 @@ struct MeshSettings {
 struct MeshReport {
     std::int64_t points = 0;
     std::int64_t tets = 0;
-    std::int64_t kuhn_tets = 0;  // the Kuhn split has so many, or would have
-    int rounds = 0;              // rounds of refinement of the adaptive mesh
+    std::int64_t kuhn_tets = 0;  // number of tets that the Kuhn split of the volume has
+    int rounds = 0;              // rounds in which the adaptive mesh was refined
     double range = 0;            // largest minus least value of the volume
     // Largest difference between the mesh and the volume's trilinear field, anywhere, in the data's
     // units.
@@ -88,23 +89,25 @@ struct MeshReport {
     double relative_error() const { return range > 0 ? error / range : 0; }
 };
 
+// A mesh that was made from a volume.
 struct MadeMesh {
-    MeshData mesh;  // with one scalar at points, "scalar"
+    MeshData mesh;  // with one scalar, "scalar", at its points
     MeshReport report;
 };
 
-// Makes tetrahedra that fill the volume's box (docs/meshes.md). They may be coarse for values that
-// `transfer_function` does not show (chosen_transfer_function() returns that of a scene); if it is
-// null, all values count. Throws Error for samples that are not finite, for a Kuhn split with more
-// than settings.max_tets tets, and if lamina-tetrahedralize is neither beside the program or the
-// library nor in PATH; Interrupted once a stop is requested.
+// Makes tetrahedra that fill the volume's box (docs/meshes.md). The mesh may be coarse where
+// `transfer_function` shows nothing (chosen_transfer_function() returns that of a scene); if it is
+// null, the tolerance holds for all values. Throws Error for samples that are not finite, for a
+// Kuhn split with more than settings.max_tets tets, and if lamina-tetrahedralize is neither beside
+// the program or the library nor in PATH; Interrupted once a stop is requested.
 LAMINA_API MadeMesh make_mesh(const Volume& volume, const MeshSettings& settings = {},
                               const TransferFunction* transfer_function = nullptr,
                               std::stop_token stop = {}, const ProgressCallback& progress = {});
 
-// Reads a tetrahedral mesh with its scalars, of any kind that scenes may name (docs/scene.md, "What
-// is drawn"). `only_below` means what it means for load_volume() (lamina/volume.h). Throws Error:
-// one line that names the file, what was found and what was expected.
+// Reads a tetrahedral mesh with its scalars from a file of any kind that scenes may name
+// (docs/scene.md, "What is drawn"). `only_below` means what it means for load_volume()
+// (lamina/volume.h). Throws Error: one line that names the file, what was found and what was
+// expected.
 LAMINA_API MeshData load_mesh_data(const std::filesystem::path& file,
                                    const std::filesystem::path& only_below = {});
 

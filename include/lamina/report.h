@@ -12,12 +12,12 @@
 
 namespace lamina {
 
-// Evidence for the figure of a picture's error.
+// How the error of a picture was found.
 enum class ErrorKind {
     unknown,  // nothing was measured for a setting of the scene, or the mesh overlaps itself
     derived,  // a bound: no pixel is worse
-    trials,   // measured on rays of the view that were traced, or drawn with finer settings
-    sampled   // measured on those rays of the view and tets of the mesh that promise the worst
+    trials,   // measured on rays of the view that were also traced, or drawn with finer settings
+    sampled   // measured on rays of the view and on tets that are likely to have the largest errors
 };
 // Returns the word in statistics: "unknown", "derived", "trials" or "sampled".
 LAMINA_API const char* name_of(ErrorKind kind);
@@ -41,9 +41,9 @@ struct ErrorFigure {
 // 1024 rays", or "unknown".
 LAMINA_API std::string text_of(const ErrorFigure& error);
 
-// Short account of what runs for a picture.
+// Summary of the plan by which a picture is drawn.
 struct PlanSummary {
-    // Something that the scene does not need, and why it may be left out.
+    // Work that the scene does not need, and why it may be left out.
     struct LeftOut {
         std::string name, reason;
     };
@@ -51,25 +51,25 @@ struct PlanSummary {
     Method method = Method::slice;
     Target target = Target::float32;
     int slabs = 0;  // number of slabs of slicing
-    // Error of the picture, with the rounding of compositing; below 255.
+    // Error of the picture, including the rounding of compositing, in 1/255; below 255.
     ErrorFigure error;
     std::vector<LeftOut> left_out;
 };
 
-// Cost of a picture, and what was counted on the way (docs/stats.md has the names).
+// Cost of a picture, and counts of what was done for it (docs/stats.md explains the names).
 struct FrameStatistics {
-    std::string drawn_by;                     // the renderer, and its threads if they are known
-    double draw_ms = 0;                       // all of draw()
+    std::string drawn_by;                     // the renderer, and its number of threads if known
+    double draw_ms = 0;                       // duration of the call of draw()
     std::map<std::string, double> stages_ms;  // time of each stage when it last ran
     std::int64_t fragments = 0;  // segments of rays that were composited; 0: not counted
-    std::int64_t bytes = 0;      // memory beside the data itself
+    std::int64_t bytes = 0;      // memory beside the data themselves
     double trace_error = 0;      // the tracer's estimate of its error, in 1/255
 
     std::string renderer;         // drawn_by without its threads
-    bool native = false;          // the cpu engine drew
+    bool native = false;          // true if the cpu engine drew
     int slabs = 0;                // number of slabs of the method slice
     std::int64_t tets_drawn = 0;  // tets that cover the centre of a pixel
-    std::int64_t bytes_gpu = 0;   // OpenGL memory, with the data
+    std::int64_t bytes_gpu = 0;   // OpenGL memory, including the data
     // Error of a mesh that was made from a volume, as a share of the volume's range of values.
     std::optional<double> mesh_error;
     std::map<std::string, std::int64_t> counts;  // what was clamped, skipped, dropped, ...

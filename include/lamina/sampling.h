@@ -36,8 +36,8 @@ struct RaySegment {
 // repeat.
 //
 // In a mesh the value is linear in each tet. The gradient at a point of the mesh is the mean of the
-// tets around it, weighted by volume, and linear in between. A call takes the time of a ray of the
-// tracer.
+// tets around it, weighted by volume, and linear in between. A call of at() takes as long as a ray
+// of the reference tracer.
 class LAMINA_API FieldSampler {
   public:
     explicit FieldSampler(Volume volume);
@@ -45,13 +45,14 @@ class LAMINA_API FieldSampler {
     // tets or without such a scalar.
     explicit FieldSampler(MeshData mesh, const std::string& scalar = {});
 
-    // Returns nothing outside the box of the volume or outside the tets. Faces count as inside;
-    // on the boundary of a mesh that is not convex, rounding may decide otherwise.
+    // Returns the field at a point in the world, or nothing outside the box of the volume or
+    // outside the tets. Faces count as inside; on the boundary of a mesh that is not convex,
+    // rounding may decide otherwise.
     std::optional<FieldPoint> at(const glm::dvec3& position) const;
 
-    // Returns the segments of the ray from `origin` in `direction` (of any finite length above 0,
-    // else there are none), front to back. Between two of them the ray may be outside of the mesh,
-    // or of both by rounding.
+    // Returns the segments of the ray from `origin` in `direction` (of any finite length above 0;
+    // for others the list is empty), front to back. Between two segments there may be a gap: where
+    // the ray is outside the mesh, or by rounding.
     std::vector<RaySegment> along(const glm::dvec3& origin, const glm::dvec3& direction) const;
 
   private:
@@ -66,8 +67,9 @@ struct SeenPoint {
     double opacity = 0;      // opacity of the whole ray, 0..1
 };
 
-// Finds what is seen at a place of a picture. Session::probe() makes it, with the scene and the
-// data as they are then. A copy is cheap, and any thread may use it while the session goes on.
+// Finds the point of the data that is seen at a place of a picture. Session::probe() makes it from
+// the scene and the data as they are then. A copy is cheap, and any thread may use it while the
+// session goes on.
 class LAMINA_API PointProbe {
   public:
     struct Parts;

@@ -19,10 +19,15 @@
 
 namespace lamina {
 
+// How the picture is made. slice: slabs through a volume. project: projected tetrahedra. trace: the
+// reference tracer.
 enum class Method { slice, project, trace };
+// Numbers in which the picture is composited; Scene::emulate describes `emulated`.
 enum class Target { float32, float16, fixed16, fixed8, emulated };
 // The data that the method "trace" draws.
 enum class TraceOf { volume, mesh };
+// Treatment of data with NaN or infinite values: an Error, or cells and tets with them are
+// transparent.
 enum class NanPolicy { error, transparent };
 
 // A volume in a file or a folder, and the part of it that is drawn.
@@ -35,16 +40,16 @@ struct VolumeFile {
 // A mesh in a file.
 struct MeshFile {
     std::filesystem::path path;
-    std::int64_t time = 0;  // its step, from 0 (.pvd)
+    std::int64_t time = 0;  // step in time of a .pvd, counted from 0
 
     bool operator==(const MeshFile&) const = default;
 };
-// Sources of the data: a file or a formula; `MeshSettings` if the mesh is made from the scene's
-// volume. A scene of data in memory names none.
+// Sources of the data: a file, a formula, or, for a mesh that is made from the scene's volume,
+// MeshSettings. The scene of data in memory has std::monostate.
 using VolumeSource = std::variant<std::monostate, VolumeFile, GeneratorRequest>;
 using MeshSource = std::variant<std::monostate, MeshFile, MeshSettings>;
 
-// Internal (scene/given_transfer.h).
+// Internal type (src/scene/given_transfer.h).
 struct GivenTransfer;
 
 // A scene file as read (docs/scene.md): what to draw and how, nothing measured yet.
@@ -54,24 +59,25 @@ struct Scene {
     MeshSource mesh;
     std::string scalar;  // array of the mesh file; its first point array if empty
     NanPolicy nan = NanPolicy::error;
-    // They are chosen from the data if automatic (docs/first-picture.md).
+    // Transfer function and camera are chosen from the data if they are automatic
+    // (docs/first-picture.md).
     Auto<TransferFunction> transfer_function = TransferFunction::linear({TransferKnot{}});
     Auto<Camera> camera = Camera{};
     Clip clip;
     // The transfer function as a scene file gives it; null if it gives none. If it is a colour map
     // without a range, an automatic transfer function is that map, stretched over the data.
     std::shared_ptr<const GivenTransfer> given_transfer;
-    std::optional<Lighting> lighting;  // without it colours are shown as they are
+    std::optional<Lighting> lighting;  // without lighting colours are shown as they are
     int width = 800;
     int height = 600;
-    // Space of the numbers of colours, background and compositing.
+    // Space in which colours and background are numbers, and in which the picture is composited.
     ImageColorSpace color_space = ImageColorSpace::linear;
     glm::dvec3 background{0};
     Method method = Method::slice;
     Auto<Target> target = Target::float32;
     Emulation emulate;  // for Target::emulated
     // Bound on the picture's error, in 1/255 of full scale. All choices that the scene leaves open
-    // ("auto") keep it.
+    // ("auto") keep to this bound.
     double max_error = 1;
     SliceSettings slice;
     ProjectSettings project;
@@ -80,13 +86,13 @@ struct Scene {
 
     bool has_volume() const { return !std::holds_alternative<std::monostate>(volume); }
     bool has_mesh() const { return !std::holds_alternative<std::monostate>(mesh); }
-    // Return null if the volume or the mesh comes from elsewhere.
+    // Return the file of the volume or the mesh; null if the data come from elsewhere.
     const VolumeFile* volume_file() const { return std::get_if<VolumeFile>(&volume); }
     VolumeFile* volume_file() { return std::get_if<VolumeFile>(&volume); }
     const MeshFile* mesh_file() const { return std::get_if<MeshFile>(&mesh); }
     MeshFile* mesh_file() { return std::get_if<MeshFile>(&mesh); }
     const MeshSettings* made_mesh() const { return std::get_if<MeshSettings>(&mesh); }
-    // Returns true if the mesh is drawn. The volume is then needed at most to make it.
+    // Returns true if the mesh is drawn, and the volume is needed at most to make the mesh.
     bool draws_mesh() const {
         return method == Method::project || (method == Method::trace && trace_of == TraceOf::mesh);
     }
@@ -100,10 +106,11 @@ inline bool is_fixed_point(Target target) {
 LAMINA_API const char* name_of(TraceOf of);
 LAMINA_API const char* name_of(NanPolicy policy);
 
-// Loads the volume that the scene names: reads its file, or generates it. `only_below` means what
-// it means for files (lamina/volume.h).
+// Loads the volume that the scene names: reads its file, or generates it. `only_below`: as in
+// load_volume() for files (lamina/volume.h).
 LAMINA_API Volume load_volume(const Scene& scene, const std::filesystem::path& only_below = {});
 
+// Kind of the contents of a file.
 enum class FileKind { scene, volume, mesh };
 
 // Returns what a file holds, by its content, or by its name if the content does not tell. Throws
@@ -111,16 +118,16 @@ enum class FileKind { scene, volume, mesh };
 LAMINA_API FileKind kind_of_file(const std::filesystem::path& file,
                                  const std::filesystem::path& only_below = {});
 
-// load_scene() reads a scene file (docs/scene.md), or makes a scene that draws a data file, with
-// all else automatic. save_scene() writes one with every key written out. Both throw Error.
+// load_scene() reads a scene file (docs/scene.md) or, for a data file, makes a scene that draws it,
+// with all else automatic. save_scene() writes a scene file with all keys. Both throw Error.
 LAMINA_API Scene load_scene(const std::filesystem::path& file,
                             const std::filesystem::path& only_below = {});
 LAMINA_API void save_scene(const Scene& scene, const std::filesystem::path& file);
 
 // Reads a scene (docs/scene.md) from text instead of a file. `name` stands for the file: messages
-// name it, and relative paths start at its folder. If data in memory are given, the scene need not
-// name any: a Session of scene and data draws these. `only_below` means what it means for
-// load_volume() (lamina/volume.h). Throws Error.
+// name it, and relative paths start at its folder. If data in memory are passed, which a Session
+// will draw, the scene need not name any data. `only_below`: as in load_volume() (lamina/volume.h).
+// Throws Error.
 LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::path& name,
                              const std::filesystem::path& only_below = {});
 LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::path& name,
@@ -128,14 +135,13 @@ LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::pat
 LAMINA_API Scene parse_scene(const std::string& json, const std::filesystem::path& name,
                              const MeshData& data, const std::filesystem::path& only_below = {});
 
-// Returns a scene file with every key written out, as save_scene() writes it. Data in memory are
-// not in it.
+// Returns the text that save_scene() writes. It does not contain data in memory.
 LAMINA_API std::string scene_text(const Scene& scene);
 
-// Returns the automatic camera (docs/first-picture.md), which fits what the scene shows of the
-// data, turned around that by degrees to the right (azimuth) and up (elevation). It depends on the
-// scene's transfer function, which may be automatic, and on the picture's size. Throws Error if the
-// data have no finite value.
+// Returns the automatic camera (docs/first-picture.md), whose picture just holds what the scene
+// shows of the data. It is moved around the data by degrees to the right (azimuth) and up
+// (elevation). It depends on the scene's transfer function, which may be automatic, and on the size
+// of the picture. Throws Error if the data have no finite value.
 LAMINA_API Camera fitted_camera(const Scene& scene, const Volume& volume, double azimuth = 0,
                                 double elevation = 0);
 LAMINA_API Camera fitted_camera(const Scene& scene, const MeshData& mesh, double azimuth = 0,

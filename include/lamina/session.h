@@ -17,6 +17,7 @@
 
 namespace lamina {
 
+// Options of a session that do not belong to the scene.
 struct SessionOptions {
     Auto<ContextChoice> context;
     int threads = 0;  // largest number of threads of the session; 0: one for each processor
@@ -26,16 +27,16 @@ struct SessionOptions {
     // Folder outside of which the session reads no data, whoever names them (docs/files.md). If
     // empty, it reads from anywhere.
     std::filesystem::path only_below = {};
-    // Ends the constructor, which reads and measures the data, by Interrupted.
+    // Stops the constructor, which reads and measures the data: it throws Interrupted.
     std::stop_token stop = {};
 };
 
-// Called with each complete tile of a picture that is being traced. Only pixels of such tiles have
-// a meaning yet. Calls come as those of ProgressCallback do.
+// Called with each complete tile of a picture that is being traced. Pixels outside the complete
+// tiles are undefined. Calls come as those of ProgressCallback do (lamina/error.h).
 using TileCallback = std::function<void(const PictureTile&, const PreciseImage&)>;
 
-// Draws a scene from the first picture to the last, while camera, transfer function and settings
-// change. When a picture is next asked for, it does again only what a change makes necessary:
+// Draws pictures of a scene while camera, transfer function and settings change. When the next
+// picture is asked for, the session repeats only the work that the changes make necessary:
 //
 //   camera              measures the view and plans; no upload, no table, no shader
 //   size                that, and buffers of that size
@@ -57,7 +58,7 @@ class LAMINA_API Session {
   public:
     // Reads what the scene names as its data (docs/scene.md), or makes it.
     explicit Session(Scene scene, SessionOptions options = {});
-    // Draws these data, whatever the scene says of files. Volumes share their samples: nothing is
+    // Draws these data, and not those that the scene names. Volumes share their samples: nothing is
     // copied. A Scene{} whose transfer function and camera are `automatic` is enough.
     Session(Scene scene, Volume volume, SessionOptions options = {});
     // Draws `scene.scalar` of the mesh, or its first scalar at points.
@@ -78,28 +79,28 @@ class LAMINA_API Session {
     void set_scene(Scene scene);
     void choose_again();  // chooses all automatic values again
 
-    // Return the scene: as it was asked for; with transfer function and camera that were chosen;
-    // and with all automatic values chosen. The file of the last one (docs/scene.md) names the data
-    // by the scene's own file names: a scene of data in memory has to name files that hold the
-    // same, or `lamina render` will not find them.
+    // Return the scene: as it was asked for (scene()), with transfer function and camera chosen
+    // (chosen_scene()), and with all automatic values chosen (resolved_scene()). Saved as a file
+    // (docs/scene.md), it names the data by the files that the scene names: for `lamina render`, a
+    // scene of data in memory must name files that hold the same data.
     const Scene& scene() const;
     const Scene& chosen_scene() const;
     const Scene& resolved_scene();
     void save_resolved_scene(const std::filesystem::path& file);
 
     PlanSummary plan();
-    std::string explanation();  // the plan for people, line by line, and what is left out and why
+    std::string explanation();  // the plan in words, line by line, and what is left out and why
 
-    // Returns a complete picture, which is valid until the next call that draws. It allocates
-    // nothing if the size stays. Throws Interrupted once a stop is requested; the next picture is
-    // then drawn from the start. A scene of the method trace gives the truth, see trace().
+    // Returns a complete picture, which is valid until the next call that draws. If the size stays,
+    // the call allocates nothing. Throws Interrupted once a stop is requested; the next picture is
+    // then drawn from the start. A scene of the method `trace` gives the truth, as trace() does.
     const Image& draw(std::stop_token stop = {}, const ProgressCallback& progress = {});
-    // Draws into the caller's picture, whose memory is kept if it suffices. An exception leaves its
-    // numbers without a meaning.
+    // Draws into the caller's picture, whose memory is kept if it suffices. After an exception its
+    // numbers are undefined.
     void draw(Image& picture, std::stop_token stop = {}, const ProgressCallback& progress = {});
     // Returns the truth: this view by the reference tracer, in double precision, to
-    // `scene().trace_tolerance` of full scale. It takes seconds to minutes. Tiles come from the
-    // middle outwards, each pixel once.
+    // `scene().trace_tolerance` of full scale. It takes seconds to minutes. `tile_done` gets the
+    // tiles from the middle of the picture outwards, each pixel once.
     const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {},
                               const TileCallback& tile_done = {});
 
@@ -108,9 +109,9 @@ class LAMINA_API Session {
     PointProbe probe();
 
     // Returns the distribution of the values that the scene draws, over their finite range, in at
-    // most `bins` (>= 1) intervals. For whole numbers each interval has equally many of them,
-    // around its middle. Of float32 data at most 2^21 samples count, evenly chosen. Values are
-    // counted once.
+    // most `bins` (>= 1) intervals. If the values are whole numbers, each interval holds equally
+    // many numbers. Of float32 data at most 2^21 samples are counted, evenly chosen. The session
+    // counts the values only once.
     ValueHistogram histogram(int bins);
 
     const FrameStatistics& statistics() const;        // those of the last picture that was drawn

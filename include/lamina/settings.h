@@ -22,9 +22,8 @@ struct Automatic {
 };
 inline constexpr Automatic automatic;
 
-// Holds a value of a scene that is given, or is automatic: then it is chosen once the data, the
-// view or the context that it depends on are known. A value is automatic unless it is given; {}
-// is automatic, too.
+// Holds a value of a scene, or the wish that lamina chooses it: then it is automatic, and is chosen
+// once the data, the view or the context that it depends on are known. Auto<T>{} is automatic.
 template <typename T>
 class Auto {
   public:
@@ -39,7 +38,7 @@ class Auto {
     bool is_automatic() const { return !given_; }
     bool is_given() const { return given_.has_value(); }
 
-    // The given value; there must be one.
+    // Return the given value; there must be one.
     const T& operator*() const {
         assert(given_);
         return *given_;
@@ -60,7 +59,7 @@ class Auto {
     std::optional<T> given_;
 };
 
-// The word of an enum's value in scene files.
+// Returns the word for a value in scene files.
 template <typename Enum>
 requires(std::is_enum_v<Enum>) const char* name_of(const Auto<Enum>& value) {
     return value.is_given() ? name_of(*value) : "auto";
@@ -69,23 +68,23 @@ requires(std::is_enum_v<Enum>) const char* name_of(const Auto<Enum>& value) {
 // Order in which samples of a ray are composited. The first sample is the nearest to the eye.
 enum class Order { back_to_front, front_to_back };
 
-// Keeps the side to which the normal points: dot(normal, p - point) >= 0. Coordinates are in world
-// units; the normal has any length above 0.
+// A plane of a clip. It keeps the side to which the normal points: dot(normal, p - point) >= 0.
+// Coordinates are in world units; the normal has any length above 0.
 struct ClipPlane {
     glm::dvec3 point{0}, normal{0, 0, 1};
 
     friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
 
-// Keeps what lies between two corners, in world units. Nothing is kept unless min <= max on each
-// axis.
+// A box of a clip. It keeps what lies between two corners, in world units. Nothing is kept unless
+// min <= max on each axis.
 struct ClipBox {
     glm::dvec3 min{0}, max{0};
 
     friend bool operator==(const ClipBox&, const ClipBox&) = default;
 };
 
-// A clip keeps the part of the data that lies on the kept side of all planes and in the box.
+// A clip keeps the part of the data that lies on the kept side of every plane and in the box.
 struct Clip {
     static constexpr std::size_t most_planes = 32;
 
@@ -98,8 +97,8 @@ struct Clip {
 };
 
 struct Light {
-    // Direction towards the light, in world space, of any length but 0. Without one the light is a
-    // headlight: along every ray it stands at the eye.
+    // Direction towards the light, in world space, of any length but 0. Without a direction the
+    // light is a headlight: for every ray it shines from the eye along the ray.
     std::optional<glm::dvec3> direction;
     glm::dvec3 color{1};  // in the scene's colour space, 0..1000
 
@@ -107,8 +106,8 @@ struct Light {
 };
 
 // Lights the emission by the gradient of the scalar, on both of its sides (docs/numerics.md,
-// section 10); extinction stays as it is. If the gradient is hardly longer than
-// `smallest_gradient`, or shorter, the light fades into the unlit picture.
+// section 10); extinction stays as it is. Where the gradient is not much longer than
+// `smallest_gradient`, lit colours fade into unlit ones.
 struct Lighting {
     static constexpr int most_lights = 8;
     static constexpr double largest_term = 1000, largest_power = 1000;
@@ -126,8 +125,8 @@ struct Lighting {
 // Rounding of an opacity to a code (LaMar 2004, section 4.1: the paper's hardware truncates).
 enum class AlphaRounding { truncate, nearest, stochastic };
 
-// Rounding of OVER. separate: each of the two products is rounded, as by the paper's hardware.
-// fused: only their sum is rounded.
+// Rounding in the compositing operator OVER. separate: each of the two products is rounded, as by
+// the paper's hardware. fused: only their sum is rounded.
 enum class OverRounding { separate, fused };
 
 // Fixed-point compositing that is computed step by step, not by a blending unit (render.emulate).
@@ -135,23 +134,25 @@ struct Emulation {
     int bits = 8;
     AlphaRounding alpha = AlphaRounding::truncate;
     OverRounding over = OverRounding::separate;
-    std::uint32_t seed = 1;  // of the random numbers of stochastic rounding
+    std::uint32_t seed = 1;  // seed of the random numbers of stochastic rounding
 
     friend bool operator==(const Emulation&, const Emulation&) = default;
 };
 
 // Codes by which a node of a compositing tree stores its optical depth S. Here sigma is the optical
-// depth of a whole ray that is filled like the node's share of it (docs/numerics.md, section 4).
+// depth that a ray would have if all of it were like the node's part of it (docs/numerics.md,
+// section 4).
 //
-//   phi:     1 - exp(-sigma), as in the paper: the opacity if the node's share filled the whole ray
+//   phi:     1 - exp(-sigma), the opacity of such a ray, as in the paper
 //   alpha:   1 - exp(-S), the node's own opacity
 //   minimax: rounding has the same worst effect on the ray's opacity for every sigma
 enum class NodeCode { minimax, phi, alpha };
 
-// Arithmetic that composites the children of a node. shader: floats in a program. fixed: a
+// Arithmetic that composites the children of a node. shader: floats in a shader. fixed: a
 // fixed-point buffer, as in the paper.
 enum class NodeArithmetic { shader, fixed };
 
+// A compositing tree: the samples of a ray are composited in groups, level by level.
 struct TreeSettings {
     std::vector<int> factors;  // children of a node, for each level from the root to the leaves
     NodeArithmetic nodes = NodeArithmetic::shader;
@@ -164,11 +165,17 @@ inline const TreeSettings* given_tree(const std::optional<Auto<TreeSettings>>& t
     return tree && tree->is_given() ? &**tree : nullptr;
 }
 
+// How the segment of a ray in a slab gets its colour. post: from the scalar in its middle.
+// preintegrated: from a table over the scalars at both ends. exact: integrated cell by cell.
 enum class Classification { post, preintegrated, exact };
+// Interpolation between samples. exact: trilinear in float32. hardware: by the texture unit, whose
+// weights have few bits.
 enum class Filter { exact, hardware };
 
+// Dithering along depth: the fixed-point codes of slabs alternate between two codes.
 struct DitherSettings {
-    Auto<int> period = 16;  // slabs after which the pattern repeats; all of them if automatic
+    // Slabs after which the pattern repeats; if automatic, the number of slabs.
+    Auto<int> period = 16;
     std::uint32_t seed = 1;
     bool color = false;
     int increment = 1;
@@ -178,7 +185,7 @@ inline constexpr int max_slabs = 65536;
 
 // Size of a pre-integration table whose nodes lie on the transfer function's points.
 struct SliceTableSettings {
-    int scalars = 256;      // about the number of scalar nodes
+    int scalars = 256;      // approximate number of scalar nodes
     int lengths = 1;        // number of layers along length
     double max_length = 0;  // largest length of a segment in the table, in world units
 };
@@ -189,7 +196,7 @@ struct SliceSettings {
     Order order = Order::back_to_front;
     Auto<Filter> filter = Filter::exact;
     std::optional<DitherSettings> dither;
-    std::optional<Auto<TreeSettings>> tree;  // without one, slabs are blended one by one
+    std::optional<Auto<TreeSettings>> tree;  // if there is no tree, slabs are blended one by one
     Auto<SliceTableSettings> table;
 };
 
@@ -201,6 +208,7 @@ enum class LengthMapping {
     log2,    // linear in log2 of length from dl on: Kraus 2004, Equation 1
     linear   // equally spaced lengths
 };
+// Quantities that the entries of a pre-integration table hold.
 enum class TableStore {
     // Stores the mean extinction tbar = optical depth / length and, with colour, the emission tbar
     // * C / alpha. Both stay bounded and smooth as the length goes to 0 (docs/numerics.md, section
@@ -238,11 +246,16 @@ enum class Coloring {
     vertex,   // colours and opacities are interpolated between vertices, Shirley and Tuchman 1990
     analytic  // the transfer function's pieces, each in closed form
 };
+// Interpolation over the triangles of a projected tet: correct in perspective, or linear in the
+// picture.
 enum class Interpolation { perspective, linear };
+// Length of a ray in a projected tet.
 enum class Thickness {
     exact,
-    dz  // difference of eye-space depths (Kraus 2004, section 2.3)
+    dz  // difference of eye-space depths in place of the length (Kraus 2004, section 2.3)
 };
+// Visibility order of tets. mpvo: right for convex meshes. exact: right for all meshes. centroid:
+// by the depths of centroids. none: the order of the file.
 enum class ProjectOrder { mpvo, exact, centroid, none };
 enum class ProjectGeometry {
     silhouette,  // one polygon around the tet, faces as linear functions of the pixel
@@ -265,8 +278,8 @@ struct ProjectSettings {
     Auto<ProjectGeometry> geometry;
     ProjectDither dither = ProjectDither::none;
     Auto<TableSettings> table;
-    // Without one tets are blended one by one. An automatic one is refused: a tree over tets needs
-    // factors.
+    // If there is no tree, tets are blended one by one. An automatic tree is refused, because a
+    // tree over tets needs factors.
     std::optional<Auto<TreeSettings>> tree;
 };
 

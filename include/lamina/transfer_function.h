@@ -10,22 +10,25 @@
 
 namespace lamina {
 
+// Colour and extinction of the medium.
 struct OpticalProperties {
     glm::dvec3 color{0};    // in the scene's colour space, not associated, >= 0
     double extinction = 0;  // per world unit, >= 0
     bool operator==(const OpticalProperties&) const = default;
 };
 
+// A point of a transfer function.
 struct TransferKnot {
     double value = 0;  // scalar, in the volume's own units
     OpticalProperties optics;
-    // The straight pieces on both sides stand for a curve of extinction without a corner here.
-    // Pictures may follow such a curve, within 1.3e-3 of the pieces' extinction.
+    // True if extinction is meant as a curve without a corner here, and the straight pieces on both
+    // sides are an approximation. Pictures may follow such a curve, within 1.3e-3 of the pieces'
+    // extinction.
     bool smooth = false;
     bool operator==(const TransferKnot&) const = default;
 };
 
-// A point of a transfer function that is given by opacity, as VTK and ParaView have it.
+// A point of a transfer function that is given by opacity, as in VTK and ParaView.
 struct OpacityKnot {
     double value = 0;
     glm::dvec3 color{1};
@@ -34,8 +37,8 @@ struct OpacityKnot {
 
 // Maps a scalar value to colour and extinction, linearly between knots and constant outside them.
 // Two knots at one value make a step; at that value itself the later knot counts. A palette
-// (`nearest`) has a step halfway between neighbouring points. Because it is stored in this form, no
-// other code treats palettes separately.
+// (`nearest`) has a step halfway between neighbouring points. A palette is stored as these steps,
+// so no other code needs to know of palettes.
 class LAMINA_API TransferFunction {
   public:
     // Makes a transfer function from knots in order of value. There must be at least one, and at
@@ -44,12 +47,12 @@ class LAMINA_API TransferFunction {
     static TransferFunction linear(const std::vector<TransferKnot>& points);
     static TransferFunction nearest(const std::vector<TransferKnot>& points);
     // Makes a transfer function whose opacity over `unit_length` > 0 world units is linear between
-    // points. Its knots follow the extinction that this means to within 7.8e-4 of it, so that no
-    // ray is off by more than .1 / 255 (docs/precision.md, "Opacity that is linear").
+    // points. Its knots follow the extinction that this means within 7.8e-4 of the extinction, so
+    // that no ray is off by more than .1 / 255 (docs/precision.md, "Opacity that is linear").
     static TransferFunction linear_opacity(const std::vector<OpacityKnot>& points,
                                            double unit_length = 1);
 
-    // The knots, without those that lie on the straight line between their neighbours.
+    // Returns the knots, without those that lie on the straight line between their neighbours.
     std::span<const TransferKnot> knots() const { return knots_; }
     OpticalProperties at(double value) const;
     // Returns this function with all extinctions times `factor`, clamped to the largest finite
@@ -57,7 +60,8 @@ class LAMINA_API TransferFunction {
     TransferFunction attenuated(double factor) const;
     bool operator==(const TransferFunction&) const = default;
 
-    // These answer for the closed interval [lo, hi]; both sides of a step in it count.
+    // The functions of lo and hi are about the closed interval [lo, hi]; both sides of a step in it
+    // count.
     double max_extinction(double lo, double hi) const;
     bool transparent(double lo, double hi) const { return max_extinction(lo, hi) == 0; }
     bool constant(double lo, double hi) const;  // one colour and one extinction

@@ -15,13 +15,13 @@
 
 namespace lamina {
 
-// Which box belongs to the samples along an axis: with `node` it spans the samples, with `cell` it
-// spans whole voxels, half a voxel more at each end, and the border value repeats there. A single
-// sample along an axis is a voxel with either.
+// Extent of a volume's box along an axis. node: from the first sample to the last. cell: half a
+// voxel more at each end, where the border value repeats. A single sample along an axis is one
+// voxel wide with either.
 enum class Centering { node, cell };
 
-// Directions in a patient's body to which the world's x, y and z grow, if the file says so. In all
-// of them z grows to the head.
+// Directions in a patient's body in which the world's x, y and z grow, if the file says so. In all
+// named ones z grows towards the head.
 enum class WorldAxes {
     unnamed,
     left_posterior_superior,
@@ -30,7 +30,7 @@ enum class WorldAxes {
 };
 
 // Places of the samples of a regular grid in the world. In index space sample (i, j, k) lies at (i,
-// j, k). The box that is rendered is chosen axis by axis.
+// j, k). `centering` sets the extent of the rendered box along each axis.
 struct LAMINA_API Grid {
     std::array<std::int64_t, 3> size{1, 1, 1};
     std::array<Centering, 3> centering{Centering::node, Centering::node, Centering::node};
@@ -40,11 +40,12 @@ struct LAMINA_API Grid {
     WorldAxes axes = WorldAxes::unnamed;                  // used by the automatic camera only
 
     std::int64_t sample_count() const { return size[0] * size[1] * size[2]; }
-    glm::dvec3 index_min() const;  // of the box, index space
+    glm::dvec3 index_min() const;  // lowest corner of the box, index space
     glm::dvec3 index_max() const;
     glm::dvec3 to_world(const glm::dvec3& index) const;
     glm::dvec3 to_index(const glm::dvec3& world) const;
-    glm::dvec3 direction_to_index(const glm::dvec3& world) const;  // for directions: no translation
+    // Converts a direction: without translation.
+    glm::dvec3 direction_to_index(const glm::dvec3& world) const;
 
     struct Bounds {
         glm::dvec3 min{0}, max{0};
@@ -61,8 +62,8 @@ class VolumeStore;
 
 // Scalars on a regular grid, in the file's own type; x changes fastest. A volume is immutable, and
 // copies share the samples. Volumes that do not fit the memory limit (lamina/volume.h) stay in
-// their files, and parts of them are read when they are drawn. The library's functions return and
-// take only volumes in memory.
+// their files, and parts of them are read when they are drawn; the functions of the public headers
+// return and take only volumes in memory.
 class Volume {
   public:
     // `samples`: grid.sample_count() values of `type` in native byte order.
@@ -75,10 +76,11 @@ class Volume {
     const Grid& grid() const { return grid_; }
     SampleType type() const { return type_; }
     bool in_memory() const { return store_ == nullptr; }
-    const VolumeStore& store() const { return *store_; }  // only if it is not in memory
-    const void* data() const { return samples_.get(); }   // null if it is not in memory
+    const VolumeStore& store() const { return *store_; }  // the volume must not be in memory
+    const void* data() const { return samples_.get(); }   // null if the volume is not in memory
     const std::shared_ptr<const void>& shared_data() const { return samples_; }
-    // Returns these samples on another grid, which has as many of them along each axis.
+    // Returns the same samples on another grid, which must have the same number of them along each
+    // axis.
     Volume on(const Grid& grid) const {
         Volume placed = *this;
         placed.grid_ = grid;
@@ -130,13 +132,13 @@ struct RawLayout {
 // (docs/scene.md, "What is drawn"). Numbers count from 0.
 struct LAMINA_API VolumeRequest {
     std::string array;  // name of the array; empty for the first
-    // Level of a pyramid, component of the samples, step in time. The first is taken unless one is
-    // given, and a warning says so.
+    // Level of a resolution pyramid, component of the samples, step in time. If none is given the
+    // first one is taken, with a warning.
     std::optional<std::int64_t> level, channel, time;
     // Distances between samples, above 0, and place of the first one, instead of the file's.
     std::optional<glm::dvec3> spacing;
     std::optional<glm::dvec3> origin;
-    std::optional<RawLayout> raw;  // given if the file has no header
+    std::optional<RawLayout> raw;  // must be given if the file has no header
 
     bool operator==(const VolumeRequest&) const = default;
 };
@@ -159,9 +161,9 @@ LAMINA_API std::uint64_t memory_limit();
 LAMINA_API void set_memory_limit(std::uint64_t bytes);  // 0: the default
 
 // Reads a volume of any kind that scenes may name (docs/scene.md, "What is drawn"). If `only_below`
-// is a folder, this function and all others that take it refuse files that are not below it with
-// all links followed, whoever names them (docs/files.md). Throws Error: one line that names the
-// file, what was found and what was expected.
+// is a folder, this function, like all others with this argument, refuses files that are not below
+// the folder once all links are followed, whoever names them (docs/files.md). Throws Error: one
+// line that names the file, what was found and what was expected.
 LAMINA_API Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request = {},
                               const std::filesystem::path& only_below = {});
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of compositing/codes.h. A code has BITS bits. ALPHA_ROUNDING says how opacities are rounded to codes.
+// Codes of BITS bits: whole numbers 0 .. LARGEST_CODE, which represent code / LARGEST_CODE. Twin of
+// compositing/codes.h, bit for bit. A scaled value is a value in [0, 1] times LARGEST_CODE.
+// ALPHA_ROUNDING says how opacities are rounded to codes.
 #define LARGEST_CODE ((1u << BITS) - 1u)
 #define ROUND_TRUNCATE 0
 #define ROUND_NEAREST 1
 #define ROUND_STOCHASTIC 2
 
+// Distance below a whole number at which a scaled value counts as that number, against roundings of
+// double.
 const double code_noise = 1e-9LF;
 
+// A scaled value, split into its whole part and the rest, 0 <= rest < 1.
 struct ScaledValue {
     uint whole;
     double rest;
@@ -20,6 +25,7 @@ ScaledValue split_scaled(double scaled) {
 uint code_nearest(double scaled) { return uint(floor(scaled + 0.5LF)); }
 
 #ifdef ALPHA_ROUNDING
+// Rounds an opacity to a code. `random`: 32 random bits, used for stochastic rounding only.
 uint round_alpha(ScaledValue scaled, uint random) {
 #if ALPHA_ROUNDING == ROUND_TRUNCATE
     return scaled.whole;

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// Twin of compositing/codes.h, for the code NODE_CODE. A share is a node's share of its ray's samples.
+// How a node of a compositing tree stores its optical depth as a number in [0, 1]
+// (docs/numerics.md, section 4): twin of encode_depth() and decode_depth() of compositing/codes.h
+// for the code NODE_CODE. `share`: the node's share of its ray's samples.
 #define CODE_MINIMAX 0
 #define CODE_PHI 1
 #define CODE_ALPHA 2
 
+// Optical depth that a code of 1 represents.
 const float opaque_node_depth = 1e4;
 const float inverse_e = 0.36787944117144233;
 const float euler = 2.718281828459045;
 
-// Returns -log(1 - value). GLSL's log is far off just below 1 (docs/numerics.md, section 1). Below 1/4 it is 2
-// artanh(value / (2 - value)), whose first omitted term is 2e-8 of the result.
+// Returns -log(1 - value). GLSL's log is inaccurate just below 1 (docs/numerics.md, section 1), so
+// for values below 1/4 this is 2 artanh(value / (2 - value)) as a series, whose first omitted term
+// is 2e-8 of the result.
 float depth_from_opacity(float value) {
     if (value >= 0.25) return -log(1.0 - value);
     float z = value / (2.0 - value);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compositing/codes.glsl"
 
-// Twin of compositing/codes.h. OVER_FUSED: it is rounded once instead of once a product.
+// OVER on codes: twin of compositing/codes.h, bit for bit. OVER_FUSED: the result is rounded once,
+// and not each product.
+
+// Returns x / LARGEST_CODE, rounded to the nearest whole number.
 uint divide_nearest(uint x) { return (x + (LARGEST_CODE - 1u) / 2u) / LARGEST_CODE; }
 
+// Returns `color` with opacity `alpha` over `below`.
 uint over(uint color, uint alpha, uint below) {
     uint source = color * alpha;
     uint kept = below * (LARGEST_CODE - alpha);
@@ -14,10 +18,13 @@ uint over(uint color, uint alpha, uint below) {
 #endif
 }
 
+// Returns `above`, an associated colour of opacity `above_alpha`, with `color` of opacity `alpha`
+// added behind it.
 uint under(uint color, uint alpha, uint above, uint above_alpha) {
 #ifdef OVER_FUSED
-    // The product has up to 48 bits and is exact in a double. So is the rounded quotient, because it is never nearer
-    // to the middle between two codes than 1 / (2 M^2).
+    // The product has up to 48 bits and is exact in a double. With M the largest code, the quotient
+    // is never nearer than 1 / (2 M^2) to the middle between two codes, so the double rounds to the
+    // right code.
     double square = double(LARGEST_CODE) * double(LARGEST_CODE);
     double product = double(color * alpha) * double(LARGEST_CODE - above_alpha);
     return above + uint(floor(product / square + 0.5LF));

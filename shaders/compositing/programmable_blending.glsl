@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compositing/over.glsl"
 
-// Computes OVER on the codes that the target holds as code / STORED, in 8 or 16 bits a channel. The pixel is read
-// back by framebuffer fetch, or as a texture with a barrier between the slabs.
+// Composites a fragment in the program instead of the blending unit: OVER on codes, which a target
+// of 8 or 16 bits a channel holds as code / STORED. The program reads the pixel by framebuffer
+// fetch, or as a texture with a barrier between slabs.
 #define STORED (BITS > 8 ? 65535.0 : 255.0)
 
 #ifdef FRAMEBUFFER_FETCH
@@ -17,6 +18,7 @@ vec4 stored_pixel() { return texelFetch(target, ivec2(gl_FragCoord.xy), 0); }
 uvec4 stored_codes() { return uvec4(stored_pixel() * STORED + 0.5); }
 void store_codes(uvec4 codes) { pixel = vec4(codes) / STORED; }
 
+// Composites a colour, not associated.
 void composite(uvec3 color, uint alpha) {
     uvec4 there = stored_codes();
     uvec4 source = uvec4(color, LARGEST_CODE);

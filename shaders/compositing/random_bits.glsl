@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of compositing/codes.h: pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020.
+// Returns 32 random bits for a pixel, a step of drawing (slab or node) and a seed: the hash pcg4d
+// of Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020. Twin of random_bits in
+// compositing/codes.h.
 uint random_bits(uint column, uint row, uint stage, uint seed) {
     uvec4 v = uvec4(column, row, stage, seed) * 1664525u + 1013904223u;
     for (int i = 0; i < 2; ++i) {

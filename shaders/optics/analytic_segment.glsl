@@ -7,32 +7,36 @@
 uniform vec3 single_color;
 #endif
 
-// Returns the associated colour and opacity of a segment on which the scalar is linear from `front`
-// to `back`, normalised so that the intervals cover [0, 1]; the first and the last interval go on
-// outside. It integrates exactly, interval by interval of the transfer function (docs/numerics.md,
-// section 5). LIT: including light_on_piece(). This is the twin of integrate_segment
+// Returns the associated colour and opacity of a segment on which the scalar changes linearly from
+// `front` to `back`, both normalised so that the intervals of the transfer function cover [0, 1];
+// below 0 and above 1 the optics at the two ends hold. Integrates exactly, interval by interval
+// (docs/numerics.md, section 5). TABLE_COLORED: colours from the transfer function, otherwise
+// `single_color`. LIT: adds light_on_piece(), which the including shader must define before it
+// includes analytic_segment.glsl. This is the twin of integrate_segment()
 // (optics/segment_integral.h) in float32. Optical depth is a sum of terms >= 0. Extinction times
-// length is finite (executors/transfer_tables.h) for lengths up to 1e8.
+// length is finite for lengths up to 1e8 (executors/transfer_tables.h).
 vec4 integrate_segment(float front, float back, float world_length) {
     int interval = find_interval(clamp(front, 0.0, 1.0));
     int last = find_interval(clamp(back, 0.0, 1.0));
     int step = interval <= last ? 1 : -1;
-    float end_share = step > 0 ? 1.0 : 0.0;  // at which an interval is left
-    bool one_piece = interval == last;  // front and back may be equal
+    float end_share = step > 0 ? 1.0 : 0.0;  // position in an interval where the ray leaves it
+    bool one_piece = interval == last;  // also covers front == back
 #ifdef LIT
-    float from = 0.0;  // share of the segment
+    float from = 0.0;  // where the piece begins, as a fraction of the segment
 #endif
     float length_per_scalar = world_length / abs(back - front);
 
     float scalar = front;
+    // Position in the current interval where the piece begins: 0 at its left end, 1 at its right.
     float share = share_of_interval(interval_place(interval), front);
     float depth = 0.0;
 #ifdef TABLE_COLORED
     vec3 color = vec3(0.0);
     float transmittance = 1.0;
 #endif
+    // `left` counts the intervals that follow the current one.
     for (int left = abs(last - interval); left >= 0; --left) {
-        bool whole = left > 0;  // to the end of this interval
+        bool whole = left > 0;  // the ray passes on into the next interval
         float next_scalar = whole ? interval_place(interval + max(step, 0)).x : back;
         float next_share = whole ? end_share : share_of_interval(interval_place(interval), back);
         vec4 near = optics_at(interval, share);
@@ -58,7 +62,7 @@ vec4 integrate_segment(float front, float back, float world_length) {
     }
 #ifdef TABLE_COLORED
 #ifdef LIT
-    color = max(color, 0.0);  // rounding may leave less than 0
+    color = max(color, 0.0);  // rounding may make it negative
 #endif
     return vec4(color, opacity_from_depth(depth));
 #else

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emission and absorption along a part of a ray on which the scalar is a cubic and the transfer function one linear
-// piece (docs/numerics.md, section 9).
+// Emission and absorption along a part of a ray on which the scalar is a cubic and the transfer
+// function linear (docs/numerics.md, section 9).
 #include "optics/cubic.glsl"
 #include "optics/intervals.glsl"
 #include "optics/opacity.glsl"
 
-// Optical depth above which parts are split: up to here seen_share() is accurate to .01 / 255.
+// Optical depth above which callers split a part: up to it seen_share() is accurate to .01 / 255.
 const float largest_part_depth = 0.75;
 
-// One interval of the transfer function. Colour and extinction are linear in the share, which is 0 at the left end and
-// 1 at the right.
+// One interval of the transfer function. Colour and extinction are linear in the share: the
+// position in the interval, 0 at its left end and 1 at its right.
 struct Interval {
-    float left_end, right_end;  // the right end of the last one lies beyond all scalars
+    float left_end, right_end;  // right_end of the last interval exceeds all scalars
     float inverse_width;
-    float shown_beyond;         // from its left end on, nothing is visible up to this scalar
-    vec4 left, change;          // colour and extinction (a)
+    float shown_beyond;         // extinction is 0 from left_end up to this scalar
+    vec4 left, change;          // colour (rgb) and extinction (a) at the left end, and from there to the right
 };
 
 Interval interval_at(int number) {
@@ -25,8 +25,9 @@ Interval interval_at(int number) {
     return Interval(place.x, ends.y, place.y, ends.x, left, right - left);
 }
 
-// A part of a ray whose scalar stays in one interval: its share as a cubic, and extinction times the part's length, at
-// share 0 and as the change to share 1.
+// A part of a ray whose scalar stays in one interval. `share` holds the coefficients of its share
+// as a cubic of t, 0 at the part's front and 1 at its back. `extinction` is extinction times the
+// part's length at share 0, and `change` its change from share 0 to share 1.
 struct LinearPart {
     vec4 share;
     float extinction, change;
@@ -37,22 +38,22 @@ LinearPart linear_part(Interval interval, vec4 scalar, float world_length) {
     return LinearPart(share, interval.left.a * world_length, interval.change.a * world_length);
 }
 
-// Returns the optical depth. It is exact, because the extinction is a cubic. In an interval whose
-// extinction changes, the share is a cubic; next to samples far outside the range it may be less
-// exact.
+// Returns the optical depth: exact, because the extinction is a cubic of t. The share may be less
+// exact in a cell with samples far outside the transfer function's range.
 float depth_of(LinearPart part) {
     return max(part.extinction + part.change * clamp(cubic_mean(part.share), 0.0, 1.0), 0.0);
 }
 
-// Returns 1 - exp(-depth) for depths up to largest_part_depth with a relative error of 2e-5: interpolated at
-// Chebyshev's nodes.
+// Returns 1 - exp(-depth) for depths up to largest_part_depth with a relative error of 2e-5: a
+// polynomial that interpolates at Chebyshev nodes.
 vec4 shallow_opacity(vec4 depth) {
     return depth * (0.99998385 + depth * (-0.49930894 + depth * (0.16195904 + depth * -0.031068699)));
 }
 
-// Returns the share that reaches a part's front: the integral of share times emission times transmittance, for
-// `opacity` of `depth`, which is at most largest_part_depth. It is integrated by parts, so that only the share's slope
-// is left for Gauss' rule of four points, and a constant share is exact.
+// Returns the integral over the part of share * extinction * transmittance, which weights the
+// change of colour. `opacity` is that of `depth`, the part's optical depth, at most
+// largest_part_depth. Integration by parts leaves only the slope of the share to Gauss' rule of
+// four points, so a constant share is exact.
 float seen_share(LinearPart part, float depth, float opacity) {
     const vec4 nodes = vec4(0.069431844, 0.33000948, 0.66999052, 0.93056816);
     const vec4 weights = vec4(0.17392742, 0.32607258, 0.32607258, 0.17392742);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// A segment on which colour and extinction are linear. Opacity has a closed form; colour needs the weight of the
-// segment's front (optics/segment_integral.h), which is a polynomial for THIN segments.
+// Integrates a segment on which colour and extinction are linear. Opacity has a closed form. Colour
+// needs front_weight(): the weight of the front's colour (optics/segment_integral.h) for extinction
+// * length p at the front and q at the back. It is a polynomial if THIN is defined, else a lookup
+// in a table. TABLE_COLORED: colours from the transfer function, otherwise `single_color`.
 #ifdef TABLE_COLORED
 #ifdef THIN
 float front_weight(float p, float q) {
@@ -19,8 +21,8 @@ uniform sampler2D front_weights;
 float front_weight(float p, float q) {
     p = min(p, 1e30);
     q = min(q, 1e30);
-    // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q) are written without a difference, so that faint segments keep their
-    // digits.
+    // Nodes lie at equal steps of 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q), which are rewritten as p
+    // / (1 + p) and (q / root) / (1 + root): no subtraction, so small p and q keep their digits.
     float root = sqrt(1.0 + q);
     vec2 nodes = float(FRONT_WEIGHT_NODES - 1) * vec2(p, q / root) / (1.0 + vec2(p, root));
 #ifdef TABLE_FILTERED
@@ -37,7 +39,8 @@ float front_weight(float p, float q) {
 }
 #endif
 
-// Returns the associated colour and opacity between two places, each given as colour and extinction.
+// Returns the segment's associated colour and opacity. `front`, `back`: colour (rgb) and extinction
+// (a) at its ends.
 vec4 integrate_linear(vec4 front, vec4 back, float world_length) {
     float p = front.a * world_length, q = back.a * world_length;
     float opacity = opacity_from_depth(0.5 * p + 0.5 * q);

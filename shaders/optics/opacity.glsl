@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Returns the opacity of an optical depth >= 0, 1 - exp(-depth), with a relative error of 3e-7 at
-// every depth, infinity included. This is the twin of optics/opacity.h. GLSL has no expm1, and 1 -
-// exp(-x) alone loses digits that straight compositing of many thin slabs needs (docs/numerics.md,
-// section 1). exp(-depth) = 2^-n 2^f with |f| <= 1/2. 1 - 2^-n is exact, and for n = 0 only
-// (2^f - 1) / f remains, a minimax polynomial of relative error 1.1e-8. There is no branch, because
-// llvmpipe would run both of its sides.
+// Returns the opacity 1 - exp(-depth) of an optical depth >= 0, with a relative error of 3e-7 at
+// every depth, infinity included. This is the twin of opacity_from_depth() (optics/opacity.h). GLSL
+// has no expm1, and 1 - exp(-x) loses digits that compositing many thin slabs needs
+// (docs/numerics.md, section 1). Method: exp(-depth) = 2^-n 2^f with |f| <= 1/2. 1 - 2^-n is exact;
+// (2^f - 1) / f is a minimax polynomial of relative error 1.1e-8. There is no branch, because
+// llvmpipe would execute both sides.
 float opacity_from_depth(float depth) {
     float octaves = min(depth * 1.4426950408889634, 126.0);
     int n = int(octaves + 0.5);
@@ -15,8 +15,8 @@ float opacity_from_depth(float depth) {
     return (1.0 - power) - power * (f * slope);
 }
 
-// Returns the opacity in double precision, for which GLSL has no exponential: the series at depth /
-// 256, then eight times expm1(2x) = expm1(x) (2 + expm1(x)). Its error is below 1e-13.
+// Returns the opacity in double precision, for which GLSL has no exp(): the series of expm1 at
+// depth / 256, then eight times expm1(2x) = expm1(x) (2 + expm1(x)). Its error is below 1e-13.
 double opacity_from_depth(double depth) {
     double x = -min(depth, 40.0LF) / 256.0LF;
     double sum = 1.0LF + x / 10.0LF;

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// Returns the opacity of the part of a piece in front of each of three places, 0..1.
+// Returns the opacity between a piece's front and each of three positions x in the piece: 0 at its
+// front, 1 at its back. p and q: as for front_weight().
 vec3 opacity_before(vec3 x, float p, float q) {
     vec3 depth = x * (p * (1.0 - 0.5 * x) + q * (0.5 * x));
     return vec3(opacity_from_depth(depth.x), opacity_from_depth(depth.y), opacity_from_depth(depth.z));
 }
 
-// Returns the weight of the front's colour on a piece with extinction * length = p >= 0 at its
-// front and q >= 0 at its back (docs/numerics.md, section 5). It is 1 - G, the mean over the piece
-// of the opacity in front of a place; u(x) = p x + k x^2 is the optical depth in front of x.
-// Nine-point Gauss-Legendre quadrature integrates the part [0, seen] with u < 12; behind it opacity
-// is taken as 1. All terms are >= 0. The error is below 2e-6 for all p and q up to 1e30, and below
-// 1e-6 of the result if u stays below 1. The back's weight is the rest of the opacity of the piece.
+// Returns the weight of the front's colour for a piece with extinction * length = p >= 0 at its
+// front and q >= 0 at its back (docs/numerics.md, section 5): 1 - G, the mean over positions x in
+// the piece of the opacity in front of x. The optical depth in front of x is u(x) = p x + k x^2, k
+// = (q - p) / 2. Nine-point Gauss-Legendre quadrature integrates [0, seen], where u < 12; behind it
+// opacity is taken as 1. All terms are >= 0. The error is below 2e-6 for all p and q up to 1e30,
+// and below 1e-6 of the result if u stays below 1. The weight of the back's colour is the piece's
+// opacity minus this weight.
 float front_weight(float p, float q) {
     const float most_depth = 12.0;
     const vec3 near = vec3(0.015919880246187, 0.0819844463366821, 0.193314283649705);
@@ -22,7 +24,7 @@ float front_weight(float p, float q) {
 
     float depth = 0.5 * p + 0.5 * q;
     float seen = 1.0;
-    if (depth > most_depth) {  // u(seen) = most_depth, in units of depth
+    if (depth > most_depth) {  // solves u(seen) = most_depth, divided by depth
         float slope = p / depth, share = most_depth / depth;
         float root = sqrt(max(slope * slope + 2.0 * share * (q / depth - slope), 0.0));
         seen = min(2.0 * share / max(slope + root, 1e-18), 1.0);

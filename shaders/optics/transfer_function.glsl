@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/intervals.glsl"
 
-// Returns colour and extinction (a, per world unit) at a place of an interval, 0..1.
+// Returns colour (rgb) and extinction (a, per world unit) in an interval, at the position `share`:
+// 0 at its left end, 1 at its right. Rows 1 and 2 of `intervals` hold both at the left and the
+// right end.
 vec4 optics_at(int interval, float share) {
     vec4 left = texelFetch(intervals, ivec2(interval, 1), 0);
     vec4 right = texelFetch(intervals, ivec2(interval, 2), 0);
     return left + share * (right - left);
 }
 
-// Returns the extinction alone, in double precision.
+// Returns the extinction at the same position in double precision. Row 3 of `intervals` holds, in r
+// and g, what float32 lost of the extinctions at the left and the right end.
 double precise_extinction_at(int interval, float share) {
     vec2 low = texelFetch(intervals, ivec2(interval, 3), 0).rg;
     double left = double(texelFetch(intervals, ivec2(interval, 1), 0).a) + double(low.x);

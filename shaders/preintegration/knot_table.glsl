@@ -2,20 +2,23 @@
 #include "optics/intervals.glsl"
 #include "optics/opacity.glsl"
 
-// Twin of KnotTable::lookup (preintegration/preintegration_table.h). The texel (front node, back node) has the mean
-// extinction in its last component. With colour, it has emission in rgb, and each length is a layer.
+// Integrates segments with a table whose nodes lie at the transfer function's points and between them: twin of
+// KnotTable::lookup (preintegration/preintegration_table.h). The texel (front node, back node) has the mean extinction
+// in its last component. With colour, it has emission in rgb, and each length is a layer.
 #ifdef TABLE_COLORED
 uniform sampler3D knot_table;
 uniform float layers_per_length;
 #else
 uniform sampler2D knot_table;
 #endif
-// TABLE_LIT: front parts (optics/segment_integral.h) of emission in rgb and of extinction in a, in the same places.
+// TABLE_LIT: a second table with front parts (optics/segment_integral.h), of emission in rgb and of extinction in a,
+// for the same nodes and lengths.
 #ifdef TABLE_LIT
 uniform sampler3D front_parts;
 #endif
 
-// Returns the coordinate of a scalar in the table. Whole numbers are nodes.
+// Returns the coordinate of a scalar in the table; nodes have whole numbers. `place`: interval_place() of the scalar's
+// interval.
 float table_node(vec4 place, float scalar) { return place.z + share_of_interval(place, scalar) * place.w; }
 
 #ifdef TABLE_COLORED
@@ -49,7 +52,7 @@ float table_extinction(vec2 nodes) {
 }
 
 #ifdef TABLE_COLORED
-// Returns the numbers of a table at table nodes and a length.
+// Interpolates in a table between nodes and between lengths.
 vec4 table_numbers(sampler3D table, vec2 nodes, float world_length) {
     float layer = min(world_length * layers_per_length, float(TABLE_LAYERS - 1));
 #ifdef TABLE_FILTERED
@@ -73,8 +76,8 @@ vec4 table_entry(vec2 nodes, float world_length) {
 #endif
 }
 
-// A segment from the front on: associated colour, optical depth in a. For lit ones also the front
-// parts of colour and opacity, and the share of the segment's length that is still behind.
+// The sum over a segment from the front on: associated colour, and optical depth in a. For lit ones also the front
+// parts of colour and opacity, and the share of the segment's length that is not added yet.
 struct RunSum {
     vec4 whole;
 #ifdef TABLE_LIT
@@ -83,7 +86,7 @@ struct RunSum {
 #endif
 };
 
-// Adds a run between two table nodes behind `sum`. `share`: of the segment's length.
+// Adds a piece of the segment, between two table nodes, behind `sum`. `share`: its share of the segment's length.
 void add_run(inout RunSum sum, vec2 nodes, float world_length, float share) {
     vec4 entry = table_entry(nodes, world_length);
     float depth = entry.a * world_length;
@@ -110,9 +113,9 @@ bool is_transparent(float least, float largest) {
 }
 
 // Returns the associated colour and the optical depth of a segment on which the scalar is linear from `front` to
-// `back`. The table is smooth inside the transfer function's intervals and not across their ends, so the run is cut
-// at the first and at the last of these. It is a loop, with no passes for transparent segments, because software
-// rasterisers skip loops but not branches.
+// `back`. The table is smooth inside the transfer function's intervals and has kinks at their ends, so the segment is
+// cut into up to three pieces at the first and the last interval end that it crosses. They are added in a loop, which a
+// transparent segment never enters, because software rasterisers skip loops but not branches.
 RunSum integrate_run(float front, float back, float world_length, bool transparent) {
     int front_interval = find_interval(front);
     int back_interval = find_interval(back);

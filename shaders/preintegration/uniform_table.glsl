@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// Twin of UniformTable::lookup (preintegration/preintegration_table.h). The table has TABLE_NODES x TABLE_NODES x
-// TABLE_LAYERS texels (front node, back node, layer of length). The last component of a texel is mean extinction or
-// opacity, as TABLE_STORE says. With TABLE_COLORED, rgb is emission or associated colour, respectively. TABLE_FILTERED:
-// the texture unit interpolates, whose weights have 8 bits on GPUs. Otherwise four or eight texels are interpolated in
-// float32.
+// Integrates segments with a table of equidistant nodes: twin of UniformTable::lookup
+// (preintegration/preintegration_table.h). The table has TABLE_NODES x TABLE_NODES x TABLE_LAYERS texels (front node,
+// back node, layer of length). The last component of a texel is mean extinction or opacity, as TABLE_STORE says. With
+// TABLE_COLORED, rgb is emission or associated colour, respectively. TABLE_FILTERED: the texture unit interpolates,
+// whose weights have 8 bits on GPUs. Otherwise four or eight texels are interpolated in float32.
 
 // Values of TABLE_MAPPING, as in LengthMapping.
 #define MAPPING_OCTAVE 0
@@ -27,7 +27,7 @@ uniform vec3 single_color;
 #endif
 
 #if TABLE_LAYERS > 1
-// Returns the coordinate of a length. Whole numbers are layers. It is not clamped to the last one.
+// Returns the coordinate of a length in the table; layers have whole numbers. It may exceed that of the last layer.
 float length_layer(float world_length) {
     float v = world_length * inverse_first_length;
 #if TABLE_LAYERS == 2 || TABLE_MAPPING == MAPPING_LINEAR

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The optics of a fragment of the paper's triangles (projection/fan_geometry.h).
+// Finds the optics of a fragment of the triangles of Kraus 2004. The inputs are the members of FanVertex
+// (projection/fan_geometry.h), interpolated.
 in vec3 inverse;
 in vec4 front_values;
 in vec4 back_values;
@@ -13,7 +14,7 @@ uint part_number() { return tet; }
 #else
 #define DIVIDED 1
 uniform vec2 image_middle;
-uniform float pixel_size;  // at depth 1
+uniform float pixel_size;  // world units, at z = 1
 #endif
 
 struct TetOptics {
@@ -21,8 +22,9 @@ struct TetOptics {
     float world_length;
 };
 
-// Kraus 2004, section 2.3. For the thickness, the difference of the inverse depths is interpolated itself
-// (docs/numerics.md, section 6).
+// Returns the optics at both ends of the ray's segment, and its length (Kraus 2004, section 2.3). The thickness comes
+// from the difference of the inverse depths, which is interpolated itself and so keeps its digits (docs/numerics.md,
+// section 6).
 TetOptics find_optics() {
 #if DIVIDED
     float z_front = 1.0 / inverse.x;
@@ -38,8 +40,10 @@ TetOptics find_optics() {
 #endif
 }
 
+// Returns the interpolated colour and opacity of the vertices (SOURCE_VERTICES).
 vec4 vertex_values() { return front_values; }
 
+// The segment of the ray inside the tet.
 struct TetRun {
     float front, back;   // scalars, normalised
     float world_length;

@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A vertex of the paper's triangles (projection/fan_geometry.h). w = 1, so that values are interpolated linearly in
-// the picture (Kraus 2004, section 2.3).
+// A vertex of the triangles of Kraus 2004: FanVertex (projection/fan_geometry.h). w = 1, so that values are
+// interpolated linearly in the picture (Kraus 2004, section 2.3).
 layout(location = 0) in vec2 position;  // window coordinates
 layout(location = 1) in vec3 inverse_in;
 layout(location = 2) in vec4 front_in;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light along a segment on which extinction and gradient are linear: twin of
-// projection/tile_lit_fragments.cpp.
+// Light along a segment on which extinction and gradient are linear: twin of LightAlong in
+// projection/cpu_lit_fragments.cpp.
 #include "optics/opacity.glsl"
 #include "optics/lighting.glsl"
 
 // The square of the smallest gradient, and the largest bend of light (executors/lights.h).
 uniform vec2 light_limits;
 
+// A lit segment, or the piece of one on which the transfer function is linear.
 struct LitRun {
     vec2 depths;  // extinction at both ends, times the length
     vec3 gradient, turn;  // at the front, and from there to the back
@@ -26,7 +27,8 @@ vec3 light_added(LightSums sums, vec3 front, vec3 back) {
 float largest_of(float v) { return abs(v); }
 float largest_of(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
-// Returns the bend that the nodes of a piece may miss.
+// Returns a bound on the bend of light (its second difference at the three nodes) within a piece that the nodes may not
+// show.
 float hidden_bend(LitRun run, float at, float extent) {
     vec3 center = run.gradient + (at + 0.5 * extent) * run.turn;
     vec3 reach = 0.5 * extent * run.turn;
@@ -50,7 +52,7 @@ float next_kink(LitRun run, float at) {
     return kink;
 }
 
-// Adds a node of the rule; returns change and highlight together.
+// Adds a node of Gauss' rule, of weight `amount`, to the sums; returns change and highlight together.
 LIGHT_COLOR add_node(LitRun run, float place, float amount, inout LightSums sums) {
     LightEffect effect = light_effect(run.gradient + place * run.turn, light_limits.x, run.to_eye);
     sums.change += amount * effect.change;
@@ -59,7 +61,8 @@ LIGHT_COLOR add_node(LitRun run, float place, float amount, inout LightSums sums
     return effect.change + effect.highlight;
 }
 
-// `in_front`: transmittance in front of the segment.
+// Returns the contribution of light to a segment, piece by piece from the front. Pieces end at kinks, and are as short
+// as depth and bend of light demand. `in_front`: transmittance in front of the segment.
 LightSums light_along(LitRun run, float in_front) {
     const float deepest = 1e12, shallow = 0.75, goal = 0.7;
     LightSums sums = LightSums(LIGHT_COLOR(0.0), LIGHT_COLOR(0.0), LIGHT_COLOR(0.0));

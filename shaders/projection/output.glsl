@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a fragment to the target. BITS: opacity is rounded to a code here. DITHER_ALPHA: it is rounded at random,
-// before the blending unit. EMULATED: the fragment is composited here, as render.emulate says. AFTER_BLEND: it is
-// composited here, and the result is rounded at random.
+// Writes a fragment to the target; without these definitions the blending unit composites it. BITS: the target has
+// codes, and opacity is rounded to a code here. DITHER_ALPHA: colour and opacity are rounded at random, before the
+// blending unit. EMULATED: the fragment is composited here, as render.emulate says. AFTER_BLEND: it is composited here,
+// and the result is rounded at random.
 #if defined(BITS)
 #include "compositing/codes.glsl"
 #include "compositing/random_bits.glsl"
@@ -49,7 +50,7 @@ void write_fragment(vec4 color) {
 #elif defined(DITHER_ALPHA)
 layout(location = 0) out vec4 associated;
 
-// Dithers as in Kraus 2004, section 4.2, but with one random number for all channels, because the blending unit
+// Dithers as in Kraus 2004, section 4.2, but with one random number for opacity and colour, because the blending unit
 // rounds associated colours, too.
 void write_fragment(vec4 color) {
     float largest = float(LARGEST_CODE);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the span of a fragment's ray inside its cell fragment, from the planes of the faces
-// (projection/tet_record.h). Coverage, too, is decided here, because the polygon covers a little
-// more than the tet, and rasterisers move its corners.
+// Finds the segment of a pixel's ray inside a cell fragment: a tet, or the region of one on which the transfer function
+// is linear. It comes from the planes of the faces (projection/tet_record.h). Coverage, too, is decided here, because
+// the polygon covers a little more than the tet, and rasterisers move its corners.
+//
+// CAREFUL: in double precision, for faces seen nearly edge-on, tets at the near plane, and an eye inside the tet.
+// EXACT_RUNS: lengths and scalars, too. CUT: the cell fragment ends at planes of constant scalar.
 #ifdef CAREFUL
 flat in vec4 face_depths[6];
 uniform dvec3 ray_perturbation;  // pixels: moves rays along faces to one side, equal for all tets
-uniform float near_depth;  // "depth" of the near plane
+uniform float near_depth;  // depth (projection/tet_record.h) of the near plane
 #else
 flat in vec4 face_depths[3];
 #endif
@@ -28,20 +31,21 @@ uniform vec4 view_axes[3];  // unit vectors to the right, up and forward, in wor
 #endif
 
 uniform vec2 image_middle;  // window coordinates
-uniform float pixel_size;   // at depth 1
+uniform float pixel_size;   // world units, at z = 1
 
 #ifdef OPACITY_ONLY
-// The number of all cell fragments over that of the tree's leaf (docs/numerics.md, section 3). It
+// The number of cell fragments of the mesh over that of the leaf which is drawn (docs/numerics.md, section 3). It
 // scales the length, because optical depth is mean extinction times length.
 uniform float depth_scale;
 #endif
 
+// Returns the number of the cell fragment, for random numbers.
 uint part_number() { return floatBitsToUint(limits.w); }
 
 uint front_faces() { return floatBitsToUint(limits.z) & 7u; }
 
 struct TetRun {
-    float front, back;   // scalars, of a range that is [0, 1]
+    float front, back;   // scalars, normalised to the range of the table or of the cell fragment
     float world_length;  // 0 if the ray misses the tet
 #ifdef LIT
     vec3 front_gradient, back_gradient;
@@ -52,7 +56,8 @@ struct TetRun {
 #ifdef CAREFUL
 dvec4 four_doubles(vec4 high, vec4 low) { return dvec4(high) + dvec4(low); }
 
-// The ray perturbation moves the ray in space. Its component along the ray does not count.
+// Returns a pixel's place, relative to the center, with the ray perturbation. This moves the ray in space; its
+// component along the ray does not count.
 dvec2 moved_place(vec2 place) {
     dvec2 from_middle = dvec2((gl_FragCoord.xy - image_middle) * pixel_size);
     return dvec2(place) + ray_perturbation.xy - ray_perturbation.z * from_middle;
@@ -63,9 +68,9 @@ dvec4 depths_of_faces(dvec2 moved) {
            four_doubles(face_depths[4], face_depths[5]) * moved.y;
 }
 
-// Returns the depths, minus the center's, between which the ray is inside the tet. They are double
-// because faces that are nearly edge-on are steep functions of the pixel, and both tets that share
-// such a face must find it in the same place.
+// Returns the depths, minus the center's, between which the ray is inside the tet. They are double because the depth on
+// a face that is nearly edge-on changes steeply from pixel to pixel, and both tets that share the face must find the
+// ray's crossing in the same place.
 dvec2 find_exact_depths(dvec2 moved) {
     dvec4 depths = depths_of_faces(moved);
     uint fronts = front_faces();
@@ -83,8 +88,8 @@ dvec2 find_exact_depths(dvec2 moved) {
 #ifndef EXACT_RUNS
 vec2 find_depths(vec2 place) { return vec2(find_exact_depths(moved_place(place))); }
 #elif defined(SCALARS)
-// Returns the scalars at these depths. In float32 a scalar within the window would be a small difference of large
-// numbers, in a tet that runs far outside it (facts/drawn_range.h).
+// Returns the scalars at these depths. They are double because a scalar within the window is a small difference of
+// large numbers in a tet whose scalars reach far outside it (facts/drawn_range.h).
 vec2 exact_ends(dvec2 depths, dvec2 moved) {
     dvec4 of = dvec4(scalars) + dvec4(scalars_low);
 #ifdef ORTHOGRAPHIC
@@ -114,9 +119,8 @@ vec2 find_depths(vec2 place) {
 #endif
 
 #ifdef CUT
-// Returns the piece of a ray's segment on which the scalar is between the cell fragment's least and
-// largest. The cell fragment on the other side of a cut computes the same numbers, so that nothing
-// is lost or counted twice between them.
+// Returns the piece of a ray's segment on which the scalar is between the cell fragment's least and largest. Both cell
+// fragments at a cut compute the same numbers for it, so that nothing between them is lost or counted twice.
 vec2 cut_depths(vec2 depths, vec2 place) {
     uint fronts = floatBitsToUint(limits.z);
     bool lower_front = (fronts & 8u) != 0u, upper_front = (fronts & 16u) != 0u;
@@ -129,7 +133,8 @@ vec2 cut_depths(vec2 depths, vec2 place) {
 #endif
 
 #ifdef LIT
-// Sets the values that light needs. `from_center`, `reach`: of the segment's ends, as below.
+// Sets the values that light needs. `from_center`: the distances along z of the segment's ends behind the center.
+// `reach`: their z, or 1 if rays are parallel.
 void find_gradients(vec2 place, vec2 from_center, vec2 reach, inout TetRun run) {
     for (int axis = 0; axis < 3; ++axis) {
         vec4 of = gradients[axis];
@@ -152,7 +157,8 @@ TetRun find_run() {
 #ifdef EXACT_RUNS
     dvec2 moved = moved_place(place);
     dvec2 exact_depths = find_exact_depths(moved);
-    // Rounded depths decide whether the ray meets the tet: far away on a steep face, doubles are off, too.
+    // Depths rounded to float decide whether the ray meets the tet: far outside the tet on a steep face, the doubles
+    // have errors, too.
     vec2 depths = vec2(exact_depths);
     exact_depths = depths.y > depths.x ? exact_depths : dvec2(0.0);
     depths = vec2(exact_depths);

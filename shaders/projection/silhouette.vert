@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A corner of the polygon around a tet. Every corner carries the record of the tet or cell fragment
-// (projection/tet_record.h): TetRecord, or with CUT FragmentRecord.
+// A corner of the polygon around a tet, or around the region of one on which the transfer function is linear (CUT).
+// Every corner of a polygon refers to one record: TetRecord, or with CUT FragmentRecord (projection/tet_record.h).
 layout(location = 0) in vec2 position;  // window coordinates
 layout(location = 1) in uint record;
 
@@ -14,7 +14,7 @@ const uint gradient_record_size = 3u;
 
 uniform vec2 image_size;
 
-// The planes of four faces: depth, per column, per row. CAREFUL: high and low parts of each.
+// The planes of four faces: depth, per column, per row. CAREFUL: doubles, each as the sum of two floats, high and low.
 #ifdef CAREFUL
 #define PAIR 2u
 #else
@@ -28,7 +28,8 @@ flat out vec4 scalars;          // at the center, per z, per column, per row
 #if defined(EXACT_RUNS) && defined(SCALARS)
 flat out vec4 scalars_low;      // remainders of these that float does not hold
 #endif
-flat out vec4 limits;           // least and largest scalar; CUT: upper cut per column and row; bits: fronts, number
+flat out vec4 limits;  // least and largest scalar (CUT: upper cut per column and row); number of front faces and number
+                       // for dithering, in the bits of integers
 #ifdef CUT
 flat out vec4 cuts;             // lower: depth, per column, per row; upper: depth
 flat out OPTICS low_optics, high_optics;  // at least and largest scalar; a: extinction

@@ -3,8 +3,11 @@
 #ifdef FRAMEBUFFER_FETCH
 #extension GL_EXT_shader_framebuffer_fetch : require
 #endif
-// One cell fragment: composites the colour and opacity of the fragment's ray inside it over the target. OPACITY_ONLY:
-// for a fixed-point node of a tree.
+// Composites one fragment of projected tetrahedra over the target: the colour and opacity of the pixel's ray inside a
+// cell fragment. A cell fragment is a tet, or the region of one on which the transfer function is linear. FAN: it is
+// drawn as the triangles of Kraus 2004 (fan.vert), otherwise as its silhouette (silhouette.vert). SOURCE: the values of
+// SegmentSource (plan/plan.h), from which colour and opacity are computed. OPACITY_ONLY: draws opacity alone, for the
+// leaves of a compositing tree.
 #define SOURCE_CONSTANT 0
 #define SOURCE_TABLE 1
 #define SOURCE_PARTS 2

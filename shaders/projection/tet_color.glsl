@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Associated colour and opacity of a fragment's segment in its tet.
+// Returns associated colour and opacity of the segment of a fragment's ray inside its tet, computed as SOURCE says.
 #include "optics/opacity.glsl"
 #ifdef LIT
 #include "projection/light_along.glsl"
@@ -13,8 +13,8 @@ vec4 tet_color() {
     TetRun run = find_run();
     float front = clamp(run.front, 0.0, 1.0), back = clamp(run.back, 0.0, 1.0);
 #ifdef WINDOWED
-    // The pieces of the segment before the window, within it and behind it; the transfer function
-    // is constant outside. In a loop, because LLVM takes minutes for three copies of the look-ups.
+    // The pieces of the segment before the window, within it and behind it; the transfer function is constant outside
+    // the window. They are added in a loop, because LLVM takes minutes to compile three copies of the look-ups.
     vec3 lengths = vec3(0.0, run.world_length, 0.0);
     if (front != back && (front != run.front || back != run.back)) {
         float per_scalar = run.world_length / abs(run.back - run.front);
@@ -93,14 +93,15 @@ vec4 color_within(float front, float back, float world_length) { return integrat
 #ifdef LIT
 vec3 segment_gradient, segment_turn, segment_to_eye;
 
-// Takes the gradients of the segment that is integrated next.
+// Sets the gradients of the segment that integrate_segment() integrates next.
 void set_lit_segment(vec3 front_gradient, vec3 back_gradient, vec3 to_eye) {
     segment_gradient = front_gradient;
     segment_turn = back_gradient - front_gradient;
     segment_to_eye = to_eye;
 }
 
-// Returns the contribution of light to the part of the segment from one share to the other.
+// Returns the contribution of light to the piece of the segment from share `from` of its length to share `to`.
+// optics/analytic_segment.glsl calls it.
 vec3 light_on_piece(float from, float to, vec2 depths, vec3 near, vec3 far, float in_front) {
     LitRun run = LitRun(depths, segment_gradient + from * segment_turn, (to - from) * segment_turn, segment_to_eye);
     return light_added(light_along(run, in_front), near, far);

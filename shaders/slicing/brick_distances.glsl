@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// For each brick of BRICK_EDGE^3 cells of the volume, the distance in bricks to the nearest visible
-// one (facts/bricks.h).
-uniform sampler3D distances;    // over 255
-uniform vec3 first_sample;      // of the texture brick, in the volume
-uniform vec3 last_distance;     // number of bricks minus one
+// Distances of the volume's min/max bricks, of BRICK_EDGE^3 cells each, to the nearest visible one,
+// in bricks along the axis on which the two are farthest apart (OccupiedBricks in facts/bricks.h).
+uniform sampler3D distances;    // divided by 255
+uniform vec3 first_sample;      // the volume's sample at which the texture begins
+uniform vec3 last_distance;     // number of min/max bricks along each axis, minus one
 
-// Returns 0 for bricks that may be visible.
+// Returns a brick's distance; 0 if it may be visible itself.
 int distance_to_shown(ivec3 brick) { return int(texelFetch(distances, brick, 0).r * 255.0 + 0.5); }

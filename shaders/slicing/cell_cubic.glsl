@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar along a part of a ray inside one cell of the grid, normalised so that the volume's range is [0, 1].
+// Computes the scalar along a part of a ray inside one cell of the grid, a cubic, normalised so
+// that the volume's range is [0, 1].
 uniform sampler3D volume;
-uniform vec3 last_sample;        // the brick's size in samples, minus one
-uniform vec2 code_normalisation; // the code that becomes 0, and the scale
+uniform vec3 last_sample;        // of the texture: its size in samples, minus one
+uniform vec2 code_normalisation; // the code that becomes 0, and the factor to normalised scalars
 uniform float largest_code;
 
-// Returns a sample's code. Codes are whole numbers; texels hold them over the largest one, with a rounding. Floats are
-// stored normalised.
+// Returns a sample's code, a whole number: a texel holds it divided by the largest code, with a
+// rounding. Float samples are stored normalised and returned as they are.
 float fetch_code(ivec3 sample_index) {
     float texel = texelFetch(volume, sample_index, 0).r;
 #ifdef FLOAT_SAMPLES
@@ -16,7 +17,8 @@ float fetch_code(ivec3 sample_index) {
 #endif
 }
 
-// Corners with x at the lower and at the upper sample: (y, z) lower, y upper, z upper, both upper.
+// The codes at a cell's corners, at the lower and at the upper x. The components are those at (y,
+// z), (y + 1, z), (y, z + 1) and (y + 1, z + 1).
 struct Corners {
     vec4 lower, upper;
 };
@@ -29,14 +31,15 @@ Corners fetch_corners(ivec3 cell) {
                         fetch_code(ivec3(upper.x, cell.y, upper.z)), fetch_code(upper)));
 }
 
-// Returns the trilinear field of a cell along place + t * change, minus `base`. It is computed from
-// differences of corners, so that a constant cell is exactly constant.
+// Returns the four coefficients in t, constant first, of the cell's trilinear field at place + t *
+// change, minus `base`. They are computed from differences of corners, so that a constant cell
+// gives an exact constant.
 vec4 cubic_along(Corners corners, float base, vec3 place, vec3 change) {
     vec4 x = corners.upper - corners.lower;
     float y = corners.lower.y - corners.lower.x, z = corners.lower.z - corners.lower.x;
     float xy = x.y - x.x, xz = x.z - x.x, yz = (corners.lower.w - corners.lower.z) - y;
     float xyz = (x.w - x.z) - xy;
-    // Second derivatives at the entry.
+    // Mixed second derivatives (yz, xz, xy) at the entry.
     vec3 bend = vec3(yz, xz, xy) + place * xyz;
     vec3 slope = vec3(x.x + place.y * bend.z + place.z * xz, y + place.x * bend.z + place.z * yz,
                       z + place.x * bend.y + place.y * yz);
@@ -49,16 +52,16 @@ vec4 cubic_along(Corners corners, float base, vec3 place, vec3 change) {
 
 bool is_nan(float value) { return (floatBitsToUint(value) & 0x7fffffffu) > 0x7f800000u; }
 
-// Tells whether a corner is NaN. Compilers may assume that comparisons meet no NaN, so the bits are
-// read.
+// Tells whether a corner is NaN. It reads bits, because compilers may assume that comparisons meet
+// no NaN.
 bool has_nan(Corners corners) {
     vec4 sums = corners.lower + corners.upper;
     return is_nan((sums.x + sums.y) + (sums.z + sums.w));
 }
 
-// Returns the cubic of the part of a ray from `place`, counted from a cell's lowest sample, to
-// place + change. Beyond the samples (`cell` axes) the border value repeats. `transparent`: a
-// corner is NaN.
+// Returns the normalised scalar, as coefficients of a cubic, along the part of a ray from `place`,
+// counted from the cell's lowest corner, to place + change. Beyond the samples (`cell` axes) the
+// border value repeats. `transparent`: true if NaN is transparent and a corner is NaN.
 vec4 cell_cubic(ivec3 cell, vec3 place, vec3 change, out bool transparent) {
     ivec3 last = ivec3(last_sample);
     ivec3 lowest = clamp(cell, ivec3(0), max(last - 1, 0));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gradient along a part of a ray inside one cell of the grid.
+// Computes the gradient along a part of a ray inside one cell of the grid.
 #include "optics/cubic.glsl"
 #include "slicing/cell_cubic.glsl"
 #include "volume/gradient.glsl"
 
-// Component by component a cubic, along the grid's axes, and the square of the smallest gradient in the same unit.
+// The gradient's components along the grid's axes, each a cubic, and the square of the smallest
+// gradient that is lit (Lighting::smallest_gradient) in the same unit.
 struct CellGradient {
     vec4 x, y, z;
     float smallest_square;
@@ -14,14 +15,16 @@ vec3 gradient_along(CellGradient gradient, float t) {
     return vec3(cubic_at(gradient.x, t), cubic_at(gradient.y, t), cubic_at(gradient.z, t));
 }
 
+// Returns one component of the gradients at a cell's corners.
 Corners corners_of(vec3 lower[4], vec3 upper[4], int axis) {
     return Corners(vec4(lower[0][axis], lower[1][axis], lower[2][axis], lower[3][axis]),
                    vec4(upper[0][axis], upper[1][axis], upper[2][axis], upper[3][axis]));
 }
 
-// Returns the gradient along the part of a ray from `place`, counted from a cell's lowest sample,
-// to place + change. Beyond the samples (`cell` axes) both corners are the border's: a neighbour
-// may be too long to be subtracted again.
+// Returns the gradient along the part of a ray from `place`, counted from the cell's lowest corner,
+// to place + change. Beyond the samples (`cell` axes) both corners on an axis are those of the
+// border, and no inner one: an inner gradient may be so long that adding and subtracting it would
+// lose all digits.
 CellGradient cell_gradient(ivec3 cell, vec3 place, vec3 change) {
     ivec3 last = ivec3(last_sample);
     ivec3 lower = clamp(cell, ivec3(0), last), upper = clamp(cell + 1, ivec3(0), last);

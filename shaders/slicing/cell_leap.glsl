@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leaps of a ray over bricks that show nothing.
+// Moves a ray over min/max bricks that show nothing, several in one step.
 #include "slicing/brick_distances.glsl"
 #include "slicing/cell_ray.glsl"
 
+// Returns the number of the brick that holds a cell of the texture; beyond the volume, of the
+// nearest brick.
 ivec3 brick_of(ivec3 cell) {
     return clamp((cell + ivec3(first_sample)) / BRICK_EDGE, ivec3(0), ivec3(last_distance));
 }
 
-// Moves a ray to the end of the cube of `reach` bricks on each side of `brick`, itself counted, or
-// to depth `end`. Cubes at the volume's border go on beyond it. `left`: the depth up to the end.
+// Moves a ray to where it leaves the cube of bricks brick - reach + 1 .. brick + reach - 1, which
+// show nothing, or to depth `end`, whichever comes first. `reach` is the distance of `brick`. A
+// cube that reaches the volume's border is taken two bricks beyond it, because the volume's box may
+// lie beyond its samples. `at`: the ray's place. `left`: the depth that remains to `end`.
 void leap(Ray ray, CellRay cells, ivec3 brick, int reach, REAL end, inout CellPlace at, inout REAL left) {
     const int beyond = 2;
     ivec3 upper = brick + reach, lower = brick - reach + 1;

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light on parts of rays in one cell (docs/numerics.md, section 10). The engine `cpu` computes it
-// in slicing/cpu_light-inl.h.
+// Adds light to parts of rays in one cell (docs/numerics.md, section 10). The engine `cpu` does
+// this in slicing/cpu_light-inl.h. The bend of light along a part is its second difference over the
+// three nodes of Gauss' rule; it estimates the rule's error.
 #include "optics/cell_optics.glsl"
 #include "optics/lighting.glsl"
 #include "slicing/cell_gradient.glsl"
 
-uniform float most_bend;  // bend of light along a part above which the part is cut
+uniform float most_bend;  // a part is cut if light bends more along it
 
-// Shortest piece for which light is computed, as a share of the part (plan/classification_choice.cpp counts
-// the rounds).
+// Length, as a share of the part, below which a piece is not cut further
+// (plan/classification_choice.cpp counts the rounds that this allows).
 const float shortest_lit_piece = 1.0 / 256.0;
-// Half of the share on the engine `cpu` (executors/lights.h): the number of rounds is bounded
+// Share of most_bend that a faint piece may keep, weighted by its opacity. It is half of the engine
+// `cpu`'s (faint_share_of_cells in executors/lights.h): here the number of rounds is bounded
 // anyway, and pieces grow more slowly.
 const float faint_share = 1.0 / 4.0;
 
 float length_square(vec3 v) { return dot(v, v); }
 
-// Returns a bound on the light that the nodes of a piece of `extent` from `at` on miss, as a bend.
+// Returns a bound on highlights and changes of light between the nodes of Gauss' rule on the piece
+// of `extent` from `at` on, expressed as a bend.
 float hidden_bend(CellGradient gradient, float at, float extent) {
     float reach = 0.5 * extent, middle = at + reach;
     vec3 c2 = vec3(gradient.x.z, gradient.y.z, gradient.z.z), c3 = vec3(gradient.x.w, gradient.y.w, gradient.z.w);
@@ -26,7 +29,9 @@ float hidden_bend(CellGradient gradient, float at, float extent) {
     return hidden_effect(square, way, gradient.smallest_square);
 }
 
-// Returns the contribution of a light to the two numbers of hidden_kinks().
+// Returns what light i contributes at the piece's front and back to hidden_kinks(): the scalar
+// product of gradient and light there, times its colour, if a kink lies between that end and the
+// middle; else 0.
 vec2 beyond_kink(int i, vec3 front, vec3 middle, vec3 back, vec3 to_eye) {
     vec3 to_light = direction_to_light(i, to_eye);
     vec3 color = light_colors[i].rgb;
@@ -35,10 +40,10 @@ vec2 beyond_kink(int i, vec3 front, vec3 middle, vec3 back, vec3 to_eye) {
     return largest * abs(ends) * vec2(lessThan(ends * dot(middle, to_light), vec2(0.0)));
 }
 
-// Returns a bound on the error of the rule of three nodes at kinks, where the gradient is
-// perpendicular to a light, as a bend. A kink at k of the piece's length from an end, up to .5,
-// costs up to .113 of the cosine at that end: k of it if k < .113, which no node sees, and less
-// beyond.
+// Returns a bound on the error of the rule with three nodes at kinks, expressed as a bend. A kink
+// is where the gradient is perpendicular to a light. In the middle of a piece it costs .045 of the
+// bend. At k of the piece's length from an end, k up to .5, it costs up to .113 of the cosine at
+// that end: k of the cosine if k < .113, which no node sees, and less beyond.
 float hidden_kinks(CellGradient gradient, vec3 to_eye, float at, float extent) {
     vec3 front = gradient_along(gradient, at), back = gradient_along(gradient, at + extent);
     vec3 middle = gradient_along(gradient, at + 0.5 * extent);
@@ -51,8 +56,8 @@ float hidden_kinks(CellGradient gradient, vec3 to_eye, float at, float extent) {
     return 0.113 / 0.045 * light_terms.y * max(seen.x, seen.y);
 }
 
-// The effect of light on the colours at both ends of an interval, summed over nodes, and its bend
-// from node to node.
+// The effect of light on the colour at an interval's left end (change) and on the interval's change
+// of colour (shared_change), and the highlights, summed over nodes; and the bend of light.
 struct LightSum {
     LIGHT_COLOR change, shared_change, highlight, bend;
 };
@@ -68,9 +73,9 @@ float largest_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 float largest_component(float v) { return v; }
 
 // Adds light to a part's associated colour by Gauss' rule with three nodes, whose weights add up to
-// the part's opacity. The part is the piece of `extent` from `at` on of that along which the
-// gradient is given. Returns the bend of light from node to node to node: the rule misses .045
-// times that of a kink.
+// the part's opacity. `part` is the piece of `extent` from `at` on of the stretch for which
+// `gradient` is given. Returns the bend of light, or a bound on what the rule may miss if that is
+// larger. The rule misses .045 of the bend of a kink.
 float add_light(CellGradient gradient, vec3 to_eye, Interval interval, LinearPart part, float at, float extent,
                 float depth, float opacity, inout vec3 color) {
     const vec3 nodes = vec3(0.112701665, 0.5, 0.887298335);
@@ -96,12 +101,13 @@ float add_light(CellGradient gradient, vec3 to_eye, Interval interval, LinearPar
                max(hidden_bend(gradient, at, extent), hidden_kinks(gradient, to_eye, at, extent)));
 }
 
-// Returns whether a part's light bends too much for one rule. `seen`: the visible share of the
-// part's opacity.
+// Tells whether a part's light bends too much for one rule. `seen`: the visible share of the part's
+// opacity.
 bool bends(float bend, float seen) {
     float largest_effect = hidden_limits.x + hidden_limits.z;
     return bend > most_bend && bend * seen * max(largest_effect, 1.0) > faint_share * most_bend;
 }
 
-// Returns the length of a part's first piece: the error at a kink falls with the square of that.
+// Returns the length, 1 / 8 to 1 of a part, at which it is cut first: the error at a kink falls
+// with the square of the length.
 float longest_piece(float bend) { return clamp(sqrt(most_bend / max(bend, 1e-30)), 1.0 / 8.0, 1.0); }

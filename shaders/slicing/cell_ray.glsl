@@ -2,15 +2,15 @@
 // A ray that goes from cell to cell of the grid.
 #include "slicing/ray.glsl"
 
-// A place of a ray: in a cell, from 0 to 1 along each axis. A ray that enters a cell does so
-// exactly on its face, and within a cell floats have all digits that are needed.
+// A point of a ray: its cell, and the place in it from 0 to 1 along each axis. A ray enters a cell
+// exactly on its face, and floats hold enough digits of a place in one cell.
 struct CellPlace {
     ivec3 cell;
     vec3 place;
 };
 
 struct CellRay {
-    vec3 slope;      // cells per depth
+    vec3 slope;      // change of place with depth, never 0
     vec3 inverse;
     bvec3 forward;   // towards larger indices
 };
@@ -21,7 +21,7 @@ CellRay cell_ray(Ray ray) {
     return CellRay(slope, 1.0 / slope, greaterThan(slope, vec3(0.0)));
 }
 
-// Returns the place at a depth. On a plane between two cells a ray belongs to the cell that it enters.
+// Returns the place at a depth. A ray on a plane between two cells is in the one that it enters.
 CellPlace place_at(Ray ray, CellRay cells, REAL depth) {
     REAL3 there = ray.origin + depth * ray.direction;
     ivec3 cell = ivec3(mix(ceil(there) - REAL(1.0), floor(there), cells.forward));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Planes of the scene's clip in the brick's index space: points with dot(plane.xyz, point) +
+// The scene's clip planes, in the texture's index space: points with dot(plane.xyz, point) +
 // plane.w >= 0 are kept.
 uniform REAL4 clip_planes[CLIP_PLANES];
 
-// Returns the depths between which the ray is on the kept side of all planes. If there are none, y
-// <= x.
+// Returns that part of the range `depths` in which the ray is on the kept side of all planes; y <=
+// x if there is none.
 REAL2 clip_to_planes(Ray ray, REAL2 depths) {
     for (int i = 0; i < CLIP_PLANES; ++i) {
         REAL distance = dot(clip_planes[i].xyz, ray.origin) + clip_planes[i].w;

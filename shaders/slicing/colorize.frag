@@ -1,6 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// The picture of one colour and the opacity in the root of a fixed-point tree. EMULATED: as codes.
+// Makes the picture from the opacity in the root of a tree of fixed-point nodes, and a single
+// colour. EMULATED: both are codes.
 #ifdef EMULATED
 #include "compositing/over.glsl"
 #define STORED (BITS > 8 ? 65535.0 : 255.0)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds parts of rays, front to back. A part lies in one cell, so its scalar is a cubic. Parts that cross points of the
-// transfer function, or that are too deep for one rule, are cut.
+// Integrates parts of rays and composites them front to back. A part lies in one cell, so its
+// scalar is a cubic of t = 0 .. 1. Parts that cross points of the transfer function (knots), or are
+// too deep for one rule, are cut into pieces. An interval lies between two knots.
 #include "optics/cell_optics.glsl"
 
-// The sum of the parts that a ray has passed: associated colour, optical depth and transmittance.
+// The parts that a ray has passed, composited: associated colour, optical depth and transmittance.
 struct PartSum {
     vec3 color;
     float depth;
@@ -13,13 +14,14 @@ struct PartSum {
 #ifndef SINGLE_COLOR
 // Returns the associated colour of a part in one interval.
 vec3 color_of(Interval interval, LinearPart part, float depth, float opacity) {
-    // The shortest parts may still be too deep: their colour hardly changes.
+    // A part that is too short to be shortened may still be too deep for the rule; its colour
+    // hardly changes.
     float share = depth > largest_part_depth ? opacity * clamp(part.share.x, 0.0, 1.0)
                                              : seen_share(part, depth, opacity);
     return interval.left.rgb * opacity + interval.change.rgb * share;
 }
 
-// Adds a part of that colour and opacity.
+// Adds a part's associated colour and its opacity.
 void composite(vec3 color, float opacity, inout PartSum sum) {
     sum.color += sum.transmittance * color;
     sum.transmittance -= sum.transmittance * opacity;
@@ -36,14 +38,16 @@ void add_linear_part(Interval interval, LinearPart part, float depth, inout Part
 }
 
 #ifndef SINGLE_COLOR
-// Shortens a part from its back while it is too deep. Returns whether it was left whole.
+// Shortens a part, moving its back, until it is no longer too deep. Returns whether it was not
+// shortened.
 bool shorten(inout LinearPart part, inout float extent) {
-    const float shortest = 1e-6;
+    const float shortest = 1e-6;  // share of the part at which shortening ends
     bool whole = true;
     for (float depth = depth_of(part); depth > largest_part_depth && extent > shortest; depth = depth_of(part)) {
         whole = false;
-        // Optical depth grows at least with the first power of the extent from a place at which it
-        // is 0; a root does not overshoot if it grows with the second.
+        // If the optical depth falls with the first to second power of the extent, sqrt(.7 / depth)
+        // leaves .7 or more; but at least half of the extent is cut off. This may have to be
+        // repeated.
         float share = clamp(sqrt(0.7 / depth), min(shortest / extent, 0.5), 0.5);
         extent *= share;
         part.extinction *= share;
@@ -54,7 +58,7 @@ bool shorten(inout LinearPart part, inout float extent) {
 }
 #endif
 
-// Optical depth behind which nothing is visible.
+// Tells whether nothing behind these parts is visible.
 bool is_opaque(PartSum sum) {
 #ifdef SINGLE_COLOR
     return sum.depth > 20.0;
@@ -63,15 +67,14 @@ bool is_opaque(PartSum sum) {
 #endif
 }
 
-// A cubic from a place on: there its value is `scalar`, and the interval of the transfer function
-// is given.
+// A place t on a part, with the scalar there and the interval that holds it.
 struct CutPlace {
     float t, scalar;
     int interval;
 };
 
-// Returns the beginning of a cubic. At an end of an interval it begins on the side to which it
-// goes.
+// Returns the beginning of a part. If the scalar there is a knot, the interval is the one to which
+// the scalar goes. `turns`: where the scalar turns.
 CutPlace first_place(vec4 cubic, vec2 turns) {
     int interval = find_interval(clamp(cubic.x, 0.0, 1.0));
     bool falling = cubic_at(cubic, turns.x) < cubic.x;
@@ -79,10 +82,11 @@ CutPlace first_place(vec4 cubic, vec2 turns) {
     return CutPlace(0.0, cubic.x, interval);
 }
 
-// The monotone piece of a part from a place on, as far as it stays in one interval.
+// The stretch of a part from a place on over which the scalar is monotone and stays in one
+// interval.
 struct Stretch {
     Interval interval;
-    float to, at_to;    // its end, and the scalar there
+    float to, at_to;    // t at its end, and the scalar there
     int next_interval;  // behind its end
 };
 
@@ -97,7 +101,7 @@ Stretch next_stretch(vec4 cubic, vec2 turns, CutPlace place) {
     return Stretch(interval, to, crosses ? knot : at_end, place.interval + (crosses ? rising ? 1 : -1 : 0));
 }
 
-// Returns the piece of `extent` from a place on, up to a place at which the scalar is `at_end`.
+// Returns the piece of `extent` from a place on; the scalar at its end is `at_end`, exactly.
 LinearPart piece_from(CutPlace place, Interval interval, vec4 cubic, float extent, float at_end, float world_length) {
     vec4 piece = vec4(place.scalar, 0.0, (cubic.z + 3.0 * cubic.w * place.t) * extent * extent,
                       cubic.w * extent * extent * extent);
@@ -105,7 +109,8 @@ LinearPart piece_from(CutPlace place, Interval interval, vec4 cubic, float exten
     return linear_part(interval, piece, world_length * extent);
 }
 
-// Moves a place to the end of a stretch, or by a piece of `extent`.
+// Moves a place to the end of a stretch if `whole`, else by a piece of `extent`, but at least by
+// 6e-8, about one float.
 void advance(Stretch stretch, vec4 cubic, bool whole, float extent, inout CutPlace place) {
     float shortened = max(place.t + extent, place.t + 6e-8);
     place.t = whole ? stretch.to : shortened;
@@ -116,7 +121,8 @@ void advance(Stretch stretch, vec4 cubic, bool whole, float extent, inout CutPla
 #ifdef LIGHTS
 #include "slicing/lit_cell.glsl"
 #else
-// Adds the next stretch of a part, or the beginning of it, and moves the place to its end.
+// Adds the next stretch of a part, or its beginning if it is too deep, and moves the place behind
+// what was added.
 void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place, inout PartSum sum) {
     Stretch stretch = next_stretch(cubic, turns, place);
     float extent = max(stretch.to - place.t, 0.0);
@@ -130,13 +136,14 @@ void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place,
     advance(stretch, cubic, whole, extent, place);
 }
 
+// Adds a part piece by piece.
 void add_cut_part(vec4 cubic, float world_length, inout PartSum sum) {
     vec2 turns = cubic_turns(cubic);
     CutPlace place = first_place(cubic, turns);
     while (place.t < 1.0 && !is_opaque(sum)) add_piece(cubic, turns, world_length, place, sum);
 }
 
-// Adds a part whose scalar is a cubic.
+// Adds a part whose scalar is a cubic, by one rule if possible.
 void add_part(vec4 cubic, float world_length, inout PartSum sum) {
     vec2 range = clamp(cubic_range(cubic), 0.0, 1.0);
     Interval interval = interval_at(find_interval(range.x));
@@ -148,7 +155,7 @@ void add_part(vec4 cubic, float world_length, inout PartSum sum) {
     hard = hard || depth > largest_part_depth;
 #endif
     if (!hard) add_linear_part(interval, part, depth, sum);
-    // A loop, because software rasterisers skip loops but not branches.
+    // This is a loop and not an if, because software rasterisers compute both sides of branches.
     while (hard) {
         add_cut_part(cubic, world_length, sum);
         hard = false;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the slabs in which a ray comes near visible parts of the volume.
+// Finds the slabs in which a ray comes near visible min/max bricks of the volume.
 #include "slicing/brick_distances.glsl"
 
 const float brick_edge = float(BRICK_EDGE);
 
-// A ray in units of the volume's bricks. Its parameter is the depth from its entry into the box.
+// A ray in units of min/max bricks: start + d * change, where d is the depth from its entry into
+// the box.
 struct BrickRay {
     vec3 start;
     vec3 change;
     vec3 inverse;   // 1 / change
-    float margin;   // points may be off by this
-    REAL entry;     // depth
+    float margin;   // largest error of a point, in bricks
+    REAL entry;     // depth at which it enters the box
 };
 
 BrickRay brick_ray(Ray ray, REAL entry) {
@@ -19,21 +20,22 @@ BrickRay brick_ray(Ray ray, REAL entry) {
     bricks.start = (point_at(ray, entry) + first_sample) / brick_edge;
     bricks.change = mix(change, vec3(1e-20), lessThan(abs(change), vec3(1e-20)));
     bricks.inverse = 1.0 / bricks.change;
-    // The margin is a hundredth of a voxel, and 16 roundings of float if the ray begins far from
-    // the box.
+    // A hundredth of a voxel, plus 16 roundings to float of the largest coordinate, which counts if
+    // the ray begins far from the box.
     vec3 size = abs(vec3(ray.origin)) / brick_edge + last_distance + 1.0;
     bricks.margin = 0.01 / brick_edge + 1e-6 * max(size.x, max(size.y, size.z));
     bricks.entry = entry;
     return bricks;
 }
 
+// Consecutive slabs, and whether they may be visible.
 struct Stretch {
-    float end;   // the slab after it
+    float end;   // the slab behind the last one
     bool shown;
 };
 
-// Returns a run of slabs from number `slab` on. Either all of them are empty, or they may be
-// visible; then the run ends at the next slab that is worth a test.
+// Returns the slabs from number `slab` on that are known to be empty; or, if that one may be
+// visible, the slabs up to the next one for which a test is worth its time.
 Stretch next_stretch(BrickRay ray, float slab) {
     float depth = float(REAL(slab) * slab_thickness - ray.entry);
     vec3 place = ray.start + depth * ray.change;
@@ -42,7 +44,7 @@ Stretch next_stretch(BrickRay ray, float slab) {
     float reach = max(to_shown, 1.0);
     vec3 ahead = vec3(reach - ray.margin), behind = vec3(1.0 - reach + ray.margin);
     vec3 leave = (brick + mix(behind, ahead, greaterThan(ray.change, vec3(0.0))) - place) * ray.inverse;
-    // If a side is closer than the margin, it is not certain that the point lies between the sides.
+    // If the point is closer to a side of the cube than the margin, it may lie outside the cube.
     bool between = all(greaterThanEqual(place - brick, behind)) && all(lessThanEqual(place - brick, ahead));
     float exit = float(ray.entry) + depth + min(leave.x, min(leave.y, leave.z));
     float end = floor(exit / float(slab_thickness));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integrates a ray between two depths cell by cell through the trilinear field (docs/numerics.md,
-// section 9). The result does not depend on where segments begin. OCCUPIED_ONLY: leaps over empty
-// space. ENDS_EARLY: ends the ray once the rest is invisible.
+// section 9). The result is exact except for rounding and for Gauss' rules, so it does not depend
+// on how the ray is divided into segments. OCCUPIED_ONLY: leaps over empty space. ENDS_EARLY: ends
+// the ray once nothing behind is visible.
 #include "slicing/cell_cubic.glsl"
 #include "slicing/cell_ray.glsl"
 #include "slicing/cut_cell.glsl"

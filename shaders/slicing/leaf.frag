@@ -1,8 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A leaf of a compositing tree: composites all of its slabs along the fragment's ray, front to back, in registers.
-// ACCUMULATE: only those of one of several bricks, for blending into a float target; slicing/encode.frag makes the
-// leaf's image of the sum.
+// Draws a leaf of a compositing tree: composites all of its slabs along the fragment's ray, front
+// to back, in registers. ACCUMULATE: it composites only the slabs in one of several bricks, and is
+// blended into a float target, from which slicing/encode.frag makes the leaf's image.
 #include "slicing/segment.glsl"
 #ifndef EXACT
 #include "slicing/slab_march.glsl"
@@ -14,7 +14,7 @@ layout(location = 0) out vec4 associated;
 #endif
 
 uniform float leaf_slabs;
-flat in float slab;  // the first
+flat in float slab;  // number of the leaf's first slab
 
 void main() {
     Ray ray = view_ray(gl_FragCoord.xy);

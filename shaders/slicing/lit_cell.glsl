@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds lit parts of rays. Parts along which light bends are cut, too.
+// Integrates and composites lit parts of rays, as slicing/cut_cell.glsl does unlit ones. Parts
+// along which light bends too much are cut, too.
 #include "slicing/cell_light.glsl"
 
-// A step of a ray in one cell, and the direction to the eye, along the grid's axes.
+// A part of a ray in one cell, from `place` to place + change, and the direction to the eye along
+// the grid's axes.
 struct LitStep {
     ivec3 cell;
     vec3 place, change;
     vec3 to_eye;
 };
 
-// Lengths of the pieces of a part. The length doubles after two of that length: so pieces whose
-// light bends too much overlap only if one is at least twice as long as the other, which bounds
-// their number (plan/classification_choice.cpp).
+// Length of the pieces into which a part is cut. It doubles after two pieces of full length whose
+// light bends little enough. So, of pieces whose light bends too much, two overlap only if one is
+// at least twice as long as the other, which bounds their number (plan/classification_choice.cpp).
 struct PieceLength {
-    float first;    // beginning of the stretch
-    float longest;  // now
-    bool passed_one;
+    float first;    // at the beginning of each stretch
+    float longest;  // at present
+    bool passed_one;  // one full piece of the present length was added
 };
 
+// Chooses the length of the next piece. again: the last one bent too much. whole: it ended its
+// stretch. full: it had the full length.
 void choose_length(bool again, bool whole, bool full, float extent, inout PieceLength pieces) {
     float longer = full && pieces.passed_one ? min(2.0 * pieces.longest, 1.0) : pieces.longest;
     pieces.longest = again ? 0.5 * extent : whole ? pieces.first : longer;
     pieces.passed_one = !again && !whole && full != pieces.passed_one;
 }
 
-// Adds the next piece of a part, or the beginning of it, and moves the place to its end; if its
-// light bends too much it is not added.
+// Adds the next piece of a part, or its beginning if it is too deep, and moves the place behind
+// what was added. If its light bends too much, nothing is added and the next piece is shorter.
 void add_lit_piece(vec4 cubic, vec2 turns, float world_length, CellGradient gradient, vec3 to_eye,
                    inout PieceLength pieces, inout CutPlace place, inout PartSum sum) {
     Stretch stretch = next_stretch(cubic, turns, place);
@@ -46,6 +50,7 @@ void add_lit_piece(vec4 cubic, vec2 turns, float world_length, CellGradient grad
     advance(stretch, cubic, whole && to_end, extent, place);
 }
 
+// Adds a part piece by piece, the first one at most `longest`.
 void add_cut_part(vec4 cubic, float world_length, CellGradient gradient, vec3 to_eye, float longest,
                   inout PartSum sum) {
     vec2 turns = cubic_turns(cubic);
@@ -55,7 +60,7 @@ void add_cut_part(vec4 cubic, float world_length, CellGradient gradient, vec3 to
         add_lit_piece(cubic, turns, world_length, gradient, to_eye, pieces, place, sum);
 }
 
-// Adds a part whose scalar is a cubic, and along which the ray takes a step.
+// Adds a part whose scalar is a cubic, by one rule if possible. `way`: where it lies.
 void add_part(vec4 cubic, float world_length, LitStep way, inout PartSum sum) {
     vec2 range = clamp(cubic_range(cubic), 0.0, 1.0);
     Interval interval = interval_at(find_interval(range.x));
@@ -64,7 +69,7 @@ void add_part(vec4 cubic, float world_length, LitStep way, inout PartSum sum) {
     float depth = crosses ? 0.0 : depth_of(part);
     bool hard = crosses && range.y > interval.shown_beyond || depth > largest_part_depth;
     bool shown = hard || depth > 0.0;
-    // Loops, because software rasterisers skip loops but not branches.
+    // These are loops and not ifs, because software rasterisers compute both sides of branches.
     while (shown) {
         shown = false;
         CellGradient gradient = cell_gradient(way.cell, way.place, way.change);

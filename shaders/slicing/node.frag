@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// An inner node of a compositing tree. It reads all children, which are layers of an array texture with the nearest
-// first, and composites them in float (docs/numerics.md, section 4).
+// Draws an inner node of a compositing tree: composites its children in float (docs/numerics.md,
+// section 4). They are layers of an array texture, the nearest first.
 #include "slicing/node_output.glsl"
 
 uniform sampler2DArray children;
@@ -11,9 +11,10 @@ uniform sampler2DArray children_alpha;
 uniform int child_count;
 uniform int node_samples;
 uniform float sample_share;  // 1 / samples of the ray
-uniform int first_row;       // of the part of the image that is being drawn
+uniform int first_row;       // of the band of the image that is being drawn
 
-// Returns the number of samples in front of child i: floor(i n / k) without overflow (compositing/tree_shape.h).
+// Returns the number of the node's samples in front of child i: floor(i n / k) for n samples and k
+// children, without overflow (compositing/tree_shape.h).
 int boundary(int i) {
     return i * (node_samples / child_count) + i * (node_samples % child_count) / child_count;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a node of a compositing tree that is computed in a program (docs/numerics.md, section 4). ROOT: it writes
-// the picture, associated colour and opacity. Otherwise it writes colour that is not associated, and the code of the
-// optical depth. MONOCHROME: the code alone. ALPHA_APART: the code in a texture of its own.
+// Writes the result of a node of a compositing tree whose nodes are computed in float
+// (docs/numerics.md, section 4). ROOT: the picture, associated colour and opacity. Otherwise:
+// colour that is not associated, and the code of the optical depth. MONOCHROME: the code alone.
+// ALPHA_APART: the code goes to a texture of its own.
 #include "compositing/node_code.glsl"
 
 #ifdef ROOT
@@ -11,13 +12,14 @@ layout(location = 0) out vec4 image;
 #ifdef ALPHA_APART
 layout(location = 1) out vec4 alpha_image;
 #endif
-uniform float node_share;  // of the ray's samples
+uniform float node_share;  // the node's share of the ray's samples
 #endif
 uniform float largest_color;  // the colour that images of nodes store as 1, because fixed point holds no more
 #if defined(MONOCHROME) && !defined(SINGLE_COLOR)
 uniform vec3 single_color;
 #endif
 
+// `color`: associated. `depth`: optical depth.
 void write_node(vec3 color, float depth) {
     float opacity = opacity_from_depth(depth);
 #ifdef MONOCHROME

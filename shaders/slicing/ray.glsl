@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewing ray of a fragment in the brick's index space is origin + depth * direction, where depth is eye-space
-// depth from the front of the nearest slab. All coefficients are computed on the processor in double precision and
-// relative to the box, so that neither a far eye nor far world coordinates cost accuracy. With PRECISE_RAYS they stay
-// double until lengths are known: rays that graze a face, and boxes much thinner than long, lose several digits in
-// float.
+// Computes the viewing ray of a fragment in the texture's index space: origin + depth * direction,
+// where depth is eye-space depth from the front of the nearest slab. The processor computes all
+// coefficients in double precision, relative to the box, so that neither a far eye nor far world
+// coordinates cost accuracy. PRECISE_RAYS: rays stay double until lengths are known, because those
+// that graze a face, and boxes much thinner than long, lose several digits in float.
 #ifdef PRECISE_RAYS
 #define REAL double
 #define REAL2 dvec2
@@ -18,17 +18,17 @@
 
 uniform vec2 image_middle;      // in pixels
 uniform REAL slab_thickness;    // of depth
-uniform REAL3 origin_middle;    // of the ray through the image's middle
-uniform REAL3 origin_column;    // change per pixel to the right
-uniform REAL3 origin_row;       // and downwards
+uniform REAL3 origin_middle;    // origin of the ray through the image's middle
+uniform REAL3 origin_column;    // change of the origin per pixel to the right
+uniform REAL3 origin_row;       // and per pixel downwards
 uniform REAL3 direction_middle;
 #ifndef ORTHOGRAPHIC
 uniform REAL3 direction_column;
 uniform REAL3 direction_row;
-uniform float pixel_size;       // at depth 1
+uniform float pixel_size;       // width of a pixel at depth 1
 #endif
 
-uniform vec3 box_min;  // the brick's part of the volume's box, index space
+uniform vec3 box_min;  // the texture's part of the volume's box, in its index space
 uniform vec3 box_max;
 uniform vec3 last_face;  // box_max, or beyond all places (slicing/slab_geometry.h)
 
@@ -61,12 +61,13 @@ vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direct
 // Returns the depths of the front and the back of `count` slabs from number `slab` on.
 REAL2 slab_depths(float slab, float count) { return REAL2(REAL(slab), REAL(slab + count)) * slab_thickness; }
 
-// Returns the depths between which the ray is inside the box and inside the slab. If there are
-// none, y <= x. A ray that runs in the box's first face is inside; one in its last face is inside
-// if that is last_face.
+// Returns the depths between which the ray is inside the box and in the range `slab`; y <= x if
+// there are none. A ray that runs in a first face of the box (smallest coordinate) is inside; a ray
+// in a last face is inside only if that face is last_face.
 REAL2 clip_to_box(Ray ray, REAL2 slab) {
     const REAL3 least = REAL3(1e-20);  // a ray that runs along a face never crosses it
-    // A ray in a face stays inside if it is taken to leave the face into the box.
+    // A ray that runs in a face is taken to be slowly leaving the face, into the box if the face
+    // counts as inside.
     REAL3 along = mix(least, -least, equal(ray.origin, REAL3(last_face)));
     REAL3 direction = mix(ray.direction, along, lessThan(abs(ray.direction), least));
     REAL3 inverse = REAL3(1.0) / direction;

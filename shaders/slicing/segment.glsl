@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the colour, not associated, and the optical depth of the part of a ray between two depths. DEPTH is the
-// precision of the optical depth; codes of n bits need double.
+// Computes the colour, not associated, and the optical depth of the part of a ray between two
+// depths: integrate(), which has a form for each way to classify. DEPTH: type of the optical depth;
+// codes of n bits need double.
 #define SAMPLING_NONE 0
 #define SAMPLING_FETCH 1
 #define SAMPLING_FILTER 2
@@ -38,7 +39,7 @@ struct Segment {
     vec3 color;
     DEPTH depth;
 #ifdef TABLE_LIT
-    vec4 front;  // front parts (optics/segment_integral.h) of colour and opacity, per opacity
+    vec4 front;  // front parts (optics/segment_integral.h) of colour and opacity, over opacity
 #endif
 };
 
@@ -80,7 +81,7 @@ Segment integrate(Ray ray, REAL2 depths) {
 }
 #elif defined(PREINTEGRATED)
 #ifdef LINEAR
-// If the transfer function is one piece, the integral has a closed form.
+// Integrates in closed form, for transfer functions of one linear piece.
 Segment integrate_linear_run(float front, float back, float world_length) {
     vec4 piece = interval_place(0);
     vec2 shares = vec2(share_of_interval(piece, front), share_of_interval(piece, back));
@@ -102,16 +103,17 @@ Segment integrate_samples(float front, float middle, float back, float world_len
     if (is_nan(front) || is_nan(middle) || is_nan(back)) return segment_of(vec3(0.0), DEPTH(0.0));
 #endif
 #ifndef LINEAR
-    // A segment is empty if all values between the least and the largest sample are transparent, so
-    // that empty space may be left out.
+    // A segment is empty if the transfer function shows nothing between the least and the largest
+    // sample. Omitting empty space relies on this.
     float least = clamp(min(middle, min(front, back)), 0.0, 1.0);
     float largest = clamp(max(middle, max(front, back)), 0.0, 1.0);
     bool transparent = is_transparent(least, largest);
 #endif
-    // Only segments with a linear scalar can be integrated, but the trilinear field is curved. So
-    // the line from front to back is moved to have the mean of the parabola through the three
-    // samples (Simpson's rule, exact for the cubic of one cell). If extinction is linear in the
-    // scalar, optical depth is then right to fourth order instead of second.
+    // The table and the closed form integrate a scalar that is linear along the segment, but the
+    // trilinear field is curved. So the line from front to back is moved to have the mean of the
+    // parabola through the three samples (Simpson's rule, exact for the cubic of one cell). If
+    // extinction is linear in the scalar, the optical depth is then right to fourth order instead
+    // of second.
     float bend = (2.0 / 3.0) * (middle - 0.5 * (front + back));
     front = clamp(front + bend, 0.0, 1.0);
     back = clamp(back + bend, 0.0, 1.0);

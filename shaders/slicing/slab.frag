@@ -3,9 +3,10 @@
 #ifdef FRAMEBUFFER_FETCH
 #extension GL_EXT_shader_framebuffer_fetch : require
 #endif
-// One slab of the slicing renderer: the part of the fragment's ray inside the slab and inside the box. Opacity comes
-// from extinction and true length, never from an assumed step. BITS: opacity is rounded to a code here, by dithering
-// or as render.emulate says. EMULATED: it is composited here, too. OPACITY_ONLY: for a fixed-point node of a tree.
+// Draws one slab: the part of the fragment's ray inside the slab and inside the box. Opacity comes
+// from extinction and true length, never from an assumed step. BITS: opacity is rounded to a code
+// here, by dithering or as render.emulate says. EMULATED: OVER is computed here, too, on codes.
+// OPACITY_ONLY: opacity alone, for a leaf of a tree of fixed-point nodes.
 #include "slicing/segment.glsl"
 #ifdef BITS
 #include "compositing/codes.glsl"

@@ -8,7 +8,7 @@ uniform vec2 image_size;
 
 flat out float slab;
 #ifdef DITHER_PERIOD
-uniform sampler2D dither_ranks;  // of alpha, then of colour, in rows of 256
+uniform sampler2D dither_ranks;  // ranks of the slabs of a period, for alpha, then for colour; rows of 256
 flat out uvec2 ranks;
 uint rank_at(int place) { return uint(texelFetch(dither_ranks, ivec2(place & 255, place >> 8), 0).r); }
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Composites the slabs of a leaf along a ray, front to back, in registers. OCCUPIED_ONLY: leaps
-// over empty space. ENDS_EARLY: ends the ray once the rest is invisible.
+// over empty space. ENDS_EARLY: ends the ray once nothing behind is visible.
 #ifdef OCCUPIED_ONLY
 #include "slicing/empty_space.glsl"
 #endif
@@ -9,11 +9,11 @@ uniform float opaque_depth;
 #endif
 
 // Returns the associated colour and the optical depth of the part of a ray between the depths
-// `whole`, which `slabs` slabs from number `slab` on hold.
+// `whole`. It lies in slabs slab .. slab + slabs - 1.
 void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associated_color, out float optical_depth) {
     float first = max(slab, floor(float(whole.x / slab_thickness)) - 1.0);
     float end = min(slab + slabs, ceil(float(whole.y / slab_thickness)) + 1.0);
-    // These are sums of thousands of small terms, in double with PRECISE_RAYS.
+    // These are sums of thousands of small terms. With PRECISE_RAYS they are double.
     REAL3 color = REAL3(0.0);
     REAL depth = REAL(0.0);
     REAL transmittance = REAL(1.0);
@@ -25,7 +25,7 @@ void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associa
 #endif
 #ifdef OCCUPIED_ONLY
     BrickRay bricks = brick_ray(ray, whole.x);
-    float shown_end = first;  // slabs before this may be visible
+    float shown_end = first;  // slabs i before this one may be visible
 #endif
     for (float i = first; i < end; ++i) {
 #ifdef OCCUPIED_ONLY
@@ -37,7 +37,8 @@ void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associa
         }
         if (i >= end) break;
 #ifdef PREINTEGRATED
-        // After a leap, the last empty slab gives the scalar at the front.
+        // After a leap, the last empty slab is evaluated only for the scalar at its back, which is
+        // that at the front of the next one.
         bool leapt = i > here;
         if (leapt) i -= 1.0;
 #endif

@@ -3,8 +3,9 @@
 #ifdef FRAMEBUFFER_FETCH
 #extension GL_EXT_shader_framebuffer_fetch : require
 #endif
-// Maps the image of a fixed-point node into its parent's buffer (LaMar 2004, section 6.2, "swizzle"): a dependent
-// lookup of 1 - (1 - Phi)^share, tabulated in double precision.
+// Composites the image of a fixed-point node onto its parent's buffer (LaMar 2004, section 6.2,
+// "swizzle"): each opacity Phi becomes 1 - (1 - Phi)^share, looked up in a table that was computed
+// in double precision.
 #include "compositing/codes.glsl"
 #ifdef EMULATED
 #include "compositing/programmable_blending.glsl"
@@ -20,7 +21,7 @@ uniform int stage;
 #endif
 
 uniform sampler2D child;
-uniform sampler2D swizzle;  // (whole part, rest) of each code's opacity times the largest code; rows of 256
+uniform sampler2D swizzle;  // by code, rows of 256: whole part and fraction of the parent's opacity * largest code
 
 void main() {
     int code = int(texelFetch(child, ivec2(gl_FragCoord.xy), 0).r * STORED + 0.5);

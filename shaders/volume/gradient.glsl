@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gradients at the samples of the brick, along the grid's axes (slicing/gradient_map.h).
-// Gradients that are read together have the unit 2^(largest - unit_octaves), with their largest
-// exponent `largest`: so squares of the largest, and of those 1e31 times as small, are numbers in
-// float32.
+// Reads the gradients at the samples of the texture, along the grid's axes
+// (slicing/gradient_map.h), as 16-bit components with a common exponent. Gradients that are read
+// together are converted to a common unit, 2^(largest - unit_octaves), where `largest` is their
+// largest exponent. So the squares of the largest, and of gradients 1e31 times as small, can be
+// held in float32.
 uniform isampler3D gradients;
-uniform float smallest_gradient;  // times 2^smallest_exponent, 1 to 2
+uniform float smallest_gradient;  // 1 to 2; times 2^smallest_exponent
 uniform int smallest_exponent;
 uniform vec3 spacing;             // of samples, in the unit of lengths along rays
 const int unit_octaves = 32;
@@ -12,15 +13,16 @@ const int unit_octaves = 32;
 // Returns 2^exponent, or 0 if that is too small.
 float power_of_two(int exponent) { return intBitsToFloat(max(exponent + 127, 0) << 23); }
 
-// Returns the components, and their common exponent.
+// Returns the components (xyz) and their common exponent (w) at a sample.
 ivec4 stored_gradient(ivec3 sample_index) { return texelFetch(gradients, sample_index, 0); }
 
+// Returns a gradient in the unit of gradients with this largest exponent.
 vec3 gradient_in_unit(ivec4 stored, int largest) {
     return vec3(stored.xyz) * power_of_two(stored.w - largest + unit_octaves);
 }
 
-// Returns the square of the smallest gradient in that unit, limited to the numbers that float32 can
-// square: outside, all or nothing is lit.
+// Returns the square of the smallest gradient that is lit (Lighting::smallest_gradient) in that
+// unit, limited to numbers that float32 can square: beyond these, everything or nothing is lit.
 float smallest_square_in_unit(int largest) {
     const int most = 62;
     float smallest = smallest_gradient * power_of_two(clamp(smallest_exponent + unit_octaves - largest, -most, most));
@@ -29,11 +31,11 @@ float smallest_square_in_unit(int largest) {
 
 int largest_exponent(ivec4 a, ivec4 b, ivec4 c, ivec4 d) { return max(max(a.w, b.w), max(c.w, d.w)); }
 
-// The gradients at the corners of a cell, in their common unit: at its lower and its upper x, each
-// at (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1).
+// The gradients at the corners of a cell in their common unit, at its lower and its upper x. The
+// order in each array is (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1).
 struct CornerGradients {
     vec3 lower_x[4], upper_x[4];
-    int largest;
+    int largest;  // exponent
 };
 
 CornerGradients corner_gradients(ivec3 lower, ivec3 upper) {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the scalar at a point of the brick in index space, normalised so that the volume's range is [0, 1].
+// Computes the scalar at a point of the texture's index space, normalised so that the volume's
+// range is [0, 1].
 #if SAMPLING != SAMPLING_NONE
 uniform sampler3D volume;
-uniform vec3 last_sample;     // the brick's size in samples, minus one
+uniform vec3 last_sample;     // the texture's size in samples, minus one
 uniform vec2 normalisation;   // scale and offset from texel to normalised scalar
 
 #if SAMPLING == SAMPLING_FETCH
 float fetch_scalar(ivec3 index) { return texelFetch(volume, index, 0).r; }
 
-// Interpolates trilinearly in float32, because the texture unit of a GPU has 8-bit weights (docs/numerics.md, section
-// 2).
+// Interpolates trilinearly in float32, because the texture units of GPUs have 8-bit weights
+// (docs/numerics.md, section 2).
 float raw_scalar(vec3 point) {
     ivec3 lower = ivec3(min(point, max(last_sample - 1.0, 0.0)));
     ivec3 upper = min(lower + 1, ivec3(last_sample));
@@ -26,11 +27,11 @@ float raw_scalar(vec3 point) {
 float raw_scalar(vec3 point) { return texture(volume, (point + 0.5) / (last_sample + 1.0)).r; }
 #endif
 
-// Cells with a sample that is NaN are transparent. The NaN survives interpolation and is recognised by its bits,
-// because compilers may assume that comparisons meet no NaN.
+// Tells whether a value is NaN: cells with a NaN sample are transparent, and interpolation keeps
+// the NaN. It reads bits, because compilers may assume that comparisons meet no NaN.
 bool is_nan(float value) { return (floatBitsToUint(value) & 0x7fffffffu) > 0x7f800000u; }
 
-// Beyond the samples (`cell` axes) the border value repeats.
+// Returns the normalised scalar. Beyond the samples (`cell` axes) the border value repeats.
 float sample_scalar(vec3 point) {
     return raw_scalar(clamp(point, vec3(0.0), last_sample)) * normalisation.x + normalisation.y;
 }

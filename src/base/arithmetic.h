@@ -23,8 +23,7 @@ class CompensatedSum {
 };
 
 // The unevaluated sum hi + lo, |lo| <= ulp(hi)/2, of 31 digits (Dekker 1971; Hida, Li and Bailey
-// 2001), for the operations of a ray whose rounding would decide whether, and how far, it meets the
-// box.
+// 2001), where rounding would decide whether, and how far, a ray meets the box.
 struct DoubleDouble {
     double hi = 0;
     double lo = 0;
@@ -76,7 +75,7 @@ inline bool operator<(DoubleDouble a, DoubleDouble b) {
     return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
 }
 
-// Returns the median of one value or more: if they are even, the mean of the two in the middle.
+// Returns the median of one or more values: for an even number, the mean of the middle two.
 inline double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;

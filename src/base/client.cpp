@@ -24,13 +24,14 @@ namespace {
 
 thread_local Client client_of_thread;
 
-// Returns this thread's client, with data allowed below a folder or, if it is null, anywhere.
+// Returns this thread's client, limited to data below `folder`; not limited if it is null.
 Client allowed_below(std::shared_ptr<const std::filesystem::path> folder) {
     Client client = client_of_thread;
     client.only_below = std::move(folder);
     return client;
 }
 
+// Least time between two drawings on the terminal, and between two reports to a listener.
 constexpr double redraw_seconds = 0.5, report_seconds = 0.05;
 bool quiet_process = false;
 std::atomic<bool> one_is_shown{false};
@@ -85,7 +86,7 @@ Progress::~Progress() {
     if (drawn_ && listener_ == nullptr) replace_line("");
 }
 
-// Returns false if nobody listens, or if an outer piece of work reports already.
+// Returns false if nobody listens, or if a Progress around this one reports already.
 bool Progress::begin() {
     if (listener_ != nullptr) return listener_->report && !listener_->busy.exchange(true);
     return !quiet_process && isatty(STDERR_FILENO) != 0 && !one_is_shown.exchange(true);
@@ -99,8 +100,8 @@ bool Progress::is_quiet() {
     return quiet_process;
 }
 
-// Only one thread draws, and the others go on: a listener may run tasks that come back here. Then
-// the thread looks whether the end has come meanwhile, which a listener must always hear.
+// One thread at a time draws; others go on without waiting, as a listener may run tasks that call
+// advance(). It then checks for the end, of which a listener must always hear.
 void Progress::advance(std::int64_t steps) {
     done_ += steps;
     if (!visible_) return;

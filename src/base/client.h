@@ -19,26 +19,24 @@ using WarningTaker = std::function<void(const std::string&)>;
 // the text names the file, what was found and what was expected. Safe from any thread.
 void warn(const std::string& text);
 
-// Hears how far long work is. `report` gets a name ("slicing") and the share that is done, from 0
-// to 1, from one thread at a time. If pieces of work are nested, only the outermost reports.
+// Receives the progress of long work: a name ("slicing") and the share done, 0 to 1, from one
+// thread at a time. If Progress objects are nested, only the outermost reports.
 struct ProgressListener {
     std::function<void(const std::string&, double)> report;
     std::atomic<bool> busy{false};
 };
 
-// The one for whom a thread works. A program's is its user: signals request the stop
-// (base/process.h), and the terminal shows warnings and progress. Without a taker warnings are
-// lost.
+// The person or program for whom a thread works. If it is the user of a command, signals request
+// the stop (base/process.h), and the terminal shows warnings and progress.
 struct Client {
     std::stop_token stop;
-    const WarningTaker* warnings = nullptr;
+    const WarningTaker* warnings = nullptr;  // null: warnings are lost
     ProgressListener* progress = nullptr;
     // Canonical name of the folder that data must be in (base/input_file.h); null: anywhere.
     std::shared_ptr<const std::filesystem::path> only_below = nullptr;
 };
 
-// Makes its thread, and the tasks of base/parallel.h that the thread starts, work for `client`
-// while it exists. Scopes may be nested; the innermost counts.
+// Makes its thread, and tasks (base/parallel.h) started there, work for `client`; may be nested.
 class ClientScope {
   public:
     explicit ClientScope(Client client);
@@ -53,30 +51,30 @@ class ClientScope {
     Client before_;
 };
 
-// Returns `folder` by its canonical name, which stays valid if the program changes its folder; null
-// if the name is empty. Fails with `key` if it is no folder.
+// Returns the canonical name of `folder`, which stays valid if the program changes its working
+// directory; null if `folder` is empty. Throws Error, which begins with `key`, if it is no folder.
 std::shared_ptr<const std::filesystem::path> allowed_folder(const std::filesystem::path& folder,
                                                             const std::string& key = "only_below");
 
-// Lets its thread open data only below `folder`, unless that is empty.
+// Lets its thread open data only below `folder`; if empty, what was allowed stays allowed.
 class OnlyBelowScope : public ClientScope {
   public:
     explicit OnlyBelowScope(const std::filesystem::path& folder);
 };
 
-// Lets its thread open files anywhere: lamina's own files, which no data name.
+// Lets its thread open files anywhere: for lamina's own files, whose names do not come from data.
 class OwnFilesScope : public ClientScope {
   public:
     OwnFilesScope();
 };
 
-// Throws Interrupted once this thread's client has requested a stop: the caller of a library's
-// function, or a signal (base/process.h). Long loops call it; safe from any thread.
+// Throws Interrupted once a stop is requested from this thread's client, by the caller of a library
+// function or by a signal (base/process.h). Long loops call it; safe from any thread.
 void check_interrupt();
 
-// A line on stderr with the share done and the time left, on terminals alone, drawn at most twice a
-// second and wiped at the end. If several exist, only the first is drawn, that of the whole work. A
-// client that listens is told some 20 times a second and at the end.
+// Reports the progress of long work: to its client's listener some 20 times a second and at the end
+// or, if stderr is a terminal, as a line with share done and remaining time, drawn at most twice a
+// second and wiped at the end. Only the first Progress, about all of the work, is drawn.
 class Progress {
   public:
     Progress(std::string label, std::int64_t total);

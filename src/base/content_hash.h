@@ -36,7 +36,7 @@ class ContentHash {
     std::string hex() const { return fmt::format("{:016x}", word()); }  // 16 digits
 
   private:
-    // Multiplication carries only to higher bits. The rotation brings high bits down again.
+    // Multiplication changes only higher bits; the rotation brings high bits down again.
     void add_word(std::uint64_t word) {
         state_ = (state_ ^ word) * 0x100000001b3u;
         state_ = (state_ << 29) | (state_ >> 35);

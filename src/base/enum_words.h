@@ -11,14 +11,14 @@
 
 namespace lamina {
 
-// Tells whether an enum has an enumerator of this value: compilers write others as (Enum)number.
+// Tells whether an enum has an enumerator of this value: compilers print others as (Enum)number.
 template <auto value>
 constexpr bool is_enumerator() {
     return std::string_view(__PRETTY_FUNCTION__).find("value = (") == std::string_view::npos;
 }
 
-// Returns a value's word, or null beyond the last one. `words` is the enum's only table of words,
-// in the order of the enum, and stands in its name_of(). The enum's values must be 0, 1, 2, ...
+// Returns the word of an enum's value (0, 1, 2, ...), or null beyond the last. Its name_of() passes
+// the enum's one table `words`, in the order of the enumerators, to this function.
 template <typename Enum, std::size_t count>
 const char* word_of(Enum value, const char* const (&words)[count]) {
     static_assert(is_enumerator<static_cast<Enum>(count - 1)>(), "a word without a value");
@@ -27,7 +27,7 @@ const char* word_of(Enum value, const char* const (&words)[count]) {
     return number < count ? words[number] : nullptr;
 }
 
-// Lists an enum's words, made by word_of() in its name_of(), with their values, in its order.
+// Lists an enum's words, which its name_of() returns, and values in the enum's order.
 template <typename Enum>
 std::vector<std::pair<const char*, Enum>> enum_words() {
     std::vector<std::pair<const char*, Enum>> words;
@@ -48,7 +48,7 @@ std::optional<Enum> value_of_word(std::string_view word) {
     return std::nullopt;
 }
 
-// Returns the words as "a, b or c", for messages.
+// Returns the words of an enum as "a, b or c", for messages.
 template <typename Enum>
 std::string alternatives() {
     const auto words = enum_words<Enum>();

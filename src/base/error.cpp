@@ -60,14 +60,14 @@ std::size_t character_length(std::string_view text) {
     return bad ? 0 : length;
 }
 
-// U+0000 to U+001F and U+007F to U+009F.
+// Tells whether a UTF-8 character is a control: U+0000 to U+001F or U+007F to U+009F.
 bool is_control(std::string_view character) {
     const unsigned first = byte_at(character, 0);
     if (character.size() == 1) return first < ' ' || first == 0x7f;
     return first == 0xc2 && byte_at(character, 1) < 0xa0;
 }
 
-// Levenshtein distance.
+// Returns the Levenshtein distance.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), 0);
@@ -118,14 +118,14 @@ std::string printable(std::string_view text) {
 }
 
 std::string number_text(double value, double fineness, int digits) {
-    // Large numbers that are close together are easier to compare as 1000000 than as 1e+06.
+    // If values differ little from each other, 1000000 is easier to compare than 1e+06.
     if (fineness < 1e-4 * std::abs(value) && std::abs(value) < 1e15)
         digits = std::max(digits, static_cast<int>(std::log10(std::abs(value))) + 1);
     std::string text = fmt::format("{:.{}g}", value, digits);
     for (int more = digits + 1; more <= std::numeric_limits<double>::max_digits10; ++more) {
         double shown = 0;
         std::from_chars(text.data(), text.data() + text.size(), shown);
-        // Not a number, or infinite: no digits help.
+        // For NaN and infinity more digits do not help.
         if (!std::isfinite(value) || std::abs(shown - value) <= fineness) break;
         text = fmt::format("{:.{}g}", value, more);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Errors that a user can cause: Error (exit code 1), UsageError (2) and, by a signal, Interrupted
-// (128 plus its number); mistakes of the program are assert()s. Texts for messages.
+// (128 + its number); mistakes of the program are assert()s. Also texts for messages.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,16 +30,15 @@ template <typename... Args>
 // Returns a text on one line: newlines and other control characters become single spaces.
 std::string one_line(const std::string& text);
 
-// Returns the message of an exception on one line. Errors that a user can cause have their own; a
-// refusal of the file system has the system's reason; any other exception is a mistake of the
-// program, and the line says what to report.
+// Returns an exception's message on one line. User errors have their own; file-system errors get
+// the system's reason; any other is a mistake of the program, and the line says what to report.
 std::string error_text(const std::exception& error);
 
 // Returns a text for a message, cut between two characters if it has more than `most` bytes.
 inline std::string shortened(const std::string& text, std::size_t most = 60) {
     if (text.size() <= most) return text;
     const auto continues = [&](std::size_t at) {
-        // A continuation byte of UTF-8.
+        // Continuation bytes of UTF-8 are 10xxxxxx.
         return (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80;
     };
     std::size_t end = most - 3;
@@ -47,15 +46,15 @@ inline std::string shortened(const std::string& text, std::size_t most = 60) {
     return text.substr(0, end) + "...";
 }
 
-// Returns a text that a terminal shows without obeying it. Control characters (also those of two
-// bytes) and bytes that are not UTF-8 become \n, \t or \xNN.
+// Returns a text without control characters, which a terminal would obey: these (also those of two
+// bytes), and bytes that are not UTF-8, become \n, \t or \xNN.
 std::string printable(std::string_view text);
 
 // Returns a number with `digits` significant digits, or as many more as bring it within `fineness`
 // of the value, so that close numbers far from zero can be told apart.
 std::string number_text(double value, double fineness, int digits = 4);
 
-// Returns a fineness that tells values between lo and hi apart: a thousandth of the range, > 0.
+// Returns a fineness that keeps values in lo .. hi distinct: a thousandth of the range, > 0.
 double fineness_of(double lo, double hi);
 
 // Returns a share as a percentage with three digits.

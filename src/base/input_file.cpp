@@ -89,7 +89,7 @@ ByteBuffer read_large_file(const std::filesystem::path& path) {
 }
 
 std::string read_file_bytes(const std::filesystem::path& path) {
-    // Bytes; far more than any page or journal has.
+    // In bytes: far more than any text that lamina reads has.
     constexpr std::uint64_t most = std::uint64_t{1} << 30;
     const RandomAccessFile file(path);
     if (file.size() > most)

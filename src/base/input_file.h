@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-// Memory for bytes that are filled right after it is made, and so is not zeroed before.
+// Memory for bytes that will be filled right after it is made; it is not zeroed.
 class ByteBuffer {
   public:
     ByteBuffer() = default;
@@ -29,7 +29,7 @@ class ByteBuffer {
     std::size_t size_ = 0;
 };
 
-// A regular file of which any part can be read. Throws Error if it is none or cannot be read.
+// A regular file, read at any position. Throws Error if it is not one or cannot be read.
 class RandomAccessFile {
   public:
     explicit RandomAccessFile(const std::filesystem::path& path);
@@ -38,12 +38,13 @@ class RandomAccessFile {
     ~RandomAccessFile();
 
     std::uint64_t size() const { return size_; }  // in bytes, when it was opened
-    // Reads up to `count` bytes from `begin` on; returns how many there were: fewer at the end.
+    // Reads `count` bytes from `begin` on, fewer at the end of the file; returns their number.
     std::size_t read_some(std::uint64_t begin, char* to, std::size_t count) const;
-    void read(std::uint64_t begin, char* to, std::size_t count) const;  // all of them
-    // Tells the system that reads go from the first byte to the last: it then reads further ahead.
+    // Reads all `count` bytes, or throws Error.
+    void read(std::uint64_t begin, char* to, std::size_t count) const;
+    // Tells the system that reads go forwards, so that it reads further ahead.
     void expect_in_order() const;
-    // Tells the system that reads are of single places: it then reads nothing else.
+    // Tells the system that reads are scattered, so that it does not read ahead.
     void expect_single_reads() const;
 
   private:
@@ -52,11 +53,11 @@ class RandomAccessFile {
     std::uint64_t size_;
 };
 
-// Throws Error if this thread's client allows files below a folder only (base/client.h), and
-// `path`, with all links followed, is neither that folder nor below it.
+// Throws Error if this thread's client allows only files below a folder (base/client.h) and `path`,
+// with all links followed, is neither this folder nor below it.
 void expect_allowed(const std::filesystem::path& path);
 
-// Tells whether this thread's client allows some files only.
+// Tells whether this thread's client allows only files below a folder.
 bool is_restricted();
 
 // Throws Error unless `path` is allowed and is a regular file: opening a pipe may never end.
@@ -66,10 +67,10 @@ void expect_regular_file(const std::filesystem::path& path);
 ByteBuffer read_large_file(const std::filesystem::path& path);
 std::string read_file_bytes(const std::filesystem::path& path);  // of at most 1 GiB
 
-// Returns the first `most` bytes of a file, or all; none if it is no regular, readable file.
+// Returns at most the first `most` bytes of a file; "" if it is no readable, regular file.
 std::string file_beginning(const std::filesystem::path& path, std::size_t most);
 
-// Returns a regular file's ContentHash (base/content_hash.h). Throws Error if it cannot.
+// Returns a regular file's ContentHash (base/content_hash.h). Throws Error if it is unreadable.
 std::string hash_of_file(const std::filesystem::path& path);
 
 // A file of the source tree that the build embeds into the program (cmake/EmbedFiles.cmake).

@@ -22,7 +22,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// An iterator that checks for a stop. Parsers copy it, so it reports its place to the outside.
+// An input iterator for the parser that calls check_interrupt(). The parser copies it, so it writes
+// how far it has come to a variable outside.
 class Cursor {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -46,8 +47,8 @@ class Cursor {
     const char** farthest_;
 };
 
-// Builds the document from the parser's events. The library's own builder, with a callback,
-// searches the whole list again after each object in it, which takes quadratic time.
+// Builds the document from the parser's events. (nlohmann's own builder, if it has a callback,
+// searches a list from its beginning after each object in it, which takes quadratic time.)
 class Builder : public nlohmann::json_sax<Json> {
   public:
     explicit Builder(std::string_view text) : text_(text), farthest_(text.data()) {}
@@ -87,7 +88,8 @@ class Builder : public nlohmann::json_sax<Json> {
     }
 
   private:
-    static constexpr std::size_t most_of_message = 200;  // it holds the word that was read last
+    // Bytes of the parser's message that are kept: it contains the last word, which may be long.
+    static constexpr std::size_t most_of_message = 200;
 
     Json& put(Json&& value) {
         if (open_.empty()) return root_ = std::move(value);
@@ -128,7 +130,7 @@ class Builder : public nlohmann::json_sax<Json> {
     std::string_view text_;
     const char* farthest_;
     Json root_;
-    std::vector<Json*> open_;  // lists and objects that have not ended, each in the one before
+    std::vector<Json*> open_;  // lists and objects that are not closed yet, innermost last
     Json* member_ = nullptr;   // the value of the key that was read last, in the innermost object
     std::size_t values_ = 0;
 };

@@ -17,14 +17,14 @@ inline constexpr std::uintmax_t most_json_bytes = 64u << 20;
 inline constexpr std::size_t most_json_depth = 64;  // nesting of lists and objects
 inline constexpr std::size_t most_json_values = 10'000'000;
 
+// The text is not valid JSON.
 class JsonSyntaxError : public Error {
   public:
     using Error::Error;
 };
 
-// Parses a JSON text that a user can write, in time and memory proportional to its length, until a
-// stop is requested (throws Interrupted). Throws JsonSyntaxError, and Error if a key occurs twice
-// in an object or a limit is exceeded, with line and column.
+// Parses JSON from users in linear time and memory. Throws Interrupted once a stop is requested,
+// JsonSyntaxError, and Error (line, column) if an object has a key twice or a limit is exceeded.
 nlohmann::json parse_json(std::string_view text);
 
 // Parses a JSON file. Error messages begin with its name.

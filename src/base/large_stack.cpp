@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t stack_bytes = 8u << 20;  // as most systems have it
+constexpr std::size_t stack_bytes = 8u << 20;  // the usual limit (ulimit -s)
 
 struct Job {
     const std::function<int()>& work;
@@ -31,7 +31,7 @@ int with_large_stack(const std::function<int()>& work) {
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, stack_bytes);
-    pthread_setattr_default_np(&attributes);  // for threads of libraries
+    pthread_setattr_default_np(&attributes);  // for threads that libraries start
     Job job{work};
     pthread_t thread{};
     const int failure = pthread_create(&thread, &attributes, do_job, &job);

@@ -15,7 +15,7 @@ namespace lamina {
 
 namespace {
 
-std::atomic<std::uint64_t> told_limit{0}, default_limit{0};  // 0: none
+std::atomic<std::uint64_t> told_limit{0}, default_limit{0};  // 0: not set
 
 }  // namespace
 
@@ -76,7 +76,8 @@ std::shared_ptr<void> filled_memory(std::size_t bytes) {
 }
 
 void prefer_huge_pages(void* memory, std::size_t bytes) {
-    // Bytes. Smaller blocks may lie in malloc()'s heap, and advice for them would outlive them.
+    // More than 32 MiB: malloc() maps blocks of this size by themselves. Smaller ones may lie in
+    // its heap, where the advice would stay after they are freed.
     constexpr std::size_t least = (std::size_t{1} << 25) + 1;
     if (bytes < least) return;
     // Advice is for whole pages. A system without huge pages refuses it, and nothing is lost.

@@ -13,12 +13,12 @@
 
 namespace lamina {
 
-// Memory in bytes that the process may take for itself, beside memory_limit() for data.
+// Bytes that the process may take for its own needs, beside memory_limit() bytes for data.
 constexpr std::uint64_t own_memory = 200'000'000;
 
 bool memory_limit_is_told();  // true once set_memory_limit() was called
 
-// Sets the limit that holds until somebody calls set_memory_limit().
+// Sets memory_limit() for as long as set_memory_limit() is not called.
 void set_default_memory_limit(std::uint64_t bytes);
 
 // Returns the bytes of memory of the machine, or of the control group that the process is in.
@@ -27,19 +27,19 @@ std::uint64_t machine_memory();
 // Returns the process's resident memory in bytes; 0 if it is not known.
 std::uint64_t resident_memory();
 
-// Returns the largest resident memory so far, as the kernel keeps it for the program alone.
+// Returns the largest resident memory so far in bytes, of this program alone (VmHWM).
 std::uint64_t peak_resident_memory();
 
 // Returns how many bytes may still be taken: memory_limit() + own_memory - resident_memory(), >= 0.
 std::uint64_t memory_left();
 
-// Takes memory without clearing it, for data that fill it from end to end. Throws std::bad_alloc.
+// Allocates memory that is not zeroed, for data that will fill all of it. Throws std::bad_alloc.
 std::shared_ptr<void> filled_memory(std::size_t bytes);
 
-// Asks for huge pages behind more than 32 MiB: those of 4 KiB take seconds for a gigabyte.
+// Asks for huge pages beyond 32 MiB: with 4 KiB pages, first writes to a gigabyte take seconds.
 void prefer_huge_pages(void* memory, std::size_t bytes);
 
-// Memory that is 0 at first and takes room only once it is written to. Throws std::bad_alloc.
+// Memory that is 0 at first and takes pages only as they are written to. Throws std::bad_alloc.
 class ReservedMemory {
   public:
     ReservedMemory() = default;
@@ -56,7 +56,7 @@ class ReservedMemory {
     std::byte* data() { return data_; }
     const std::byte* data() const { return data_; }
     std::size_t size() const { return size_; }
-    void clear();  // all is 0 again
+    void clear();  // sets all bytes to 0 and gives the physical memory back
 
   private:
     void swap(ReservedMemory& other) noexcept;
@@ -75,8 +75,8 @@ inline bool all_zero(const void* bytes, std::size_t count) {
     return all_equal(bytes, count, 0);
 }
 
-// An array of bytes most of which have one value, the background. Pages of memory that hold nothing
-// else take none. Copies share the bytes. Different bytes may be set from several threads.
+// An array of bytes most of which have one value, the background: pages of background alone take no
+// physical memory. Copies share the bytes. Several threads may set different bytes.
 class SparseBytes {
   public:
     SparseBytes() = default;
@@ -96,8 +96,8 @@ class SparseBytes {
         auto* const at = reinterpret_cast<std::uint8_t*>(memory_->data()) + i;
         if (*at != code) *at = code;
     }
-    // Sets the bytes from `first` on. Pages that get the background alone stay without memory, and
-    // the others are written without being read first, which would map them twice.
+    // Sets the bytes from `first` on. Pages of background alone stay untouched, without memory;
+    // others are not read before they are written, which would map them twice.
     void set(std::size_t first, std::span<const std::uint8_t> values) {
         constexpr std::size_t page = 4096;
         std::array<std::uint8_t, page> codes;
@@ -114,7 +114,7 @@ class SparseBytes {
     }
 
     // Returns the bytes as they are stored: each combined with the background by exclusive or.
-    // Three more than size() may be read, because vector code reads four at a time.
+    // Three bytes beyond size() may be read, too, for vector code that reads four at a time.
     const std::uint8_t* coded() const {
         return reinterpret_cast<const std::uint8_t*>(memory_->data());
     }

@@ -30,9 +30,9 @@ void OutputFile::give_up(int error) const {
 
 namespace {
 
-constexpr int most_links = 40;  // Linux follows as many
+constexpr int most_links = 40;  // the limit of Linux
 
-// Returns the file that links lead to, which need not exist: it is written, the links stay.
+// Returns the path to which symbolic links lead, so that the links stay. The file need not exist.
 std::filesystem::path without_links(std::filesystem::path path) {
     std::error_code failure;
     for (int links = 0; std::filesystem::is_symlink(path, failure); ++links) {
@@ -51,7 +51,7 @@ std::filesystem::path name_beside(const std::filesystem::path& path, int number)
     return path.parent_path() / (name.substr(0, NAME_MAX - suffix.size()) + suffix);
 }
 
-// Returns true if the file is locked now, and also if its file system has no locks.
+// Locks a file; false only if another process has it. Succeeds on file systems without locks.
 bool lock(int descriptor) {
     return flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
@@ -63,7 +63,7 @@ bool is_at(int descriptor, const std::filesystem::path& path) {
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-// Removes a file that a killed process left, unlocked. Returns false if it is in use or foreign.
+// Removes a killed process's temporary file; false if a process uses it or it cannot be removed.
 bool remove_abandoned(const std::filesystem::path& path) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return errno == ENOENT;
@@ -85,7 +85,8 @@ std::string descriptor_path(int descriptor) {
 int open_nameless(const std::string& folder) {
     const int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (descriptor >= 0) return descriptor;
-    std::string name = folder + "/lamina-XXXXXX";  // some file systems have no O_TMPFILE
+    // In place of O_TMPFILE, which some file systems lack.
+    std::string name = folder + "/lamina-XXXXXX";
     const int named = mkostemp(name.data(), O_CLOEXEC);
     if (named >= 0) unlink(name.c_str());
     return named;
@@ -94,7 +95,7 @@ int open_nameless(const std::string& folder) {
 constexpr const char* first_line = "Written by lamina, which replaces nothing else here:";
 
 bool is_there(const std::filesystem::path& path) {
-    std::error_code ignored;  // a link that leads nowhere is there, too
+    std::error_code ignored;  // symlink_status(), because a link that leads nowhere counts, too
     return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
 }
 
@@ -125,7 +126,7 @@ bool AtomicFile::open_nameless() {
     descriptor_ = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor_ < 0) return false;
     lock(descriptor_);
-    // A file without a name gets one through /proc alone.
+    // A nameless file gets a name through /proc, so /proc must exist.
     if (access(descriptor_path(descriptor_).c_str(), F_OK) == 0) return true;
     close(descriptor_);
     return false;
@@ -138,7 +139,7 @@ void AtomicFile::open_named() {
         if (descriptor_ >= 0) {
             temporary_ = name;
             if (lock(descriptor_) && is_at(descriptor_, name)) return;
-            close(descriptor_);  // before the lock, another process took the file for abandoned
+            close(descriptor_);  // another process removed the file before it was locked
             temporary_.clear();
             continue;
         }
@@ -147,8 +148,8 @@ void AtomicFile::open_named() {
     }
 }
 
-// Gives the new file the permissions of the file that it replaces, before anything is written:
-// private data stay private. A file system without modes refuses, and then there is none to keep.
+// Gives the new file the mode of the one it replaces, before anything is written: private data stay
+// private. File systems without modes have nothing to keep.
 void AtomicFile::keep_mode() const {
     struct stat replaced = {};
     if (stat(path_.c_str(), &replaced) != 0) return;
@@ -171,7 +172,7 @@ void AtomicFile::close_stream() {
     if (stream_ == nullptr) return;
     std::FILE* const stream = stream_;
     stream_ = nullptr;
-    // Some libraries write in their destructors and pass over errors there, so the stream is asked.
+    // Libraries may write in destructors, ignoring errors: the stream's error flag counts.
     const bool broken = std::ferror(stream) != 0;
     if (std::fclose(stream) != 0) give_up(errno);
     if (broken) give_up(EIO);
@@ -232,7 +233,7 @@ PipedFile::PipedFile() : OutputFile("stdout") {
 }
 
 void PipedFile::commit() {
-    // Some libraries write in their destructors and pass over errors there, so the stream is asked.
+    // Libraries may write in destructors, ignoring errors: the stream's error flag counts.
     if (std::ferror(stream_) != 0) give_up(EIO);
     file_.rewind();
     std::array<char, 1 << 16> bytes{};
@@ -268,8 +269,8 @@ std::set<std::string> OwnFiles::listed() const {
 }
 
 void OwnFiles::expect_own(const std::vector<std::string>& names) const {
-    // The order matters: another process that writes into the folder at the same time puts its
-    // files on the list before it makes them, so the folder is read before the list.
+    // The folder is read before the list: another process that writes there lists its files before
+    // it makes them, so they are on the list if found.
     std::vector<std::string> there;
     for (const std::string& name : names) {
         if (is_there(folder_ / name)) there.push_back(name);

@@ -13,13 +13,13 @@
 
 namespace lamina {
 
-// A file cannot be written (disk full, folder gone), and then others cannot be, either.
+// A file cannot be written (disk full, folder gone); other files then probably fail, too.
 class WriteError : public Error {
   public:
     using Error::Error;
 };
 
-// A stream that can seek, for a result. Nothing reaches its destination before commit().
+// A seekable stream that takes a result. Nothing appears at the destination before commit().
 class OutputFile {
   public:
     virtual ~OutputFile() = default;
@@ -41,25 +41,24 @@ class OutputFile {
     std::FILE* stream_ = nullptr;
 };
 
-// An output file that appears under its name only when it is complete. It is opened before long
-// work begins, so that a bad path fails at once. Without commit() nothing is left behind, even if
-// the process is killed: the file has no name until then or, on file systems that do not allow it
-// (NFS), lies beside its destination as NAME.lamina-N.part, locked; the next file of this name
-// removes what a killed process left. A file that is replaced keeps its mode.
+// An output file that appears under its name only when complete; a bad path fails at once, before
+// long work. Without commit() nothing is left, even if the process is killed: the file has no name
+// or, where file systems lack that (NFS), lies beside it as NAME.lamina-N.part, locked; the next
+// AtomicFile of this name removes what a killed process left. A replaced file's mode is kept.
 class AtomicFile : public OutputFile {
   public:
     explicit AtomicFile(
-        std::filesystem::path path);  // throws WriteError when the folder cannot be written
+        std::filesystem::path path);  // throws WriteError if the folder cannot be written
     ~AtomicFile() override;
 
-    // Writes the whole file to disk under a temporary name. commit() is then only a renaming, so
-    // that files that belong together appear together. Throws WriteError.
+    // Writes all of the file to disk under a temporary name, so that commit() only renames it:
+    // files that belong together then appear together. Throws WriteError.
     void complete();
     void commit() override;  // throws WriteError
 
   private:
     void close_stream();
-    bool open_nameless();  // false if the file system does not allow it
+    bool open_nameless();  // returns false if the file system does not allow it
     void open_named();
     void keep_mode() const;
     void open_stream();
@@ -82,7 +81,7 @@ class TemporaryFile {
 
     std::FILE* stream() const { return stream_; }
     void write(const void* bytes, std::size_t count);  // throws Error
-    // Writes out what is buffered and goes to the first byte, for any reader. Throws Error.
+    // Writes out the buffer and goes to the first byte, for any code to read. Throws Error.
     void rewind();
 
   private:
@@ -113,7 +112,7 @@ class OwnFiles {
     // Throws Error if a file or folder of these names exists that the verb did not write.
     void expect_own(const std::vector<std::string>& names) const;
     // Adds names to the list, and makes the folder if needed. Call it before the files are written:
-    // then a file that is not on the list belongs to somebody else, even after a run was stopped.
+    // a file not on the list is then never from this verb, even after a kill.
     void add(const std::vector<std::string>& names) const;
 
   private:

@@ -27,9 +27,9 @@
 
 namespace lamina {
 
-// Tells the thread sanitizer what oneTBB, built without it, guarantees: a task runs after what its
-// caller did before the loop, and the caller goes on after all tasks. No order between tasks is
-// claimed. In every other build it does nothing.
+// Tells the thread sanitizer which order oneTBB guarantees, because oneTBB itself is not built with
+// the sanitizer: a task runs after what its caller did before the loop, and the caller goes on
+// after all tasks. It states no order between tasks. Without the sanitizer it does nothing.
 class HandOver {
   public:
     HandOver() { release(&given_); }
@@ -67,9 +67,8 @@ class HandOver {
     char given_ = 0, returned_ = 0;
 };
 
-// Calls body(i) for every i in [0, count) on all cores, in no particular order. The loop ends early
-// on an exception, which is rethrown, and when its client requests a stop. `grain`: number of calls
-// in one task, which should take at least some 10 us.
+// Calls body(i) for all i in [0, count) on all cores, in any order. Ends early if a stop is
+// requested, or on an exception, which is rethrown. `grain`: calls in one task of at least 10 us.
 template <typename Body>
 void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
     HandOver hand_over;
@@ -101,8 +100,8 @@ void parallel_invoke(const First& first, const Second& second) {
                          [&]() LAMINA_UNSEEN_BY_THREAD_SANITIZER { task(second); });
 }
 
-// Sorts on all cores; elements that `less` does not distinguish come in any order. Under the thread
-// sanitizer on one: oneTBB's sort passes data between tasks out of HandOver's reach.
+// Sorts on all cores, equal elements in any order. With the thread sanitizer it uses one core:
+// HandOver cannot describe how oneTBB's sort passes data between tasks.
 template <typename Iterator, typename Less>
 void parallel_sort(Iterator begin, Iterator end, const Less& less) {
 #ifdef LAMINA_THREAD_SANITIZER

@@ -27,8 +27,8 @@ void write_to_stderr(const std::string& text) {
     std::fflush(stderr);
 }
 
-// Global, because a handler has no argument but the signal. The semaphore is never destroyed,
-// because a handler may still run in another thread when a SignalStop ends.
+// Semaphore by which a signal handler wakes SignalStop's thread: global, as a handler gets only the
+// signal; never destroyed, as one may still run when a SignalStop ends.
 struct Wake {
     Wake() { sem_init(&semaphore, 0, 0); }
     sem_t semaphore{};
@@ -39,7 +39,7 @@ static_assert(std::atomic<int>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
 std::atomic<bool> exists = false;
 
-// POSIX names sem_post() among the functions that a signal handler may call.
+// The handler. POSIX allows sem_post() in signal handlers.
 void on_signal(int signal) {
     const int error_of_interrupted_code = errno;
     caught = signal;
@@ -67,8 +67,8 @@ void make_streams_safe() {
     std::signal(SIGXFSZ, SIG_IGN);
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-        // Reading from stdin and writing to the others must fail. open() takes the lowest
-        // descriptor.
+        // Opened so that reading from stdin, and writing to stdout and stderr, fails. open()
+        // returns the lowest free descriptor, which is this one.
         open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     }
 }
@@ -132,7 +132,7 @@ std::optional<std::filesystem::path> find_program(const std::string& name) {
     const char* const folders = std::getenv("PATH");
     std::istringstream list(folders ? folders : "");
     for (std::string folder; std::getline(list, folder, ':');) {
-        // Shells take an empty entry for the current folder: a program there must not be started.
+        // Empty entries mean the current folder, whose programs must not be started.
         if (folder.empty()) continue;
         if (is_program(std::filesystem::path(folder) / name))
             return std::filesystem::path(folder) / name;

@@ -15,16 +15,16 @@
 
 namespace lamina {
 
-// Must be called before any file is opened. Then writing into a pipe without a reader, or beyond
-// the limit on the size of files, is an error of the write and ends no process, and closed standard
-// descriptors are occupied, so that no file can become stdout.
+// Must be called before any file is opened. Afterwards a write into a pipe without a reader, or
+// beyond the limit on the size of files, fails but does not end the process. Standard descriptors
+// that were closed are occupied, so that no file that is opened later becomes stdout.
 void make_streams_safe();
 
 // Writes a result to stdout. Throws Error if it cannot be written (a full disk, no reader).
 void write_result(const std::string& text);
 void flush_results();  // writes out what is buffered; throws Error
 
-// Writes a message to stderr, escaped as by printable() but for its newline, or loses it.
+// Writes a message, escaped by printable() except its newline, to stderr, or loses it.
 void write_message(const std::string& line);
 // Writes a message that replaces the terminal's current line and does not end it.
 void replace_line(const std::string& line);
@@ -39,8 +39,8 @@ void print_message(fmt::format_string<Args...> format, Args&&... args) {
     write_message(fmt::format(format, std::forward<Args>(args)...));
 }
 
-// Makes SIGINT, SIGTERM and SIGHUP request a stop of its token while it exists, unless they were
-// ignored before (nohup). Programs make one, and only one at a time, and work within a ClientScope
+// While it exists, SIGINT, SIGTERM and SIGHUP request a stop through its token, unless they were
+// ignored before (nohup). A program makes one, only one at a time, and works within a ClientScope
 // with its token. Throws std::system_error if its thread cannot be started.
 class SignalStop {
   public:

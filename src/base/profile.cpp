@@ -7,7 +7,7 @@ namespace lamina {
 
 namespace {
 
-// Spans for which memory is taken at once: enough for some thousand frames.
+// Number of spans for which memory is reserved at once: enough for some thousand frames.
 constexpr std::size_t spans_at_first = 1 << 14;
 
 std::atomic<Profile*> current = nullptr;

@@ -13,12 +13,13 @@
 
 namespace lamina {
 
+// Measures the time since it was made.
 class Stopwatch {
   public:
     double seconds() const { return 1e-9 * static_cast<double>(now() - start_ns_); }
     double milliseconds() const { return 1e3 * seconds(); }
 
-    // Returns the time in nanoseconds since some moment, by the clock of all measurements.
+    // Returns nanoseconds since a fixed, unknown moment, by the clock of all measurements.
     static std::int64_t now() {
         using std::chrono::duration_cast, std::chrono::nanoseconds, std::chrono::steady_clock;
         return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
@@ -28,8 +29,8 @@ class Stopwatch {
     std::int64_t start_ns_ = now();
 };
 
-// A record of what this process did when, as spans of time on rows: one for each thread that has a
-// Stage, and one for OpenGL. Only one may exist at a time; without one, a Stage is only a
+// Records what this process did when, as spans of time on rows: one row for each thread that has a
+// Stage, and one for OpenGL. Only one Profile may exist at a time; without one, a Stage is only a
 // stopwatch. It keeps the first most_spans spans and counts the others, so that memory is bounded.
 class Profile {
   public:
@@ -39,7 +40,7 @@ class Profile {
     };
     using Counts = std::array<Count, 4>;
 
-    static constexpr int opengl_row = 0, first_row = 1;  // first_row is the thread that made it
+    static constexpr int opengl_row = 0, first_row = 1;  // first_row: its maker's thread
     static constexpr std::size_t most_spans = std::size_t{1} << 18;  // 24 MiB
 
     // Times come from Stopwatch::now(). Names must be literals: only their pointers are kept.
@@ -75,7 +76,8 @@ class Profile {
     std::map<std::thread::id, int> rows_;
 };
 
-// A timed stage, recorded if a Profile exists. Stages of a thread end in it, in reverse order.
+// A timed stage of work, recorded if a Profile exists. A stage must end in its own thread, and
+// those of a thread in the reverse order of their beginnings.
 class Stage {
   public:
     explicit Stage(const char* name) : name_(name) {}  // a literal

@@ -76,7 +76,7 @@ inline bool is_integer(ValueType type) {
     return type != ValueType::float32 && type != ValueType::float64;
 }
 
-// Converts a stored value to double or int64, whose largest value stands for integers beyond it.
+// Converts a stored value to double or int64; uint64 above the largest int64 become that.
 template <typename To, typename From>
 To value_as(From value) {
     if constexpr (std::is_same_v<From, std::uint64_t> && std::is_same_v<To, std::int64_t>) {

@@ -20,11 +20,11 @@ namespace lamina {
 
 namespace {
 
-// Largest number of different whole numbers that count as labels, each with a colour of its own.
-constexpr std::size_t most_labels = 24;
+constexpr std::size_t most_labels = 24;  // different whole numbers, each with its own colour
 
-// Colours in linear light, from values next to the common ones to the rarest. They become lighter
-// and change hue, and none has a component of 1, so that no picture is saturated by them.
+// Colours in linear light, from values next to the common ones to the rarest: `upwards` for one
+// side of the common ones, `downwards` and `beyond` for below and above if both sides show. No
+// component is 1, so that no picture is saturated by them.
 constexpr std::array<glm::dvec3, 5> upwards{
     {{.035, .10, .30}, {.05, .30, .38}, {.55, .22, .07}, {.86, .45, .10}, {.92, .80, .55}}};
 constexpr std::array<glm::dvec3, 3> downwards{{{.05, .12, .35}, {.05, .40, .55}, {.55, .80, .75}}};
@@ -36,21 +36,20 @@ glm::dvec3 color_at(std::span<const glm::dvec3> colors, double place) {
     return glm::mix(colors[first], colors[first + 1], scaled - static_cast<double>(first));
 }
 
-// Rare values show more: if a share s of all uncommon values is farther out than a value, its
-// extinction is about s^-rarity, with s at least least_rest.
+// If a share s of a side's values is farther out, extinction is max(s, least_rest)^-rarity.
 constexpr double rarity = .8;
 constexpr double least_rest = .004;
-// Share of a side over which extinction rises from 0 at the border of the common values.
+// Place (Side::place()) up to which extinction rises from 0 at the border of the common values.
 constexpr double rise = .1;
-constexpr int steps = 8;
+constexpr int steps = 8;  // linear pieces from the place `rise` to the end of a side
 // Share of a side's values up to which its colours change; the outermost have the last colour.
 constexpr double far_share = .998;
 // Share of uncommon values below which a side shows nothing: it is noise, or the foot of a peak.
 constexpr double least_side = .05;
-// Extinction of common values that are no background, as a share of that next to them.
+// Extinction of common values that are no background, relative to the values next to them.
 constexpr double faint = .25;
 
-// The values on one side of the common ones: place 0 at their border, 1 at the end of the colours.
+// The values below or above the common ones; places in it go from 0 at `border` to 1 at `end`.
 struct Side {
     ValueDistribution values;
     double border, end;
@@ -66,15 +65,16 @@ struct Side {
 
     bool empty() const { return values.empty() || end == border; }
 
-    // Returns the share of the side's values that lie beyond.
+    // Returns the share of the side's values that lie farther out than `value`.
     double rest(double value) const {
         return end > border ? 1 - values.share_up_to(value) : values.share_below(value);
     }
-    // Mixes the places by value and by rank: colours change everywhere, faster among many values.
+    // Returns the mean place by value and by rank: colours change faster at frequent values.
     double place(double value) const {
         const double by_value = std::clamp((value - border) / (end - border), 0.0, 1.0);
         return (by_value + (1 - rest(value))) / 2;
     }
+    // Inverts place() by bisection.
     double value_at(double place_wanted) const {
         double near = border, far = end;
         for (int i = 0; i < 60; ++i) {
@@ -88,7 +88,7 @@ struct Side {
     }
 };
 
-// Returns the points from the border to the end. `start`: the extinction at the border.
+// Returns the points of a side from `border` to `end`. `start`: the extinction at the border.
 std::vector<TransferKnot> points_of(const Side& side, std::span<const glm::dvec3> colors,
                                     double start) {
     std::vector<TransferKnot> points{{side.border, {colors.front(), start}}};
@@ -142,7 +142,7 @@ AutomaticTransfer within(const ValueDistribution& values, const ValueRange& rang
 }
 
 // Shows values beyond the common ones, on one or both sides. A side that would form a shell around
-// the measured data shows nothing if the other side does.
+// the measured data, next to padding, shows nothing if the other side shows.
 AutomaticTransfer beyond_common(const Padding& padding, const CommonValues& common) {
     const ValueDistribution& values = padding.rest;
     Side down = Side::below(values, common.lo), up = Side::above(values, common.hi);
@@ -172,7 +172,7 @@ AutomaticTransfer beyond_common(const Padding& padding, const CommonValues& comm
                     100 * (1 - padding.share) * values.share(common.lo, common.hi), hidden, shown)};
 }
 
-// Returns the function made transparent below a value; shown_below() does it above.
+// Return the function made transparent below (shown_above) or above (shown_below) a value.
 TransferFunction shown_above(const TransferFunction& function, double value) {
     if (function.transparent(std::numeric_limits<double>::lowest(), value)) return function;
     const OpticalProperties optics = function.at(value);
@@ -205,7 +205,7 @@ std::string padding_text(const Padding& padding) {
         text, 100 * padding.share, several ? "are" : "is");
 }
 
-// Linear light; neighbours differ in hue.
+// Colours of labels in linear light; neighbours differ in hue.
 constexpr std::array<glm::dvec3, 8> label_colors{{{.75, .20, .05},
                                                   {.06, .30, .65},
                                                   {.80, .55, .08},
@@ -215,13 +215,13 @@ constexpr std::array<glm::dvec3, 8> label_colors{{{.75, .20, .05},
                                                   {.75, .30, .40},
                                                   {.70, .65, .55}}};
 
-// Rare labels are denser, by up to ten times.
+// Returns the extinction for a share of all shown labels: rare ones are up to ten times denser.
 double extinction_of(double share) {
     return std::pow(std::max(share, .01), -.5);
 }
 
-// Returns a transfer function for labels (few whole numbers, two or more): the most frequent one is
-// transparent, each other has a colour of its own, which ends halfway to its neighbours.
+// Returns a transfer function for labels (few whole numbers, but at least two): the most frequent
+// one is transparent; each of the others has a colour that reaches halfway to its neighbours.
 AutomaticTransfer label_transfer(const ValueDistribution& values) {
     std::size_t common = 0;
     double most = 0;
@@ -268,7 +268,8 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
     TransferFunction& function = chosen.transfer_function;
     if (wishes.colormap) function = recolored(function, *wishes.colormap);
     if (wishes.range) {
-        // Values below the range show nothing. Padding inside the range was asked for.
+        // within() shows nothing below the range, so only padding above it must be made
+        // transparent. Padding inside the range shows, because the user asked for it.
         if (!padding.above || *padding.above <= wishes.range->hi) return chosen;
         function = shown_below(function, std::max(padding.edge_above(), wishes.range->hi));
     } else {
@@ -287,7 +288,7 @@ TransferFunction stretched(const TransferFunction& transfer_function, const Valu
             "transfer function: has a single value, {}, expected two that a range could lie "
             "between",
             knots.front().value);
-    // Keeps the order of values, and hits both ends exactly.
+    // Rounding keeps the order of values, and both ends become exactly those of the range.
     const double lo = knots.front().value, width = knots.back().value - lo;
     for (TransferKnot& knot : knots) {
         const double place = (knot.value - lo) / width;

@@ -11,22 +11,22 @@
 
 namespace lamina {
 
-// Settings that a user may ask for.
+// Settings of a transfer function that a user may ask for.
 struct TransferWishes {
     std::optional<Colormap> colormap{};  // replaces the chosen colours
     std::optional<ValueRange> range{};   // the visible range, lo < hi: values below are transparent
 };
 
+// A transfer function that was chosen from the data.
 struct AutomaticTransfer {
-    // Extinctions are relative, the largest is 1: the density of the data depends on the view.
+    // Extinctions are relative, the largest is 1: choose() scales them for the view.
     TransferFunction transfer_function;
     std::string reason;     // for people: which values show, and which do not
     std::string padding{};  // for people: which values are padding; empty if none are
 };
 
-// Chooses a transfer function from values alone (docs/first-picture.md): common ones are
-// transparent; the rarer a value beyond is, the denser and brighter. `least_padding_share`: see
-// find_padding().
+// Chooses a transfer function from values alone (docs/first-picture.md): the rarer values are, the
+// denser and brighter; common ones are transparent. `least_padding_share`: see find_padding().
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferWishes& wishes = {},
                                            double least_padding_share = least_padding);

@@ -15,10 +15,8 @@
 namespace lamina {
 namespace {
 
-// Opacity of the median ray among those that meet something visible.
-constexpr double median_opacity = .9;
-// Share of the largest extinction below which data do not count as visible to a fitted camera.
-constexpr double seen_share = 1e-3;
+constexpr double median_opacity = .9;  // among the rays that meet something visible
+constexpr double seen_share = 1e-3;    // of the largest extinction; a fitted camera ignores less
 
 double largest_extinction(const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();
@@ -46,23 +44,23 @@ std::string camera_text(const Camera& camera) {
                        vector_text(camera.up, fineness_of(0, 1)), camera.fov_y);
 }
 
-// Returns the file's name, or the name of data that are in memory.
+// Returns the name of the data for messages: of their file, or "data" if they are in memory.
 std::string name_of_data(const Scene& scene) {
     if (const VolumeFile* const volume = scene.volume_file()) return volume->path.string();
     const MeshFile* const mesh = scene.mesh_file();
     return mesh != nullptr ? mesh->path.string() : "data";
 }
 
-// Share of the deepest ray's optical depth; rays below it meet noise alone.
+// Least share of the deepest ray's optical depth that counts for the density: less is noise.
 constexpr double least_depth = 0.002;
 
-// Depths are float32: in the data's own unit of length they neither vanish nor overflow.
+// Makes extinctions count per diagonal of the data's box: float32 depths then stay in range.
 TransferFunction per_diagonal(const TransferFunction& transfer_function, const Field& field) {
     const auto corners = field.corners();
     return transfer_function.attenuated(1 / glm::distance(corners.front(), corners.back()));
 }
 
-// Returns the factor on extinction for the median ray's opacity; 1 if no ray meets anything.
+// Returns the factor on extinction that gives median_opacity; 1 if no ray meets anything.
 double density_of(const Scene& scene, const Field& field) {
     std::vector<double> depths = field.optical_depths(scene);
     if (depths.empty()) return 1;
@@ -104,7 +102,7 @@ void choose_smallest_gradient(Choices& choices, const Field& field) {
     if (!leaves_gradient_open(scene)) return;
     const ValueRange range = range_without_padding(field);
     const double height = range.empty() ? 0 : range.hi - range.lo;
-    // Data of a single value have no gradient, so any number will do.
+    // Data of a single value have no gradient, so the number does not matter.
     const double chosen = height > 0 ? smallest_gradient_share * height / field.spacing() : 1;
     scene.lighting->smallest_gradient =
         std::clamp(chosen, Lighting::least_gradient, Lighting::largest_gradient);
@@ -112,10 +110,12 @@ void choose_smallest_gradient(Choices& choices, const Field& field) {
                                           *scene.lighting->smallest_gradient));
 }
 
+// Constants of the automatic camera (docs/first-picture.md). Angles are in degrees.
 constexpr double degree = std::numbers::pi / 180;
 constexpr double three_quarter_azimuth = 30, three_quarter_elevation = 20;
 constexpr double fov_y = 30;
-constexpr double margin = 1.0 / 25;  // as a share of half the picture
+constexpr double margin = 1.0 / 25;  // margin of the picture as a share of its half
+// Least cosine between the data's up and the camera's; below it, the view is along the data's up.
 constexpr double least_across = 0.02;
 
 // A camera's own axes: right-handed and orthonormal.
@@ -123,7 +123,8 @@ struct Axes {
     glm::dvec3 right, up, toward;  // from the scene to the eye
 };
 
-// The camera stands in front of the patient: its right is the patient's left.
+// Returns the axes of a camera that looks at the data from in front. If the file names a patient's
+// axes, the camera stands in front of the patient: its right is the patient's left.
 Axes axes_of(WorldAxes axes) {
     switch (axes) {
         case WorldAxes::left_posterior_superior:
@@ -138,7 +139,7 @@ Axes axes_of(WorldAxes axes) {
     return {};
 }
 
-// Quarter turns have exact cosines and sines, and so has a turn by 0.
+// Returns the axes of a camera moved right by the azimuth, then up by the elevation. Exact for 0.
 Axes turned(const Axes& axes, const ViewTurn& turn) {
     const double a = turn.azimuth * degree, e = turn.elevation * degree;
     const glm::dvec3 right = std::cos(a) * axes.right - std::sin(a) * axes.toward;
@@ -147,6 +148,7 @@ Axes turned(const Axes& axes, const ViewTurn& turn) {
             std::sin(e) * axes.up + std::cos(e) * around};
 }
 
+// An interval of numbers.
 struct Extent {
     double lo = INFINITY, hi = -INFINITY;
     void add(double value) {
@@ -156,7 +158,7 @@ struct Extent {
     double middle() const { return lo + (hi - lo) / 2; }
 };
 
-// Distance that a point or, if the camera turns all around an axis, its circle reaches.
+// Measures how far points extend in a direction, or their circles if the camera turns around.
 struct Reach {
     glm::dvec3 axis;
     bool all_around;
@@ -228,7 +230,7 @@ Choices choose(Scene asked, const Field& field, const Wishes& wishes) {
             fmt::format("transfer function: {}; extinction up to {:.4g} per unit of length", reason,
                         wishes.density * largest_extinction(*scene.transfer_function)));
     }
-    // Removes points that rounding has put on straight lines, as reading from a file does.
+    // linear() drops points on straight lines, so the function equals one read from a scene file.
     const TransferFunction dense = scene.transfer_function->attenuated(wishes.density);
     scene.transfer_function =
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
@@ -243,21 +245,21 @@ std::string chosen_text(const std::vector<std::string>& reasons) {
     return text.empty() ? text : "chosen\n" + text;
 }
 
-// A point at (r, u) across and depth d behind the eye at (R, U, D) is in a picture of slope s if
-// |r - R| <= s (d - D). So R lies between max(r - s d) + s D and min(r + s d) - s D; the nearest D
-// with such an R makes both ends equal. U follows likewise.
+// Coordinates are right, up and depth along the view. An eye (R, U, D), with edges of slope s, sees
+// a point (r, u, d) if |r - R| <= s (d - D). So R lies between max(r - s d) + s D and min(r + s d)
+// - s D; at the largest possible D, the nearest eye, both are equal. Likewise for u and U.
 Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const ViewTurn& turn,
                      int width, int height, bool all_around) {
     const Axes to = turned(axes_of(axes), {three_quarter_azimuth + turn.azimuth,
                                            three_quarter_elevation + turn.elevation});
     Camera camera;
     camera.fov_y = fov_y;
-    // The data's own up, if it is not along the view, so that turntables stand upright.
+    // The camera's up is the data's, unless that is along the view, so turntables stand upright.
     const glm::dvec3 up = axes_of(axes).up;
     camera.up = glm::dot(up, to.up) > least_across ? up : to.up;
     const double slope_up = std::tan(fov_y / 2 * degree) * (1 - margin);
     const double slope_right = slope_up * width / height;
-    // Relative to the middle, so that a distant origin costs no digits.
+    // Points are taken relative to their middle, so that a distant origin costs no precision.
     const glm::dvec3 middle = middle_of(points);
     const Reach reach{camera.up, all_around};
     Extent right_near, right_far, up_near, up_far, toward;
@@ -275,8 +277,8 @@ Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const V
     const double eye_up = (up_far.lo + up_near.hi) / 2;
     const glm::dvec3 across = eye_right * to.right + eye_up * to.up;
     camera.eye = middle + across - eye_depth * to.toward;
-    // The camera's centre: the middle of the visible points along the view's axis or, if the camera
-    // turns all around, the common centre of their circles.
+    // The centre lies on the view's axis: at the middle of the visible points or, if the camera
+    // turns all around, where the axis passes the centre of the points' circles.
     const glm::dvec3 level = to.toward - glm::dot(to.toward, camera.up) * camera.up;
     const double along =
         all_around ? -glm::dot(across, level) / glm::dot(to.toward, level) : toward.middle();
@@ -290,7 +292,7 @@ Camera turned(const Camera& camera, const ViewTurn& turn) {
     const double distance = glm::length(arm);
     const glm::dvec3 toward = arm / distance;
     const glm::dvec3 right = glm::normalize(glm::cross(camera.up, toward));
-    // Azimuth turns around the camera's own up, which need not be at a right angle to its view.
+    // camera.up need not be at a right angle to the view; the turn uses an up that is.
     const Axes around = turned(Axes{right, glm::cross(toward, right), toward}, turn);
     Camera result = camera;
     result.eye = camera.center + distance * around.toward;

@@ -14,51 +14,50 @@
 
 namespace lamina {
 
-// Degrees by which a camera goes around its centre: to the right, and up.
+// Degrees by which a camera moves around its centre: to the right (azimuth) and up (elevation).
 struct ViewTurn {
     double azimuth = 0, elevation = 0;
 };
 
-// Returns a perspective camera in three-quarter view that fits one or more points: two opposite
-// edges of a margin of 1/25 of the picture are touched. In a patient's axes it looks from in front
-// and a little from the left and above, the head up; otherwise from +z, a little from +x and +y,
-// with +y up. `turn` is added. `all_around`: they fit, too, if the camera turns about its `up`.
+// Returns a perspective camera in three-quarter view in whose picture one or more points just fit,
+// with a margin of 1/25 of half the picture. In a patient's axes it looks from in front, a little
+// from the left and above, the head up; otherwise from +z, a little from +x and +y, with +y up.
+// `turn` is added. `all_around`: the points fit after any turn of the camera about its `up`.
 Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const ViewTurn& turn,
                      int width, int height, bool all_around = false);
 
-// Returns the camera moved around its centre, its up vector with it: it can cross the poles.
+// Moves the camera around its centre. Its up vector moves along, so it can cross the poles.
 Camera turned(const Camera& camera, const ViewTurn& turn);
 
 // Returns the camera with objects `factor` times as large in the picture.
 Camera zoomed(Camera camera, double factor);
 
-// Changes that the user wants to the scene, or to what would be chosen.
+// Changes that the user wants of a scene, or of what would be chosen for it.
 struct Wishes {
     TransferWishes transfer{};
     double density = 1;  // factor on extinction
     ViewTurn turn{};
     double zoom = 1;
-    bool all_around = false;  // an automatic camera fits all views around its axis
+    bool all_around = false;  // an automatic camera's picture fits from all sides
 
     bool transfer_function() const { return transfer.colormap || transfer.range || density != 1; }
     bool camera() const { return turn.azimuth != 0 || turn.elevation != 0 || zoom != 1; }
 };
 
-// Tells whether the data decide on transfer function, camera or the smallest lit gradient.
+// Tells whether transfer function, camera or smallest lit gradient must be chosen from the data.
 bool leaves_something_open(const Scene& scene);
 
-// A scene in which nothing is left open, and sentences on what was chosen.
+// A scene in which everything is chosen, and sentences on what was chosen.
 struct Choices {
     Scene scene;
     std::vector<std::string> reasons;
 };
 
-// Chooses transfer function, camera and the smallest lit gradient if the scene leaves them open (an
-// open colour map must be closed before), and applies the wishes. The result depends on data and
-// wishes alone. Throws Error if there is something to choose and the field has no finite value.
+// Chooses what the scene leaves open, from data and wishes alone, and applies the wishes. Open
+// colour maps must be closed before. Throws Error if it must choose and no value is finite.
 Choices choose(Scene asked, const Field& field, const Wishes& wishes = {});
 
-// Returns the first lines of an explanation of the plan, which say what was chosen.
+// Returns the lines that say what was chosen, the first ones of the explanation of a plan.
 std::string chosen_text(const std::vector<std::string>& reasons);
 
 }  // namespace lamina

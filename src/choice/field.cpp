@@ -22,6 +22,7 @@ namespace lamina {
 
 namespace {
 
+// Returns the counted values of a volume with their numbers as weights.
 std::vector<WeightedValue> weighted(const ValueCounts& counted, SampleType type) {
     const double lowest =
         type == SampleType::int16 ? double{std::numeric_limits<std::int16_t>::min()} : 0;
@@ -35,9 +36,9 @@ std::vector<WeightedValue> weighted(const ValueCounts& counted, SampleType type)
     return values;
 }
 
-constexpr std::size_t most_tets = std::size_t{1} << 19;
+constexpr std::size_t most_tets = std::size_t{1} << 19;  // more tets are sampled evenly
 
-// Quadrature points of a tet, of equal weight; exact for quadratics (Hammer and Stroud 1956).
+// Barycentric coordinates of a four-point quadrature exact for quadratics (Hammer and Stroud 1956).
 constexpr double near_corner = 0.58541019662496845, near_others = 0.13819660112501051;
 
 // Returns six times the volume of a tet, in units of the mesh's diagonal cubed.
@@ -49,11 +50,11 @@ double volume_of(const TetMesh& mesh, const Tet& tet, double diagonal) {
     return std::abs(glm::dot(at(1) - origin, glm::cross(at(2) - origin, at(3) - origin)));
 }
 
-// Weight of a marker in a large mesh of which only some tets are sampled, in units of the mesh's
-// diagonal cubed: more than 0, and less than any share that counts.
+// Weight of a value that marks missing data if only some tets of a mesh are sampled, in units of
+// the mesh's diagonal cubed: more than 0, but too small to change any share.
 constexpr double smallest_weight = 1e-30;
 
-// Returns the point values that are far from all others.
+// Returns the values at points that lie so far from all others that they mark missing data.
 std::vector<double> markers_of(const SceneMesh& mesh) {
     std::vector<WeightedValue> at_points;
     at_points.reserve(mesh.scalar.values.size());
@@ -63,6 +64,7 @@ std::vector<double> markers_of(const SceneMesh& mesh) {
     return find_markers(ValueDistribution(std::move(at_points)));
 }
 
+// Returns the optical depth of a segment in a tet.
 double depth_of(const TransferFunction& transfer_function, const MeshFacts::Run& run) {
     double sum = 0;
     for_each_linear_piece(
@@ -79,7 +81,7 @@ using Shows = std::function<bool(const ValueRange&)>;
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
 
-// An interval from the first cell's near side to the last one's far side; empty if first > last.
+// An interval of planes between cells: cells first .. last - 1 lie in it. Empty if first > last.
 struct Span {
     std::int64_t first = INT64_MAX, last = -1;
     void include(const Span& span) {
@@ -89,6 +91,7 @@ struct Span {
     bool empty() const { return first > last; }
 };
 
+// Returns the number of cells along each axis; a single sample counts as one cell.
 std::array<std::int64_t, 3> cells_of(const Grid& grid) {
     std::array<std::int64_t, 3> cells;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -96,7 +99,7 @@ std::array<std::int64_t, 3> cells_of(const Grid& grid) {
     return cells;
 }
 
-// Calls visit(x) for a row's visible bricks. Neighbours mostly have one range, answered once.
+// Calls visit(x) for visible bricks along x, and shows() once for neighbours of equal range.
 template <typename Visit>
 void for_shown_bricks(const MinMaxBricks& bricks, std::int64_t y, std::int64_t z,
                       const Shows& shows, const Visit& visit) {
@@ -110,7 +113,7 @@ void for_shown_bricks(const MinMaxBricks& bricks, std::int64_t y, std::int64_t z
     }
 }
 
-// One row of cells along x, in a window that holds its samples.
+// One row of cells along x. `window` must hold the samples of the cells.
 template <typename T>
 class CellRow {
   public:
@@ -142,7 +145,7 @@ class CellRow {
     std::array<const T*, 4> lines_;
 };
 
-// Finds the visible cells of a row, searching visible bricks alone, from both ends.
+// Finds the first and the last visible cell of a row: searches the visible bricks from both ends.
 template <typename T>
 Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
                   const std::vector<std::int64_t>& shown_bricks, const Shows& shows) {
@@ -164,8 +167,8 @@ Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
     }
 }
 
-// Finds the visible cells of all rows, a block of rows of bricks at a time: the samples of a block
-// are read at once if the volume stays in its files.
+// Finds the first and the last visible cell of all rows along x, in blocks of rows of bricks. If
+// the volume stays in its files, the samples of a block are read at once.
 template <typename T>
 struct RowSpans {
     const Volume& volume;
@@ -188,7 +191,7 @@ struct RowSpans {
 
     struct BrickRow {
         std::int64_t y, z;
-        std::vector<std::int64_t> shown;  // along x
+        std::vector<std::int64_t> shown;  // numbers along x of the visible bricks
     };
 
     std::int64_t blocks(std::size_t axis) const {
@@ -215,7 +218,7 @@ struct RowSpans {
         for (const BrickRow& row : rows) find_in_row(row, window);
     }
 
-    // `columns`: of bricks. `samples`: memory for the samples of a volume that stays in its files.
+    // Returns a block's samples in the bricks `columns`; `samples` receives those from files.
     SampleWindow<T> window_of(const Span& columns, std::int64_t first_y, std::int64_t first_z,
                               std::unique_ptr<T[]>& samples) const {
         if (volume.in_memory())
@@ -242,14 +245,14 @@ struct RowSpans {
     }
 };
 
-// Returns the index of the plane between cells `plane - 1` and `plane` along an axis.
+// Returns the index-space coordinate of the plane between cells `plane - 1` and `plane`.
 double plane_at(const Grid& grid, int axis, std::int64_t plane, std::int64_t cells) {
     if (plane == 0) return grid.index_min()[axis];
     if (plane == cells) return grid.index_max()[axis];
     return static_cast<double>(plane);
 }
 
-// Returns the ends of each row of bricks along x that has visible ones.
+// Returns the outer corners of the first and the last visible brick of each row along x.
 std::vector<glm::dvec3> hull_of_shown_bricks(const Grid& grid, const MinMaxBricks& bricks,
                                              const Shows& shows) {
     const auto cells = cells_of(grid);
@@ -364,7 +367,7 @@ ValueDistribution MeshField::distribution() const {
             values.push_back({marked ? value : std::clamp(inside, range.lo, range.hi), weight});
         }
     }
-    // A tet that is not sampled may have the only corner with a marker.
+    // The only corner with a marker may belong to a tet that is not sampled.
     if (step > 1) {
         for (const double marker : markers) values.push_back({marker, smallest_weight});
     }
@@ -410,7 +413,7 @@ std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBr
     const std::vector<Span> rows = with_sample_type(volume.type(), [&](auto zero) {
         return RowSpans<decltype(zero)>{volume, bricks, shows}.find();
     });
-    // A line of cell edges has up to four rows around it.
+    // Up to four rows of cells touch a line of edges along x, which takes the union of their spans.
     const std::int64_t lines_y = cells[1] + 1;
     std::vector<Span> lines(static_cast<std::size_t>(lines_y * (cells[2] + 1)));
     for (std::int64_t row = 0; row < cells[1] * cells[2]; ++row) {

@@ -17,33 +17,33 @@
 
 namespace lamina {
 
-// The data that choices are made from, a volume or a mesh, reduced to what choices need.
+// The data, a volume or a mesh, from which transfer function and camera are chosen.
 class Field {
   public:
     virtual ~Field() = default;
 
     virtual WorldAxes axes() const = 0;
     virtual ValueRange range() const = 0;  // range of the finite values
-    // Returns the world distance over which the scalar is known to change: the smallest distance of
-    // neighbouring samples (infinite if no axis has two), or the mean edge of the tets.
+    // Returns the world distance over which the data resolve changes: the least distance of samples
+    // (infinite for a single one), or the mean edge of the tets.
     virtual double spacing() const = 0;
     virtual bool whole_numbers() const = 0;
-    // Returns the share of the field that a value must have to be padding (find_padding()).
+    // Returns the share of the field from which on a value may be padding (find_padding()).
     virtual double least_padding_share() const = 0;
-    // Returns the distribution of the finite values by volume, of large data sampled evenly.
+    // Returns the distribution of the finite values by volume. Large data are sampled evenly.
     virtual ValueDistribution distribution() const = 0;
 
-    // Returns points whose hull, if any, contains all of more than `least` >= 0 extinction.
+    // Returns points whose convex hull holds all extinction above `least` >= 0; empty if none is.
     virtual std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                                  double least) const = 0;
     virtual std::array<glm::dvec3, 8> corners() const = 0;
 
-    // Returns the optical depths of about 1000 rays all over the scene's view, of which only
-    // transfer function, camera and size matter; rays that miss the data may be left out.
+    // Returns the optical depths of about 1000 rays all over the scene's view; rays that miss the
+    // data may be left out. Only transfer function, camera and size of the scene matter.
     virtual std::vector<double> optical_depths(const Scene& scene) const = 0;
 };
 
-// A volume with its bricks, and its values if these are counted. All must outlive this object.
+// A volume with its bricks and, if counted, its values, all of which must outlive this object.
 class VolumeField : public Field {
   public:
     VolumeField(const Volume& volume, const MinMaxBricks& bricks)
@@ -67,7 +67,7 @@ class VolumeField : public Field {
   private:
     const Volume& volume_;
     const MinMaxBricks& bricks_;
-    const ValueCounts* values_ = nullptr;  // null: not counted yet
+    const ValueCounts* values_ = nullptr;  // null: distribution() counts the values
 };
 
 // A mesh with its scalar. The mesh must outlive this object.
@@ -77,9 +77,9 @@ class MeshField : public Field {
 
     WorldAxes axes() const override { return WorldAxes::unnamed; }
     ValueRange range() const override { return measure_range(mesh_.scalar.values).range; }
-    double spacing() const override;                       // the mean over the edges of each tet
-    bool whole_numbers() const override { return false; }  // false: tets interpolate
-    // A single vertex may mark missing data.
+    double spacing() const override;                       // mean over the six edges of all tets
+    bool whole_numbers() const override { return false; }  // false: tets interpolate values
+    // 0, because a single vertex may mark missing data.
     double least_padding_share() const override { return 0; }
     // Tets count by their volume. A tet with a corner far from all other values (find_markers())
     // counts by its corners: values interpolated inside it were not measured.
@@ -93,14 +93,14 @@ class MeshField : public Field {
     const SceneMesh& mesh_;
 };
 
-// Returns world points whose hull is that of all cells, with their outer half voxels, for which
-// `shows` holds: for the range of finite samples at the corners, then for every wider one. Bricks
-// take the place of cells in large volumes. Parallel; empty if nothing shows.
+// Returns world points with the convex hull of all visible cells, outer half voxels included; none
+// if no cell is visible. A cell is visible if shows(range of its corners' finite samples), which
+// must then hold for wider ranges, too. Large volumes use bricks for cells. Runs on all cores.
 std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBricks& bricks,
                                             const std::function<bool(const ValueRange&)>& shows);
 
-// Number of samples above which a volume may lie on disk, so that fewer samples are used to choose
-// a camera and extinctions. Volumes in memory use just as many, so that the picture is the same.
+// Number of samples above which camera and extinctions are chosen from fewer samples, because the
+// volume may stay on disk. In memory it is treated alike, so that its picture is the same.
 constexpr std::int64_t large_volume = std::int64_t{1} << 28;
 
 }  // namespace lamina

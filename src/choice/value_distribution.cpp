@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// Adds weights of equal values in ascending order: the sum does not depend on the input's.
+// Equal values are sorted by weight, so that sums do not depend on the order of the input.
 ValueDistribution::ValueDistribution(std::vector<WeightedValue> values) {
     std::erase_if(values, [](const WeightedValue& one) { return !(one.weight > 0); });
     parallel_sort(values.begin(), values.end(), [](const WeightedValue& a, const WeightedValue& b) {
@@ -63,27 +63,28 @@ ValueDistribution ValueDistribution::between(double lo, double hi) const {
 
 namespace {
 
-constexpr int most_bins = 256;
-constexpr double outer_share = 1e-3;     // share of the values cut off at each end
-constexpr double outer_width = 1.0 / 8;  // largest share of the range left to cut them
+constexpr int most_bins = 256;        // number of bins, and of intervals that densest() tries
+constexpr double outer_share = 1e-3;  // share of values that usual_range() leaves out at each end
+// They are left out if the other values take less than this share of the range.
+constexpr double outer_width = 1.0 / 8;
 
-// A peak ends where the density of the next twentieth of the range falls below this share of the
-// peak's. Tails of noise and blur lie below, scanned objects above.
+// A peak ends where the mean density over the next 1 / tail_width of the range is below `tail`
+// times the peak's: noise and blur around a peak are below it, scanned objects above.
 constexpr double tail = .03;
 constexpr int tail_width = 20;
 
-// Background takes at least a fifth of the field, in at most two fifths of its range.
+// Background fills at least this share of the field, in at most this share of its range.
 constexpr double least_share = .2, most_width = .4;
-// Share of the field that counts as common if nothing stands out.
-constexpr double common_share = 1.0 / 3;
+constexpr double common_share = 1.0 / 3;  // of the field, if there is no background
 
+// The distribution over usual_range() in equal bins; the outermost hold all values beyond.
 class Bins {
   public:
     Bins(const ValueDistribution& values, bool whole_numbers) {
         const ValueRange range = usual_range(values);
         lo_ = range.lo;
         width_ = (range.hi - range.lo) / most_bins;
-        // Bins of whole numbers all hold equally many.
+        // For whole numbers, every bin holds equally many numbers.
         if (whole_numbers) width_ = std::ceil(width_);
         const auto count =
             static_cast<std::size_t>(std::lround((range.hi - range.lo) / width_)) + 1;
@@ -97,7 +98,7 @@ class Bins {
         return static_cast<std::size_t>(std::ranges::max_element(shares_) - shares_.begin());
     }
 
-    // Returns the last bin that belongs to the peak, upwards (step 1) or downwards (-1).
+    // Returns the last bin of the peak, going upwards (step 1) or downwards (-1).
     std::size_t end_of_peak(std::size_t peak, int step) const {
         const auto window =
             static_cast<std::ptrdiff_t>(std::max<std::size_t>(shares_.size() / tail_width, 1));
@@ -124,7 +125,7 @@ class Bins {
     std::vector<double> shares_;
 };
 
-// Returns the shortest interval with that share.
+// Returns the shortest interval that holds this share of the values.
 CommonValues densest(const ValueDistribution& values, double share) {
     CommonValues best{values.lowest(), values.highest(), false};
     for (int i = 0; i < most_bins; ++i) {
@@ -135,22 +136,23 @@ CommonValues densest(const ValueDistribution& values, double share) {
     return best;
 }
 
-constexpr std::size_t most_values = 4;
-// Number of different values that measured data exceed.
+constexpr std::size_t most_values = 4;  // largest number of padding values
+// Number of different values that the rest must exceed: fewer are labels.
 constexpr std::size_t few_values = 24;
 
-// Least distance of padding from the rest, in widths of the rest's range. It is larger above: a
-// high value may be a real object of a single value, such as metal in tissue.
+// Least distance of padding below or above the rest, in widths of the rest's range: larger above,
+// because a high value may be a real object, such as metal in tissue.
 constexpr double far_below = 1, far_above = 4;
-// Least distance of the lowest value to be padding if the rest's own background is more frequent.
+// Least distance of the lowest value if the rest has a background more frequent than it.
 constexpr double near_below = 1.0 / 8;
 
-constexpr double edge_share = 1.0 / 64;  // share of the way to the padding, or of the range
-constexpr double thin_shell = 1.0 / 50;  // as a share of a voxel
+// Distance of Padding::edge_...() from the rest: share of the gap or of the rest's range.
+constexpr double edge_share = 1.0 / 64;
+constexpr double thin_shell = 1.0 / 50;  // share of a voxel up to which a shell is thin
 
-// Differences of halved values, because those of the values themselves may overflow.
+// Halves of distances, because the distances themselves may overflow.
 struct HalfDistance {
-    double gap, width;  // distance to the rest, and its range
+    double gap, width;  // half the distance to the rest, half the rest's width
     bool below;
 
     HalfDistance(double value, const ValueDistribution& rest)
@@ -160,9 +162,10 @@ struct HalfDistance {
           below(value < rest.lowest()) {}
 };
 
+// Tells whether a value is so far from the rest that it is padding however rare it is.
 bool is_marker(double value, const ValueDistribution& rest) {
     const HalfDistance found(value, rest);
-    // 0 is never a marker: it is the natural value of empty space.
+    // 0 does not mark missing data: it is the natural value of empty space.
     return value != 0 && found.gap > (found.below ? far_below : far_above) * found.width;
 }
 
@@ -175,7 +178,7 @@ bool is_padding(double value, double share, const ValueDistribution& rest, bool 
     return common.background && share < (1 - share) * rest.share(common.lo, common.hi);
 }
 
-// Removes values from both ends as long as `is_one(value, share, rest)` holds.
+// Takes values from both ends as padding as long as `is_one(value, share, rest)` holds.
 template <typename IsOne>
 Padding take_from_ends(const ValueDistribution& all, const IsOne& is_one) {
     Padding found;
@@ -209,7 +212,7 @@ ValueRange usual_range(const ValueDistribution& values) {
 }
 
 CommonValues find_common_values(const ValueDistribution& values, bool whole_numbers) {
-    // Two values are a mask: the more frequent one is background.
+    // Data of two values are a mask, in which the more frequent value is background.
     if (values.distinct() == 2) {
         const bool low = values.share_up_to(values.lowest()) >= 0.5;
         const double more = low ? values.lowest() : values.highest();
@@ -244,7 +247,7 @@ ValueHistogram binned(const ValueDistribution& values, const ValueRange& range, 
         histogram.lo = range.lo - .5;
         histogram.hi = histogram.lo + count * width;
     }
-    // A value on an edge counts for the upper interval; the last one holds both of its edges.
+    // A value on an edge counts for the interval above; the last interval holds both its edges.
     double before = 0;
     for (double i = 1; i < count; ++i) {
         const double share = i / count;
@@ -269,7 +272,7 @@ Padding find_padding(const ValueDistribution& all, bool whole_numbers, double le
             return share >= least_share && is_padding(value, share, rest, whole_numbers);
         });
     for (const double value : found.values) {
-        // The last value found on each side is the nearest to the rest.
+        // `values` go inwards, so the last one on each side is the nearest to the rest.
         if (value < found.rest.lowest()) found.below = value;
         if (value > found.rest.highest()) found.above = value;
     }

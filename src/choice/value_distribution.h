@@ -9,12 +9,13 @@
 
 namespace lamina {
 
+// A value and how often it occurs, in any unit.
 struct WeightedValue {
     double value = 0;
     double weight = 0;  // >= 0
 };
 
-// The values of a field, each with its share of it, whatever the threads.
+// The values of a field, each with its share. The result does not depend on the number of threads.
 class ValueDistribution {
   public:
     ValueDistribution() = default;  // an empty distribution
@@ -34,7 +35,7 @@ class ValueDistribution {
     // Returns the least value up to which at least this share lies.
     double quantile(double share) const;
 
-    // Returns the part with values from lo to hi, whose shares add up to 1; may be empty.
+    // Returns the distribution of the values from lo to hi, whose shares add up to 1; may be empty.
     ValueDistribution between(double lo, double hi) const;
 
   private:
@@ -45,46 +46,48 @@ class ValueDistribution {
 // The values that most of a field has, from lo to hi: air around an object, undisturbed flow.
 struct CommonValues {
     double lo = 0, hi = 0;
-    // True: a narrow peak, beyond which values are rare. False: just the values closest together.
+    // True: a narrow peak; values beyond are rare. False: the third of values closest together.
     bool background = false;
 };
 
-// Finds the common values of two or more. `whole_numbers`: all values are whole.
+// Finds the common values of two or more values. `whole_numbers`: all are whole.
 CommonValues find_common_values(const ValueDistribution& values, bool whole_numbers);
 
-// Returns the range without the outermost thousandth of values at each end, if these take up most
-// of the range: a few extreme values would leave no room for all others.
+// Returns the range of the values. If the outermost thousandths at both ends take up more than 7/8
+// of the range, they are left out, because the other values would share too few bins.
 ValueRange usual_range(const ValueDistribution& values);
 
-// Counts the values, if any, in at most `bins` >= 1 intervals over `range`, which holds all. Those
-// of whole numbers hold equally many, the lowest in the middle of its own unit.
+// Counts the values in at most `bins` >= 1 intervals over `range`, which holds them all; empty if
+// there are none. For whole numbers, all hold equally many and begin half a unit below the least.
 ValueHistogram binned(const ValueDistribution& values, const ValueRange& range, bool whole_numbers,
                       int bins);
 
 // Values that mean "nothing was measured here": -3024 around a round CT, -9999 on land in a sea.
 struct Padding {
     std::vector<double> values;
-    double share = 0;                    // of the field
-    ValueDistribution rest;              // all other values
-    std::optional<double> below, above;  // the padding values next to the rest, if there are any
+    double share = 0;        // of the field
+    ValueDistribution rest;  // all other values
+    // The padding values nearest to the rest on each side, if any.
+    std::optional<double> below, above;
 
-    // Returns a value between padding and rest, from which on interpolated values show.
+    // Return a value between padding and rest, from which on interpolated values may show.
     double edge_below() const;
     double edge_above() const;
-    // Tells whether values up to `lo`, or from `hi` on, would be a thick shell towards the padding.
+    // Tell whether values up to `lo`, or from `hi` on, would show as a thick shell at padding.
     bool shell_below(double lo) const;
     bool shell_above(double hi) const;
 };
 
-// Share of a volume that a value must have to be padding: fewer samples may be noise.
+// Share of a volume from which on a value may be padding: fewer samples may be noise.
 inline constexpr double least_padding = 1e-3;
 
-// Finds single values far from all others, at both ends (docs/first-picture.md). Those with less
-// than `least_share` are none; with less than `least_padding` they must be a whole range away.
+// Finds padding: single values far from all others, at both ends (docs/first-picture.md). Values
+// with a share below `least_share` are no padding; values with a share below `least_padding` must
+// be at least as far away as the range of all other values is wide.
 Padding find_padding(const ValueDistribution& all, bool whole_numbers,
                      double least_share = least_padding);
 
-// Returns the values, however rare, that lie as far from all others as padding must.
+// Returns the values, however rare, that lie so far from all others that they mark missing data.
 std::vector<double> find_markers(const ValueDistribution& all);
 
 }  // namespace lamina

@@ -9,7 +9,8 @@ namespace lamina {
 namespace {
 
 constexpr double e = std::numbers::e;
-constexpr double low_end = 1 - 1 / e;  // value at sigma = 1, times Y
+// The minimax code at sigma = 1, before the division by 1 - ln(share) / e.
+constexpr double low_end = 1 - 1 / e;
 
 double encode_minimax(double depth, double share) {
     const double sigma = depth / share, log_part = -std::log(share) / e;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Codes of n bits, n = 1..16: whole numbers 0..M with M = 2^n - 1, which represent code / M; and
-// OVER on them (LaMar 2004, section 4; docs/numerics.md, section 2). Twins of codes.glsl,
+// OVER on them (LaMar 2004, section 4; docs/numerics.md, section 2). These are twins of codes.glsl,
 // dither.glsl and over.glsl in shaders/compositing, bit for bit.
 #pragma once
 
@@ -20,12 +20,11 @@ constexpr std::uint32_t largest_code(int bits) {
     return (std::uint32_t{1} << bits) - 1;
 }
 
-// Distance below a whole number at which a scaled value (M times a value in [0, 1]) counts as that
-// number. Otherwise rounding errors of double precision could turn the opacity of code k into code
-// k - 1.
+// Distance below a whole number at which a scaled value (M times one in [0, 1]) still counts as it.
+// Otherwise rounding errors of doubles could turn the opacity of code k into code k - 1.
 inline constexpr double code_noise = 1e-9;
 
-// A scaled value, split into its whole part and the rest, 0 <= rest < 1.
+// A scaled value, split into a whole number and the rest, 0 <= rest < 1.
 struct ScaledValue {
     std::uint32_t whole;
     double rest;
@@ -40,8 +39,7 @@ inline std::uint32_t code_nearest(double scaled) {
     return static_cast<std::uint32_t>(std::floor(scaled + 0.5));
 }
 
-// Rounds an opacity to a code. `random`: 32 random bits, used only for stochastic rounding, whose
-// mean is the value.
+// Rounds an opacity to a code. `random`: 32 bits for stochastic rounding, whose mean is the value.
 inline std::uint32_t round_alpha(AlphaRounding rounding, const ScaledValue& scaled,
                                  std::uint32_t random) {
     switch (rounding) {
@@ -55,9 +53,8 @@ inline std::uint32_t round_alpha(AlphaRounding rounding, const ScaledValue& scal
     unreachable_enum();
 }
 
-// Returns 32 random bits of (column, row, sample) and a seed, for stochastic rounding: the hash
-// pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020. Twin of
-// shaders/compositing/random_bits.glsl.
+// Returns 32 random bits of (column, row, sample) and a seed: hash pcg4d of Jarzynski and Olano,
+// "Hash Functions for GPU Rendering", JCGT 2020. Twin of shaders/compositing/random_bits.glsl.
 constexpr std::uint32_t random_bits(std::uint32_t column, std::uint32_t row, std::uint32_t sample,
                                     std::uint32_t seed) {
     std::uint32_t v[4] = {column, row, sample, seed};
@@ -74,8 +71,7 @@ constexpr std::uint32_t random_bits(std::uint32_t column, std::uint32_t row, std
     return v[3];
 }
 
-// A reproducible sequence of random numbers, for permutations: splitmix64 (Steele, Lea, Flood
-// 2014).
+// Reproducible random numbers, for permutations: splitmix64 (Steele, Lea, Flood 2014).
 class SplitMix64 {
   public:
     explicit constexpr SplitMix64(std::uint64_t seed) : state_(seed) {}
@@ -92,6 +88,7 @@ class SplitMix64 {
 
 inline constexpr int max_dither_period = 65536;
 
+// Dithering along depth (docs/numerics.md, section 2).
 struct Dither {
     int period = 16;         // slabs after which the pattern repeats
     std::uint32_t seed = 1;  // seed of the permutation
@@ -101,13 +98,13 @@ struct Dither {
     friend bool operator==(const Dither&, const Dither&) = default;
 };
 
-// Returns the order in which the slabs of a period round up: 0..period-1, shuffled with splitmix64
-// (Fisher and Yates, from the last down). Slab z from the eye has the rank [z mod period].
+// Returns the order in which a period's slabs round up: ranks 0..period-1, shuffled with splitmix64
+// (Fisher and Yates, from the last down). Slab z from the eye has the rank at z mod period.
 std::vector<std::uint32_t> dither_ranks(int period, std::uint64_t seed);
 
-// Returns the code of a scaled value for a rank. Dithering along depth (LaMar 2004, section 5;
-// docs/numerics.md, section 2): let f be the rest of a value between two codes; of P slabs, floor(P
-// f) show the code above the value, and the others the code below. With an increment k > 1 codes
+// Returns the code of a scaled value for a slab's rank. Dithering along depth (LaMar 2004, section
+// 5; docs/numerics.md, section 2): with f the rest of a value between two codes, floor(P f) of P
+// slabs show the code above the value, and the others the code below. With an increment k > 1 codes
 // are multiples of k, except for M, which stays opaque.
 inline std::uint32_t dither_code(double scaled, std::uint32_t rank, int period, int increment,
                                  std::uint32_t largest) {
@@ -119,16 +116,15 @@ inline std::uint32_t dither_code(double scaled, std::uint32_t rank, int period, 
     return std::min(steps * static_cast<std::uint32_t>(increment), largest);
 }
 
-// Returns the period for N slabs. The smallest opacity that a pattern can show is 1 / (M P) a slab,
-// and a ray loses at most N / P codes in all by rounding down. P = N keeps this loss under one
-// code, and a longer pattern would not repeat within the ray.
+// Returns the period P for N slabs. The smallest opacity that a pattern can show is 1 / (M P) a
+// slab, and a ray loses at most N / P codes in all by rounding down. P = N keeps this loss under
+// one code, and a longer pattern would not repeat within the ray.
 inline int dither_period_for(int samples) {
     return samples;
 }
 
-// Returns the opacity over `share` of the length that `unit_opacity` refers to: 1 - (1 - A)^share
-// (LaMar 2004, equations 1 and 2). It is accurate to rounding for every A in [0, 1] and share > 0
-// (docs/numerics.md, section 1).
+// Returns the opacity over `share` of the length of `unit_opacity`: 1 - (1 - A)^share (LaMar 2004,
+// equations 1 and 2), accurate for A in [0, 1] and share > 0 (docs/numerics.md, section 1).
 inline double opacity_over(double unit_opacity, double share) {
     if (share == 1) return unit_opacity;
     return unit_opacity < 1 ? -std::expm1(share * std::log1p(-unit_opacity)) : 1.0;
@@ -140,8 +136,7 @@ constexpr std::uint32_t divide_nearest(std::uint32_t x, std::uint32_t largest) {
     return (x + (largest - 1) / 2) / largest;
 }
 
-// Returns colour `color` with opacity `alpha` over `below`, all codes 0..M; for the alpha channel
-// `color` is M.
+// Returns `color` with opacity `alpha` over `below`, codes 0..M; for alpha channels `color` is M.
 constexpr std::uint32_t over(OverRounding rounding, std::uint32_t color, std::uint32_t alpha,
                              std::uint32_t below, std::uint32_t largest) {
     const std::uint32_t source = color * alpha, kept = below * (largest - alpha);
@@ -150,10 +145,9 @@ constexpr std::uint32_t over(OverRounding rounding, std::uint32_t color, std::ui
                : divide_nearest(source, largest) + divide_nearest(kept, largest);
 }
 
-// Composites front to back: adds `color` with opacity `alpha` behind the associated colour `above`
-// with opacity `above_alpha`. separate: the source is multiplied by its opacity, rounded,
-// attenuated and rounded again, as blending with (1 - destination alpha, 1) does. fused: there is
-// one rounding.
+// Returns the associated colour `above`, of opacity `above_alpha`, with `color` of opacity `alpha`
+// behind it (front to back). separate: the source is multiplied by its opacity, rounded, attenuated
+// and rounded again, as blending with (1 - destination alpha, 1) does. fused: rounded once.
 constexpr std::uint32_t under(OverRounding rounding, std::uint32_t color, std::uint32_t alpha,
                               std::uint32_t above, std::uint32_t above_alpha,
                               std::uint32_t largest) {
@@ -166,10 +160,11 @@ constexpr std::uint32_t under(OverRounding rounding, std::uint32_t color, std::u
     return above + static_cast<std::uint32_t>((product + (square - 1) / 2) / square);
 }
 
-// Computes OVER in real arithmetic on a stored code, and rounds up with the probability of the
-// result's rest: unbiased for any number of fragments, unlike rounding these alone, because the
-// blend rounds again (docs/numerics.md, section 8). `source`: associated and in [0, 1], like
-// `alpha`. `random`: 32 bits. Twin of shaders/compositing/stochastic_over.glsl, bit for bit.
+// Computes OVER in real arithmetic on a stored code, and rounds the result up with the probability
+// of its rest. So its mean is right for any number of fragments; rounding only the fragments at
+// random would not suffice, because the blending unit rounds again (docs/numerics.md, section 8).
+// `source`: associated and in [0, 1], like `alpha`. `random`: 32 bits. Twin of
+// shaders/compositing/stochastic_over.glsl, bit for bit.
 inline std::uint32_t over_stochastic(double source, double alpha, std::uint32_t below,
                                      std::uint32_t random, std::uint32_t largest) {
     const ScaledValue value = split_scaled(largest * source + below * (1 - alpha));
@@ -177,14 +172,13 @@ inline std::uint32_t over_stochastic(double source, double alpha, std::uint32_t 
     return std::min(value.whole + (up ? 1u : 0u), largest);
 }
 
-// Codes of nodes: how a node of a compositing tree stores its optical depth in the alpha channel of
-// a low-precision image (docs/numerics.md, section 4). Twin of shaders/compositing/node_code.glsl,
-// to float32. A code of 1 represents this optical depth: opaque.
+// Optical depth of a code of 1, which stands for opaque: a tree's node stores such codes of its
+// depth in the alpha channel of a low-precision image (docs/numerics.md, section 4). encode_depth()
+// and decode_depth() are twins of shaders/compositing/node_code.glsl, to float32.
 inline constexpr double opaque_node_depth = 1e4;
 
-// Returns the code in [0, 1] of optical depth S >= 0 in a node that holds `share` (0 < share <= 1)
-// of its ray's samples. sigma = S / share is the optical depth of a whole ray that is filled like
-// the node.
+// Returns the code in [0, 1] of optical depth S >= 0 in a node with `share` (0 < share <= 1) of its
+// ray's samples. sigma = S / share is the optical depth of a whole ray filled like the node.
 double encode_depth(NodeCode code, double depth, double share);
 
 // Returns the optical depth S of a code in [0, 1].

@@ -6,7 +6,7 @@
 namespace lamina {
 namespace {
 
-// Opacities and colours of a ray's samples and nodes as codes.
+// Turns opacities and colours of a ray's samples and nodes into codes.
 class Coder {
   public:
     Coder(const Emulation& emulation, const std::optional<Dither>& dither, std::uint32_t column,
@@ -19,7 +19,7 @@ class Coder {
 
     std::uint32_t largest() const { return largest_code(emulation_.bits); }
 
-    // `stage` is a number of its own for every rounding in a pixel.
+    // Rounds an opacity to a code. `stage`: unique among a pixel's roundings; seeds random bits.
     std::uint32_t round(double opacity, std::uint32_t stage) const {
         const double scaled = largest() * opacity;
         const std::uint32_t random = emulation_.alpha == AlphaRounding::stochastic
@@ -50,6 +50,7 @@ class Coder {
     std::vector<std::uint32_t> alpha_ranks_, color_ranks_;
 };
 
+// Evaluates a compositing tree on one ray.
 struct TreeCompositor {
     std::span<const double> unit_opacities;
     const TreeShape& tree;
@@ -84,8 +85,8 @@ struct TreeCompositor {
             opacity_over(unit_opacities[static_cast<std::size_t>(slab)], share), slab);
     }
 
-    // The paper's exponent-swizzle, from a node's image into its parent's input. Nodes are numbered
-    // as they are evaluated, after the samples.
+    // Returns a node's opacity as its parent composites it: the exponent-swizzle of LaMar 2004.
+    // Nodes are numbered as they are evaluated, after the samples.
     std::uint32_t swizzle(std::uint32_t code, double share) {
         const double phi = static_cast<double>(code) / coder.largest();
         const auto stage = static_cast<std::uint32_t>(tree.samples() + swizzled++);

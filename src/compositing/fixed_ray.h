@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point compositing of one ray on the processor: the values that an emulated target holds,
-// and that LaMar 2004 plots.
+// Fixed-point compositing of one ray on the CPU, as in an emulated target and plots of LaMar 2004.
 #pragma once
 
 #include <cstdint>
@@ -25,16 +24,15 @@ struct RaySample {
     double alpha = 0;
 };
 
-// Returns the pixel after all samples; sample 0 is the nearest to the eye. `column`, `row`: the
-// pixel's place, for stochastic rounding.
+// Composites samples in order, nearest first. `column`, `row`: the pixel, for stochastic rounding.
 FixedPixel composite_straight(std::span<const RaySample> samples, const Emulation& emulation,
                               const std::optional<Dither>& dither = {},
                               Order order = Order::back_to_front, std::uint32_t column = 0,
                               std::uint32_t row = 0);
 
-// Exponent-factoring (LaMar 2004, section 6; docs/numerics.md, section 3). Returns the opacity of
-// the root as a code. Samples are given by their per-unit opacity A, where the unit is the whole
-// ray. Samples may be dithered; nodes are rounded like alpha.
+// Composites samples in a tree by exponent-factoring (LaMar 2004, section 6; docs/numerics.md,
+// section 3); returns the root's opacity as a code. `unit_opacities`: for each sample that of a
+// whole ray like it. Samples may be dithered; nodes are rounded as the emulation rounds alpha.
 std::uint32_t composite_tree(std::span<const double> unit_opacities, const TreeShape& tree,
                              const Emulation& emulation, const std::optional<Dither>& dither = {},
                              Order order = Order::back_to_front, std::uint32_t column = 0,

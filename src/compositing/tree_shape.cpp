@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-// `what` names the number in messages.
+// Parses a number from 1 to `most`, and moves `at` behind it. `what` names the number in messages.
 int parse_whole(const char*& at, const char* end, const char* what, int most,
                 const std::string& text) {
     int number = 0;
@@ -39,7 +39,7 @@ TreeShape::TreeShape(const std::vector<int>& factors, int samples)
     }
 }
 
-// The children of a node have one of two sizes.
+// Counts the leaves below a node of `count` samples, whose children have one of two sizes.
 std::int64_t TreeShape::count_leaves(int level, int count) const {
     if (is_leaf(level, {0, count})) return 1;
     const int k = factor(level), larger = count % k, size = count / k;

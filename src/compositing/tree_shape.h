@@ -7,8 +7,8 @@
 
 namespace lamina {
 
-// Samples first .. first + count - 1 of a ray, or slabs of a volume. Number 0 is the nearest to the
-// eye.
+// Consecutive samples of a ray, or slabs of a volume: numbers first .. first + count - 1. Number 0
+// is the nearest to the eye.
 struct SampleSpan {
     int first = 0;
     int count = 0;
@@ -16,13 +16,13 @@ struct SampleSpan {
 };
 
 // Returns the samples of child i of a node with k children and n samples (docs/numerics.md, section
-// 3): floor(i n / k) .. floor((i + 1) n / k). The children's sizes differ by at most one; some are
-// empty if k > n.
+// 3): from floor(i n / k) up to, but without, floor((i + 1) n / k), counted from the node's first.
+// The children's sizes differ by at most one; some are empty if k > n.
 SampleSpan child_span(const SampleSpan& node, int child, int children);
 
 // A compositing tree over N samples (LaMar 2004, section 6), given by bifurcation factors from the
 // root to the leaves, for any factors and any N >= 1. A node on the last level is a leaf: its
-// children are samples. If the product of the factors is less than N, another level takes the rest.
+// children are samples. If the product of the factors is less than N, a level is added below.
 class TreeShape {
   public:
     TreeShape(const std::vector<int>& factors, int samples);
@@ -32,13 +32,12 @@ class TreeShape {
     int factor(int level) const { return factors_[static_cast<std::size_t>(level)]; }
     SampleSpan root() const { return {0, samples_}; }
 
-    // Tells whether a node is a leaf; on any level, a node of one sample is.
+    // Tells whether a node is a leaf: on the last level, or on any level with a single sample.
     bool is_leaf(int level, const SampleSpan& node) const {
         return level + 1 == levels() || node.count <= 1;
     }
-    // Tells whether a node is marched: if nodes are computed in float, a node on any level whose
-    // children are single samples composites them one after the other, with the result of child
-    // nodes.
+    // Tells whether a node computed in float is marched: if each of its children is a single
+    // sample, it composites these samples in one loop instead of drawing child nodes.
     bool is_marched(int level, const SampleSpan& node) const {
         return is_leaf(level, node) || factor(level) >= node.count;
     }

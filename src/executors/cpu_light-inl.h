@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The effect of light on colours (docs/numerics.md, section 10): vector form of
-// optics/ray_lights.h.
+// Computes how light changes colours (docs/numerics.md, section 10), as optics/ray_lights.h does.
 #if defined(LAMINA_EXECUTORS_CPU_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_EXECUTORS_CPU_LIGHT_INL_H_
 #undef LAMINA_EXECUTORS_CPU_LIGHT_INL_H_
@@ -18,7 +17,7 @@ LAMINA_INLINE Float dot(const Float (&a)[3], const Float (&b)[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Replaces each x, 0 to 1, by x^half_power. All are computed side by side, because each
+// Replaces each x, 0 to 1, by x^light.half_power. All are computed side by side, because each
 // multiplication waits for the one before.
 template <std::size_t count>
 LAMINA_INLINE void set_shine(const CpuLight& light, Float (&x)[count]) {
@@ -40,15 +39,15 @@ LAMINA_INLINE void set_shine(const CpuLight& light, Float (&x)[count]) {
     for (std::size_t i = 0; i < count; ++i) x[i] = power[i];
 }
 
-// The effect of light on a colour c at a place: it adds c * change + highlight. One channel is
-// enough if light is grey.
+// The effect of light on a colour c at a place: it adds c * change + highlight to c. One channel is
+// enough if lights are grey.
 template <std::size_t channels>
 struct EffectLanes {
     Float change[channels], highlight[channels];
 };
 
-// Computes the effects at some places of a ray, with the gradients g. `smallest_square`: square of
-// the smallest gradient, in the unit of g.
+// Computes the effects at some places of a ray, where the gradients are g. `smallest_square`:
+// square of Lighting::smallest_gradient, in the unit of g.
 template <std::size_t channels, std::size_t count>
 LAMINA_INLINE void set_effects(const CpuLight& light, const Float (&g)[count][3],
                                Float smallest_square, const Float (&to_eye_unit)[3],
@@ -66,7 +65,7 @@ LAMINA_INLINE void set_effects(const CpuLight& light, const Float (&g)[count][3]
     for (const CpuLight::Direction& direction : light.directions) {
         const Float to_light[3] = {Float(direction.to_light[0]), Float(direction.to_light[1]),
                                    Float(direction.to_light[2])};
-        // |l + v|^2; if it is 0 there is no highlight.
+        // |l + v|^2 for unit vectors l to the light and v to the eye; 0: there is no highlight.
         const Float sum = 2 + 2 * dot(to_light, to_eye_unit);
         Float along[count], shine[count];
         for (std::size_t i = 0; i < count; ++i) {
@@ -111,10 +110,10 @@ LAMINA_INLINE EffectLanes<channels> effect_of(const CpuLight& light, const Float
     return effects[0];
 }
 
-// Returns the effect that light may have between the nodes of a piece. The gradient has this square
-// in the middle and differs from that by up to the root of `reach`. If it stays near, nothing is
-// hidden. Otherwise a highlight may lie between the nodes; everything else changes without peaks,
-// and its full effect is possible only if the gradient differs three times as much.
+// Returns a bound on light's effect between the nodes of a piece. `square`: that of the
+// gradient's length in the middle; `reach`: largest square of the distance from that gradient. If
+// the gradient stays near, nothing is hidden; else a highlight may be. All else has no peaks, and
+// hides its full effect only if the gradient differs three times as much.
 LAMINA_INLINE Float hidden_effect(const CpuLight& light, Float square, Float reach,
                                   Float smallest_square) {
     const FloatMask peaks = reach > light.most_turn * light.most_turn * square;
@@ -129,8 +128,8 @@ LAMINA_INLINE Float hidden_effect(const CpuLight& light, Float square, Float rea
     return effect * weight;
 }
 
-// Light at the nodes of Gauss' rule with three nodes, whose weights add up to a piece's opacity.
-// `share`: place of a node for colours that change along the piece.
+// Sums of light over three nodes of Gauss' rule, whose weights add up to the opacity. `shared`:
+// changes times the node's share of the interval, for colours that change along the piece.
 template <std::size_t channels>
 struct LitNodes {
     Float total, change[channels], shared[channels], highlight[channels], bend[channels];
@@ -140,8 +139,8 @@ struct LitNodes {
             change[c] = shared[c] = highlight[c] = bend[c] = Float(0);
     }
 
-    // `extinction` and the optical depth `before` the node are those of the piece, whose length is
-    // in the extinction. A `deep` piece shows its front alone.
+    // Adds a node. `extinction`: times the piece's length; `before`: the piece's optical depth in
+    // front of the node. A `deep` piece shows its front alone.
     LAMINA_INLINE void add(std::size_t node, const EffectLanes<channels>& effect, Float extinction,
                            Float before, FloatMask deep, Float share) {
         const Float seen = GaussRule<3>::weights[node] * extinction * (1 - shallow_opacity(before));
@@ -157,8 +156,7 @@ struct LitNodes {
         }
     }
 
-    // Returns the largest bend of light from node to node to node. The rule misses .045 times that
-    // of a kink.
+    // Returns the channels' largest bend (second difference); the rule misses .045 of it at kinks.
     LAMINA_INLINE Float largest_bend() const {
         Float most(0);
         for (const Float& each : bend) most = max(most, abs(each));
@@ -166,15 +164,15 @@ struct LitNodes {
     }
 };
 
-// Returns the length of a piece's first sub-piece. The error at a kink falls with the square of
-// that. It is half as long again, since most pieces bend by less than they may hide.
+// Returns the length, 1 / 8 to 1 of a piece, at which it is cut first: 1.5 times what the bend
+// demands, since most pieces hide less. The error at a kink falls with the square of the length.
 LAMINA_INLINE Float longest_piece(const CpuLight& light, Float bend) {
     const Float least(1.0f / 8), longer(1.5f);
     const Float share = light.most_bend / max(bend, 1e-30f);
     return max(min(longer * sqrt(share), 1), least);
 }
 
-// Shortest sub-piece for which light is computed, as a share of the piece.
+// Length, as a share of a piece, below which it is not cut further.
 inline constexpr float shortest_lit_piece = 1.0f / 256;
 
 // Returns the pieces whose light bends too much for one rule.

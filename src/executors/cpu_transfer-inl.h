@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector forms of shaders/optics/intervals.glsl and transfer_function.glsl, and of
-// shaders/preintegration/knot_table.glsl, as shaders/slicing/segment.glsl reads it:
-// KnotTable::lookup in float.
+// Looks up the transfer function, and integrates segments by the pre-integration table: vector
+// forms of shaders/optics/intervals.glsl and transfer_function.glsl, and of
+// shaders/preintegration/knot_table.glsl as shaders/slicing/segment.glsl uses it (KnotTable::lookup
+// in float).
 #if defined(LAMINA_EXECUTORS_CPU_TRANSFER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_EXECUTORS_CPU_TRANSFER_INL_H_
 #undef LAMINA_EXECUTORS_CPU_TRANSFER_INL_H_
@@ -16,11 +17,10 @@
 
 LAMINA_SIMD_BEGIN
 
-// Ways to look up the interval of a scalar. one: there is only one interval. permute: by
-// permutations of vectors that hold all intervals. gather: by gathers from memory.
+// How numbers of an interval are looked up. one: there is only one interval. permute: by permuting
+// a vector that holds the numbers of all intervals. gather: by gathers from memory.
 enum class Lookup { one, permute, gather };
 
-// Calls body(std::integral_constant<Lookup, ...>).
 template <class Body>
 LAMINA_INLINE void with_lookup(const CpuTransfer& transfer, const Body& body) {
     if (transfer.intervals == 1) {
@@ -66,13 +66,14 @@ LAMINA_INLINE Int find_interval(const CpuTransfer& transfer, Float scalar) {
     }
 }
 
-// Returns the position of a scalar in its interval, 0 to 1.
+// Returns the place of a scalar in its interval, 0 to 1.
 template <Lookup kind>
 LAMINA_INLINE Float share_of_interval(const CpuTransfer& transfer, Int interval, Float scalar) {
     const Float end = look_up<kind>(transfer.left_end, interval);
     return clamp01((scalar - end) * look_up<kind>(transfer.inverse_width, interval));
 }
 
+// Returns a channel of the colour (0 to 2), or the extinction (3).
 template <Lookup kind>
 LAMINA_INLINE Float optics_at(const CpuTransfer& transfer, std::size_t channel, Int interval,
                               Float share) {
@@ -80,9 +81,8 @@ LAMINA_INLINE Float optics_at(const CpuTransfer& transfer, std::size_t channel, 
            look_up<kind>(transfer.left[channel], interval);
 }
 
-// Tells whether extinction is > 0 anywhere from a scalar, which interval `first` holds, to
-// `largest`: in an interval before the last one, or in the last one. The last interval does not
-// count if `largest` is its left end and the extinction there is 0.
+// Tells whether extinction is > 0 anywhere between a scalar in interval `first` and `largest`. The
+// interval of `largest` does not count if that is its left end and the extinction there is 0.
 template <Lookup kind>
 LAMINA_INLINE FloatMask shows_something(const CpuTransfer& transfer, Int first, Float largest) {
     const Int last = find_interval<kind>(transfer, largest);
@@ -103,7 +103,7 @@ LAMINA_INLINE Float64 precise_extinction_at(const CpuTransfer& transfer, Int int
     return left + Float64(share) * (right - left);
 }
 
-// A cell of the table and the position in it.
+// A cell of the table between neighbouring nodes, and the place in it.
 struct TableCell {
     Int corner;  // front node + nodes * back node
     Float front, back;
@@ -120,7 +120,7 @@ struct TableEntry {
     Float emission[3];
     Float extinction;
 };
-// An entry of a lit table, with front parts of both.
+// An entry of a lit table, with the front parts of both (optics/segment_integral.h).
 struct LitEntry : TableEntry {
     Float front_emission[3];
     Float front_extinction;
@@ -138,6 +138,7 @@ LAMINA_INLINE Float table_extinction(const KnotTable& table, const TableCell& ce
     return mix(front, back, cell.back);
 }
 
+// Interpolates between a cell's nodes. `right`, `below`: numbers to the next front and back node.
 template <class V>
 LAMINA_INLINE V mixed_nodes(const float* texels, std::ptrdiff_t right, std::ptrdiff_t below,
                             float front, float back) {
@@ -148,8 +149,8 @@ LAMINA_INLINE V mixed_nodes(const float* texels, std::ptrdiff_t right, std::ptrd
     return mix(near, far, V(back));
 }
 
-// Interpolates between two layers of length. Their texels lie side by side, so that both are
-// interpolated at once if vectors are long enough.
+// Interpolates between the four nodes of a cell and two layers of length. The layers' texels lie
+// side by side, so that both are interpolated at once if vectors are long enough.
 template <class V8>
 LAMINA_INLINE void mix_layers(const float* texels, std::ptrdiff_t right, std::ptrdiff_t below,
                               float front, float back, float layer, float* entry) {
@@ -163,7 +164,7 @@ LAMINA_INLINE void mix_layers(const float* texels, std::ptrdiff_t right, std::pt
     }
 }
 
-// The positions at which the lanes of a vector look up entries.
+// The places at which the lanes of a vector look up entries.
 struct EntryPlaces {
     // Number of the entry at the cell's corner and lower layer.
     alignas(64) std::int32_t first[most_lanes];
@@ -181,16 +182,15 @@ LAMINA_INLINE void set_places(const CpuTransfer& transfer, const TableCell& cell
     store(layer - to_float(lower), places.layer);
 }
 
-// Entries as they are looked up: four numbers a lane, and four more of lit tables.
+// Entries as they are looked up: four numbers for each lane and, for lit tables, four front parts.
 template <bool lit>
 struct EntryNumbers {
     alignas(64) float whole[4 * most_lanes];
     alignas(64) float front[lit ? 4 * most_lanes : 1];
 };
 
-// Calls entry_at(lane) for the lanes that are `wanted`; the entries of other lanes become 0. Lanes
-// are read one by one, because the numbers of an entry lie side by side: this is several times as
-// fast as gathers of one number each.
+// Calls entry_at(lane) for `wanted` lanes; entries of others become 0. Reading lanes one by one is
+// several times as fast as gathers, because the numbers of an entry lie side by side.
 template <bool lit, class EntryAt>
 LAMINA_INLINE void set_entries(FloatMask wanted, EntryNumbers<lit>& entries,
                                const EntryAt& entry_at) {
@@ -261,7 +261,7 @@ LAMINA_INLINE EntryOf<lit> table_entry(const CpuTransfer& transfer, const TableC
     return load_entry(entries);
 }
 
-// A scalar's interval and its node coordinate in the table.
+// A scalar's interval, and its coordinate along an axis of the table, in nodes.
 struct TablePlace {
     Int interval;
     Float node;
@@ -275,14 +275,13 @@ LAMINA_INLINE TablePlace table_place(const CpuTransfer& transfer, Float scalar) 
                           look_up<kind>(transfer.first_node, interval)};
 }
 
-// Associated colour and optical depth of the front of a segment, behind which the next piece is
-// added.
+// The composite of the first pieces of a segment: associated colour and optical depth.
+// integrate_segment() returns colour that is not associated in it.
 struct RunSum {
     Float color[3];
     Float depth;
 };
-// A sum with front parts of colour and opacity (optics/segment_integral.h), associated if the
-// colour is.
+// A sum with front parts (optics/segment_integral.h), which are associated if the colour is.
 struct LitSum : RunSum {
     Float front_color[3];
     Float front_share;
@@ -299,11 +298,11 @@ LAMINA_INLINE SumOf<lit> no_sum() {
         return {{zero, zero, zero}, zero};
 }
 
-// Adds a piece with the given table entry behind `sum`. For lit segments `share` is the piece's
-// share of the segment's length and `left` that of everything behind it.
+// Shares of a lit segment's length: a piece's, and (`left`) that of all behind the piece.
 struct RunShares {
     Float share, left;
 };
+// Composites a piece with a table entry behind `sum`.
 template <bool lit>
 LAMINA_INLINE void add_entry(const EntryOf<lit>& entry, Float length, const RunShares& shares,
                              SumOf<lit>& sum) {
@@ -326,24 +325,25 @@ LAMINA_INLINE void add_entry(const EntryOf<lit>& entry, Float length, const RunS
     sum.depth += depth;
 }
 
+// The scalars at both ends of a segment, its length, and the places of the scalars in the table.
 struct RunEnds {
     Float front, back, length;
     TablePlace front_place, back_place;
 };
 
-// The piece of a segment that one look-up integrates.
+// A piece of a segment that one look-up integrates: its cell in the table, and its length.
 struct TableRun {
     TableCell cell;
     Float length;
 };
 
-// A segment before its look-ups in the table. If it crosses ends of intervals, it is cut at the
-// first and at the last of these. `first` is the piece before the first cut, or the whole segment.
-// Most segments that are cut cross one end only and have nothing `between`.
+// A segment before its look-ups. It is cut at the first and the last end of an interval that it
+// crosses: `first` is the piece before the first cut, or all; `between` lies between the cuts;
+// `last` is the rest. Most cut segments cross one end only and have nothing between.
 struct Segment {
     TableRun first, between, last;
     Float length;
-    FloatMask seen, cut, parted;  // lanes: visible; cut; with something between
+    FloatMask seen, cut, parted;  // lanes that are visible; that are cut; that have a piece between
     bool some_cut;
 };
 
@@ -351,7 +351,7 @@ LAMINA_INLINE std::int32_t table_nodes(const CpuTransfer& transfer) {
     return static_cast<std::int32_t>(transfer.table->nodes.size());
 }
 
-// Sets first, between and last in the lanes that are cut.
+// Sets `first`, `between` and `last` in lanes that are cut.
 template <Lookup kind>
 LAMINA_INLINE void cut_segment(const CpuTransfer& transfer, const RunEnds& run, Segment& segment) {
     const std::int32_t nodes = table_nodes(transfer);
@@ -382,8 +382,8 @@ LAMINA_INLINE void cut_segment(const CpuTransfer& transfer, const RunEnds& run, 
     segment.last = {table_cell(nodes, back_end, run.back_place.node), length(last_end, run.back)};
 }
 
-// Replaces the intervals of lanes that are not cut, so that these do not read beyond the last
-// interval.
+// Returns the ends of segments, with valid numbers in lanes that are not cut, so that cut_segment()
+// does not read beyond the last interval there.
 LAMINA_INLINE RunEnds ends_of_cut(const RunEnds& run, FloatMask cut) {
     RunEnds ends = run;
     ends.front_place.interval = zero_unless(cut, ends.front_place.interval);
@@ -393,6 +393,7 @@ LAMINA_INLINE RunEnds ends_of_cut(const RunEnds& run, FloatMask cut) {
     return ends;
 }
 
+// Prepares segments for their look-ups. `seen`: lanes that are visible.
 template <Lookup kind>
 LAMINA_INLINE Segment segment_of(const CpuTransfer& transfer, Float front, Float back, Float length,
                                  FloatMask seen) {
@@ -417,8 +418,7 @@ struct SegmentEntries {
     EntryOf<lit> first, last;
 };
 
-// Returns associated colour and optical depth of the lanes that are cut. The values of other lanes
-// have no meaning.
+// Composites the pieces of cut segments: associated colour and depth. Other lanes are undefined.
 template <bool lit>
 LAMINA_INLINE SumOf<lit> sum_of_parts(const CpuTransfer& transfer, const Segment& segment,
                                       const SegmentEntries<lit>& entries) {
@@ -443,7 +443,7 @@ LAMINA_INLINE SumOf<lit> sum_of_parts(const CpuTransfer& transfer, const Segment
     return sum;
 }
 
-// Returns the segment's optical depth, and its colour, not associated, from its table entries.
+// Returns the segments' optical depth and colour, not associated, from their table entries.
 template <bool lit>
 LAMINA_INLINE SumOf<lit> integrate_colors(const CpuTransfer& transfer, const Segment& segment,
                                           const SegmentEntries<lit>& entries) {
@@ -475,7 +475,7 @@ LAMINA_INLINE SumOf<lit> integrate_colors(const CpuTransfer& transfer, const Seg
     return sum;
 }
 
-// Returns the optical depth alone, from tables without colour.
+// Returns the segments' optical depth alone, from a table without colour.
 LAMINA_INLINE Float integrate_depth(const CpuTransfer& transfer, const Segment& segment) {
     const auto depth_of = [&](const TableRun& run) LAMINA_LAMBDA {
         return table_extinction(*transfer.table, run.cell) * run.length;
@@ -489,8 +489,7 @@ LAMINA_INLINE Float integrate_depth(const CpuTransfer& transfer, const Segment& 
     return select(segment.cut, parts, whole);
 }
 
-// Returns a segment's colour, not associated, and its optical depth. `entries` are used for tables
-// with colour.
+// Returns segments' colour, not associated, and optical depth. `entries`: for `colored` alone.
 template <bool lit>
 LAMINA_INLINE SumOf<lit> integrate_segment(const CpuTransfer& transfer, bool colored,
                                            const Segment& segment,
@@ -505,6 +504,7 @@ LAMINA_INLINE SumOf<lit> integrate_segment(const CpuTransfer& transfer, bool col
     return sum;
 }
 
+// Looks up and integrates segments on which the scalar is linear from `front` to `back`.
 template <Lookup kind>
 LAMINA_INLINE RunSum integrate_run(const CpuTransfer& transfer, bool colored, Float front,
                                    Float back, Float length, FloatMask seen) {

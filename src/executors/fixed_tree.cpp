@@ -11,9 +11,8 @@
 
 LAMINA_SIMD_BEGIN
 
-// Maps the image of a node to its parent's (LaMar 2004, section 6.2, "swizzle"), as
-// shaders/slicing/swizzle.frag does. `stage`: number of the step in the frame, for stochastic
-// rounding.
+// Composites a child's image onto its node's (LaMar 2004, section 6.2, "swizzle"), as
+// shaders/slicing/swizzle.frag. `stage`: number of the step in the frame, for stochastic rounding.
 void swizzle_pixels(const TargetBlend& target, bool emulated, const Swizzle& swizzle,
                     std::uint32_t stage, const TileGrid::Tile& area, const TilePixels::Plane& child,
                     TilePixels::Plane& node) {
@@ -40,20 +39,20 @@ void swizzle_pixels(const TargetBlend& target, bool emulated, const Swizzle& swi
     }
 }
 
-// Makes the picture of one colour and the opacity in the root, as shaders/slicing/colorize.frag
-// does.
+// Makes the picture from the opacity in the root and a single colour, as
+// shaders/slicing/colorize.frag does.
 void colorize_pixels(const TargetBlend& target, bool emulated,
                      const std::array<float, 3>& single_color, const TilePixels::Plane& root,
                      TilePixels& pixels) {
     pixels.alpha = root;
     TilePixels::Plane* const planes[3] = {&pixels.red, &pixels.green, &pixels.blue};
-    const float unit = 1 / target.largest;  // as textures are read
+    const float unit = 1 / target.largest;  // codes become values as when textures are read
     for (std::size_t channel = 0; channel < 3; ++channel) {
         const Float color(single_color[channel]);
         const Float code = color_code(target, color);
         for (std::size_t place = 0; place < TileGrid::pixels; place += Float::lanes) {
             const Float alpha = load<Float>(root.data() + place);
-            // OVER onto nothing is the product, rounded.
+            // Emulated OVER onto an empty pixel gives the product, rounded.
             const Float associated =
                 emulated ? composite_channel(target, code, alpha, Float(0), Float(0))
                          : native_code(target.largest, color * (alpha * unit));
@@ -80,7 +79,8 @@ Swizzle make_swizzle(double share, int bits) {
     return swizzle;
 }
 
-// Nodes of a level have one of few sizes. Each size is added once.
+// Adds the swizzles of a node and of those below it. The nodes of a level have only a few sizes,
+// and each pair of sizes is added once.
 void add_swizzles(const TreeShape& shape, int bits, int level, const SampleSpan& node,
                   Swizzles& swizzles) {
     if (shape.is_leaf(level, node)) return;
@@ -110,8 +110,8 @@ LAMINA_EXPORT(colorize_pixels);
 struct CpuFixedTree::Evaluation {
     const TileGrid::Tile& area;
     const TileLeaves& leaves;
-    std::uint32_t swizzled = 0;  // number of nodes so far
-    // There is one plane a level. A shape may have one level more than its factors.
+    std::uint32_t swizzled = 0;  // number of children composited so far
+    // The image of each level's present node. A shape may have one level more than factors.
     alignas(64) std::array<TilePixels::Plane, max_tree_levels + 1> planes;
 };
 

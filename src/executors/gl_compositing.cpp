@@ -16,9 +16,9 @@ namespace lamina {
 namespace {
 
 constexpr int child_unit = 6, swizzle_unit = 7;
-constexpr int swizzle_width = 256;  // shaders/slicing/swizzle.frag
+constexpr int swizzle_width = 256;  // entries in a row, as shaders/slicing/swizzle.frag reads them
 
-// Returns the one of the formats for float32, float16, and codes of up to 16 and of up to 8 bits.
+// Returns one of four formats: for float32, float16, codes of more than 8 bits, codes of up to 8.
 gl::TextureFormat format_for(const CompositingPlan& plan,
                              const std::array<gl::TextureFormat, 4>& formats) {
     switch (plan.target) {

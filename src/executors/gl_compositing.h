@@ -15,15 +15,13 @@
 
 namespace lamina {
 
-// Texture formats of the targets and nodes of a plan, and how OpenGL composites one fragment over
-// another.
+// Texture formats of a plan's targets and nodes, and how OpenGL composites a fragment over another.
 
 gl::TextureFormat color_format(const CompositingPlan& plan);    // RGBA of the target
 gl::TextureFormat opacity_format(const CompositingPlan& plan);  // one channel of the same precision
 
-// Sets the definitions of the plan's codes, rounding and OVER for shaders/compositing in programs
-// that round fragments to codes. A program that must read its target reads it at texture unit
-// `target_unit`.
+// Sets the plan's codes, rounding and OVER for programs that include shaders/compositing to round
+// fragments. A program that must read its target reads it at texture unit `target_unit`.
 void set_compositing(gl::Defines& defines, const CompositingPlan& plan);
 inline constexpr int target_unit = 5;
 
@@ -42,37 +40,34 @@ class CompositingState {
 // Decodes a picture that the program stored as codes of n bits in 8 or 16 bits: code / (2^n - 1).
 void decode(Image& image, const CompositingPlan& plan);
 
-// Must be called between draws that may cover the same pixel. It waits, if needed, until the result
-// of the first draw can be read.
+// Must be called between draws that may cover the same pixel; makes what was drawn readable.
 void finish_layer(const CompositingPlan& plan);
 
-// The samples of a tree of fixed-point nodes. They are numbered in visibility order; 0 is the
-// nearest to the eye.
+// Draws leaves of a tree of fixed-point nodes. Samples (slabs, or tets) count from the nearest on.
 class TreeLeaves {
   public:
     virtual ~TreeLeaves() = default;
 
-    // Composites the opacity of these samples onto the one channel of the bound target, in the
-    // plan's order. Optical depths are multiplied by `depth_scale`, the number of all samples over
-    // that of the leaf.
+    // Composites these samples' opacity onto the one channel of the bound target, in the plan's
+    // order. Optical depths are multiplied by `depth_scale`, all samples over those of the leaf.
     virtual void draw(const SampleSpan& span, const gl::Framebuffer& target,
                       double depth_scale) = 0;
 };
 
+// Return the definitions of shaders/slicing/swizzle.frag and colorize.frag.
 gl::Defines swizzle_defines(const CompositingPlan& plan);
 gl::Defines colorize_defines(const CompositingPlan& plan);
 
-// LaMar's exponent-factoring (2004, section 6). Every node composites opacity in a fixed-point
-// buffer, and its image goes through a dependent lookup into the buffer of its parent. One buffer a
-// level is enough, because a node's image is used up at once.
+// Composites by LaMar's exponent-factoring (2004, section 6) with OpenGL, as CpuFixedTree
+// (executors/fixed_tree.h) does on the CPU, with a fixed-point buffer in place of each plane.
 class GlFixedTree {
   public:
-    // `plan`: how the nodes composite. Leaves may be drawn in another way.
+    // `plan`: how nodes composite. Leaves may be drawn in another way.
     GlFixedTree(const CompositingPlan& plan, const TreeShape& shape, const glm::vec3& single_color,
                 int width, int height);
 
     int step_count() const { return static_cast<int>(shape_.leaf_count()); }
-    // Replaces the target by the picture of the leaves. Ctrl-C ends it between leaves.
+    // Sets the target to the picture of the leaves. Ctrl-C ends it between leaves.
     void draw(TreeLeaves& leaves, gl::Framebuffer& target, Progress* progress);
 
   private:
@@ -85,7 +80,7 @@ class GlFixedTree {
     gl::VertexArray no_attributes_;
     std::vector<gl::Framebuffer> buffers_;                 // one for each level
     std::map<std::pair<int, int>, gl::Texture> swizzles_;  // by samples of child and node
-    int swizzled_ = 0;  // number of nodes in this frame so far, which seeds stochastic rounding
+    int swizzled_ = 0;  // children composited in this frame, for stochastic rounding
 };
 
 }  // namespace lamina

@@ -21,8 +21,8 @@ enum TextureUnit {
 };
 static_assert(knot_table_unit < GlTransferTables::first_free_unit);
 
-// The texels of a coloured table are emission and mean extinction, those of a table without colour
-// mean extinction alone. Each length is a layer.
+// Uploads a table. Texels of a coloured table are emission and mean extinction, and each length is
+// a layer; those of a table without colour are mean extinction alone.
 gl::Texture upload_table(const KnotTable& table) {
     const std::size_t nodes = table.nodes.size();
     const int size = static_cast<int>(nodes);
@@ -58,6 +58,8 @@ bool is_gray(const Light& light) {
     return light.color.x == light.color.y && light.color.x == light.color.z;
 }
 
+// Returns a light for shaders/optics/lighting.glsl: the direction to it along `axes`, or (0, 0, 0,
+// 1) for a headlight.
 glm::vec4 direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {
     if (!light.direction) return {0, 0, 0, 1};
     const glm::dvec3 to_light = unit_vector(*light.direction);

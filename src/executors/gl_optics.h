@@ -16,8 +16,8 @@ namespace lamina {
 // shaders/optics/intervals.glsl and preintegration/knot_table.glsl read.
 class GlTransferTables {
   public:
-    static constexpr int first_free_unit = 3;  // texture units below are taken by these tables
-    static constexpr int lit_unit = 10;        // and, if they are lit, this one
+    static constexpr int first_free_unit = 3;  // the tables use the texture units below this one
+    static constexpr int lit_unit = 10;        // and this one, if they are lit
 
     // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: the pre-integration
     // table, or null. `filtered`: the table is read through the texture unit's filter.
@@ -39,11 +39,11 @@ class GlTransferTables {
 // Sets the definitions that specialise shaders/optics/lighting.glsl.
 void set_light_defines(const Lighting& lighting, gl::Defines& defines);
 
-// Sets the uniforms of shaders/optics/lighting.glsl. `axes`: those of the shader's vectors,
-// orthogonal, of any length, in world space.
+// Sets the uniforms of shaders/optics/lighting.glsl. `axes`: the axes, in world space, along which
+// the program's vectors are given; orthogonal, of any length.
 void set_lights(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
                 gl::Program& program);
-// Sets the thresholds at which lit pieces of rays are cut.
+// Sets the thresholds at which lit pieces of rays are cut (LightCuts).
 void set_light_cuts(const Lighting& lighting, gl::Program& program);
 
 }  // namespace lamina

@@ -9,15 +9,16 @@
 namespace lamina {
 namespace {
 
-// With this growth the gradient is nowhere shorter than .3 of what it is in the middle.
+// Largest most_turn: with it, a piece's gradient is nowhere shorter than .3 of that in the middle.
 constexpr double most_growth = 0.7;
-// Width of a highlight's peak, in units of 1 / sqrt(power), the angle at which it falls to
-// exp(-1/2). Three nodes on six of these units have one within 1.2 units of any peak.
+// Half the angle, in units of 1 / sqrt(power), that the gradient may turn on a piece with
+// highlights. A unit is the angle at which a highlight falls to exp(-1/2). On six of these units,
+// three nodes have one within 1.2 units of any peak.
 constexpr double peak_widths = 3;
 
-// Effect of usual light, as a multiple of the bend that it may have, at max_error 1: the cuts of
-// executors/lights.h are right for it. The error of a rule of three nodes on smooth light falls
-// with the sixth power of the turn.
+// For lights with this effect, as a multiple of the bend that may remain at max_error 1, the turns
+// of LightCuts are right; stronger light needs smaller ones. The error of a rule of three nodes on
+// smooth light falls with the sixth power (`order`) of the turn.
 constexpr double usual_effect = 25, order = 6;
 
 CpuLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {

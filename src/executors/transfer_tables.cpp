@@ -19,8 +19,7 @@ void append_optics(const OpticalProperties& optics, std::vector<float>& row) {
     row.push_back(static_cast<float>(std::min(optics.extinction, max_shader_extinction)));
 }
 
-// Sets for each interval its right end, and the scalar, from its left end on, from which something
-// is visible.
+// Sets in the last row each interval's right end, and the scalar up to which nothing is visible.
 void set_ends(std::vector<float>& last_row, const std::vector<float>& places,
               const std::vector<float>& left, const std::vector<float>& right) {
     float right_end = beyond_all_scalars, shown_beyond = beyond_all_scalars;
@@ -33,13 +32,14 @@ void set_ends(std::vector<float>& last_row, const std::vector<float>& places,
     }
 }
 
-// The part of the extinction that float32 drops. Codes of n bits are computed in double precision.
+// Returns the extinction's remainder beyond float32: codes of n bits are computed in double.
 float low_part(const OpticalProperties& optics) {
     const double extinction = std::min(optics.extinction, max_shader_extinction);
     return static_cast<float>(extinction - static_cast<double>(static_cast<float>(extinction)));
 }
 
-// Coloured tables are read entry by entry, so extinction stands beside emission.
+// Returns the texels of a coloured table: extinction beside emission, because they are read entry
+// by entry.
 CpuTransfer::Aligned texels_of(const KnotTable& table) {
     const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
     const std::size_t size = table.request.lit ? 8 : 4;
@@ -58,7 +58,7 @@ CpuTransfer::Aligned texels_of(const KnotTable& table) {
     return texels;
 }
 
-// For `count` intervals, the last of which are copies.
+// Returns the bends of `count` intervals; those beyond the last piece are copies of it.
 std::array<std::vector<float>, 2> bends_of(const std::vector<CurvedPiece>& pieces,
                                            std::size_t count) {
     std::array<std::vector<float>, 2> bends;
@@ -105,7 +105,7 @@ ShaderIntervals make_intervals(const std::vector<CurvedPiece>& pieces, const Val
         places.push_back(piece_width > 0
                              ? static_cast<float>(std::min(1 / piece_width, max_inverse_width))
                              : 0.0f);
-        // A step is two anchors at one value: pieces lie between anchors of different value.
+        // A step is two anchors of one value; pieces lie between anchors of different values.
         while (anchor + 2 < anchors.size() && anchors[anchor].value == anchors[anchor + 1].value)
             ++anchor;
         const bool has_table = anchor + 1 < anchors.size();

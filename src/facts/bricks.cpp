@@ -16,13 +16,13 @@ namespace {
 
 constexpr double edge = MinMaxBricks::edge;
 
+// Returns the number, along one axis, of the brick at (or nearest to) an index-space coordinate.
 std::int64_t brick_of(double place, std::int64_t count) {
     return static_cast<std::int64_t>(
         std::clamp(place * (1 / edge), 0.0, static_cast<double>(count - 1)));
 }
 
-// The largest power of two among distances.
-constexpr std::size_t longest_step = 32;
+constexpr std::size_t longest_step = 32;  // largest power of two up to OccupiedBricks::farthest
 static_assert(OccupiedBricks::farthest < 2 * longest_step);
 
 std::uint8_t plus(std::uint8_t distance, std::size_t steps) {
@@ -30,9 +30,9 @@ std::uint8_t plus(std::uint8_t distance, std::size_t steps) {
     return static_cast<std::uint8_t>(std::min(distance, most) + steps);
 }
 
-// Propagates distances from known rows to the next, each brick from that row's same brick and its
-// neighbours. Everything beyond a row's ends is far, and bytes may alias members: loops without
-// ends over local variables become vector code. Rows along x have numbers, y fastest.
+// Computes the distances of rows of bricks (along x, numbered y fastest) from known rows: include()
+// takes in the known rows beside a row, finish() computes it. For vector code, buffers continue
+// beyond the ends of a row (with `farthest`), and loops copy members, which bytes might alias.
 class RowSweep {
   public:
     RowSweep(SparseBytes& distance, std::int64_t across, std::int64_t rows)
@@ -81,7 +81,8 @@ class RowSweep {
     }
 
   private:
-    // Propagates along the row, by `step` bricks: after 1, 2, 4 and so on each knows of all others.
+    // Lowers each distance to at most that of the bricks `step` before and behind it, plus `step`.
+    // After the steps 1, 2, 4, ..., longest_step all distances along the row are right.
     std::uint8_t* spread(std::size_t step) {
         const std::uint8_t* const from = row_.data() + longest_step;
         std::uint8_t* const to = next_.data() + longest_step;
@@ -96,19 +97,21 @@ class RowSweep {
     SparseBytes& distance_;
     std::size_t count_;
     std::vector<std::uint8_t> near_, row_, next_;
-    // Most rows of a sparse volume are far from everything visible, and stay as they are.
+    // For each row, 1 if all distances are `farthest`, as in most rows of sparse volumes.
     std::vector<std::uint8_t> far_;
     bool any_near_ = false;
 };
 
-constexpr std::size_t most_sampled = 1 << 16;  // number of bricks whose kinds are counted
+constexpr std::size_t most_sampled = 1 << 16;  // largest number of bricks whose kinds are counted
 
+// Red, green, blue and extinction: the kind of a constant brick, as a key of std::map.
 using Key = std::array<double, 4>;
 
 Key key_of(const OpticalProperties& optics) {
     return {optics.color.r, optics.color.g, optics.color.b, optics.extinction};
 }
 
+// Finds the ConstantBricks of a volume; the members are the arguments of find_constant_bricks().
 struct ConstantFinder {
     const TransferFunction& transfer_function;
     const MinMaxBricks& bricks;
@@ -149,7 +152,7 @@ struct ConstantFinder {
     }
 
     // Returns the optics of a visible brick if they are constant. A brick of one value has that
-    // value's optics, unless rounding might take it across a step.
+    // value's optics, unless rounding might take the value across a step.
     std::optional<Key> constant_key(std::size_t brick) const {
         if (occupied.distance[brick] > 0) return {};
         const ValueRange range = bricks.range(brick);
@@ -193,8 +196,8 @@ struct ConstantFinder {
 
 }  // namespace
 
-// The two sweeps of a chamfer transform, which is exact for this distance: the steps of a shortest
-// path may be taken in any order, first all that lead on in the direction of the first sweep.
+// A chamfer transform: one sweep forwards, one backwards. It is exact, because a shortest path may
+// take its steps in any order, first those in the first sweep's direction.
 void OccupiedBricks::measure_distances() {
     // No structured binding: clang below 16 cannot capture one in a lambda.
     const std::int64_t ny = count[1], nz = count[2];

@@ -12,17 +12,17 @@
 
 namespace lamina {
 
-// The bricks that the transfer function makes visible, and the distance of each brick to them.
+// The visible bricks (4 x 4 x 4 cells), and the distance of each brick to the nearest of them.
 struct OccupiedBricks {
-    // Distance from which on bricks take no memory: large volumes are mostly empty.
+    // Largest stored distance. Pages of `distance` with nothing else take no memory.
     static constexpr int farthest = 63;
 
     std::array<std::int64_t, 3> count{0, 0, 0};
-    // Distance to the nearest visible brick, 0 for visible ones, in bricks along the axis on which
-    // the two are farthest apart, at most `farthest`, also if none is visible. x fastest.
+    // Chebyshev distance of each brick to the nearest visible one, in bricks (0: visible), at most
+    // `farthest`, also if none is visible. x fastest.
     SparseBytes distance;
 
-    // Computes the distances from an input of 0 (visible) and `farthest` (invisible).
+    // Computes `distance` in place from 0 for visible and `farthest` for invisible bricks.
     void measure_distances();
 
     std::size_t place(std::int64_t x, std::int64_t y, std::int64_t z) const {
@@ -35,25 +35,27 @@ struct OccupiedBricks {
         return distance[place(x, y, z)];
     }
 
-    // Tells whether a brick from `first` to `last` is visible. Needs distances, as all below.
+    // Tells whether some brick in the box of bricks first .. last, both included, is visible. This
+    // function and those below need the distances (measure_distances()).
     bool any_of(const std::array<std::int64_t, 3>& first,
                 const std::array<std::int64_t, 3>& last) const;
-    // Tells whether a visible brick, the outermost endless, touches a box of index space.
+    // Tells whether an index-space box meets a visible brick; outermost bricks are endless.
     bool any_in(const glm::dvec3& min, const glm::dvec3& max) const;
 
-    // Finds a box of index space around a point's brick: returns true if nothing in it is visible;
-    // false if the brick is, and the box is the brick. Boxes at the border are endless beyond it.
+    // Sets `min` and `max` to a box of index space around the brick that holds a point. Returns
+    // true if nothing in the box is visible; returns false if the brick is visible, and then the
+    // box is the brick. Boxes that reach the volume's border are endless beyond it.
     bool empty_around(const glm::dvec3& point, glm::dvec3& min, glm::dvec3& max) const;
 };
 
-// The bricks over which the transfer function has one colour and extinction; empty if they are less
-// than `least_share` of the visible ones. Those that touch share samples, so have the same optics.
+// The visible bricks with one colour and one extinction; empty if they are less than `least_share`
+// of the visible ones. Those that touch share samples, so they have the same optics.
 struct ConstantBricks {
     static constexpr double least_share = 0.05;
-    // Number of kinds that are kept, the most frequent ones; other bricks count as varied.
+    // Largest number of kinds (colour and extinction); bricks of rarer kinds count as varied.
     static constexpr std::size_t most_kinds = 16;
 
-    double share = 0;  // share of the bricks that show something
+    double share = 0;  // constant bricks as a share of the visible ones
     std::vector<OpticalProperties> kinds;
     SparseBytes kind;       // for each constant brick an index into kinds; x fastest
     OccupiedBricks varied;  // distance to the nearest brick that is not constant
@@ -61,7 +63,8 @@ struct ConstantBricks {
     std::uint8_t kind_at(const glm::dvec3& point) const { return kind[varied.place_of(point)]; }
 };
 
-// `occupied`: of the same bricks and transfer function. `margin`: the largest error of a scalar.
+// `occupied` must belong to the same bricks and transfer function. `margin`: largest error of an
+// interpolated scalar, in the data's units.
 ConstantBricks find_constant_bricks(const TransferFunction& transfer_function,
                                     const MinMaxBricks& bricks, const OccupiedBricks& occupied,
                                     double margin);

@@ -11,10 +11,11 @@ namespace lamina {
 
 namespace {
 
-// Distance from the range, in widths of it, to which samples farther away are moved. Between such a
-// sample and one in the range, a ray is in the range for less than 1e-9 of the cell in either case.
+// Distance, in widths of the range, to which normalised_sample() moves samples farther away. Moved
+// or not, a ray from one into the range is in it for less than 1e-9 of the cell.
 constexpr double farthest = 0x1p30;
 
+// Tells whether something visible changes between two neighbouring knots.
 bool changes(const TransferKnot& from, const TransferKnot& to) {
     if (from.optics.extinction == 0 && to.optics.extinction == 0) return false;
     return !(from.optics == to.optics);
@@ -32,14 +33,14 @@ ValueRange changing_range(const TransferFunction& transfer_function) {
     return found;
 }
 
-// Share of a window's width on each side, so that rounding moves no value that matters outside.
+// Margin of a window on each side, as a share of its width, so that rounding loses no value.
 constexpr double window_margin = 1.0 / 16;
 
-// Share of the values that lies in the window of a single step. A smaller one costs time, because
-// more tets then run far outside the window; a larger one costs digits.
+// Share of the mesh's values in the window if all that changes is one step. Less costs time, as
+// more tets reach far outside; more costs precision.
 constexpr double share_near_step = 0.1;
 
-// Returns the distance from `step` of the nearest share_near_step of other values; 0 without any.
+// Returns the distance from `step` that holds share_near_step of the other values; 0 if none.
 double distance_near(double step, std::span<const double> values) {
     std::vector<double> distances;
     distances.reserve(values.size());
@@ -54,8 +55,8 @@ double distance_near(double step, std::span<const double> values) {
     return distances[static_cast<std::size_t>(place)];
 }
 
-// Returns the first of three overlapping halves of `range` that holds `inner` with a margin, or up
-// to an end of `whole`, beyond which there are no samples; else `range`.
+// Returns the first of three overlapping halves of `range` (lower, middle, upper) that holds
+// `inner` with a margin, or `range`. Ends of `whole` need no margin, because no samples lie beyond.
 ValueRange half_around(const ValueRange& range, const ValueRange& inner, const ValueRange& whole) {
     const double width = (range.hi - range.lo) / 2, margin = width / 16;
     for (const double part : {0.0, 0.5, 1.0}) {
@@ -70,7 +71,7 @@ ValueRange half_around(const ValueRange& range, const ValueRange& inner, const V
 }  // namespace
 
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range) {
-    // Dividing by a power of two does not round: all samples become 0, whose optics are drawn.
+    // All samples become 0: range.lo's optics are drawn. Dividing by a power of two does not round.
     if (range.lo == range.hi) {
         const double width = std::max(1.0, std::exp2(std::ceil(std::log2(std::abs(range.lo)))));
         return {range.lo, range.lo + width};
@@ -81,7 +82,7 @@ ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRan
     return {range.lo, range.hi + std::max(1e-6 * (range.hi - range.lo), rounding)};
 }
 
-// Colour is linear between knots: its extremes are there, on both sides of steps, or at the ends.
+// Colours are linear between knots: the largest is at a knot (both sides of a step) or an end.
 double largest_color(const TransferFunction& transfer_function, const ValueRange& range) {
     double largest = 0;
     const auto include = [&](const glm::dvec3& color) {
@@ -101,7 +102,7 @@ ValueRange mesh_window(const TransferFunction& transfer_function, std::span<cons
     ValueRange inner = changing_range(transfer_function);
     if (inner.empty() || inner.hi < drawn.lo || inner.lo > drawn.hi) return drawn;
     inner = {std::max(inner.lo, drawn.lo), std::min(inner.hi, drawn.hi)};
-    // Values closer than this hardly differ in double precision.
+    // At least 2^-40 of the value: values closer than that hardly differ in double precision.
     const double largest = std::max(std::abs(inner.lo), std::abs(inner.hi));
     double width = std::max(inner.hi - inner.lo, 0x1p-40 * largest);
     if (inner.lo == inner.hi) width = std::max(width, distance_near(inner.lo, values));
@@ -126,8 +127,8 @@ ValueRange exact_range(const TransferFunction& transfer_function, const ValueRan
     const ValueRange whole{lo, lo + std::exp2(std::ceil(std::log2(drawn.hi - lo)))};
     if (inner.empty()) return whole;
     ValueRange found = whole;
-    // Floats near a value have enough digits at this width. A single step, at 0 say, has no width
-    // of its own: no sample may be too far from it (`farthest`).
+    // `least`: float32 values near `inner` are precise enough for this width. If all that changes
+    // is one step, it also keeps all samples within `farthest` widths of the step.
     const double largest = std::max(std::abs(inner.lo), std::abs(inner.hi));
     const double narrowest = inner.lo < inner.hi ? 0x1p-120 : 0x1p-28 * (whole.hi - whole.lo);
     const double least = whole_numbers ? 4 : std::max(0x1p-10 * largest, narrowest);
@@ -143,7 +144,8 @@ TetPieces::TetPieces(const TransferFunction& transfer_function, const ValueRange
     for_each_linear_piece(
         transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
             const bool transparent = piece.at_from.extinction == 0 && piece.at_to.extinction == 0;
-            if (transparent && !pieces_.empty() && this->transparent(last())) {  // one gap
+            // Merged into one piece.
+            if (transparent && !pieces_.empty() && this->transparent(last())) {
                 pieces_.back().to = piece.to;
                 pieces_.back().at_to = piece.at_to;
                 return;
@@ -157,8 +159,8 @@ TetPieces::Span TetPieces::met(std::span<const double> scalar, const Tet& tet) c
     const ValueRange range = range_in(scalar, tet);
     if (range.empty()) return {};
     const auto [lo, hi] = range;
-    // The first piece that begins above lo lies behind the one that has it. If the scalar varies,
-    // so does the first that does not end below hi.
+    // The piece with lo is the one before the first that begins above lo. If the scalar varies, the
+    // piece with hi is the first that does not end below hi.
     const auto above = std::ranges::upper_bound(pieces_, lo, {}, &LinearPiece::from);
     Span span;
     span.first =

@@ -14,42 +14,42 @@
 
 namespace lamina {
 
-// Returns the range of a scalar as it is drawn, lo < hi: widened if all values are equal, and a
-// little if there is a step at its end, because the later side of the step counts there.
+// Returns the range over which a scalar is drawn, lo < hi: `range`, widened if all values are
+// equal, and a little if the function has a step at its end, whose later side counts there.
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range);
 
 // Returns the range that exact segments normalise to [0, 1]: all values at which something visible
-// changes, with a margin. Samples may lie far outside: a few odd values must not take the digits of
-// the visible ones. Its width is a power of two, and its lower end is whole if the samples are:
-// then they stay exact in float32, and cells whose value is a step lie on the side of that value.
+// changes, with a margin; a few odd samples far outside must not take their digits. Its width is a
+// power of two and, for integer samples, its lower end an integer: samples then stay exact in
+// float32, and cells of a constant value at a step get the right side of it.
 ValueRange exact_range(const TransferFunction& transfer_function, const ValueRange& range,
                        SampleType type);
 
-// Returns the range that whole tets normalise to [0, 1]: all values at which something visible
-// changes, with a margin, cut to the drawn range; that range if nothing changes. `values`: at the
-// mesh's points, for the window of a single step. `range`: of the finite ones.
+// Returns the range that tets, unless they are cut at the transfer function's points, normalise to
+// [0, 1]: all values at which something visible changes, with a margin, cut to drawn_range(). If
+// nothing changes it is drawn_range(). `values`: the scalars at the mesh's points, which set the
+// width if all that changes is one step. `range`: the range of the finite ones.
 ValueRange mesh_window(const TransferFunction& transfer_function, std::span<const double> values,
                        const ValueRange& range);
 
-// Returns the largest component of a colour in a range.
 double largest_color(const TransferFunction& transfer_function, const ValueRange& range);
 
 // Maps a sample from `range` to [0, 1], clamped far outside; NaN if it is not finite.
 float normalised_sample(double value, const ValueRange& range);
 
-// Tets whose scalar runs far outside the window that is drawn, such as those around a value that
-// marks missing data (docs/precision.md, "Exact segments").
+// The rest of this file is about tets whose scalar reaches far outside the window that is drawn,
+// such as those around a value that marks missing data (docs/precision.md, "Exact segments").
 
-// Distance in widths of the window: scalars of a tet that runs farther outside are computed in
-// double precision at each fragment, because float32 would lose as many digits.
+// Distance in widths of the window beyond which a tet's scalar is computed in double precision at
+// each fragment: in float32 its error relative to the window grows by this factor.
 inline constexpr double far_for_floats = 16;
 
-// Distance in widths of the window up to which a tet keeps its digits if it is cut at the points
-// and normalised piece by piece: of a tenth of the window, float32 has 1e-4.
+// Distance in window widths up to which float32 suffices for tets cut into pieces: for a piece as
+// wide as a tenth of the window, 128 * 2^-24 of the window is 1e-4 of the piece.
 inline constexpr double far_for_parts = 128;
 
-// Distance in widths of the window up to which float32 can square normalised scalars. A tet that
-// runs farther outside is drawn as if the window were wider: less than 1e-18 of it lies there.
+// Distance in window widths up to which float32 can square normalised scalars. Beyond, a tet is
+// drawn in a wider window: less than 1e-18 of it lies in the real one.
 inline constexpr double farthest_normalised = 0x1p60;
 
 // Tells whether scalars meet the window and also reach more than `far` widths beyond it.
@@ -65,10 +65,10 @@ inline double far_scale(double least, double largest) {
     return most > farthest_normalised ? farthest_normalised / most : 1.0;
 }
 
-// The linear pieces of a transfer function over a range, as tets meet them.
+// The linear pieces of a transfer function over a range, and which of them a tet's scalars meet.
 class TetPieces {
   public:
-    // range: finite, lo < hi.
+    // `range`: finite, lo < hi. Neighbouring transparent pieces become one.
     TetPieces(const TransferFunction& transfer_function, const ValueRange& range);
 
     const std::vector<LinearPiece>& pieces() const { return pieces_; }  // ascending
@@ -83,18 +83,17 @@ class TetPieces {
 
         bool empty() const { return last < first; }
     };
-    // Returns the pieces that the tet meets; empty if a corner's value is not finite.
+    // Returns the pieces that the tet's scalars meet; empty if one of them is not finite.
     Span met(std::span<const double> scalar, const Tet& tet) const;
     // Returns met() without the transparent pieces at both ends.
     Span visible(std::span<const double> scalar, const Tet& tet) const;
-    // The number of pieces in a span that show something.
-    int count(const Span& span) const;
+    int count(const Span& span) const;  // those that show something
 
   private:
     std::int32_t last() const { return static_cast<std::int32_t>(pieces_.size()) - 1; }
 
     std::vector<LinearPiece> pieces_;
-    // Number of pieces that show something before each piece, and in all.
+    // Element i: number of pieces before piece i that show something. The last element counts all.
     std::vector<int> visible_before_{0};
 };
 

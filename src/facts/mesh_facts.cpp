@@ -37,7 +37,7 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
     }
 }
 
-// Rays along each side of the picture, enough to meet a thousandth of it; at most one a pixel.
+// Trial rays along each side, at most one a pixel: 32 * 32 meet what covers 1/1000 of the picture.
 constexpr int trial_rays_along_side = 32, most_rays = trial_rays_along_side * trial_rays_along_side;
 
 double longest_edge(const TetMesh& mesh, std::int32_t number) {
@@ -65,7 +65,8 @@ std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column,
     for (const TetSegment& segment : segments) {
         const double in = std::max(segment.in.at, 0.0), length = segment.out.at - in;
         if (!(length > 0)) continue;
-        // Tets around the eye begin at the near plane, a share of the mesh's size away.
+        // A tet around the eye begins at the near plane, whose distance is a share of the mesh's
+        // size: its edge counts as the mesh's diagonal.
         const bool around_eye = segment.in.at < in;
         const double share = length / (segment.out.at - segment.in.at);
         const double back = segment.out.interpolate(scalar);
@@ -77,10 +78,10 @@ std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column,
     return runs;
 }
 
-// Visible tets, evenly from the whole mesh, because few rays may miss narrow peaks. Each is a ray
-// of its own along its edge of most change, there and back.
+// Largest number of visible tets tried, evenly chosen, because rays may miss narrow peaks.
 constexpr std::size_t most_trial_tets = 20000;
 
+// Appends two rays for each tet: its edge from least to largest scalar, in both directions.
 void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
                  std::vector<std::vector<MeshFacts::Run>>& rays) {
     const auto& values = mesh.scalar.values;

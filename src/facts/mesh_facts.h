@@ -21,7 +21,7 @@ struct MeshFacts {
     ValueRange range;    // range of the finite values
     std::int64_t non_finite = 0;
     MeshFindings findings;
-    // True: the clip leaves nothing of the mesh, and all else describes the mesh before it was cut.
+    // True: the clip leaves nothing, and all other members describe the mesh before it was cut.
     bool clipped_away = false;
 
     double shortest_edge = 0, longest_edge = 0;  // world units
@@ -31,42 +31,41 @@ struct MeshFacts {
 
     // The following describe the transfer function over `range`.
     bool constant = false;  // one colour, one extinction
-    // One colour wherever extinction is > 0 or, if vertices interpolate colours, everywhere.
+    // One colour where extinction > 0; everywhere if the colouring mixes_colors() (scene/scene.h).
     bool single_color = false;
-    double max_extinction = 0;  // per world unit
-    double max_color = 0;       // largest component of a colour
-    // number of tets that show nothing, including those with a value that is not finite
-    std::int64_t transparent_tets = 0;
-    // The window of whole tets, and the number of visible ones far outside (facts/drawn_range.h).
+    double max_extinction = 0;          // per world unit
+    double max_color = 0;               // largest component of a colour
+    std::int64_t transparent_tets = 0;  // these show nothing or have a value that is not finite
+    // mesh_window(); number of visible tets more than far_for_parts outside (facts/drawn_range.h)
     ValueRange window;
     std::int64_t far_tets = 0;
-    // Number of visible cell fragments if the other tets are cut at the transfer function's points.
-    std::int64_t parts = 0;
+    std::int64_t parts = 0;  // visible parts, if all tets are cut at the function's points
 
     // The following describe the view.
     bool orthographic = false;
     bool in_front = true;  // some point lies in front of the eye's plane
 
-    // Rays on which methods to integrate segments are tried: all over the picture, as segments in
-    // tets, nearest first; and single visible tets. Empty if the scene leaves no choice.
+    // Trial rays for the methods to integrate segments: all over the picture, segments nearest
+    // first, or edges of single visible tets. Empty if the scene leaves no choice.
+    // A segment of a ray inside one tet.
     struct Run {
-        double front, back;  // scalars
+        double front, back;  // scalars at the near and the far end
         double length;       // world units
         double edge = 0;     // longest edge of the tet, world units
     };
     std::vector<std::vector<Run>> trial_rays;
     // Errors found on trial rays, in 1/255.
     struct TrialError {
-        double segments = 0;  // of integrating segments
-        double places = 0;    // additional ones, of faces that are not quite in their places
+        double segments = 0;  // error of the method that integrates segments
+        double places = 0;    // additional error of faces that are drawn slightly displaced
         std::int64_t rays = 0;
 
         friend bool operator==(const TrialError&, const TrialError&) = default;
     };
-    TrialError last_error;  // as found on the rays of an earlier view, if this one has none
+    TrialError last_error;  // found on the rays of an earlier view; counts if this view has none
 };
 
-// Tells whether an order is right on every ray; others exist to be studied, mistakes and all.
+// Tells whether an order is right on every ray. The others err; they exist to be studied.
 inline bool is_right_order(const Auto<ProjectOrder>& order) {
     return order.is_automatic() || order == ProjectOrder::exact;
 }
@@ -74,14 +73,14 @@ inline bool is_right_order(const Auto<ProjectOrder>& order) {
 // Measures all facts. Throws Error as check_finite() does.
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh);
 
-// These measure in steps: mesh and transfer function; view without rays; trial_rays.
+// Parts of measure(): mesh and transfer function, the view without rays, and trial_rays.
 MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh);
 // Returns MeshFacts::overlapping_tets, which takes longer and depends on the mesh alone.
 std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity);
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 
-// Throws Error if no value of `found` is finite, or if some are not and `nan` is "error".
+// Throws Error if no value is finite, or if some are not while the scene's `nan` is "error".
 void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& found);
 
 // Returns rays of the scene's view, all over the picture, as segments in tets, nearest first. Rays

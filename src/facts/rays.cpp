@@ -16,8 +16,10 @@ namespace lamina {
 
 namespace {
 
+// Rays along each side of the picture, and most steps along a ray, for RayShares.
 constexpr int rays_along_side = 32, most_steps = 512;
 
+// Measures RayShares on single rays.
 struct ShareCounter {
     const Scene& scene;
     const Volume& volume;
@@ -26,7 +28,7 @@ struct ShareCounter {
     double opaque = opaque_depth(scene.max_error, facts.max_color);
     int steps = static_cast<int>(std::clamp(facts.voxels_along_view, 1.0, double{most_steps}));
 
-    // Counts in steps.
+    // Returns the shares of one pixel's ray as numbers of steps, not yet divided by `steps`.
     RayShares count(int column, int row) const {
         const View::Ray ray = view.ray(column, row);
         const glm::dvec3 origin = facts.grid.to_index(ray.origin);
@@ -56,7 +58,6 @@ struct ShareCounter {
         return shares;
     }
 
-    // Returns the extinction of the nearest sample.
     double extinction_near(const glm::dvec3& at) const {
         std::array<std::int64_t, 3> place{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -68,10 +69,11 @@ struct ShareCounter {
     }
 };
 
-// Pixels on a grid with this many along each side of the picture have a ray if it meets the box.
+// Sampled pixels along each side for ScalarRays; rays that miss the clipped box are left out.
 constexpr int places_along_side = 64;
-constexpr double scalars_per_voxel = 4;
+constexpr double scalars_per_voxel = 4;  // along the view, if RaySampling::scalars allows it
 
+// Samples ScalarRays one by one.
 struct RaySampler {
     const Scene& scene;
     const Volume& volume;
@@ -81,7 +83,7 @@ struct RaySampler {
     const Grid& grid = facts.grid;
     View view{*scene.camera, scene.width, scene.height};
     double step =
-        (facts.far_depth - facts.near_depth) /  // in depth, between scalars
+        (facts.far_depth - facts.near_depth) /  // depth between two scalars
         std::clamp(std::ceil(scalars_per_voxel * facts.voxels_along_view), 1.0, most_scalars);
 
     // Returns the depths between which the ray is in the clipped box; far <= near if it misses it.
@@ -93,14 +95,15 @@ struct RaySampler {
         for (int axis = 0; axis < 3; ++axis) {
             const double a = (grid.index_min()[axis] - origin[axis]) / direction[axis];
             const double b = (grid.index_max()[axis] - origin[axis]) / direction[axis];
-            if (!std::isfinite(a) || !std::isfinite(b)) continue;  // perpendicular: all or nothing
+            // Parallel to these faces: no limit.
+            if (!std::isfinite(a) || !std::isfinite(b)) continue;
             from = std::max(from, std::min(a, b));
             to = std::min(to, std::max(a, b));
         }
         for (const IndexPlane& plane : facts.clip) {
             const double slope = glm::dot(plane.normal, direction);
             const double at = -plane.distance(origin) / slope;
-            if (!std::isfinite(at)) continue;  // as above
+            if (!std::isfinite(at)) continue;  // parallel to the plane: no limit
             (slope > 0 ? from : to) = slope > 0 ? std::max(from, at) : std::min(to, at);
         }
         return {from, to};

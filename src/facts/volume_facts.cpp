@@ -22,9 +22,9 @@ namespace lamina {
 
 namespace {
 
-// Share of the range that a brick's range is widened by on both sides when asking whether it is
-// visible: interpolated values may leave it by roundings of float32. Integers are rescaled, as
-// codes from the type's least value, so their margin is also this share of the largest code.
+// Share of the volume's range by which a brick's range is widened on both sides to tell whether it
+// is visible: float32 interpolation may leave the brick's range. Integers are drawn as codes from
+// the type's least value, so their margin adds this share of the largest code.
 constexpr double range_margin = 1e-6;
 
 double margin_of(const Facts& facts) {
@@ -48,7 +48,7 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
     const SparseBytes& distance = facts.occupied_bricks.distance;
     const std::size_t count = bricks.ranges.size();
     const double unit = world_unit(box_diagonal(facts.grid));
-    // Counts by the leading bits of floats >= 0, whose order is that of the floats.
+    // Extinctions are counted by the leading bits of float32, which for floats >= 0 keep the order.
     constexpr int rest_bits = 12;
     const auto leading = [&](double extinction) {
         return std::bit_cast<std::uint32_t>(static_cast<float>(extinction / unit)) >> rest_bits;
@@ -76,8 +76,8 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
     facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
 }
 
-// Optical depth that a ray through the whole box may get from transparent bricks (.026 / 255): if
-// the function rises from 0 at a brick's own extreme, roundings may show something there.
+// Largest optical depth (.026 / 255 in a picture) that a ray may lose to bricks that count as
+// transparent: rounding may show a little if extinction rises from 0 at a brick's extreme.
 constexpr double faint_depth = 1e-4;
 
 double faint_extinction(const Facts& facts) {
@@ -98,7 +98,7 @@ IndexBox box_of_bricks(const Grid& grid, const std::array<std::int64_t, 3>& coun
     return box;
 }
 
-// Marks bricks that lie wholly behind a plane of the clip as empty.
+// Marks bricks as empty if a plane of the clip cuts all of the brick away.
 void empty_cut_bricks(Facts& facts) {
     OccupiedBricks& occupied = facts.occupied_bricks;
     const auto [nx, ny, nz] = occupied.count;
@@ -152,7 +152,7 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
     occupied.measure_distances();
 }
 
-// The visible bricks of some planes of bricks.
+// Number of the visible bricks in one or more planes of bricks, and the box of bricks around them.
 struct SeenBricks {
     std::int64_t count = 0;
     std::array<std::int64_t, 3> first{INT64_MAX, INT64_MAX, INT64_MAX};
@@ -172,7 +172,7 @@ struct SeenBricks {
     }
 };
 
-// A distance of 0 is stored as the background's byte.
+// Finds the visible bricks of plane z. SparseBytes::coded() stores distance 0 as the background.
 SeenBricks seen_in_plane(const OccupiedBricks& occupied, std::int64_t z) {
     const std::uint8_t shown = occupied.distance.background();
     SeenBricks seen;
@@ -204,7 +204,7 @@ void measure_occupied(const TransferFunction& transfer_function, const MinMaxBri
         facts.occupied = box_of_bricks(facts.grid, bricks.count, seen.first, seen.last);
 }
 
-// One piece needs no table if segments are short; the longest possible one is the whole view.
+// One piece needs no table if all segments are thin, even the longest, through all of the depth.
 bool may_need_table(const Scene& scene, const Facts& facts) {
     const double depth =
         facts.max_extinction * (facts.far_depth - facts.near_depth) * facts.max_length_per_depth;
@@ -283,7 +283,7 @@ Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks&
     facts.curves = count(true);
     measure_occupied(transfer_function, bricks, facts);
     measure_extinctions(transfer_function, bricks, facts);
-    // The range of a brick ignores samples that are no numbers.
+    // Ranges ignore samples that are not finite, so they do not tell that a brick is constant.
     if (facts.non_finite == 0)
         facts.constant_bricks = find_constant_bricks(transfer_function, bricks,
                                                      facts.occupied_bricks, margin_of(facts));
@@ -327,7 +327,8 @@ std::vector<IndexPlane> index_planes(const Clip& clip, const Grid& grid) {
         glm::dvec3 slope(0);
         for (std::size_t axis = 0; axis < 3; ++axis)
             slope[static_cast<int>(axis)] = glm::dot(half.normal, grid.step[axis]);
-        const double length = std::hypot(slope.x, slope.y, slope.z);  // voxels may be tiny
+        // Hypot() does not underflow if voxels are tiny.
+        const double length = std::hypot(slope.x, slope.y, slope.z);
         planes.push_back(
             {slope / length, glm::dot(half.normal, grid.origin - half.point) / length});
     }

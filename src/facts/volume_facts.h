@@ -21,7 +21,7 @@ struct IndexPlane {
     double offset = 0;
 
     double distance(const glm::dvec3& index) const;
-    // Returns this plane in an index space that begins at sample `first` of its own.
+    // Returns this plane in the index space of a part of the grid that begins at sample `first`.
     IndexPlane seen_from(const glm::dvec3& first) const { return {normal, distance(first)}; }
     // Return the least and the largest distance of a box's points.
     double least_distance(const glm::dvec3& min, const glm::dvec3& max) const;
@@ -43,7 +43,7 @@ struct IndexBox {
     friend bool operator==(const IndexBox&, const IndexBox&) = default;
 };
 
-// Eye-space depths of a box's nearest (>= 0) and farthest point; far <= near behind the eye.
+// Eye-space depths of a box's nearest (>= 0) and farthest point; far <= near: behind the eye.
 struct DepthRange {
     double near = 0;
     double far = 0;
@@ -51,15 +51,15 @@ struct DepthRange {
 DepthRange depth_range(const Grid& grid, const View& view);
 DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view);
 
-// Shares of the slabs along rays all over the picture, by which a plan predicts its work: in the
-// clipped box, in visible bricks, and in the constant ones of these (Facts::constant_bricks).
-// Members *_before_opaque count only slabs before the ray is almost opaque.
+// Shares of slabs, on rays all over the picture, in the clipped box, in visible bricks and in
+// constant ones (Facts::constant_bricks), by which plans predict work. *_before_opaque count only
+// slabs in front of where a ray is almost opaque.
 struct RayShares {
     double box = 0, occupied = 0, constant = 0;
     double box_before_opaque = 0, occupied_before_opaque = 0, constant_before_opaque = 0;
 };
 
-// Scalars along rays of the view, on which tables of segments are tried.
+// Scalars along rays of the view, on which pre-integration tables are tried.
 struct ScalarRays {
     struct Ray {
         double length_per_depth = 1;  // world length per unit of eye-space depth
@@ -71,7 +71,7 @@ struct ScalarRays {
     std::vector<Ray> rays;  // all over the picture, each through the box
 };
 
-// Properties of a volume and its view. They are measured, not taken from headers.
+// Properties of a volume and its view. They are measured, not taken from the headers of files.
 struct Facts {
     Grid grid;
     SampleType type = SampleType::uint8;
@@ -87,18 +87,18 @@ struct Facts {
     bool single_color = false;  // one colour wherever extinction is > 0
     double max_extinction = 0;  // per world unit
     double max_color = 0;       // largest component of a colour
-    std::int64_t knots = 0;     // number strictly inside the range
+    std::int64_t knots = 0;     // number of knots strictly inside the range
     std::int64_t pieces = 1;    // number of linear pieces over drawn_range()
-    std::int64_t curves = 1;    // as above, if curves follow smooth points (optics/pieces.h)
+    std::int64_t curves = 1;    // number of pieces if curves follow smooth points (optics/pieces.h)
 
-    // The smallest box of whole bricks that holds all that the clip leaves visible.
+    // The smallest box of bricks around all that the clip leaves visible.
     IndexBox occupied;
     bool clipped_away = false;  // something is visible without the clip, and nothing with it
     OccupiedBricks occupied_bricks;
     double occupied_share = 0;  // share of the bricks that are visible
     DepthRange occupied_depth;  // eye-space depths of `occupied`
     ConstantBricks constant_bricks;
-    // Half, nine tenths and all of the bricks have at most these extinctions, per world unit.
+    // Quantiles .5, .9 and 1 of the largest extinctions of the bricks, per world unit.
     std::array<double, 3> extinction_quantiles{};
 
     // The following describe the view. near_depth and far_depth are the eye-space depths of the
@@ -106,10 +106,9 @@ struct Facts {
     bool orthographic = false;
     bool eye_inside = false;
     double near_depth = 0;
-    double far_depth = 0;  // <= near_depth if the whole box lies behind the eye
-    // index-space length of the view axis between near_depth and far_depth
-    double voxels_along_view = 0;
-    // Longest |direction| of a pixel's ray (1 for orthographic views).
+    double far_depth = 0;          // <= near_depth if the whole box lies behind the eye
+    double voxels_along_view = 0;  // from near_depth to far_depth along the view axis
+    // World length of the longest pixel ray per unit of depth (1 for orthographic views).
     double max_length_per_depth = 1;
 
     RayShares ray_shares;
@@ -119,31 +118,31 @@ struct Facts {
 // Measures all facts. Throws Error as check_finite() does.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
-// These measure in three steps: volume and transfer function; view without rays; rays.
+// Parts of measure(): volume and transfer function; the view without rays; shares and scalars.
 Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 void measure_view(const Scene& scene, Facts& facts);
 void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);
 
-// Throws Error if no sample is finite, or if some are not and `nan` is "error".
+// Throws Error if no sample is finite, or if some are not while the scene's `nan` is "error".
 void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks);
 
-// Share of max_error: a ray ends if nothing behind can change a channel by more than this. It is
-// less than the errors of tables and roundings, so that measurements may end rays, too.
+// Share of max_error: a ray ends where nothing behind can change a channel by more. It is less than
+// errors of tables and roundings, so measurements of these may end rays there, too.
 inline constexpr double hidden_share = 1.0 / 1024;
 
 // Returns the optical depth behind which a channel changes by at most hidden_share of max_error.
 double opaque_depth(double max_error, double max_color);
 
-// Measures the shares; grid, view and bricks come from the facts.
+// Measures RayShares; grid, bricks and depths come from `facts`.
 RayShares measure_ray_shares(const Scene& scene, const Volume& volume, const Facts& facts);
 
-// Largest numbers of rays, and of scalars on a ray.
+// Largest number of sampled rays, and of scalars on a ray.
 struct RaySampling {
     std::size_t rays = 1024;
     double scalars = 1024;
 };
 
-// Samples rays in the facts' grid and view. `bricks`: the volume's, or null; they save reading.
+// Samples rays of the view. `bricks`: the volume's own, which save reading samples, or null.
 ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& facts,
                        const MinMaxBricks* bricks = nullptr, const RaySampling& sampling = {});
 

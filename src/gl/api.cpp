@@ -48,7 +48,7 @@ std::string take_debug_message() {
 void check(std::string_view where) {
     const GLenum first = api().GetError();
     if (first == GL_NO_ERROR) return;
-    // A lost context reports errors for ever.
+    // Clears the error flags; the count is limited because a lost context reports errors for ever.
     for (int i = 0; i < 32 && api().GetError() != GL_NO_ERROR; ++i) {
     }
     const std::string message = take_debug_message();
@@ -183,7 +183,7 @@ void VertexArray::set_integers(unsigned location, const Buffer& buffer, int comp
 
 void VertexArray::set_source(unsigned location, const Buffer& buffer, std::size_t byte_stride,
                              std::size_t byte_offset) {
-    // Each attribute has the binding point of its own number.
+    // Attribute `location` uses the binding point of the same number.
     api().VertexArrayVertexBuffer(id(), location, buffer.id(), static_cast<GLintptr>(byte_offset),
                                   static_cast<GLsizei>(byte_stride));
     api().VertexArrayAttribBinding(id(), location, location);

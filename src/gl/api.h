@@ -14,19 +14,20 @@ struct GladGLContext;  // of <glad/gl.h>
 
 namespace lamina::gl {
 
-// Returns OpenGL's functions of the context that is current in this thread: OSMesa's are not EGL's.
+// Returns the OpenGL functions of this thread's context: those of OSMesa are not those of EGL.
 const GladGLContext& api();
 
 // Throws Error if OpenGL has reported an error since the last call. `where` completes "OpenGL: ...
 // while ", as "drawing the slabs" does. Does not wait for the GPU.
 void check(std::string_view where);
 
-// Returns one of OpenGL's numbers, such as GL_MAX_TEXTURE_SIZE.
+// Returns the value of an integer parameter of OpenGL, such as GL_MAX_TEXTURE_SIZE.
 int integer(unsigned name);
 
+// Kinds of OpenGL objects that a Handle may own.
 enum class ObjectKind { buffer, vertex_array, framebuffer, texture, query, shader, program };
 
-unsigned new_object(ObjectKind kind);  // a buffer, vertex array or framebuffer
+unsigned new_object(ObjectKind kind);  // `kind`: a buffer, vertex array or framebuffer
 void delete_object(ObjectKind kind, unsigned id);
 
 // Owns one OpenGL object and deletes it in the destructor. Move-only; 0 owns nothing.
@@ -45,21 +46,22 @@ class Handle {
     }
 
     unsigned id() const { return id_; }
-    void release() { id_ = 0; }  // deletes nothing
+    void release() { id_ = 0; }  // forgets the object without deleting it
 
   private:
     unsigned id_ = 0;
 };
 
-// Returns the bytes of buffers and textures of the current context, without padding; 0 without one.
+// Returns the bytes of the current context's buffers and textures, unpadded; 0 without context.
 std::int64_t bytes_allocated();
 
 // Throws Error if a limit on the process's memory (ulimit -v) leaves less than `bytes`. Mesa's
-// software renderers crash when they run out of memory, and nothing later could stop them.
+// software renderers crash when they run out of memory, which no later check could prevent.
 void require_memory_left(std::int64_t bytes);
 
+// Bytes that must be free before a context is made (require_memory_left()).
 inline constexpr std::int64_t memory_for_context = std::int64_t{1} << 30;
-// Bytes that must be left beside what a draw takes itself, once the context exists.
+// Bytes that must be free, beside lamina's own, for a draw: the driver takes memory as it draws.
 inline constexpr std::int64_t memory_for_drawing = std::int64_t{1} << 28;
 
 // The contribution of one object to bytes_allocated() during its lifetime.
@@ -90,10 +92,10 @@ struct AnyFunction {
     }
 };
 
-// A library loaded at run time, and never unloaded: Mesa and LLVM leave threads and exit handlers.
+// A library loaded at run time, never unloaded: Mesa and LLVM leave threads and exit handlers.
 class SharedLibrary {
   public:
-    // Loads the first of `names` that is found. Throws Error, which says why each was not.
+    // Loads the first of `names` that can be loaded. Throws Error, which says why each could not.
     explicit SharedLibrary(std::initializer_list<const char*> names);
 
     static bool is_loaded(const char* name);
@@ -106,7 +108,7 @@ class SharedLibrary {
     void* handle_ = nullptr;
 };
 
-// GPU memory of a fixed size for vertices, indices or blocks, undefined until written.
+// GPU memory of fixed size for vertices, indices or storage blocks; undefined until written.
 class Buffer {
   public:
     Buffer() = default;
@@ -127,7 +129,7 @@ class Buffer {
         write_bytes(std::as_bytes(elements), byte_offset);
     }
 
-    // Binds the buffer to block number `binding` of the shaders' storage blocks.
+    // Binds the buffer to the storage block that shaders declare with `binding`.
     void bind_storage(unsigned binding) const;
 
     // Returns the mapped memory, which is slow to read; null if the buffer is not mapped.
@@ -150,7 +152,8 @@ class VertexArray {
   public:
     VertexArray();
 
-    // Sets attribute `location` to `components` floats or ints at `byte_offset` of each stride.
+    // Set the source of attribute `location`: `components` floats (or ints) per vertex, the first
+    // at `byte_offset`, those of the next vertex `byte_stride` further on.
     void set_floats(unsigned location, const Buffer& buffer, int components,
                     std::size_t byte_stride, std::size_t byte_offset);
     void set_integers(unsigned location, const Buffer& buffer, int components,

@@ -24,7 +24,7 @@ int largest_render_target() {
                      integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
 }
 
-// Recognises software renderers behind devices that claim to be hardware.
+// Recognises a software renderer by its name: EGL may list it as a hardware device.
 bool is_software_renderer(const std::string& renderer) {
     return renderer.find("llvmpipe") != std::string::npos ||
            renderer.find("softpipe") != std::string::npos;
@@ -96,7 +96,7 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     capabilities_.framebuffer_fetch = functions_->EXT_shader_framebuffer_fetch != 0;
     capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);
 
-    // Only errors are logged, for check(). The driver's dithering would change fixed-point targets.
+    // The log keeps only errors, for check(). Dithering would change codes of fixed-point targets.
     api().Enable(GL_DEBUG_OUTPUT);
     api().DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
     api().DebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
@@ -139,8 +139,8 @@ CurrentContext::CurrentContext(Context& context) : context_(context), before_(cu
     current_of_thread = &context_;
 }
 
-// EGL's context is released first: Mesa's EGL and OSMesa share one notion of what is current, and
-// OSMesa would take a context of EGL for one of its own.
+// Releases EGL's context first: in Mesa, EGL and OSMesa share one current context, and OSMesa would
+// take a context of EGL for one of its own.
 void CurrentContext::take() {
     egl_ = release_egl();
     osmesa_ = release_osmesa();

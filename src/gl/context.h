@@ -12,18 +12,17 @@
 
 namespace lamina::gl {
 
+// Memory and uploads of a context.
 struct ContextCounts {
-    std::int64_t bytes_allocated = 0;  // those that buffers and textures hold now
-    std::int64_t bytes_uploaded = 0;   // those that textures got so far
+    std::int64_t bytes_allocated = 0;  // bytes of the buffers and textures that exist now
+    std::int64_t bytes_uploaded = 0;   // bytes uploaded to textures so far
 };
 
-// any: a GPU through EGL, else OSMesa, else EGL with a software renderer. gpu: a GPU through EGL.
-// egl: a GPU if there is one, else a software renderer.
+// any: a GPU (EGL), else OSMesa, else software EGL. gpu: a GPU (EGL). egl: a GPU, else software.
 enum class ContextKind { any, gpu, osmesa, egl };
 
-// An OpenGL 4.5 core context without a window or a display server, current in one thread at a time
-// (CurrentContext). Every object of this module belongs to the context that was current when it was
-// made; that context must outlive it, and be current when it is used and destroyed.
+// An OpenGL 4.5 core context without window or display server, current in one thread at a time. It
+// must outlive this module's objects made in it, and be current when they are used or destroyed.
 class Context {
   public:
     // Makes a context. Throws Error: why each attempt failed, and what to install or pass.
@@ -50,7 +49,8 @@ class Context {
     friend class CurrentContext;
     friend const GladGLContext& api();
 
-    // Make the context current in this thread, which has no other, and end that. Throw Error.
+    // bind() makes the context current in this thread, which must have no current context;
+    // release() undoes this. Both throw Error.
     virtual void bind() = 0;
     virtual void release() = 0;
 
@@ -59,17 +59,18 @@ class Context {
     ContextCounts counts_;
     ProgramCache programs_;
     std::atomic<std::thread::id> thread_{};  // the thread in which it is current; none if nowhere
-    int scopes_ = 0;                         // CurrentContexts that exist for it
+    int scopes_ = 0;                         // number of CurrentContext objects that exist for it
 };
 
+// EGL devices that may be used: GPUs only, or also software renderers.
 enum class EglDevices { hardware, any };
 
 std::unique_ptr<Context> create_osmesa_context();
 std::unique_ptr<Context> create_egl_context(EglDevices devices);
 
-// The context that EGL (OSMesa) has current in this thread; `context` is null if there is none.
+// EGL's (OSMesa's) state in this thread: its current context, or null, and that one's surfaces.
 struct EglBinding {
-    unsigned api = 0;  // the one that eglBindAPI() chose; 0 if EGL is not loaded
+    unsigned api = 0;  // the API that eglBindAPI() chose; 0 if EGL is not loaded
     void *display = nullptr, *draw = nullptr, *read = nullptr, *context = nullptr;
 };
 struct OsmesaBinding {
@@ -78,15 +79,16 @@ struct OsmesaBinding {
     int width = 0, height = 0;
 };
 
-// release_...() ends and returns what was current; restore() brings it back. No library is loaded.
+// The functions release_...() make no context current and return the state before; restore() makes
+// the context of such a state current again. If the library is not loaded, they do not load it.
 EglBinding release_egl();
 void restore(const EglBinding& binding);
 OsmesaBinding release_osmesa();
 void restore(const OsmesaBinding& binding);
 
-// Makes a context current in this thread while it exists. Then the context before it is current
-// again, whether of this module or of the caller's EGL or OSMesa; a caller with a context of GLX
-// takes another thread. Scopes of a thread end in the reverse order of their beginnings.
+// Makes a context current in this thread during its lifetime, then again the previous one, of this
+// module or of the caller's EGL or OSMesa. Callers with a current GLX context must use another
+// thread. Objects of one thread must end in the reverse order of their beginnings.
 class CurrentContext {
   public:
     // Throws Error if the context is current in another thread.
@@ -100,8 +102,8 @@ class CurrentContext {
     void give_back() const;
 
     Context& context_;
-    Context* const before_;  // the context of this module before; null if there was none
-    EglBinding egl_;         // what EGL had current before, whoever made it
+    Context* const before_;  // the previous context of this module; null if there was none
+    EglBinding egl_;         // EGL's state before, whoever made its context
     OsmesaBinding osmesa_;
 };
 

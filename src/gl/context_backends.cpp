@@ -40,6 +40,7 @@ using OsmesaHandle = struct OsmesaHandleType*;
 constexpr std::initializer_list<const char*> library_names{"libOSMesa.so.8", "libOSMesa.so.6",
                                                            "libOSMesa.so"};
 
+// The functions of OSMesa's library.
 struct Osmesa {
     SharedLibrary library{library_names};
     OsmesaHandle (*create)(const int* attributes,
@@ -54,7 +55,7 @@ struct Osmesa {
     void (*(*get_proc_address)(const char* name))() = library.function("OSMesaGetProcAddress");
 };
 
-// Throws Error if the environment asks for a driver but llvmpipe: OSMesa crashes if it lacks one.
+// Throws Error if GALLIUM_DRIVER is set, but not to llvmpipe: OSMesa crashes if it lacks a driver.
 void check_driver_asked_for() {
     const char* const driver = std::getenv("GALLIUM_DRIVER");
     if (driver != nullptr && std::string_view(driver) != "llvmpipe")
@@ -96,7 +97,7 @@ class OsmesaContext : public Context {
     void release() override { osmesa().make_current(nullptr, nullptr, 0, 0, 0); }
 
     OsmesaHandle context_ = nullptr;
-    std::array<std::uint8_t, 4> pixel_{};  // the default framebuffer, into which nothing is drawn
+    std::array<std::uint8_t, 4> pixel_{};  // the framebuffer that OSMesa demands; unused
 };
 
 constexpr const char* library_name = "libEGL.so.1";
@@ -107,6 +108,7 @@ SharedLibrary load_quietly() {
     return SharedLibrary{library_name};
 }
 
+// The functions of EGL's library.
 struct Egl {
     SharedLibrary library = load_quietly();
     decltype(&eglGetProcAddress) get_proc_address = library.function("eglGetProcAddress");
@@ -158,7 +160,7 @@ std::string last_error() {
     return index < std::size(names) ? names[index] : fmt::format("error {:#x}", code);
 }
 
-// A way to a display: a device, or the platform that Mesa has without a display server.
+// An EGL display to open: of a device, or of a Mesa platform without display server.
 struct Route {
     std::string name;
     EGLenum platform;
@@ -184,7 +186,7 @@ std::vector<Route> device_routes() {
     return hardware;
 }
 
-// Lists all ways to a display, hardware first.
+// Lists all displays that may be opened, hardware first.
 std::vector<Route> all_routes() {
     std::vector<Route> routes;
     const char* extensions = egl().query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -219,7 +221,7 @@ class EglContext : public Context {
 
   private:
     void create() {
-        const EGLenum api = egl().query_api();  // the caller's own
+        const EGLenum api = egl().query_api();  // the API that the caller bound, to be bound again
         if (!egl().bind_api(EGL_OPENGL_API)) fail("no desktop OpenGL: {}", last_error());
         const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                      4,

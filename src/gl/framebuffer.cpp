@@ -22,19 +22,19 @@ std::vector<Texture> as_list(Texture color) {
     return colors;
 }
 
-constexpr int texels = 4;    // a side of the texture
-constexpr int samples = 16;  // a side of the image
+constexpr int texels = 4;    // texels along each side of the 3D texture
+constexpr int samples = 16;  // pixels along each side of the target, with one filtered value each
 
 template <typename Value>
 using Values = std::array<Value, texels * texels * texels>;
 
-// Values in [least, least + range), which the texture gives back as value / scale. Codes have a
-// small range, so that rounding of results shows beside rounding of weights.
+// The texture's values lie in [least, least + range); shaders read value / scale. For integer
+// formats the range is small, so that rounding to codes shows beside rounding of weights.
 struct Probe {
     double scale, least, range;
 };
 
-// Returns values without an order: a linear ramp would hide errors of the weights that cancel.
+// Returns values in irregular order: in a linear ramp, errors of the weights would cancel.
 template <typename Value>
 Values<Value> scattered_values(const Probe& probe) {
     Values<Value> values;
@@ -66,7 +66,8 @@ double trilinear(const Values<Value>& values, const std::array<double, 3>& posit
     return sum;
 }
 
-// Returns the place of a fragment in texels from the first one's centre, as filter_probe.frag does.
+// Returns the position at which fragment `index` filters, in texels from the centre of the first
+// texel, as shaders/gl/filter_probe.frag computes it.
 std::array<double, 3> probe_position(int index) {
     return {index * 467 % 12288 / 4096.0, index * 1283 % 12288 / 4096.0,
             index * 2741 % 12288 / 4096.0};
@@ -189,7 +190,7 @@ FilterError measure_filter_error(TextureFormat format) {
             return measure<std::uint8_t>(format, {.scale = 255, .least = 96, .range = 8});
         case TextureFormat::r16:
             return measure<std::uint16_t>(format, {.scale = 65535, .least = 32768, .range = 256});
-        default:  // callers ask for these three formats only
+        default:  // callers pass no other format
             assert(format == TextureFormat::r32f);
             return measure<float>(TextureFormat::r32f, {.scale = 1, .least = 0, .range = 1});
     }

@@ -13,18 +13,18 @@
 
 namespace lamina::gl {
 
-// Render targets, its own 2D textures of one size. Texture i receives the output `location = i`.
+// Owns 2D textures of one size as render targets. Texture i receives the output `location = i`.
 class Framebuffer {
   public:
     // Throws Error if the driver cannot draw into these formats.
     explicit Framebuffer(std::vector<Texture> colors);
     explicit Framebuffer(Texture color);
 
-    void bind() const;  // for drawing; the viewport covers all of it
+    void bind() const;  // for drawing; the viewport covers the targets
     void clear(const glm::vec4& rgba, std::size_t target = 0);
 
     // Reads a target as floats. OpenGL's row 0 is the bottom one, the image's row 0 the top one.
-    // Reading into `image` takes no memory if that has the target's size.
+    // Reading into `image` does not allocate if `image` has the target's size.
     Image read_back(std::size_t target = 0) const;
     void read_back(Image& image, std::size_t target = 0) const;
 
@@ -38,12 +38,12 @@ class Framebuffer {
     Handle<ObjectKind::framebuffer> handle_;
 };
 
-// Draws into single layers of array textures that belong to others and must outlive it.
+// Draws into single layers of array textures, which the caller owns and must keep alive.
 class LayerFramebuffer {
   public:
     LayerFramebuffer();
 
-    // Binds a layer of each texture for drawing, texture i for the output i, all of its area.
+    // Binds layer `layer` of texture i for output i; the viewport covers the layer.
     void bind(std::initializer_list<const Texture*> arrays, int layer);
     void clear();  // sets all bound targets to zero
 
@@ -52,21 +52,21 @@ class LayerFramebuffer {
     int bound_ = 0;
 };
 
-// Runs the program, whose vertex shader is "gl/full_screen.vert", for every pixel of the target.
+// Runs the program (vertex shader "gl/full_screen.vert") for all pixels of the bound target.
 void draw_full_screen(const Program& program);
-// Draws with a given vertex array, so that frames need not make one.
+// Draws with the caller's vertex array, even an empty one, so that no frame makes one.
 void draw_full_screen(const Program& program, const VertexArray& any);
 
-// The largest errors of a filter against exact trilinear interpolation, as shares of the range.
+// Largest errors of a linear filter against exact interpolation, as shares of the value range.
 struct FilterError {
     double found = 0;
-    double eight_bit = 0;  // error of weights rounded to 8 bits, at the same places
-    // Tells whether weights are rounded to 8 bits or better; truncated ones err twice as much.
+    double eight_bit = 0;  // the error that weights rounded to 8 bits make at the same positions
+    // Tells whether weights are rounded to 8 bits or better; truncated weights err twice as much.
     bool as_good_as_eight_bits() const { return found <= 1.1 * eight_bit; }
 };
 
-// Measures the context's linear filter of a 3D texture of r8, r16 or r32f. llvmpipe has 1e-7, but
-// .18 for r8 with values 7 codes apart: it rounds to codes (docs/numerics.md, section 2).
+// Measures the context's linear filter on a 3D texture of r8, r16 or r32f. On llvmpipe the error is
+// 1e-7, but .18 for r8 (7 codes): results are whole codes (docs/numerics.md, section 2).
 FilterError measure_filter_error(TextureFormat format);
 
 }  // namespace lamina::gl

@@ -49,10 +49,11 @@ std::string directive_of(const std::string& line) {
                              is_of_word)};
 }
 
+// Composes one shader (compose_shader()).
 struct Composer {
     const ShaderFinder& find;
     ShaderSource& source;
-    std::vector<std::string> open = {};  // the chain of includes, the main file first
+    std::vector<std::string> open = {};  // files being included, each by the one before
     std::map<std::string, std::size_t> guards = {};
     bool has_version = false;
 
@@ -113,7 +114,7 @@ struct Composer {
         const std::string name = match[1];
         if (std::find(open.begin(), open.end(), name) != open.end())
             fail("{}: {} includes itself: {} -> {}", where, name, fmt::join(open, " -> "), name);
-        // The preprocessor drops repeated includes: only it knows which #if branches live.
+        // The preprocessor drops repeated includes: only it knows which #if branches are taken.
         const std::string guard = guard_of(name);
         append_text("#ifndef " + guard, place);
         append_text("#define " + guard, place);
@@ -173,7 +174,7 @@ std::string describe(const Defines& defines) {
     return text.empty() ? "no defines" : "defines " + text;
 }
 
-// Returns the log of a compiler or linker, by OpenGL's functions for such objects.
+// Returns an object's log. `get`, `get_log`: OpenGL's queries for shaders or for programs.
 std::string log_of(unsigned object, PFNGLGETSHADERIVPROC get, PFNGLGETSHADERINFOLOGPROC get_log) {
     GLint length = 0;
     get(object, GL_INFO_LOG_LENGTH, &length);
@@ -247,7 +248,7 @@ ShaderSource compose_shader(const std::string& name, const Defines& defines,
 }
 
 std::string readable_log(const std::string& log, const ShaderSource& source) {
-    // Positions: "0:12(3): error: ..." (Mesa), "0(12) : error ..." (NVIDIA), "ERROR: 0:12: ..."
+    // Mesa: "0:12(3): error: ...", NVIDIA: "0(12) : error ...", else "ERROR: 0:12: ...".
     static const std::regex place(
         "^(?:ERROR: |WARNING: )?\\d+[:(](\\d{1,8})(?:\\(\\d+\\)|\\))?\\s*:\\s*");
     std::string text;

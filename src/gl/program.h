@@ -24,7 +24,7 @@
 
 namespace lamina::gl {
 
-// Lists the embedded files of shaders/, named from there, sorted by name (cmake/EmbedFiles.cmake).
+// Lists the embedded files of shaders/, relative to it, by name (cmake/EmbedFiles.cmake).
 std::span<const EmbeddedFile> embedded_shaders();
 
 // Returns the text of shader file `name`, or nothing. A file in the folder that the environment
@@ -50,6 +50,7 @@ struct ShaderLine {
     int number;
 };
 
+// A composed shader, as compose_shader() returns it.
 struct ShaderSource {
     std::string name;
     std::string text;
@@ -66,7 +67,7 @@ ShaderSource compose_shader(const std::string& name, const Defines& defines = {}
 ShaderSource compose_shader(const std::string& name, const Defines& defines,
                             const ShaderFinder& find);
 
-// Returns a compiler's log on one line, with places in the files: "slicing/slab.frag:12: ...".
+// Returns a compiler's log on one line, with places in shader files: "slicing/slab.frag:12: ...".
 std::string readable_log(const std::string& log, const ShaderSource& source);
 
 // The values of a uniform or of an array of them. An int is also a sampler's texture unit.
@@ -76,8 +77,8 @@ using UniformValue =
                  std::vector<glm::dvec2>, std::vector<glm::dvec3>, std::vector<glm::dvec4>,
                  std::vector<int>, std::vector<glm::ivec2>, std::vector<glm::ivec3>>;
 
-// A vertex and a fragment shader, linked, which all Programs of a context with the same text share.
-// OpenGL holds the uniforms of one Program at a time, its user.
+// A linked vertex and fragment shader, shared by all Program objects of a context that have the
+// same source text. OpenGL holds the uniform values of one of these Programs at a time, the user.
 class LinkedProgram {
   public:
     // Throws Error with the shader's name, file, line and defines if it does not compile or link.
@@ -88,7 +89,7 @@ class LinkedProgram {
     // does not use it. Throws Error for a name that is nowhere in the source.
     int location(std::string_view name);
     void set(int location, const UniformValue& value);
-    // Gives OpenGL the values of user number `user`, and 0 for uniforms that it has not set.
+    // Makes Program `user` the user: sets its uniform `values`, and 0 for those it has not set.
     void give_to(std::uint64_t user, const std::map<int, UniformValue>& values);
     bool belongs_to(std::uint64_t user) const { return user_ == user; }
 
@@ -116,14 +117,15 @@ class ProgramCache {
     ProgramCache(const ProgramCache&) = delete;
     ProgramCache& operator=(const ProgramCache&) = delete;
 
-    // Returns a program, compiled if it is not there. If there are too many, the oldest goes.
+    // Returns the program of these sources, and compiles it if it is not cached. Beyond
+    // most_programs, the one that was asked for longest ago is dropped.
     std::shared_ptr<LinkedProgram> get(const ShaderSource& vertex, const ShaderSource& fragment);
     std::uint64_t new_user() { return ++last_user_; }
 
     int compiled() const { return compiled_; }  // programs compiled so far
 
   private:
-    std::list<std::shared_ptr<LinkedProgram>> programs_;  // last used first
+    std::list<std::shared_ptr<LinkedProgram>> programs_;  // the last used one first
     std::uint64_t last_user_ = 0;
     int compiled_ = 0;
 };
@@ -140,9 +142,8 @@ class Program {
     // Makes this the program of the draws that follow, with its uniforms.
     void use() const;
 
-    // Set a uniform, or an array of them; the program need not be in use. A uniform that the source
-    // names but this specialisation does not use (optimised out, or under another #if) is ignored.
-    // Throw Error for a name that is nowhere in the source.
+    // Set a uniform, or an array; the program need not be in use. One in the source that this
+    // specialisation does not use is ignored. Throw Error for a name nowhere in the source.
     template <typename Value>
     void set(std::string_view name, const Value& value) {
         if constexpr (std::is_enum_v<Value>)

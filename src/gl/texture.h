@@ -10,16 +10,17 @@
 
 namespace lamina::gl {
 
-// r8, r16, rgba8, rgba16: codes that read as code/255, code/65535. rgba16i: whole, for isamplers.
+// Shaders read code / 255 (r8, rgba8), code / 65535 (r16, rgba16), integers (rgba16i: isampler).
 enum class TextureFormat { r8, r16, r16f, r32f, rg32f, rgba8, rgba16, rgba16i, rgba16f, rgba32f };
 
+// A TextureFormat in OpenGL's terms.
 struct TextureFormatInfo {
     const char* name;
     int channels;
     int bytes_per_texel;       // in GPU memory
     unsigned internal_format;  // GL_R8, ...
     unsigned layout;           // layout in host memory: GL_RED, GL_RG, GL_RGBA or GL_RGBA_INTEGER
-    // Type of components there: GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_SHORT or GL_FLOAT.
+    // Type of components in host memory: GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_SHORT or GL_FLOAT.
     unsigned component_type;
 };
 
@@ -33,16 +34,15 @@ struct TexelBox {
     int width = 1, height = 1, depth = 1;
 };
 
-// The layout of texels in memory: texels from row to row and rows from slice to slice, as for a box
-// cut out of a larger grid. 0 means the box's own width or height.
+// Strides in host memory, for a box cut out of a larger grid: texels from one row to the next, and
+// rows from one slice to the next; 0: the box's own width or height.
 struct PixelStore {
     int row_length = 0;
     int slice_rows = 0;
 };
 
-// A texture of fixed size and one level, clamped to its edge, filtered `nearest` at first;
-// undefined until uploaded or drawn. Throws Error for sizes below 1 or over the context's limits,
-// for more than Capabilities::max_texture_bytes, and if the driver is out of memory.
+// A texture of one level and fixed size, clamped to its edge, `nearest` at first, undefined until
+// filled. Throws Error for sizes below 1, beyond limits (max_texture_bytes), or out of memory.
 class Texture {
   public:
     Texture() = default;
@@ -51,8 +51,8 @@ class Texture {
     static Texture make_2d_array(TextureFormat format, int width, int height, int layers);
     static Texture make_3d(TextureFormat format, int width, int height, int depth);
 
-    // Fills `box` from components, x fastest, up to its last texel (assert). uint8 for r8 and
-    // rgba8, uint16 for r16 and rgba16, int16 for rgba16i, float for the rest.
+    // Fills `box`, x fastest, from `components`, which must reach its last texel (assert): uint8
+    // for r8 and rgba8, uint16 for r16 and rgba16, int16 for rgba16i, float for the rest.
     void upload(const TexelBox& box, std::span<const std::uint8_t> components,
                 PixelStore store = {});
     void upload(const TexelBox& box, std::span<const std::uint16_t> components,
@@ -64,10 +64,10 @@ class Texture {
     void set_filter(TextureFilter filter);
     void bind(unsigned unit) const;
 
-    // Reads all texels but rgba16i as RGBA floats, x fastest, then y, then z: row 0 is OpenGL's,
-    // the bottom one. Absent channels read as 0, absent alpha as 1.
+    // Reads all texels as RGBA floats, x fastest, then y, then z; row 0 is the bottom one, as in
+    // OpenGL. The format must not be rgba16i. Absent channels read as 0, absent alpha as 1.
     std::vector<float> read_rgba() const;
-    void read_rgba(std::span<float> rgba) const;  // 4 floats a texel, exactly
+    void read_rgba(std::span<float> rgba) const;  // `rgba` has exactly 4 floats for each texel
 
     unsigned id() const { return handle_.id(); }
     TextureFormat format() const { return format_; }

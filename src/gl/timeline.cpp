@@ -47,7 +47,7 @@ bool is_recording() {
     return bits > 0;
 }
 
-// Returns the nanoseconds from OpenGL's clock to the host's, by the closest of several readings.
+// Returns the host's clock minus OpenGL's in nanoseconds, from the quickest of several readings.
 std::int64_t clock_offset() {
     constexpr int looks = 5;
     std::int64_t shortest = std::numeric_limits<std::int64_t>::max(), offset = 0;
@@ -88,8 +88,8 @@ std::uint64_t Query::result() const {
     return value;
 }
 
-// Submits the commands before a span apart from those in it: a renderer that draws tile after tile
-// (llvmpipe) meets a query once a tile and keeps the last time.
+// Flushes, so that the commands before a span are submitted apart from those in it: llvmpipe draws
+// tile after tile, meets a timestamp query in each tile and keeps the last time.
 void Timeline::begin(const char* name) {
     if (!is_recording()) return;
     api().Flush();

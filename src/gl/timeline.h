@@ -25,8 +25,8 @@ class Fence {
     void* sync_ = nullptr;
 };
 
-// Counts events of the draws between begin() and end(), which must not overlap, or records by
-// stamp() the time at which all commands submitted before it are done.
+// Counts the samples that pass in draws between begin() and end(), or records the time at which all
+// commands before stamp() are done. Intervals from begin() to end() must not overlap.
 class Query {
   public:
     enum class Kind { samples_passed, timestamp };
@@ -59,7 +59,7 @@ class Timeline {
         const char* name;
         Query begin{Query::Kind::timestamp}, end{Query::Kind::timestamp};
     };
-    std::vector<Span> spans_;  // those from count_ on are reused
+    std::vector<Span> spans_;  // the first count_ are in use, the others wait to be reused
     std::size_t count_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace lamina {
 namespace {
 
 constexpr int glyph_columns = 5, advance = 6;
-using Glyph = std::array<std::uint8_t, glyph_columns>;  // a column each; bit 0 is the top dot
+using Glyph = std::array<std::uint8_t, glyph_columns>;  // a byte for each column; bit 0: top dot
 
 constexpr char first_glyph = ' ', last_glyph = '~';
 // clang-format off
@@ -61,8 +61,8 @@ long code_of_linear(double linear) {
     return std::lround(255 * srgb_from_linear(linear));
 }
 
-// Table of the codes of linear light 0..1, which saves a power for each: the number at which each
-// code begins, and the first code in each of 4096 equal cells.
+// Looks up the 8-bit sRGB code of linear light 0..1, without a power for each number. It stores the
+// least number of each code and, for each of 4096 equal cells of 0..1, the first code.
 class CodeSteps {
   public:
     CodeSteps() {
@@ -73,7 +73,7 @@ class CodeSteps {
                 code_of_linear(static_cast<double>(cell) / static_cast<double>(cells)));
     }
 
-    // A cell has two codes at most: the curve is steepest at 0, and there a code is 1.2 cells wide.
+    // At most two codes a cell: the sRGB curve is steepest at 0, where a code is 1.2 cells wide.
     std::uint16_t code_of(double linear) const {
         const auto cell =
             std::min(static_cast<std::size_t>(linear * static_cast<double>(cells)), cells - 1);

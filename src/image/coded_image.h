@@ -30,11 +30,12 @@ struct CodedImage {
 
 using PixelColor = std::array<std::uint16_t, 3>;  // sRGB codes of 8 bits
 
-// Height in dots of the letters of labels: ASCII in 5 x 7 dots, 6 dots apart; "?" for others.
+// Height in dots of the letters of labels. Letters are ASCII in 5 x 7 dots, 6 dots apart; "?"
+// stands for other characters. A dot is `dot` x `dot` pixels.
 inline constexpr int text_dots_high = 7;
 int text_width(std::string_view text, int dot);  // pixels
 
-// Draws the text from its top left corner at (left, top) on, within an 8-bit RGB picture.
+// Draws the text into an 8-bit RGB picture, its top left corner at (left, top).
 void draw_text(CodedImage& image, int left, int top, std::string_view text, int dot,
                const PixelColor& color);
 
@@ -42,7 +43,7 @@ void draw_text(CodedImage& image, int left, int top, std::string_view text, int 
 void fill_rectangle(CodedImage& image, int left, int top, int width, int height,
                     const PixelColor& color);
 
-// Copies a picture, as far as it fits, into another one, its top left corner to (left, top).
+// Copies `part`, as far as it fits, into `image`, its top left corner to (left, top).
 void copy_into(CodedImage& image, const CodedImage& part, int left, int top);
 
 // The transfer curve of sRGB (IEC 61966-2-1) from linear light to stored values, 0..1, and back.

@@ -44,8 +44,8 @@ struct Sums {
 
 using Rgb = std::array<int, 3>;
 
-// The diverging scheme RdBu of ColorBrewer (Brewer, Harrower), which is legible with every common
-// colour-vision deficiency, in equal steps outwards. Its middle is made pure white.
+// Colours for shares 0, .2, ..., 1 of the scale: ColorBrewer's diverging RdBu (Brewer, Harrower),
+// legible with common colour-vision deficiencies. Its middle is white instead of grey.
 constexpr std::array<Rgb, 6> blues = {{{255, 255, 255},
                                        {209, 229, 240},
                                        {146, 197, 222},
@@ -59,7 +59,8 @@ constexpr std::array<Rgb, 6> reds = {{{255, 255, 255},
                                       {178, 24, 43},
                                       {103, 0, 31}}};
 
-constexpr int narrowest_bar = 160, wide = 400;  // pixels; from `wide` on letters are twice as large
+// Pixels; from the width `wide` on letters are twice as large.
+constexpr int narrowest_bar = 160, wide = 400;
 constexpr int gap = 6, bar_high = 10;
 constexpr PixelColor paper{255, 255, 255}, ink{40, 40, 40};
 
@@ -82,7 +83,7 @@ Difference difference(const CodedImage& a, const CodedImage& b) {
     Difference result = blank(a, b, channel_names(a.channels));
     if (a.channels != b.channels)
         fail("the images differ in channels: {} and {}", a.channels, b.channels);
-    // One denominator for both, so that equal codes differ by exactly 0 whatever their depths.
+    // Codes get the denominator 257, so that equal colours of different depths differ by 0.
     const int unit_a = a.bit_depth == 16 ? 1 : 257;
     const int unit_b = b.bit_depth == 16 ? 1 : 257;
     result.e.resize(a.codes.size());
@@ -104,7 +105,7 @@ ImageError measure(const Difference& difference) {
     std::vector<Sums> sums(channels);
     for (int row = 0; row < difference.height; ++row) {
         std::vector<Sums> of_row(
-            channels);  // each row is summed by itself, which keeps rounding small
+            channels);  // rows are summed separately, which keeps rounding small
         const double* const e = &difference.e[static_cast<std::size_t>(row) * row_numbers];
         for (std::size_t i = 0; i < row_numbers; ++i) {
             const int column = static_cast<int>(i / channels);

@@ -20,11 +20,11 @@ struct Difference {
     std::vector<double> e;
 };
 
-// Both throw Error, which has both sizes, if these differ; for PNGs also if the channels do.
+// Both functions throw Error if the sizes differ; for PNGs also if the channels do.
 template <typename RealA, typename RealB>
 Difference difference(const RgbaImage<RealA>& a, const RgbaImage<RealB>& b);
 
-// Compares stored codes. A 16-bit code counts 1/257 of an 8-bit code.
+// Compares stored codes. A step of a 16-bit code counts 1/257 of a step of an 8-bit code.
 Difference difference(const CodedImage& a, const CodedImage& b);
 
 extern template Difference difference(const Image&, const Image&);
@@ -32,6 +32,7 @@ extern template Difference difference(const Image&, const PreciseImage&);
 extern template Difference difference(const PreciseImage&, const Image&);
 extern template Difference difference(const PreciseImage&, const PreciseImage&);
 
+// Norms of a difference, for each channel and for all channels together.
 struct ImageError {
     struct Worst {
         int column = 0, row = 0;
@@ -45,26 +46,24 @@ struct ImageError {
     Worst worst;  // the first component with |e| = all.linf
 };
 
-// Throws Error if the spaces differ.
-void check_spaces(ImageColorSpace a, ImageColorSpace b);
+void check_spaces(ImageColorSpace a, ImageColorSpace b);  // throws Error if they differ
 
-// Throws Error if some e is not finite.
-ImageError measure(const Difference& difference);
+ImageError measure(const Difference& difference);  // throws Error if some e is not finite
 
 template <typename RealA, typename RealB>
 ImageError image_error(const RgbaImage<RealA>& a, const RgbaImage<RealB>& b) {
     return measure(difference(a, b));
 }
 
-// A picture of a difference in 8-bit sRGB codes: each pixel's largest |e|, blue where e < 0, white
-// at 0 (for any scale), red where e > 0, darkest where |e| >= scale (in 1/255).
+// Returns a picture of a difference in 8-bit sRGB codes. Each pixel shows its e of the largest |e|:
+// blue if e < 0, white if e = 0 (for any scale), red if e > 0, darkest if |e| >= scale (in 1/255).
 CodedImage false_color(const Difference& difference, double scale);
 
 // Returns the colour, in sRGB codes, of e = share * scale, for -1 <= share <= 1.
 std::array<std::uint16_t, 3> false_color_of(double share);
 
-// Draws false_color() and below it the colour bar from -scale to scale with numbers at its ends,
-// "<=" and ">=" if differences beyond are clipped. White fills up narrow pictures.
+// Returns false_color() above a colour bar from -scale to scale, whose numbers begin with "<=" and
+// ">=" if larger differences are clipped. Narrow pictures are filled up with white.
 CodedImage difference_picture(const Difference& difference, double scale);
 
 }  // namespace lamina

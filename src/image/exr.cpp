@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Headers are checked as "OpenEXR File Layout" describes them: magic number, version, then headers.
-// A header is a list of attributes, each a name, a type (both end with a zero), a size and as many
-// bytes, and ends with an empty name.
+// Headers as in "OpenEXR File Layout": magic number, version, headers. Each is a list of attributes
+// (name, type, both zero-ended, size, that many bytes) that an empty name ends.
 #include "image/exr.h"
 
 #include <algorithm>
@@ -31,10 +30,10 @@ namespace lamina {
 namespace {
 
 constexpr std::uint32_t magic_number = 20000630;
-constexpr std::uint32_t several_parts = 1u << 12;  // flag in the version: more than one header
+constexpr std::uint32_t several_parts = 1u << 12;  // flag in the version number: several headers
 constexpr std::size_t longest_name = 255;
 
-// Types of attributes whose values have one size, in bytes.
+// Attribute types of fixed size, with their size in bytes.
 constexpr std::pair<std::string_view, std::uint32_t> sizes_of_types[] = {
     {"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
     {"compression", 1}, {"double", 8},   {"envmap", 1},
@@ -45,7 +44,7 @@ constexpr std::pair<std::string_view, std::uint32_t> sizes_of_types[] = {
     {"v3d", 24},        {"rational", 8}, {"lineOrder", 1},
     {"timecode", 8},    {"tiledesc", 9}, {"deepImageState", 1}};
 
-// Reads a little-endian number. There must be four bytes at `at`.
+// Reads the little-endian number of four bytes at `at`, all of which must exist.
 std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     std::uint32_t number = 0;
     for (std::size_t i = 4; i-- > 0;)
@@ -53,7 +52,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     return number;
 }
 
-// Tells whether a list of channels (name, zero, 16 bytes) ends with an empty name at the end.
+// Tells whether a channel list (name, zero, 16 bytes each; an empty name) ends with the value.
 bool channels_fill(std::string_view value) {
     constexpr std::size_t channel_bytes = 16;
     std::size_t at = 0;
@@ -65,14 +64,14 @@ bool channels_fill(std::string_view value) {
     return at + 1 == value.size();
 }
 
-// Tells whether the last of the strings (a length, then as many bytes) ends with the value.
+// Tells whether the last of several strings (length, then bytes) ends exactly with the value.
 bool strings_fill(std::string_view value) {
     std::uint64_t at = 0;
     while (at + 4 <= value.size()) at += 4 + std::uint64_t{number_at(value, at)};
     return at == value.size();
 }
 
-// A preview has a width, a height, and four bytes a pixel.
+// Tells whether a preview (width, height, four bytes for each pixel) fills the value exactly.
 bool preview_fills(std::string_view value) {
     if (value.size() < 8) return false;
     const std::uint64_t width = number_at(value, 0), height = number_at(value, 4);
@@ -90,9 +89,8 @@ bool fills(std::string_view type, std::string_view value) {
     return sized == std::end(sizes_of_types) || value.size() == sized->second;
 }
 
-// Checks headers before OpenEXR reads them. Throws Error if an attribute, or the table of tiles,
-// promises more bytes than the file has, or if an attribute's length does not fit its type: OpenEXR
-// 3.1 would take up to 2 GiB for it, or read beyond it.
+// Checks headers. Throws Error if an attribute or table of tiles promises more than the file has,
+// or a length does not fit its type: OpenEXR 3.1 would allocate up to 2 GiB, or read beyond it.
 class HeaderWalk {
   public:
     HeaderWalk(const std::filesystem::path& path, std::uint64_t file_bytes)
@@ -106,7 +104,7 @@ class HeaderWalk {
     }
 
   private:
-    // Checks the attributes of one header. Returns false if there are none, or the file ends.
+    // Checks the attributes of one header. Returns false if the header is empty or the file ends.
     bool check_attributes() {
         window_.reset();
         tile_.reset();
@@ -144,8 +142,8 @@ class HeaderWalk {
         }
     }
 
-    // The headers are followed by a table with 8 bytes for each tile or other chunk. (Numbers of
-    // tiles along an edge are below 2^33, so their product does not overflow a double.)
+    // Throws Error if the file cannot hold the tables behind the headers: 8 bytes a tile or chunk.
+    // Tiles along an edge are below 2^33, so products fit a double.
     void check_tables() const {
         double chunks = chunks_;
         if (window_ && tile_ && (*tile_)[0] > 0 && (*tile_)[1] > 0) {
@@ -165,7 +163,7 @@ class HeaderWalk {
         std::string text;
         while (text.size() <= longest_name) {
             const int c = stream_.get();
-            if (c <= 0) break;  // a zero, or the end
+            if (c <= 0) break;  // the zero behind a name, or the end of the file
             text += static_cast<char>(c);
         }
         return text;
@@ -189,7 +187,7 @@ constexpr const char* space_attribute = "color_space";
 constexpr const char* rgba_names[4] = {"R", "G", "B", "A"};
 constexpr std::size_t pixel_bytes = 4 * sizeof(float);
 
-// Lets OpenEXR write through an OutputFile.
+// Lets OpenEXR write into an OutputFile.
 class FileStream : public Imf::OStream {
   public:
     explicit FileStream(OutputFile& file) : OStream(file.path().c_str()), file_(file) {}
@@ -245,6 +243,7 @@ void write_pixels(FileStream& stream, const Image& image,
     output.writePixels(image.height);
 }
 
+// Channels of a file.
 struct Contents {
     std::string names;  // names of all channels, for messages
     std::uint64_t bytes_per_pixel = 0;
@@ -284,7 +283,7 @@ Image read_pixels(const std::string& name, std::uint64_t file_bytes) {
         fail("{}: channels are {}; expected R, G, B and perhaps A, or Y", name,
              one_line(found.names));
     }
-    // Deflate reaches 1032:1. The rest of the allowance is for lossy codecs.
+    // Largest compression that is believed: Deflate reaches 1032:1, lossy codecs more.
     check_file_can_hold(name, found.bytes_per_pixel * static_cast<std::uint64_t>(width * height),
                         file_bytes, 1 << 16);
 
@@ -302,12 +301,12 @@ Image read_pixels(const std::string& name, std::uint64_t file_bytes) {
     return image;
 }
 
-// Calls read(bytes of the file), and turns what OpenEXR throws into Error.
+// Checks headers, calls read(bytes in the file), turns OpenEXR's exceptions into Error.
 template <typename Read>
 auto read_with(const std::filesystem::path& path, const Read& read) {
     const std::uint64_t file_bytes = length_of_file(path);
     HeaderWalk(path, file_bytes).check();
-    // Makes OpenEXR refuse such headers before it takes memory for its own tables.
+    // OpenEXR then refuses larger images before it allocates its own tables.
     Imf::Header::setMaxImageSize(max_image_side, max_image_side);
     Imf::Header::setMaxTileSize(max_image_side, max_image_side);
     try {
@@ -316,7 +315,7 @@ auto read_with(const std::filesystem::path& path, const Read& read) {
         throw;
     } catch (const std::exception& error) {
         std::string why = one_line(error.what());
-        const std::size_t begin = why.find("\". ");  // after: Cannot read image file "NAME".
+        const std::size_t begin = why.find("\". ");  // skips: Cannot read image file "NAME".
         if (begin != std::string::npos) why.erase(0, begin + 3);
         fail("{}: cannot read as OpenEXR: {}", path.string(), why);
     }
@@ -337,7 +336,7 @@ void write_exr(OutputFile& file, const Image& image,
     } catch (const std::exception& error) {
         fail("{}: cannot write: {}", name, one_line(error.what()));
     }
-    // OpenEXR writes its table of lines in a destructor and swallows what goes wrong there.
+    // OpenEXR writes its table of lines in a destructor, which ignores errors.
     if (stream.broken()) fail("{}: cannot write: the disk may be full", name);
 }
 

@@ -28,6 +28,7 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr std::size_t alignment = 64;  // bytes; the data begin at a multiple of it (NEP 1)
 
+// Element type and shape of an image.
 struct Layout {
     bool is_double = true;
     std::int64_t height = 0, width = 0, channels = 0;

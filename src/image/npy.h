@@ -14,29 +14,29 @@ namespace lamina {
 
 constexpr std::string_view npy_magic = "\x93NUMPY";
 
-// The header of a NumPy file (NEP 1), a Python dictionary. Throws Error if it is none.
+// The header of a NumPy file (NEP 1): a Python dictionary. Throws Error if there is none.
 class NpyHeader {
   public:
     explicit NpyHeader(const std::filesystem::path& path);
 
-    std::string descr() const;  // "<f4"; empty if it is no string
+    std::string descr() const;  // type of the elements, as "<f4"; empty if the value is no string
     bool is_fortran_order() const;
     std::vector<std::int64_t> shape() const;  // empty if it is no tuple of whole numbers
     std::int64_t data_offset() const { return data_offset_; }
 
-    // Throws an Error about the value of a key: what was found and what was expected.
+    // Throws Error about the value of a key, which says what was found and what was expected.
     [[noreturn]] void wrong(const char* key, std::string_view expected) const;
 
   private:
-    std::string_view value(std::string_view key) const;  // the text behind the key
+    std::string_view value(std::string_view key) const;  // the text of the value
 
     std::string name_;  // name of the file
     std::string text_;
     std::int64_t data_offset_ = 0;
 };
 
-// Writes NumPy's format (NEP 1) 1.0 as the image has its numbers: little endian, C order, shape
-// (height, width, 4). Throws Error as write_exr() does. The caller commits the file.
+// Writes NumPy's format 1.0 (NEP 1), little-endian, C order, shape (height, width, 4), in the
+// image's own type. Throws Error as write_exr() does. The caller commits the file.
 template <typename Real>
 void write_npy(OutputFile& file, const RgbaImage<Real>& image);
 

@@ -16,23 +16,22 @@
 
 namespace lamina {
 
-// A picture from a file of any kind that this module reads.
+// A picture that was read from an EXR, NPY or PNG file.
 struct LoadedImage {
     std::string name;  // name of the file
     std::variant<Image, PreciseImage, CodedImage> pixels;
-    std::optional<ImageColorSpace> space;  // only EXR files say it
+    std::optional<ImageColorSpace> space;  // given for EXR files only
 };
 
-// Loads a picture; the suffix (.exr, .npy or .png, of any case) gives its kind. Throws Error for
-// other suffixes, bad files, and components that are not finite.
+// Loads .exr, .npy or .png (any case). Throws Error for others, bad files, non-finite components.
 LoadedImage load_image(const std::filesystem::path& path);
 
-// Compares EXR and NPY with each other, and PNG with PNG as codes. Throws Error, with the names of
-// the files, if they differ in kind, in size or, as far as it is known, in colour space.
+// Compares EXR and NPY with each other, and PNG with PNG as codes. Throws Error, which names the
+// files, if the pictures differ in kind, in size or, if both are known, in colour space.
 Difference difference(const LoadedImage& a, const LoadedImage& b);
 
-// Writes PNG or NPY by the suffix (.png, .npy), else EXR with the attributes. `space`: that of
-// image and background. Returns how many pixels were clamped. The caller commits the file.
+// Writes PNG or NPY by the suffix (.png, .npy), else EXR with the attributes. `space`: of image and
+// background. Returns how many pixels were clamped. The caller commits the file.
 std::size_t write_picture(OutputFile& file, const Image& image, const glm::dvec3& background,
                           const std::map<std::string, std::string>& attributes,
                           ImageColorSpace space = ImageColorSpace::linear);

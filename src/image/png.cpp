@@ -24,9 +24,10 @@ void on_error(png_structp png, png_const_charp text) {
 }
 
 void on_warning(png_structp /*png*/, png_const_charp /*text*/) {
-}  // warnings are about chunks that do not change codes
+}  // ignored: warnings are about chunks that do not change codes
 
-// Runs calls of libpng; false if it leaves them by longjmp(). `body` owns nothing to destroy.
+// Calls `body`, which calls libpng; returns false if libpng leaves it by longjmp(). `body` must not
+// own objects with destructors.
 template <typename Body>
 [[nodiscard]] bool succeeds(png_structp png, const Body& body) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -34,7 +35,7 @@ template <typename Body>
     return true;
 }
 
-// Writes bytes; unlike libpng's own function, it says why a write fails.
+// Writes bytes. Unlike libpng's own function, its message says why a write fails.
 void write_block(png_structp png, png_bytep bytes, std::size_t count) {
     auto* const stream = static_cast<std::FILE*>(png_get_io_ptr(png));
     if (std::fwrite(bytes, 1, count, stream) != count) png_error(png, std::strerror(errno));
@@ -65,7 +66,7 @@ int color_type(int channels) {
     return types[channels - 1];
 }
 
-// One row of codes as PNG has them: 16-bit codes with the high byte first.
+// Stores one row of codes in `row` as PNG has them: 16-bit codes with the high byte first.
 void pack_row(const CodedImage& image, const std::uint16_t* codes, std::vector<png_byte>& row) {
     png_byte* byte = row.data();
     for (int i = 0; i < image.width * image.channels; ++i) {
@@ -94,6 +95,7 @@ void expand(Png& reader) {
     png_read_update_info(reader.png, reader.info);
 }
 
+// A picture as 8-bit codes, and the number of its pixels that were clamped.
 struct DisplayPicture {
     CodedImage codes;
     std::size_t clamped_pixels = 0;
@@ -194,7 +196,7 @@ CodedImage read_png(const std::filesystem::path& path) {
     const bool has_header = succeeds(reader.png, [&] {
         png_init_io(reader.png, file.get());
         png_set_user_limits(reader.png, max_image_side, max_image_side);
-        // libpng trusts some chunks with memory, so all that change no codes are ignored.
+        // libpng allocates as much as some chunks ask for; those that change no codes are ignored.
         png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(reader.png, reader.info);
     });

@@ -16,8 +16,8 @@ namespace lamina {
 
 // Writes a picture to look at: C + (1-A) * background, clamped to 0..1, encoded to sRGB if it is
 // linear light, as 8-bit RGB with an sRGB chunk and no time stamp. Returns how many pixels were
-// clamped by more than 1/510 in some channel; less is the rounding of a low-precision target.
-// Throws Error as write_exr() does. The caller commits the file.
+// clamped by more than 1/510 in some channel; smaller excesses are rounding of a low-precision
+// target. Throws Error as write_exr() does. The caller commits the file.
 std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& background,
                       ImageColorSpace space = ImageColorSpace::linear);
 
@@ -28,7 +28,7 @@ void write_png(OutputFile& file, const CodedImage& image);
 std::string encode_png(const CodedImage& image);
 std::string encode_png(const Image& image, const glm::dvec3& background, ImageColorSpace space);
 
-// Returns only the codes: red, green and blue, row 0 on top.
+// Returns the codes that write_png() stores: red, green and blue, row 0 on top.
 std::vector<std::uint8_t> png_codes(const Image& image, const glm::dvec3& background,
                                     ImageColorSpace space);
 

@@ -27,11 +27,11 @@ namespace {
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr FieldPoint no_value{no_number, glm::dvec3(no_number)};
 
-// Largest distance, as a share of the coordinates, by which rounding moves a place off a face: each
-// of three products and two sums loses half an ulp, and so do the differences before them.
+// Largest distance from a face, as a share of the coordinates, to which rounding can move a point
+// on it: three products, two sums and the differences before them lose half an ulp each.
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// A cell, and a place in it in coordinates of the cell (0..1).
+// A cell, and a point in it in the cell's own coordinates (0..1).
 struct CellPlace {
     CellIndex cell;
     glm::dvec3 place;
@@ -69,7 +69,8 @@ FieldPoint point_at(const Grid& grid, const Samples& samples, const CellPlace& a
 struct MeshField {
     SceneMesh mesh;
     FaceTree open_faces;
-    std::array<std::vector<double>, 3> gradients;  // at points, by component
+    // Gradients at the mesh's points: x, y, z components.
+    std::array<std::vector<double>, 3> gradients;
 
     explicit MeshField(SceneMesh taken)
         : mesh(std::move(taken)), open_faces(mesh.mesh, mesh.mesh.open_faces()) {
@@ -108,8 +109,8 @@ std::optional<FieldPoint> MeshField::at(const glm::dvec3& position) const {
         if (!(position[axis] >= lowest[axis] - slack && position[axis] <= highest[axis] + slack))
             return {};
     }
-    // A line to the middle of the mesh crosses the boundary, and does not run in one of its faces,
-    // if the mesh is convex.
+    // A line from `position` towards the middle of the mesh crosses the boundary without running
+    // along one of its faces, if the mesh is convex.
     const glm::dvec3 inward = lowest + 0.5 * (highest - lowest) - position;
     const double distance = glm::length(inward);
     RayWalk walk(mesh.mesh, open_faces);
@@ -128,7 +129,8 @@ std::optional<FieldPoint> MeshField::at(const glm::dvec3& position) const {
     return in_tet(*nearest);
 }
 
-// Returns the segment, with the bounds of the values at corners: NaN if one is not finite.
+// Returns the segment begin..end with the smallest and largest of `values`, those of the corners;
+// both are NaN if a corner's value is not finite.
 template <typename Values>
 RaySegment bounded(double begin, double end, const Values& values) {
     if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))

@@ -66,7 +66,7 @@ TransferFunction chosen_transfer_function(const Scene& scene, const Volume& volu
     if (scene.transfer_function.is_given()) return *scene.transfer_function;
     Scene drawn = scene;
     drawn.method = Method::slice;
-    // Any camera will do here; without one, one would be fitted.
+    // The transfer function does not depend on the camera; this one saves fitting another.
     if (has_open_colormap(drawn)) drawn.camera = drawn.camera.value_or(Camera{});
     Pipeline pipeline(std::move(drawn), SceneData(volume));
     return *pipeline.scene().transfer_function;

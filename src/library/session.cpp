@@ -29,7 +29,7 @@
 namespace lamina {
 namespace {
 
-// Throws Error if there is no such view: scene files are checked for that when they are read.
+// Throws Error if no picture has this camera and size. Scenes from files were checked when read.
 void check_view(const Camera& camera, int width, int height) {
     if (width < 1 || height < 1)
         fail("image: found {} x {} pixels, expected 1 x 1 or more", width, height);
@@ -43,8 +43,8 @@ int arena_threads(int threads) {
 
 }  // namespace
 
-// A session: the pipeline of its scene with a client's own settings, such as threads, a folder that
-// it may read, and its warnings.
+// A session: the pipeline of its scene, with the client's threads, the folder that it may read, and
+// the warnings that it has not yet taken.
 struct Session::Parts {
     Parts(Scene scene, const SessionOptions& options)
         : only_below(allowed_folder(options.only_below)), threads(arena_threads(options.threads)) {
@@ -56,8 +56,8 @@ struct Session::Parts {
         pipeline->data().keep_volume();
     }
 
-    // Returns work(), called for the session's client: in its threads, with its warnings kept. Each
-    // picture repeats its warnings, so they are kept once.
+    // Returns work(), done in the session's threads, with its warnings kept. Each picture repeats
+    // its warnings, so equal texts are kept once.
     template <typename Work>
     auto run(const Work& work, std::stop_token stop = {}, const ProgressCallback& progress = {}) {
         const WarningTaker taker = [this](const std::string& text) {
@@ -80,19 +80,19 @@ struct Session::Parts {
     std::mutex keeping;
     std::vector<std::string> warnings;
     std::unique_ptr<Pipeline> pipeline;
-    std::weak_ptr<const void> counted;  // the data of the last histogram
+    std::weak_ptr<const void> counted;  // data that `counts` belongs to
     ValueDistribution counts;
     Image picture;
     FrameStatistics statistics, trace_statistics;
 };
 
-// The members of one kind of data are set.
+// Data of the probed scene: either the volume or the mesh is set.
 struct PointProbe::Parts {
     Scene scene;
     std::shared_ptr<const VolumeData> volume;
     std::shared_ptr<const SceneMesh> mesh;
     std::once_flag first;
-    std::optional<FaceTree> open_faces;  // of the mesh, made when it is first needed
+    std::optional<FaceTree> open_faces;  // of the mesh; made on the first probe
 };
 
 Session::Session(Scene scene, SessionOptions options)
@@ -145,7 +145,7 @@ void Session::set_transfer_function_of(const Scene& like) {
 }
 
 void Session::set_clip(const Clip& clip) {
-    half_spaces(clip);  // throws if the clip is wrong
+    half_spaces(clip);  // throws if a plane or box is invalid
     parts_->run([&] { parts_->pipeline->set_clip(clip); });
 }
 

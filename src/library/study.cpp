@@ -21,8 +21,8 @@ nlohmann::ordered_json begin_record() {
     return {{"begin", begin}};
 }
 
-// Throws if the folder has files of others, another study, this one with changed data, or a part of
-// this one unless `resume`.
+// Throws Error if the folder has files that no study wrote, another study, or this study with
+// changed data; or, unless `resume`, results of this study.
 void check_folder(const study::StudyFolder& folder, study::RunList& list, bool resume) {
     folder.own().expect_own(study::StudyFolder::names());
     if (!std::filesystem::exists(folder.run_list())) return;
@@ -61,7 +61,7 @@ StudyOutcome run(const std::filesystem::path& path, const study::StudyFolder& fo
 StudyOutcome run_study(const std::filesystem::path& study, const std::filesystem::path& folder,
                        bool resume, std::stop_token stop, const ProgressCallback& progress) {
     std::vector<std::string> warnings;
-    // Several runs over the same data give the same warnings.
+    // Several runs over one data set give equal warnings, which are kept once.
     const WarningTaker taker = [&](const std::string& text) {
         if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(text);
     };

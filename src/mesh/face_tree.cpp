@@ -49,8 +49,8 @@ void FaceTree::build(std::span<const Box> boxes, std::int32_t first, std::int32_
     build(boxes, middle, end);
 }
 
-// A cross product of rounded differences is off by at most 3 epsilon |u| |v| (1-norms), its product
-// with p by as much again and 3 epsilon of itself: less than 16 epsilon |u| |v| |p|.
+// The error: a cross product of rounded differences is off by at most 3 epsilon |u| |v| (1-norms),
+// its product with p by as much again and 3 epsilon of itself: together < 16 epsilon |u| |v| |p|.
 RoundedPlane::RoundedPlane(const glm::dvec3& u, const glm::dvec3& v)
     : normal(glm::cross(u, v)), error(16 * epsilon * norm1(u) * norm1(v)) {}
 
@@ -65,8 +65,8 @@ int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& p
     return orientation(face[0], face[1], face[2], point);
 }
 
-// A plane's value at a point of a box is off by its error for the largest distance there, and by 8
-// roundings of the products of its normal with coordinates.
+// The limit is lowered by the error of dot(normal, point - origin) at the largest distance in the
+// box, and by 8 roundings of the products of the normal with coordinates.
 PlaneSide::PlaneSide(const RoundedPlane& plane, const glm::dvec3& origin,
                      const FaceTree::Box& bounds)
     : normal_(plane.normal) {

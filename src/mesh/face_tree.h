@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// Boxes in boxes around faces of a mesh, to find those that a ray or another shape may meet.
+// A tree of boxes around faces of a mesh, to find those that a ray or another shape may meet.
 class FaceTree {
   public:
     struct Box {
@@ -18,6 +18,7 @@ class FaceTree {
             max = glm::max(max, other.max);
         }
     };
+    // Returns the empty box, to which others can be added.
     static constexpr Box nothing() { return {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)}; }
 
     static Box box_around(const std::array<glm::dvec3, 3>& corners) {
@@ -28,13 +29,13 @@ class FaceTree {
 
     FaceTree(const TetMesh& mesh, std::span<const TetFace> faces);
 
-    // Calls visit(index into the faces) for all faces below the boxes for which meets(box) holds.
+    // Calls visit(face index) for the faces of each leaf that meets(), as do all nodes above it.
     template <typename Meets, typename Visit>
     void visit(const Meets& meets, const Visit& visit) const {
         visit_nodes([&](std::size_t node) { return meets(nodes_[node].box); }, visit);
     }
 
-    // As above, but the test gets the number of the node.
+    // Does what visit() does, but calls meets() with the number of a node.
     template <typename Meets, typename Visit>
     void visit_nodes(const Meets& meets, const Visit& visit) const {
         std::array<std::int32_t, 64> stack;  // the tree is balanced: its height is below 32
@@ -55,7 +56,8 @@ class FaceTree {
 
     std::size_t node_count() const { return nodes_.size(); }
 
-    // Sums up what add_face(index, node) adds for the faces below each node, by add().
+    // Fills `nodes`, one entry a node, with sums over the faces below each: add_face(index, entry)
+    // adds a face to a leaf's entry, Known::add() an entry to another. `nothing`: the empty sum.
     template <typename Known, typename AddFace>
     void sum(std::span<Known> nodes, const Known& nothing, const AddFace& add_face) const {
         for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before their parents
@@ -84,14 +86,13 @@ class FaceTree {
 
 using Triangle = std::array<glm::dvec3, 3>;
 
-// The normal of a plane, with a bound on its rounding error.
 struct RoundedPlane {
     RoundedPlane() = default;
     RoundedPlane(const glm::dvec3& u, const glm::dvec3& v);  // spanned by these two vectors
 
     glm::dvec3 normal{0};
-    double error = 0;  // error of its value at a point, per unit (1-norm) of distance
-    // Returns the sign (1 or -1) of the true plane's value, or 0 if rounding leaves it unknown.
+    double error = 0;  // error of dot(normal, point - origin), per unit (1-norm) of distance
+    // Returns the exact side, 1 or -1, of origin + from_origin; 0 if rounding leaves it unknown.
     int sign(const glm::dvec3& from_origin) const;
 };
 
@@ -103,9 +104,9 @@ int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& p
 class PlaneSide {
   public:
     PlaneSide() = default;
-    // `bounds`: contains all that reaches() is asked about.
+    // `bounds`: a box around all shapes that reaches() is called with.
     PlaneSide(const RoundedPlane& plane, const glm::dvec3& origin, const FaceTree::Box& bounds);
-    // Tells whether a box or a triangle may contain a point of it. Rounding never makes this false.
+    // Tells whether a shape may contain a point of the half space. Rounding never makes it false.
     bool reaches(const FaceTree::Box& box) const {
         const auto most = [&](int axis) {
             return normal_[axis] * (normal_[axis] > 0 ? box.max[axis] : box.min[axis]);

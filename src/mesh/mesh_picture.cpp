@@ -8,12 +8,13 @@
 namespace lamina {
 namespace {
 
-constexpr int room = 8;                  // pixels around and between the panels
-constexpr double pixels_for_edges = 40;  // pieces that cover fewer pixels on average get no edges
+constexpr int room = 8;  // pixels around and between the panels
+// In panels whose faces or tets cover fewer pixels on average, no edges are drawn.
+constexpr double pixels_for_edges = 40;
 constexpr std::array<std::uint16_t, 3> paper{255, 255, 255};
 constexpr glm::dvec3 no_value(200, 30, 30);
 
-// Blue over green to yellow: five colours of matplotlib's viridis.
+// Purple over green to yellow: five colours of matplotlib's viridis.
 glm::dvec3 color_of(double value, const ValueRange& range) {
     static const std::array<glm::dvec3, 5> colors{glm::dvec3(68, 1, 84), glm::dvec3(59, 82, 139),
                                                   glm::dvec3(33, 145, 140), glm::dvec3(94, 201, 98),
@@ -25,7 +26,7 @@ glm::dvec3 color_of(double value, const ValueRange& range) {
     return glm::mix(colors[below], colors[below + 1], place - static_cast<double>(below));
 }
 
-// One of the four pictures: the piece that each pixel shows, and its colour.
+// One of the four panels: for each pixel, the face or tet (piece) that it shows, and its colour.
 class Panel {
   public:
     // Looks along right x up = towards the eye; the mesh's box fits into the panel.
@@ -43,7 +44,7 @@ class Panel {
         scale_ = reach > 0 ? 0.5 * side / reach : 1;
     }
 
-    // In pixels, rows downwards.
+    // Returns a point's place in pixels; rows go downwards.
     glm::dvec2 place(const glm::dvec3& point) const {
         const glm::dvec3 p = point - center_;
         return {0.5 * side_ + scale_ * glm::dot(p, right_),

@@ -7,9 +7,9 @@
 
 namespace lamina {
 
-// A picture of a mesh for a quick look: the open faces, seen from (1, -1, 1), and cuts through the
-// middle of its box, each in `side` (16 to 4096) pixels, in two rows. Colours go from purple
-// (range.lo) to yellow; values that are not finite are red. `scalar`: one value a point, or empty.
+// Returns a picture for a quick look, four panels of `side` (16 to 4096) pixels squared: the open
+// faces, seen from (1, -1, 1), and three cuts through the middle of the mesh's box. Colours go from
+// purple (range.lo) to yellow; red: not finite. `scalar`: one value a point, or empty.
 CodedImage mesh_picture(const TetMesh& mesh, std::span<const double> scalar,
                         const ValueRange& range, int side);
 

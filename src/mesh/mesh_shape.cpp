@@ -15,11 +15,13 @@
 namespace lamina {
 namespace {
 
-constexpr double flat_enough = 1e-12;  // share of the diagonal: see the header
+// Largest dent of Convexity::within_rounding, as a share of the diagonal.
+constexpr double flat_enough = 1e-12;
 constexpr std::int64_t tets_per_task = 8192;
 
 constexpr EdgeLengths no_edges{std::numeric_limits<double>::infinity(), 0};
 
+// An edge of an open face. Sorted, the edges of all faces that meet at one edge are neighbours.
 struct BoundaryEdge {
     std::int32_t low, high;
     std::int32_t face;  // index into open_faces()
@@ -52,7 +54,7 @@ std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
     return edges;
 }
 
-// Returns how the faces of one edge meet, seen from the first.
+// Tells how convex the edge between two faces is, from the side of `first`'s apex.
 Convexity bend(const TetMesh& mesh, const BoundaryEdge& first, const BoundaryEdge& second,
                double tolerance) {
     const auto point = [&](std::int32_t index) -> const glm::dvec3& {
@@ -67,13 +69,14 @@ Convexity bend(const TetMesh& mesh, const BoundaryEdge& first, const BoundaryEdg
     const int sign = orientation(point(a), point(b), point(c), apex);
     if (sign < 0) return Convexity::exact;
     const glm::dvec3 n = normal(first.face);
-    // The faces lie in one plane. They must not be folded back onto each other.
+    // The angle is flat or concave. The faces must not be folded back onto each other.
     if (!(glm::dot(n, normal(second.face)) > 0)) return Convexity::none;
     if (sign == 0) return Convexity::exact;
     return glm::dot(n, apex - point(a)) <= tolerance * glm::length(n) ? Convexity::within_rounding
                                                                       : Convexity::none;
 }
 
+// Disjoint sets of faces (union-find), to count the closed surfaces of a boundary.
 class FaceSets {
   public:
     explicit FaceSets(std::size_t faces) : parent_(faces), count_(faces) {
@@ -99,7 +102,7 @@ class FaceSets {
 
 constexpr std::int64_t faces_per_task = 64;
 
-// Faces that may be examined for each face, on average. Real meshes need far fewer.
+// Limits the pairs of faces examined: average for each face. Real meshes need far fewer.
 constexpr std::int64_t looks_a_face = 60;
 
 constexpr std::int64_t most_lines = 500, lines_per_task = 8;
@@ -143,7 +146,7 @@ class OverlapSearch {
         std::atomic_ref<std::uint8_t>(overlapping_[face.tet]).store(1, std::memory_order_relaxed);
     }
 
-    // Faces that share two points meet in an edge, or lie in one plane.
+    // Marks the tets of faces that cross. Faces with two points in common only touch.
     void mark_crossing() {
         const auto faces = mesh_.open_faces();
         std::atomic<std::int64_t> left{looks_a_face * std::ssize(faces)};
@@ -179,7 +182,7 @@ class OverlapSearch {
         return shared;
     }
 
-    // Open faces with the same corners have two tets or more on one side.
+    // Marks the tets of open faces with the same corners: two or more lie on one side of the face.
     void mark_shared() {
         if (mesh_.findings().folded_faces + mesh_.findings().nonmanifold_faces == 0) return;
         std::vector<std::int32_t> order(mesh_.open_faces().size());
@@ -197,12 +200,13 @@ class OverlapSearch {
         }
     }
 
-    // If no faces cross, a part is inside another one as a whole: one line through it suffices.
+    // Marks a tet of each connected component (part) inside another one. If no faces cross, a
+    // component is inside as a whole, so one line through it suffices.
     void mark_inner_parts() {
         if (std::ranges::count(overlapping_, 1) > 0) return;
         std::vector<char> seen(mesh_.tets().size());
         std::vector<std::int32_t> waiting;
-        std::vector<TetFace> parts;  // a face of each
+        std::vector<TetFace> parts;  // one open face of each component
         for (const TetFace& face : mesh_.open_faces()) {
             if (seen[face.tet]) continue;
             visit_part(face.tet, seen, waiting);

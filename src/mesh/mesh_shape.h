@@ -7,7 +7,7 @@ namespace lamina {
 
 struct EdgeLengths {
     double shortest = 0, longest = 0;
-    // Longest over shortest edge; infinite if the ends of an edge coincide.
+    // Longest divided by shortest edge; infinite if the ends of an edge coincide.
     double ratio() const {
         return shortest > 0 ? longest / shortest : std::numeric_limits<double>::infinity();
     }
@@ -20,18 +20,18 @@ enum class Convexity {
     exact             // no boundary edge is concave at all
 };
 
-// Tells whether the mesh fills a convex body: if its boundary is one closed surface without a
-// concave edge (Tietze 1928, Nakajima 1928) and no face is folded or nonmanifold. Dents from
-// rounded doubles (1e-16) are within_rounding; those of float coordinates (1e-8) count.
+// Tells whether the mesh fills a convex body: its boundary is one closed surface without a concave
+// edge (Tietze 1928, Nakajima 1928), and no face is folded or nonmanifold. Dents as deep as the
+// rounding of doubles (1e-16) are within_rounding; those of float coordinates (1e-8) are not.
 Convexity convexity(const TetMesh& mesh);
 
 inline bool convex(const TetMesh& mesh) {
     return convexity(mesh) != Convexity::none;
 }
 
-// Counts the tets at whose open faces the mesh overlaps itself: faces that cross, folded and
-// nonmanifold ones, and parts inside others (one tet each; 500 parts are tested). Exact for faces
-// that cross, unless that would take too long: then some may be missed. Parallel.
+// Counts the tets at whose open faces the mesh overlaps itself: tets of faces that cross, are
+// folded or nonmanifold, and one of each connected component inside another (tests up to 500
+// components). Finds all crossing faces unless the search would take too long. Parallel.
 std::int64_t count_overlapping_tets(const TetMesh& mesh);
 
 }  // namespace lamina

@@ -13,8 +13,7 @@ constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
 // Shewchuk's error bound for orient3d ("o3derrboundA"), as a share of the permanent.
 constexpr double error_bound = (7 + 56 * half_ulp) * half_ulp;
 
-// A sum of doubles without any rounding: nonoverlapping components, smallest first (Shewchuk,
-// GROW-EXPANSION with zero elimination).
+// An exact sum: nonoverlapping doubles, smallest first (Shewchuk, GROW-EXPANSION, no zeros).
 class Expansion {
   public:
     void add(double term) {
@@ -42,7 +41,7 @@ class Expansion {
     }
 
   private:
-    // Six products of three differences, each the sum of two doubles: 6 * 8 * 4 terms at most.
+    // At most 6 * 8 * 4 terms: six products of three differences, each the sum of two doubles.
     std::array<double, 192> components_;
     std::size_t count_ = 0;
 };

@@ -23,20 +23,19 @@ inline std::array<glm::dvec3, 8> box_corners(const glm::dvec3& min, const glm::d
     return corners;
 }
 
-// The eye that looks at a mesh. A visibility order depends on nothing else of the view.
+// The eye that looks at a mesh: all of a view that a visibility order depends on.
 struct Eye {
-    // World coordinates. At infinity (orthographic): the viewing direction away from the eye.
+    // In world coordinates. If at_infinity (orthographic): the view direction, away from the eye.
     glm::dvec3 position{0};
     bool at_infinity = false;
 };
 
-// Returns the exact sign of det(a - a0, b - b0, c - c0) unless products over- or underflow
-// (Shewchuk, Adaptive precision floating-point arithmetic and fast robust geometric predicates,
-// 1997).
+// Returns the exact sign of det(a - a0, b - b0, c - c0), barring over- and underflow (Shewchuk,
+// Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997).
 int sign_of_determinant(const glm::dvec3& a, const glm::dvec3& a0, const glm::dvec3& b,
                         const glm::dvec3& b0, const glm::dvec3& c, const glm::dvec3& c0);
 
-// Returns 1 if d lies on the side from which a, b, c are seen counter-clockwise; 0: coplanar.
+// Returns the exact side of d: 1 where a, b, c look counter-clockwise, -1 opposite, 0 coplanar.
 inline int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                        const glm::dvec3& d) {
     return sign_of_determinant(b, a, c, a, d, a);

@@ -3,10 +3,9 @@
 
 #include "mesh/predicates.h"
 
-// LAMINA_CLONE_FOR_FMA before a function compiles it for processors with fused multiply-add, too,
-// and the loader chooses: without the instruction, std::fma is a call of the C library with the
-// same result. Functions that such a function calls need LAMINA_IN_CLONES, to be compiled into it.
-// Sanitizers are not ready when glibc's loader chooses between clones.
+// LAMINA_CLONE_FOR_FMA compiles a function twice, once for processors with fused multiply-add;
+// glibc's loader chooses. Otherwise std::fma is a library call with the same result. Callees need
+// LAMINA_IN_CLONES, to be inlined into both. Not with sanitizers, which are not ready at that time.
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define LAMINA_CLONE_FOR_FMA __attribute__((target_clones("default", "fma")))
@@ -21,17 +20,16 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// Distance after the last exit, as a share of the scale, up to which an open face counts as met
-// before it: crossings are good to some epsilon of the distance, and meshes may touch themselves.
+// Distance behind an exit, as a share of the line's parameters, up to which an entry does not count
+// as an overlap: crossings have errors of some epsilon, and meshes may touch themselves.
 constexpr double touching = 1e-12;
 
-// a * b - c * d to 2 ulps (Kahan; Jeannerod, Louvet, Muller 2013), for faces seen edge-on.
+// Returns a * b - c * d to 2 ulps (Kahan; Jeannerod, Louvet, Muller 2013), for faces seen edge-on.
 LAMINA_IN_CLONES double difference_of_products(double a, double b, double c, double d) {
     const double cd = c * d;
     return std::fma(a, b, -cd) + std::fma(-c, d, cd);
 }
 
-// The point nearest to the line (0, 0) on the segment from a to b.
 struct Nearest {
     double share;  // weight of b
     double distance;
@@ -93,9 +91,9 @@ LAMINA_IN_CLONES RayWalk::Side RayWalk::side(const Corner& a, const Corner& b) c
     return {area * sign > 0 ? area : 0, sign};
 }
 
-// Returns the sign of det(d, p - o, q - o); if 0, that for the line moved by o += (e, e^2, e^3) and
-// then turned by d += (f, f^2, f^3), with f infinitely smaller than any power of e. The terms
-// follow by size (E = q - p). For two points p != q one of them is not 0.
+// Returns the exact sign of det(d, p - o, q - o) for the line o + t d. If it is 0, returns the sign
+// after o moved by (e, e^2, e^3) and d by (f, f^2, f^3), f infinitely smaller than any power of e:
+// tests the terms, the largest first (E = q - p). If p != q, one of them is not 0.
 int RayWalk::exact_side(const glm::dvec3& p, const glm::dvec3& q) const {
     const glm::dvec3 none(0);
     const glm::dvec3 &origin = line_.origin, &direction = line_.direction;
@@ -116,7 +114,7 @@ int RayWalk::exact_side(const glm::dvec3& p, const glm::dvec3& q) const {
         if (const int sign = j < k ? by_j : by_k) return sign;
         if (const int sign = j < k ? by_k : by_j) return sign;
     }
-    return 1;  // one point in two places of the mesh: an edge without length
+    return 1;  // p == q: the mesh has the point twice, as an edge without length
 }
 
 FaceCrossing RayWalk::crossing(const RayFront& front) {
@@ -126,7 +124,7 @@ FaceCrossing RayWalk::crossing(const RayFront& front) {
     if (areas[0] > 0 && areas[1] > 0 && areas[2] > 0) {
         const double sum = areas[0] + areas[1] + areas[2];
         result.weights = {areas[1] / sum, areas[2] / sum, areas[0] / sum};
-    } else {  // the line is within rounding of an edge or a corner, and that is the place
+    } else {  // the line meets an edge or a corner, up to rounding: take the place on it
         double best = INFINITY;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3;
@@ -138,13 +136,13 @@ FaceCrossing RayWalk::crossing(const RayFront& front) {
             result.weights[j] = place.share;
         }
     }
-    // Relative to one corner's, so that no digits are lost far from the origin.
+    // Interpolated relative to the first corner, so that no digits are lost far from the origin.
     result.at = corners[0].at + (result.weights[1] * (corners[1].at - corners[0].at) +
                                  result.weights[2] * (corners[2].at - corners[0].at));
     return result;
 }
 
-// Counter-clockwise for a line that comes in.
+// Returns the corners of a face, counter-clockwise as seen along a line that enters by it.
 LAMINA_IN_CLONES std::array<RayWalk::Corner, 3> RayWalk::see_face(const TetFace& face) const {
     const auto [a, b, c] = corners_of_face(mesh_.tets()[face.tet], face.face);
     return {see(a), see(c), see(b)};
@@ -161,7 +159,7 @@ LAMINA_CLONE_FOR_FMA RayFront RayWalk::front_of(const TetFace& face) const {
     return {corners, {first.area, second.area, third.area}};
 }
 
-// Tells whether the line surely passes all corners on one side of an axis across it.
+// Tells whether rounding surely leaves all corners on one side, so that the line misses the face.
 LAMINA_IN_CLONES bool RayWalk::passes(const std::array<Corner, 3>& p) {
     const double reach = std::max({p[0].reach, p[1].reach, p[2].reach});
     const auto aside = [&](double a, double b, double c) {
@@ -207,8 +205,8 @@ void RayWalk::sort_crossings() {
     }
 }
 
-// From corner to corner the edges to the fourth corner change sides of the line and back: it leaves
-// between the corners where they turn positive. The fourth corner replaces the third.
+// The line leaves by the fourth corner (top) and the corners i and j of the front between which the
+// side of the edge to the top turns from - to +. The top replaces the third corner k.
 LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, RayFront& front) const {
     const Tet& tet = mesh_.tets()[segment.tet];
     auto& [p, areas] = front;

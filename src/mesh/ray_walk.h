@@ -7,23 +7,23 @@
 
 namespace lamina {
 
-// A line origin + t * direction for all real t, taken as exact, and axes across it.
+// A line origin + t * direction for all real t, its numbers taken as exact, and two axes across it.
 struct LineFrame {
     glm::dvec3 origin{0}, direction{0};
-    glm::dvec3 across_x{0}, across_y{0};  // unit vectors; x, y, direction are right-handed
+    glm::dvec3 across_x{0}, across_y{0};  // unit vectors; with the direction, right-handed axes
     double direction_square = 1;
 };
 
-// A face through which a line enters a tet, as it is seen along the line.
+// A face through which a line enters a tet, as seen along the line.
 struct RayFront {
-    // A corner: its position in the plane across the line, and the line's parameter there.
+    // A corner: its place (x, y) relative to the line, and the line's parameter next to it.
     struct Corner {
         std::int32_t point;
         double x, y, at;
         double reach;  // bounds the rounding of x and y
     };
     std::array<Corner, 3> corners;  // counter-clockwise
-    // Twice the areas of the triangles of the line and edges 01, 12, 20: >= 0, up to rounding.
+    // Twice the areas of the triangles of the line and the edges 01, 12, 20: >= 0, up to rounding.
     std::array<double, 3> areas;
 };
 
@@ -38,7 +38,7 @@ struct FaceCrossing {
     std::array<double, 3> weights;  // barycentric weights of the corners, >= 0; their sum is 1
     double at = 0;                  // parameter of the line
 
-    // Interpolates one value a point linearly. Constant values stay exactly the same.
+    // Interpolates `values`, one for each point of the mesh. Constant values stay exactly the same.
     double interpolate(std::span<const double> values) const {
         const double first = values[corners[0]];
         return first + (weights[1] * (values[corners[1]] - first) +
@@ -51,34 +51,33 @@ struct TetSegment {
     FaceCrossing in, out;  // in.at <= out.at
 };
 
-// Finds the tets that a line passes. Every face is decided exactly, so no line leaks between two
-// tets. A line that meets an edge or a point is displaced by an infinitesimal amount (simulation of
-// simplicity, Edelsbrunner and Muecke 1990). Each thread needs its own object.
+// Walks along a line from tet to tet. Decides exactly on which side it passes each edge, so no line
+// leaks between tets; one that meets an edge or a point is displaced by an infinitesimal amount
+// (simulation of simplicity, Edelsbrunner and Muecke 1990). Each thread needs its own object.
 class RayWalk {
   public:
     RayWalk(const TetMesh& mesh, const FaceTree& open_faces) : mesh_(mesh), tree_(open_faces) {}
 
-    // A corner's position across the line is off by less than this times its distance from the
-    // origin (1-norm): 8 epsilon, half an ulp from each difference, three products and two sums,
-    // and axes that are across the line to 4 ulps.
+    // Bounds the error of Corner's x and y, as a share of its distance from the origin (1-norm):
+    // half an ulp for each difference, three products and two sums, and axes across to 4 ulps.
     static constexpr double place_error = 8 * std::numeric_limits<double>::epsilon();
 
-    // Sets the line and finds where it enters and leaves the mesh.
+    // Sets the line and finds all places at which it enters and leaves the mesh.
     void aim(const glm::dvec3& origin, const glm::dvec3& direction);
-    // `faces`: indices of open faces, among them all that the line meets.
+    // Tests only `faces`: indices of open faces, among them all that the line meets.
     void aim(const glm::dvec3& origin, const glm::dvec3& direction,
              std::span<const std::int32_t> faces);
     const LineFrame& line() const { return line_; }
 
+    // An open face by which the line enters the mesh, and the line's parameter at which it does.
     struct Entry {
         TetFace face;
         double at;
     };
     std::span<const Entry> entries() const { return entries_; }  // ascending
-    // Tells whether the mesh overlaps itself there: the line enters again before it has left.
+    // Tells whether the mesh overlaps itself on the line: it enters again before it has left.
     bool overlapping() const { return overlapping_; }
 
-    // Calls visit(TetSegment) until the line leaves the mesh, or visit returns false.
     template <typename Visit>
     void follow(const Entry& entry, const Visit& visit) const {
         RayFront front = front_of(entry.face);
@@ -94,17 +93,18 @@ class RayWalk {
 
     RayFront front_of(const TetFace& face) const;
     static FaceCrossing crossing(const RayFront& front);
-    // Fills in how the line leaves segment.tet, and moves the front there. Returns the tet behind.
+    // Sets segment.out, where the line leaves segment.tet, and makes `front` that face, seen from
+    // the tet behind. Returns the tet behind, or no_neighbor.
     std::int32_t step(TetSegment& segment, RayFront& front) const;
 
-    // Lists all segments of all entries, in ascending order of their entry.
+    // Lists the segments from all entries, by ascending parameter at which the line enters the tet.
     void list(std::vector<TetSegment>& segments) const;
 
   private:
     using Corner = RayFront::Corner;
-    // The side of the line on which the edge from a to b passes.
+    // The side of the line on which the edge from corner a to corner b passes.
     struct Side {
-        double area;  // has the sign below, or is 0 if rounding gave the other sign
+        double area;  // twice the triangle's area, with `sign`; 0 if rounding gave the other sign
         int sign;     // exact, never 0
     };
 
@@ -122,7 +122,7 @@ class RayWalk {
     const TetMesh& mesh_;
     const FaceTree& tree_;
     LineFrame line_;
-    // Lengths across the line of a unit along each axis.
+    // How far a unit along each axis extends across the line: |across_x| and |across_y|.
     glm::dvec3 extent_x_{0}, extent_y_{0};
     double origin_norm_ = 0;
     std::vector<Entry> entries_;

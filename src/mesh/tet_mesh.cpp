@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t points_per_task = 1024;
 
-// A face in the bucket of its least corner; code: 4 * tet + face.
+// A face in FaceBuckets, by its two larger corners. code: 4 * tet + number of the face in the tet.
 struct FaceKey {
     std::int32_t middle, largest;
     std::uint32_t code;
@@ -40,7 +40,7 @@ std::array<std::int32_t, 3> ascending_corners(const Tet& tet, std::size_t face) 
     return {a, b, c};
 }
 
-// All faces, by their least corner: those with least corner p are at start[p] .. start[p + 1] - 1.
+// All faces, sorted by their least corner p: those of p are at start[p] .. start[p + 1] - 1.
 struct FaceBuckets {
     std::vector<std::uint32_t> start;
     std::vector<FaceKey> faces;
@@ -68,7 +68,6 @@ FaceBuckets fill_buckets(std::span<const Tet> tets, std::size_t point_count) {
 
 // The tet across each face, found by corner indices alone. Faces of three or more tets have none.
 struct FaceMatching {
-    // Tet across face i; -1 if there is none.
     std::vector<std::array<std::int32_t, 4>> neighbors;
     // Tets with the same corners as an earlier tet, ascending.
     std::vector<std::int32_t> duplicates;
@@ -113,7 +112,8 @@ class Matcher {
   private:
     std::int32_t& across(const FaceKey& key) { return matching_.neighbors[key.tet()][key.face()]; }
     std::int32_t opposite(const FaceKey& key) const { return tets_[key.tet()][key.face()]; }
-    // Marked only at the face opposite the largest corner: no two tasks write one mark.
+    // Marks tets that have the same corners as an earlier one. Each is marked only where its face
+    // opposite its largest corner is matched, so no two tasks write one mark.
     void mark_duplicates(std::span<const FaceKey> group) {
         std::vector<FaceKey> by_apex(group.begin(), group.end());
         std::sort(by_apex.begin(), by_apex.end(), [&](const FaceKey& a, const FaceKey& b) {
@@ -136,7 +136,7 @@ class Matcher {
 constexpr std::int64_t grain = 4096;                     // tets a task
 constexpr std::size_t most_tets = std::size_t{1} << 29;  // four faces each must fit 32 bits
 
-// Products of three coordinates must stay numbers (mesh/predicates.h).
+// Limits coordinates, so that products of three of them are finite (mesh/predicates.h).
 constexpr double largest_coordinate = 1e100;
 
 bool usable(const glm::dvec3& p) {
@@ -149,7 +149,7 @@ bool repeats_corner(Tet corners) {
     return std::adjacent_find(corners.begin(), corners.end()) != corners.end();
 }
 
-// `face`: the one of `tet` opposite the corner that `other` lacks.
+// Tells, by corner order, whether two tets lie on opposite sides of `face` (its number in `tet`).
 bool opposite_sides(const Tet& tet, std::size_t face, const Tet& other) {
     const auto [p, q, r] = corners_of_face(tet, face);
     std::size_t apex = 0;
@@ -169,7 +169,7 @@ struct Weighted {
     double weight = 0;
 };
 
-// Lengths are in units of `unit`. Nothing is divided by the volume of a sliver.
+// Returns a tet's gradient times six volumes, which are tiny for slivers, in lengths of `unit`.
 Weighted weighted_gradient(const TetMesh& mesh, std::span<const double> scalar, const Tet& tet,
                            double unit) {
     const auto point = [&](std::size_t i) { return mesh.points()[tet[i]]; };
@@ -180,12 +180,12 @@ Weighted weighted_gradient(const TetMesh& mesh, std::span<const double> scalar, 
     const double weight = glm::dot(a, bc);
     const glm::dvec3 sum = (value(1) - value(0)) * bc + (value(2) - value(0)) * glm::cross(c, a) +
                            (value(3) - value(0)) * glm::cross(a, b);
-    // Tets are positively oriented; the rounded volume of those next to flat may not be.
+    // All tets are positively oriented, but the rounded volume of a nearly flat one may be <= 0.
     if (!(weight > 0) || !std::isfinite(sum.x + sum.y + sum.z)) return {};
     return {sum, weight};
 }
 
-// Matches faces by sorting, with 48 bytes a tet of memory. Corners of a tet must differ.
+// Finds all tets across faces by sorting the faces: 48 bytes a tet. A tet's corners must differ.
 FaceMatching match_faces(std::span<const Tet> tets, std::size_t point_count) {
     FaceMatching matching;
     matching.neighbors.assign(tets.size(), {-1, -1, -1, -1});

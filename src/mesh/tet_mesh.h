@@ -12,39 +12,38 @@ namespace lamina {
 // Faults that were found, and partly repaired, while a mesh was assembled.
 struct MeshFindings {
     std::int64_t tets_read = 0;
-    // Tets of exactly zero volume: kept, because they connect their neighbours, or dropped:
+    // Tets of exactly zero volume: flat_tets(), which TetMesh keeps, and repeated_corners.
     std::int64_t degenerate = 0;
-    std::int64_t repeated_corners = 0;
-    std::int64_t inverted = 0;    // tets of negative orientation, whose corners are reordered
+    std::int64_t repeated_corners = 0;  // tets with a corner twice, which are dropped
+    std::int64_t inverted = 0;          // tets of negative orientation, whose corners are reordered
     std::int64_t duplicates = 0;  // tets with the same corners as an earlier tet, which are dropped
     std::int64_t boundary_faces = 0;     // faces of one tet
     std::int64_t nonmanifold_faces = 0;  // faces of three or more tets
     std::int64_t folded_faces = 0;       // faces of two tets that lie on the same side of it
     std::int64_t unused_points = 0;
-    CellCounts cells;  // cells of the file
+    CellCounts cells;  // what the file's cells were
 
-    // Tells whether every interior face is shared by exactly two tets.
     bool conforming() const { return nonmanifold_faces == 0; }
 };
 
-// Tetrahedra with positive orientation and their neighbours. Immutable.
+// A tetrahedral mesh: tets of positive orientation, with their neighbours. Immutable.
 class TetMesh {
   public:
     static constexpr std::int32_t no_neighbor = -1;
 
-    // `name`: of the file, for messages. Throws Error for a mesh without tets, for corners out of
-    // range, and for points that are not finite or beyond 1e100. Takes some 130 bytes a tet.
+    // `name`: the file's, for messages. Throws Error if the mesh has no tets, corners out of range,
+    // or points that are not finite or beyond 1e100. Takes some 130 bytes a tet.
     TetMesh(MeshData data, const std::string& name);
 
     std::span<const glm::dvec3> points() const { return points_; }
     std::span<const Tet> tets() const { return tets_; }
-    // The tet across face i. Boundary, folded and nonmanifold faces have none.
+    // Returns the tets across each tet's faces; no_neighbor: boundary, folded, nonmanifold.
     std::span<const std::array<std::int32_t, 4>> neighbors() const { return neighbors_; }
     std::span<const TetFace> open_faces() const { return open_faces_; }
-    // Counter-clockwise as seen from outside.
+    // Returns the corners of a face, counter-clockwise as seen from outside of its tet.
     std::array<glm::dvec3, 3> corners(const TetFace& face) const;
 
-    // Tets of exactly zero volume. They show nothing.
+    // Returns the tets of exactly zero volume, which show nothing.
     std::span<const std::int32_t> flat_tets() const { return flat_; }
 
     const MeshFindings& findings() const { return findings_; }
@@ -76,16 +75,16 @@ class TetMesh {
     Bounds bounds_;
 };
 
-// Converts cell data to point data: the mean over the tets around a point, as from
-// vtkCellDataToPointData. Weights by volume would favour the larger side: in a linear field they
-// miss the value between cells of lengths h < H by slope * (H - h) / 2, the plain mean by half of
-// that. A NaN reaches all points of its tet. Points without tets get the first finite value of all.
+// Converts cell data to point data: the plain mean over the tets around a point, as
+// vtkCellDataToPointData. The mean by volume would be off by slope * (H - h) / 2 in a linear field
+// between cells of lengths h < H, the plain mean by half of that. A NaN reaches all points of its
+// tet. Points without tets get the first finite value of all.
 MeshScalar average_to_points(std::size_t point_count, std::span<const Tet> tets,
                              const MeshScalar& scalar);
 
-// The gradient at the points, in scalar units per world unit (docs/numerics.md, section 10): the
-// mean over the tets around, weighted by volumes. Tets without volume or with a value that is not
-// finite do not count; 0 if none is left.
+// Returns the gradient at the points, in scalar units per world unit (docs/numerics.md, section
+// 10): the mean over the tets around a point, weighted by volume. Tets without volume, or with a
+// value that is not finite, do not count; the gradient is 0 if no other tet is around the point.
 std::vector<glm::dvec3> point_gradients(const TetMesh& mesh, std::span<const double> scalar);
 
 struct ScalarRange {

@@ -72,6 +72,7 @@ std::span<const Face> faces_of(std::int64_t type) {
     return hexahedron_faces;
 }
 
+// Joins a cell's least point to the triangles of the faces without it (split_cell()).
 SplitCell join_least_point(std::span<const Face> faces, std::span<const std::int32_t> corners) {
     const auto index = [&](std::size_t corner) { return corners[corner]; };
     const auto apex = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) -
@@ -221,8 +222,7 @@ std::vector<const MeshScalar*> matched(const std::vector<MeshScalar>& all,
 // vtkDataSetAttributes.h: DUPLICATECELL, REFINEDCELL, HIDDENCELL.
 constexpr int hiding_bits = 1 | 8 | 32;
 
-// Removes the arrays that say which cells (or points) are another piece's. Returns a flag for each
-// cell.
+// Removes the arrays that mark ghost cells (or points). Returns which of `count` cells they mark.
 std::vector<bool> take_ghosts(std::vector<MeshScalar>& scalars, std::size_t count) {
     std::vector<bool> ghosts(count, false);
     std::erase_if(scalars, [&](const MeshScalar& scalar) {
@@ -314,7 +314,7 @@ void add_scalars(std::vector<MeshScalar>& scalars, const std::string& name, std:
     }
 }
 
-// Returns the index in the whole mesh of each point of the piece.
+// Adds those points of a piece that the mesh lacks. Returns each point's index in the mesh.
 std::vector<std::int32_t> MeshAssembly::add_points(const MeshPiece& piece) {
     std::vector<std::int32_t> indices(piece.points.size(), -1);
     if (!mesh_.points.empty()) {
@@ -342,14 +342,13 @@ std::vector<std::int32_t> MeshAssembly::add_points(const MeshPiece& piece) {
     return indices;
 }
 
-// Returns the cell of each tet that was made.
+// Adds the tets of a piece's cells. Returns the cell of each of them.
 std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
                                                   const std::vector<bool>& ghosts,
                                                   std::span<const std::int32_t> indices) {
     std::vector<std::int64_t> cell_of_tet;
     cell_of_tet.reserve(piece.cells.types.size());
-    // Memory is reserved for the first piece only: reserved for each of many small pieces, the
-    // vector would grow by one piece at a time.
+    // For the first piece only: with many small ones, the vector would grow a piece at a time.
     if (mesh_.tets.empty()) mesh_.tets.reserve(piece.cells.types.size());
     std::array<std::int32_t, most_cell_points> corners{};
     for (std::size_t cell = 0; cell < piece.cells.types.size(); ++cell) {
@@ -381,7 +380,8 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
     return cell_of_tet;
 }
 
-// A point that an earlier piece has, too, keeps the value that it has there.
+// Adds the scalars of a piece's points. A point that an earlier piece has, too, keeps its value; a
+// warning counts those for which the piece has another.
 void MeshAssembly::add_point_scalars(MeshPiece& piece, std::size_t points_before,
                                      std::span<const std::int32_t> indices) {
     if (first_) {

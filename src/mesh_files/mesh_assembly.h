@@ -15,8 +15,7 @@
 
 namespace lamina {
 
-// How readers treat cells of a VTK type (the numbers of vtkCellType.h); skip: the cell has no
-// volume.
+// How readers treat cells of a VTK type (vtkCellType.h); skip: the cell has no volume.
 enum class CellUse { skip, tet, split, unsupported };
 CellUse use_of_cell(std::int64_t type);
 
@@ -27,12 +26,12 @@ struct SplitCell {
 };
 
 // Cuts a hexahedron, voxel, wedge or pyramid into 6, 6, 3 or 2 tets. Each quadrilateral face is cut
-// along the diagonal through its least point index, so that neighbouring cells agree whatever file
-// they come from; then the cell's least point is joined to the triangles of the faces without it
-// (Dompierre, Labbe, Vallet, Camarero, How to subdivide pyramids, prisms and hexahedra into
-// tetrahedra, 1999, who need five tets at times). A wedge may be numbered in either sense, because
-// both are in use; other inverted cells give inverted tets, repeated corners tets with these.
-// `type`: one with straight edges. `corners`: valid indices of `points`.
+// along the diagonal through its least point index, so that neighbouring cells agree; then the
+// cell's least point is joined to the triangles of the faces without it (Dompierre, Labbe, Vallet,
+// Camarero, How to subdivide pyramids, prisms and hexahedra into tetrahedra, 1999, who need five
+// tets at times). A wedge may be numbered in either sense; other inverted cells give inverted tets,
+// and repeated corners repeated ones. `type`: one with straight edges. `corners`: valid indices of
+// `points`.
 SplitCell split_cell(std::int64_t type, std::span<const std::int32_t> corners,
                      std::span<const glm::dvec3> points);
 
@@ -40,7 +39,7 @@ SplitCell split_cell(std::int64_t type, std::span<const std::int32_t> corners,
 // several points lie at one place, as on both sides of a crack, none is found there.
 class PointTable {
   public:
-    // `points`: those that the indices refer to; they may grow, and outlive the table.
+    // `points`: what indices refer to. The vector may grow, and must outlive this table.
     explicit PointTable(const std::vector<glm::dvec3>& points) : points_(points) {}
 
     void add(std::int32_t point);
@@ -78,20 +77,18 @@ struct MeshPiece {
 
 std::vector<glm::dvec3> points_from_values(const std::vector<double>& values);
 
-// Tells if an array gives scalars. With one component it is the scalar itself; with three
-// components it gives the length of the vector, under its name, then the components, under its name
-// with .x, .y and .z. Others give none.
+// Tells if an array gives scalars: one component is a scalar; three give the vector's length, under
+// the array's name, and the components, under its name with .x, .y and .z. Others give none.
 inline bool makes_scalar(std::int64_t components) {
     return components == 1 || components == 3;
 }
 void add_scalars(std::vector<MeshScalar>& scalars, const std::string& name, std::int64_t components,
                  std::vector<double> values);
 
-// Joins pieces into one mesh. Points of two pieces at exactly one place become one point (unless a
-// piece has several there), so that the mesh goes on from piece to piece. Cells are cut into tets
-// by the indices of all points, so that faces between pieces conform. Cells that an array
-// "vtkGhostType" or "vtkGhostLevels" marks as another piece's are left out. Throws Error if a cell
-// is invalid.
+// Joins pieces into one mesh. Points of two pieces at exactly one place become one (unless a piece
+// has several there). Cells are cut into tets by the indices of all points, so that faces between
+// pieces conform. Cells that an array "vtkGhostType" or "vtkGhostLevels" marks as another piece's
+// are left out. Throws Error if a cell is invalid.
 class MeshAssembly {
   public:
     explicit MeshAssembly(std::string file) : file_(std::move(file)) {}

@@ -19,11 +19,11 @@ MeshData read_first_of_pvd(const Path& path) {
 
 struct MeshFormat {
     MeshData (*read)(const Path&);
-    const char* mark;  // in the beginning of a VTK XML file; null: other files
+    const char* mark;  // text that tells a VTK XML file; null: other formats
     std::vector<std::string> extensions;
 };
 
-// Tells a file by its beginning. TetGen's files are numbers, which could mean anything.
+// Tells if a file is of a format by its beginning (TetGen's never: numbers could mean anything).
 bool holds(const MeshFormat& format, const std::string& beginning) {
     if (format.read == read_vtk) return beginning.starts_with("# vtk DataFile");
     const std::size_t tag = beginning.find("<VTKFile");
@@ -61,6 +61,7 @@ bool is_pvd_file(const Path& path) {
     return format != nullptr && format->read == read_first_of_pvd;
 }
 
+// Appends a file, and the pieces that it names if it is a .pvtu.
 void append_files(std::vector<Path>& files, const Path& part) {
     files.push_back(part);
     const MeshFormat* const format = find_format(part);

@@ -10,16 +10,14 @@
 
 namespace lamina {
 
-// Tells if a path names a mesh: by its content (VTK's formats), else by its extension: .vtu, .pvtu,
-// .pvd, .vtk, .node or .ele.
+// Tells if a path names a mesh: by its content (VTK's formats), else by its extension.
 bool is_mesh_file(const std::filesystem::path& path);
 
 // Reads a mesh: a VTK XML or legacy VTK unstructured grid; one in several files, which a .pvtu
 // names; one step of a .pvd; or TetGen's pair of .node and .ele (either name stands for both).
-// Pieces are joined and cells cut into tets (mesh_files/mesh_assembly.h); cells without volume are
-// counted. Point and cell arrays of one component become scalars, and those of three components the
-// lengths of their vectors and three scalars NAME.x, .y and .z. All corner indices are in range.
-// `time`: the step, from 0 in the order of time; only a .pvd has several. Throws Error.
+// Pieces are joined, cells cut into tets and arrays made scalars as mesh_files/mesh_assembly.h
+// says; cells without volume are counted. All corner indices are in range. `time`: the step, from 0
+// in the order of time; only a .pvd has several. Throws Error.
 MeshData read_mesh(const std::filesystem::path& path, std::int64_t time = 0);
 
 // The extensions of mesh files, for people.
@@ -35,9 +33,8 @@ std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& pa
 // machine's byte order. Does not commit the file. Throws Error.
 void write_vtu(AtomicFile& file, const MeshData& mesh);
 
-// Write TetGen's pair of files, counted from 1, with 17 digits. Point scalars become point
-// attributes and cell scalars become attributes of the tets; comments hold their names
-// (mesh_files/mesh_formats.h).
+// Write TetGen's pair of files, counted from 1, with 17 digits. Scalars of points and cells become
+// attributes of points and tets; comments hold their names (mesh_files/mesh_formats.h).
 void write_node(AtomicFile& file, const MeshData& mesh);
 void write_ele(AtomicFile& file, const MeshData& mesh);
 

@@ -14,8 +14,7 @@ namespace lamina {
 // or compressed, of either byte order and header type, in one piece or several.
 MeshData read_vtu(const std::filesystem::path& path);
 
-// Returns the .vtu files that a .pvtu (a mesh as the processes of a parallel program write it)
-// names, in its order.
+// Returns the .vtu files that a .pvtu (a parallel program's mesh) names, in its order.
 std::vector<std::filesystem::path> pieces_of_pvtu(const std::filesystem::path& path);
 
 // Reads the pieces of a .pvtu and joins them.
@@ -24,7 +23,7 @@ MeshData read_pvtu(const std::filesystem::path& path);
 // One step of a .pvd file (ParaView's list of the files of a mesh that changes with time).
 struct PvdStep {
     double time = 0;
-    std::vector<std::filesystem::path> files;  // .vtu or .pvtu, the parts of the mesh
+    std::vector<std::filesystem::path> files;  // .vtu or .pvtu, the pieces of the mesh
 };
 
 // Returns the steps of a .pvd file in the order of their times.

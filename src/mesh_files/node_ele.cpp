@@ -54,6 +54,7 @@ class Lines {
         return value;
     }
 
+    // Reads a number >= 0; returns `otherwise` if the line has no more words.
     std::int64_t count(const char* what, std::int64_t otherwise) {
         if (line_.at_end()) return otherwise;
         const auto value = number<std::int64_t>(what);
@@ -66,8 +67,7 @@ class Lines {
         fail("{}: found {} after the {}", where(), next_word(line_), what);
     }
 
-    // Checks that the file is long enough for what its first line promises: `numbers` numbers on
-    // each of `rows` lines.
+    // Throws Error unless the file is long enough for `numbers` numbers on each of `rows` lines.
     void check_promise(const char* what, std::int64_t rows, std::int64_t numbers) const {
         const std::size_t most = bytes_left() / static_cast<std::size_t>(numbers);
         if (static_cast<std::uint64_t>(rows) <= most) return;
@@ -109,7 +109,7 @@ class Lines {
 
 constexpr std::int64_t most_attributes = 1000;
 
-// Returns the number of the first point: 0 or 1.
+// Reads the points of a .node file and their scalars. Returns the first point's number, 0 or 1.
 std::int64_t read_nodes(Lines& lines, MeshData& mesh) {
     if (!lines.next()) fail("{}: found no numbers", lines.file());
     const std::int64_t points = lines.count("number of points", 0);

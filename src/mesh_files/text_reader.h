@@ -31,8 +31,7 @@ class TextReader {
         while (at_ != end_ && is_blank(*at_)) ++at_;
         return at_ == end_;
     }
-    // Tells if anything but blanks comes before the next newline. line() would not do here: in a
-    // file without newlines it searches all of the text.
+    // Tells if more than blanks comes before the next newline; unlike line(), looks no further.
     bool line_goes_on() const {
         const char* at = at_;
         while (at != end_ && *at != '\n' && is_blank(*at)) ++at;
@@ -64,9 +63,8 @@ class TextReader {
         return {first, static_cast<std::size_t>(stop - first)};
     }
 
-    // Reads the next word as a T and moves past it. If the word is no T or does not fit, returns
-    // false and does not move. Numbers too small for a floating-point type become 0; "nan" and
-    // "inf" are numbers.
+    // Reads the next word as a T and moves past it; if it is no T or does not fit, returns false
+    // and stays. Numbers too small for a floating-point type become 0; "nan" and "inf" are numbers.
     template <typename T>
     bool read(T& value) {
         if (at_end()) return false;
@@ -103,7 +101,7 @@ inline std::string next_word(TextReader reader) {
     return "'" + text + (word.size() > longest ? "...'" : "'");
 }
 
-// Warns of the characters of `text` that are not blanks. `behind`: names what ends before it.
+// Warns that `text` is not used, if it is more than blanks. `behind`: what the text follows.
 inline void warn_of_surplus(const std::string& what, std::string_view text, const char* behind) {
     const auto surplus = std::ranges::count_if(text, std::not_fn(TextReader::is_blank));
     if (surplus == 0) return;

@@ -33,7 +33,7 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-// vtkDataReader::ReadArray; VTK writes its vtkIdType as an int.
+// The names of types, from vtkDataReader::ReadArray. VTK writes its vtkIdType as an int.
 struct NamedType {
     std::string_view name;
     VtkType type;
@@ -60,8 +60,7 @@ constexpr std::array<NamedType, 18> named_types{{
     {"double", {of_numbers, ValueType::float64}},
 }};
 
-// Reads words, numbers and arrays of a legacy VTK file. Throws Error. Messages name the file and
-// the position: a line of an ASCII file, a byte of a binary one.
+// Reads words, numbers and arrays of a legacy VTK file. Throws Error with the position (where()).
 class VtkTokens {
   public:
     VtkTokens(std::string file, std::string_view text) : file_(std::move(file)), reader_(text) {}
@@ -112,7 +111,7 @@ class VtkTokens {
         return count;
     }
 
-    // Reads such a number if the line has more words, else returns `otherwise`.
+    // Reads a number of components if the line has more words, else returns `otherwise`.
     std::int64_t count_in_line(std::int64_t otherwise) {
         return reader_.line_goes_on() ? count("number of components") : otherwise;
     }
@@ -156,7 +155,7 @@ class VtkTokens {
         }
     }
 
-    // Skips the lines up to an empty one.
+    // Skips the lines of a METADATA section, which ends with an empty one.
     void skip_metadata() {
         reader_.line();
         while (reader_.left() > 0) {
@@ -166,6 +165,7 @@ class VtkTokens {
     }
 
   private:
+    // Takes `count` binary values of `size` bytes, which begin on the next line.
     const char* take(std::int64_t count, std::size_t size, const std::string& what) {
         reader_.line();
         if (static_cast<std::uint64_t>(count) > reader_.left() / size) {
@@ -208,7 +208,7 @@ class VtkTokens {
     bool binary_ = false;
 };
 
-// An attribute of a data set by its keyword, and its number of components; 0: its line says it.
+// The keyword of an attribute and its number of components; 0: its line gives it.
 struct Attribute {
     std::string_view keyword;
     std::int64_t components;
@@ -364,7 +364,7 @@ class VtkReader {
         return tokens_.values<std::int64_t>(type, count, section);
     }
 
-    // The list has, for each cell, its number of points, then these points.
+    // Sets the cells by a list of versions below 5: each cell's number of points, then these.
     void unpack_cells(std::int64_t count, const std::vector<std::int64_t>& list) {
         if (static_cast<std::uint64_t>(count) > list.size()) {
             fail("{}: CELLS: found a list of {} numbers for {} cells", tokens_.file(), list.size(),
@@ -464,7 +464,7 @@ class VtkReader {
     bool offsets_and_connectivity_ = false;
     bool has_points_ = false, has_cells_ = false, has_types_ = false;
     Data data_ = Data::none;
-    std::int64_t tuples_ = 0;
+    std::int64_t tuples_ = 0;  // values of each array, by POINT_DATA or CELL_DATA
 };
 
 }  // namespace

@@ -20,7 +20,7 @@
 namespace lamina {
 namespace {
 
-constexpr std::uint8_t bad = 255, padding = 64;
+constexpr std::uint8_t bad = 255, padding = 64;  // in `digits`, for other characters and '='
 
 constexpr std::array<std::uint8_t, 256> digits = [] {
     std::array<std::uint8_t, 256> table{};
@@ -33,9 +33,8 @@ constexpr std::array<std::uint8_t, 256> digits = [] {
     return table;
 }();
 
-// Decodes the bytes of a binary array of a VTK XML file, raw or base64. Base64 may consist of
-// several runs with padding of their own, because VTK encodes the header and the compressed blocks
-// separately.
+// Decodes the bytes of a binary array, raw or base64. Base64 may be several texts, each with
+// padding at its end, because VTK encodes the header and the compressed blocks separately.
 class EncodedBytes {
   public:
     // `what`: names the file and the array in messages.
@@ -47,7 +46,7 @@ class EncodedBytes {
         return source_.base64 ? left() / 4 * 3 + decoded_count_ : left();
     }
     std::uint64_t used() const { return before_ + position_; }  // bytes of the source
-    // Throws Error if there are fewer, or if it is not base64.
+    // Reads `count` decoded bytes. Throws Error if there are fewer, or if they are not base64.
     void read(char* bytes, std::size_t count) {
         if (count > at_most_left()) {
             fail("{}: found {} bytes, expected {}", what_, at_most_left(), count);
@@ -74,7 +73,7 @@ class EncodedBytes {
   private:
     std::uint64_t left() const { return source_.left() - used(); }
 
-    // Goes on to the next part of the source's file. Returns false at the end of the source.
+    // Reads the next bytes of the file into the window. Returns false at the end of the source.
     bool read_on() {
         constexpr std::uint64_t window_bytes = 1 << 20;
         if (source_.file == nullptr) return false;
@@ -86,7 +85,7 @@ class EncodedBytes {
         return !text_.empty();
     }
 
-    // Returns false at the end of the source.
+    // Decodes the next four digits to decoded_. Returns false at the end of the source.
     bool decode_four() {
         std::array<std::uint8_t, 4> digit{};
         for (std::size_t i = 0; i < 4;) {
@@ -111,8 +110,7 @@ class EncodedBytes {
         return true;
     }
 
-    // Decodes groups of four digits without blanks and padding, as nearly all are. Returns the
-    // number of bytes.
+    // Decodes groups of four digits, up to one with a blank or padding; returns how many bytes.
     std::size_t decode_whole_groups(char* bytes, std::size_t count) {
         const auto* at = reinterpret_cast<const unsigned char*>(text_.data()) + position_;
         const std::size_t groups = std::min(count / 3, (text_.size() - position_) / 4);
@@ -140,8 +138,7 @@ class EncodedBytes {
     std::size_t decoded_at_ = 0;
 };
 
-// Decodes a block of exactly block.size() bytes. Returns how many of the `stored` bytes it took, or
-// -1 if it is damaged or has another number of bytes.
+// Decodes exactly block.size() bytes. Returns how many `stored` bytes it took, or -1 if it cannot.
 using Decode = std::int64_t (*)(std::span<const char> stored, std::span<char> block);
 
 std::int64_t decode_zlib(std::span<const char> stored, std::span<char> block) {
@@ -171,8 +168,8 @@ std::int64_t decode_lzma(std::span<const char> stored, std::span<char> block) {
 
 // How a VTK XML file compresses the blocks of its arrays.
 struct VtkXmlCompressor {
-    const char* name;  // of VTK's class
-    const char* word;
+    const char* name;              // of VTK's class
+    const char* word;              // for messages
     std::uint64_t most_expansion;  // bytes that one stored byte gives
     Decode decode;
 };
@@ -286,9 +283,8 @@ ByteBuffer read_compressed(EncodedBytes& bytes, const VtkXmlEncoding& encoding,
 }
 
 // Reads `count` values of `type` from binary data, as vtkXMLDataParser does: a header (the length,
-// or the lengths of the compressed blocks), then the values, in the file's byte order. Checks
-// lengths before it takes memory. The source then begins behind them. Throws Error. `what`: names
-// the file and the array in messages.
+// or those of the compressed blocks), then the values, in the file's byte order. Checks lengths
+// before it takes memory, and moves the source past them. Throws Error. `what`: for messages.
 ByteBuffer read_vtk_xml_bytes(VtkXmlSource& source, const VtkXmlEncoding& encoding, ValueType type,
                               std::int64_t count, const std::string& what) {
     if (count == 0) return {};
@@ -308,7 +304,7 @@ constexpr std::string_view appended_tag = "<AppendedData", appended_end = "</App
                            last_tag = "</VTKFile";
 constexpr std::size_t no_place = std::string_view::npos;
 
-// `tag`: from its "<" to its ">".
+// Tells if appended data are raw. `tag`: their opening tag, from "<" to ">".
 bool says_raw(std::string_view tag) {
     pugi::xml_document document;
     const std::string element = std::string(tag.substr(0, tag.size() - 1)) + "/>";
@@ -521,9 +517,8 @@ void VtkXmlFile::count_appended(std::uint64_t bytes, const std::string& what) co
     }
 }
 
-// Counts the values that arrays hold. zlib makes a thousand equal bytes into one, and each may
-// become a value of 8 bytes, so that a small file could fill all memory; points and corners of real
-// meshes are far from that.
+// Counts the values that arrays hold: zlib packs a thousand equal bytes into one, each may become a
+// value of 8 bytes, and a small file could fill all memory. Real meshes are far from it.
 void VtkXmlFile::count_kept(std::int64_t count, const std::string& what) const {
     constexpr std::uint64_t most_expansion = 256;
     values_kept_ += static_cast<std::uint64_t>(count);

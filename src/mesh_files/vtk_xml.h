@@ -14,8 +14,7 @@
 
 namespace lamina {
 
-// An encoded array of a VTK XML file, from its beginning to the end of the text or data that may
-// belong to it.
+// An encoded array of a VTK XML file, up to the end of the text or data that may belong to it.
 struct VtkXmlSource {
     std::string_view text;                   // base64
     const RandomAccessFile* file = nullptr;  // or its bytes begin .. end - 1
@@ -44,7 +43,7 @@ struct VtkXmlValues {
     ByteBuffer bytes;
 };
 
-// The text of a VTK XML file without its appended data. These are no XML if they are raw, and stay
+// The XML of a VTK XML file without its appended data, which are no XML if they are raw. They stay
 // in the file until an array is read. Throws Error if the file does not end as it should.
 class VtkXmlText {
   public:
@@ -53,7 +52,7 @@ class VtkXmlText {
     std::uint64_t byte_count() const { return file_.size(); }
     std::span<char> xml();  // to be parsed in place
     bool has_appended() const { return has_appended_; }
-    VtkXmlSource appended() const { return appended_; }  // all of them, after the underscore
+    VtkXmlSource appended() const { return appended_; }  // all appended data
 
   private:
     void read_beginning();
@@ -64,7 +63,7 @@ class VtkXmlText {
     std::string name_;
     RandomAccessFile file_;
     ByteBuffer bytes_;      // as long as the file
-    std::size_t read_ = 0;  // bytes in it that were read
+    std::size_t read_ = 0;  // bytes_ holds this many bytes of the file
     std::string xml_;       // instead of bytes_, if there are appended data
     bool has_appended_ = false;
     VtkXmlSource appended_;
@@ -86,8 +85,7 @@ class VtkXmlFile {
                           const std::string& what) const;
     std::int64_t components_of(pugi::xml_node array, const std::string& what) const;
 
-    // Returns the values (tuples times components) of a DataArray as To: double or int64. `what`:
-    // names the file and the array in messages.
+    // Returns tuples * components values of a DataArray as double or int64. `what`: for messages.
     template <typename To>
     std::vector<To> values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
                            const std::string& what) const;
@@ -96,8 +94,7 @@ class VtkXmlFile {
                                const std::string& what) const;
 
   private:
-    // Calls binary(source) or text(reader), depending on how the array is stored, for `count`
-    // values.
+    // Calls binary(source) or text(reader), as the array of `count` values is stored.
     template <typename Binary, typename Text>
     auto decoded(pugi::xml_node array, std::int64_t count, const std::string& what,
                  const Binary& binary, const Text& text) const;
@@ -112,7 +109,7 @@ class VtkXmlFile {
 
     std::string name_;
     VtkXmlText text_;                          // xml_nodes point into it
-    mutable std::uint64_t appended_used_ = 0;  // bytes of all arrays that were read
+    mutable std::uint64_t appended_used_ = 0;  // bytes of appended data that were read
     mutable std::uint64_t values_kept_ = 0;    // number of values of all arrays that were read
     pugi::xml_document document_;
     pugi::xml_node grid_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // .pvtu: "VTK File Formats", "Parallel unstructured grid", and vtkXMLPUnstructuredGridWriter.
-// .pvd: "ParaView/Data formats", "PVD File Format": <DataSet timestep="T" group="" part="N"
-// file="F"/>.
+// .pvd: "ParaView/Data formats", "PVD File Format": <DataSet timestep="T" part="N" file="F"/>.
 #include "mesh_files/mesh_formats.h"
 
 #include <zlib.h>
@@ -77,7 +76,7 @@ class VtkIndex {
     pugi::xml_node node_;
 };
 
-// Throws Error if two of the files, which `name` lists, are one: it would be read twice.
+// Throws Error if a list of files has one twice. `name`: of the file with the list.
 void expect_each_once(const std::vector<std::filesystem::path>& files, const std::string& name) {
     std::set<std::filesystem::path> seen;
     for (const std::filesystem::path& file : files) {

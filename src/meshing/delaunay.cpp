@@ -34,7 +34,7 @@ void write_points(TemporaryFile& file, std::span<const glm::dvec3> points) {
     file.rewind();
 }
 
-// Returns the last line that is not blank: after TetGen's own messages it has the reason.
+// Returns the last line that is not blank: why it failed, after TetGen's own messages.
 std::string last_line(const std::string& text) {
     std::istringstream lines(text);
     std::string line, last;
@@ -44,7 +44,7 @@ std::string last_line(const std::string& text) {
     return one_line(last);
 }
 
-// The child's messages come through a pipe, because a full disk would have no room for them.
+// A pipe for the child's messages, which could not be written to a file if the disk is full.
 class Messages {
   public:
     Messages() {
@@ -59,7 +59,7 @@ class Messages {
     Messages& operator=(const Messages&) = delete;
 
     int writing_end() const { return ends_[1]; }
-    // Collects what has come since, without waiting for more.
+    // Reads what has been written since the last call, without waiting for more.
     void collect() {
         char block[4096];
         for (ssize_t count; (count = read(ends_[0], block, sizeof block)) > 0;) {
@@ -80,7 +80,7 @@ bool is_ended_by_user(int status) {
     return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
 }
 
-// Outlives neither this object nor this process (tetrahedralize_parent_option).
+// A running program. Ends with this object, and with this process (tetrahedralize_parent_option).
 class Child {
   public:
     Child(const std::filesystem::path& program, std::FILE* in, std::FILE* out, int err) {
@@ -108,7 +108,7 @@ class Child {
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    // Waits for the end and returns the status, as waitpid() gives it. Throws Interrupted.
+    // Waits until the program ends. Returns waitpid()'s status. Throws Interrupted.
     int wait(Messages& messages) {
         using namespace std::chrono_literals;
         for (std::chrono::microseconds pause = 200us;;

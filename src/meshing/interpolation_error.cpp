@@ -17,14 +17,16 @@ using Cell = TrilinearField::Cell;
 using Box = std::array<glm::dvec3, 2>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Bounds come no nearer to the largest difference found, which may equal the tolerance.
+// Ratio of the largest difference found to the bound at which the search ends. It is below 1: if
+// the largest difference equals the tolerance, bounds would approach it without end.
 constexpr double nearness = 0.98;
-constexpr double nearness_to_insert = 0.8;  // for the place of a violation
-constexpr int deepest = 60;                 // halvings of a piece: far below rounding
-// Pieces that are examined in one cell at most. Further pieces count with their bounds.
+// Ratio, like nearness, that suffices once a violation is known and only its place is sought.
+constexpr double nearness_to_insert = 0.8;
+constexpr int deepest = 60;  // halvings of a piece: its size is then far below rounding
+// Largest number of pieces that are examined in one cell. Further pieces count with their bounds.
 constexpr int most_pieces = 20000;
 
-// Longest edge over smallest height of a tet above which the continued function bounds nothing.
+// Flatness (longest edge / least height) above which the linear function bounds nothing outside.
 constexpr double flattest = 1e4;
 
 glm::dvec3 corner_of(const Box& box, std::size_t corner) {
@@ -43,7 +45,7 @@ struct Affine {
     }
 };
 
-// Positions are relative to the first corner, so that rounding does not grow with the grid.
+// A tet and its linear function. Places are relative to corner 0: rounding ignores the grid's size.
 struct MeasuredTet {
     glm::dvec3 origin{0};
     std::array<Affine, 4> barycentric;
@@ -141,7 +143,7 @@ class Measurement {
     }
 
   private:
-    // Returns the difference up to which there is no violation, or none much larger than was found.
+    // Returns the bound that needs no closer look: within tolerance, or near the found difference.
     double enough() const {
         const bool place_only = goal_ == ErrorGoal::decide && violated();
         return std::max(tolerance_, error_.found / (place_only ? nearness_to_insert : nearness));
@@ -155,7 +157,8 @@ class Measurement {
     bool invisible(double lo, double hi) const {
         return transfer_function_ && transfer_function_->transparent(lo, hi);
     }
-    // Counts nearly visible places, too: bounds need not follow where visibility begins.
+    // Notes a difference. Places where the value is nearly visible count, too: bounds need not
+    // follow exactly where visibility begins.
     void found(double trilinear, double linear, const glm::dvec3& place) {
         const double difference = std::abs(trilinear - linear);
         if (difference <= error_.found) return;
@@ -173,7 +176,7 @@ class Measurement {
                invisible(std::min(trilinear.lo, linear.lo), std::max(trilinear.hi, linear.hi));
     }
 
-    // Returns the part of the tet's bounds between planes first and last + 1 of each axis.
+    // Returns the tet's bounding box between plane first and plane last + 1 of each axis.
     Box box_of(const Cell& first, const Cell& last) const {
         Box box;
         for (int axis = 0; axis < 3; ++axis) {
@@ -183,13 +186,13 @@ class Measurement {
         return box;
     }
 
-    // Descends to the cells that ranges of blocks do not decide.
+    // Collects the cells that are not decided by the ranges of the blocks around them.
     void look_into_blocks(WorkingSpace& space) {
         space.cells.clear();
         space.blocks.clear();
         const Cell lowest = field_.cell_of(tet_.bounds[0]);
         Cell highest = field_.cell_of(tet_.bounds[1]);
-        for (int axis = 0; axis < 3; ++axis) {  // not the cell that the tet only touches
+        for (int axis = 0; axis < 3; ++axis) {  // leave out cells that the tet only touches
             const double plane = field_.planes(axis)[highest[axis]];
             if (highest[axis] > lowest[axis] && plane == tet_.bounds[1][axis]) --highest[axis];
         }
@@ -235,7 +238,8 @@ class Measurement {
         }
     }
 
-    // Bounds the difference by its values at the corners of the cell's part in the tet's bounds.
+    // Bounds the difference in a cell by its values at the corners of a box: the cell's part in the
+    // tet's bounding box. Notes the cell in `open` if that does not decide.
     void look_at_cell(const Cell& cell, std::vector<OpenCell>& open) {
         const Box box = box_of(cell, cell);
         const Box relative = tet_.relative(box);
@@ -269,7 +273,7 @@ class Measurement {
         open.push_back({bound, cell});
     }
 
-    // Bounds the difference on the tet's part in the cell.
+    // Bounds the difference on the intersection of tet and cell, by halving pieces of it.
     void look_into_cell(const OpenCell& open, WorkingSpace& space) {
         if (decided(open.bound)) return;
         glm::dvec3 lowest{0}, size{1};

@@ -11,25 +11,21 @@ namespace lamina {
 struct TetError {
     double bound = 0;     // upper bound in the whole tet
     double found = 0;     // difference at `place`
-    glm::dvec3 place{0};  // in the tet, index space
+    glm::dvec3 place{0};  // in the tet, in index space
 };
 
 enum class ErrorGoal {
-    // The tolerance is kept or not: either bound <= tolerance, or bound is infinite and `found` is
-    // at least 0.98 of the tolerance; then it is a large error but not always the largest.
+    // Decides whether the tolerance is kept. If so, bound <= tolerance. If not, bound is infinite
+    // and `found` is at least 0.98 of the tolerance: a large error, but not always the largest.
     decide,
-    bound,  // the error itself: bound <= tolerance, or 0.98 bound <= found
+    bound,  // measures the error: bound <= tolerance, or 0.98 bound <= found
 };
 
-// Measures
-// trilinear - linear
-// on tets by branch and bound, so that the bound is a certificate and not a sample (in double
-// precision, to some 1e-12 of the range). Blocks of cells whose range decides the question are not
-// subdivided. In a cell the difference is trilinear, so its extremes over a box are at the box's
-// corners. If a tet cuts the cell and this does not decide, the intersection of tet and cell is cut
-// out; there the difference is a cubic and is bounded by its Bernstein coefficients. With a
-// transfer function, places do not count if it shows nothing for all values between the two
-// functions. Thread-safe.
+// Measures trilinear - linear on tets by branch and bound; unlike samples, the bound holds in all
+// of the tet (to some 1e-12 of the range). Blocks of cells whose range decides are not subdivided.
+// In a cell the difference is trilinear, so its extremes over a box are at corners; if they do not
+// decide, it is a cubic on the tet cut to the cell, bounded by its Bernstein coefficients. With a
+// transfer function, only places count where it shows a value between both functions. Thread-safe.
 class InterpolationError {
   public:
     // All arguments must outlive this object. `transfer_function` may be null.

@@ -63,6 +63,7 @@ void for_each(const TrilinearField::Cell& first, const TrilinearField::Cell& las
     }
 }
 
+// The point where a tet's edge crosses a plane of the cell, and the linear function's value there.
 struct Crossing {
     glm::dvec3 point;
     double value;
@@ -82,7 +83,6 @@ CellPiece piece_of(const std::array<Crossing, 4>& corners) {
             {corners[0].value, corners[1].value, corners[2].value, corners[3].value}};
 }
 
-// Adds the prism between the triangles a and b, as three tetrahedra.
 void add_prism(const std::array<Crossing, 3>& a, const std::array<Crossing, 3>& b,
                std::vector<CellPiece>& pieces) {
     pieces.push_back(piece_of({a[0], a[1], a[2], b[0]}));
@@ -90,7 +90,7 @@ void add_prism(const std::array<Crossing, 3>& a, const std::array<Crossing, 3>& 
     pieces.push_back(piece_of({a[2], b[0], b[1], b[2]}));
 }
 
-// Adds the part of `piece` on the side of the plane where sign * (coordinate - level) >= 0.
+// Adds the part of `piece` for which sign * (coordinate - level) >= 0, as tets.
 void add_part(const CellPiece& piece, int axis, double level, double sign,
               std::vector<CellPiece>& pieces) {
     std::array<std::size_t, 4> in{}, out{};
@@ -216,7 +216,7 @@ void CellRanges::add_level(std::array<std::int64_t, 3> count, const RangeOf& ran
 CellRanges::CellRanges(const TrilinearField& field) {
     std::array<std::int64_t, 3> count{field.cell_count(0), field.cell_count(1),
                                       field.cell_count(2)};
-    // Returns the range of range_at(place) from 2 * block to `reach` beyond, at most at `last`.
+    // Returns the union of range_at(place) from 2 * block to `reach` beyond, at most up to `last`.
     const auto range_of = [](const TrilinearField::Cell& block, int reach,
                              const std::array<std::int64_t, 3>& last, const auto& range_at) {
         TrilinearField::Cell from{}, to{};
@@ -232,7 +232,7 @@ CellRanges::CellRanges(const TrilinearField& field) {
         });
         return range;
     };
-    // A block covers its cells and both planes around them.
+    // A block of level 1 includes the planes on both sides of its cells.
     add_level(half_of(count), [&](const TrilinearField::Cell& block) {
         return range_of(block, 2, count, [&](const TrilinearField::Cell& plane) {
             const auto value = static_cast<float>(field.at_plane(plane));
@@ -296,8 +296,8 @@ double TrilinearPolynomial::second_derivative(const glm::dvec3& p, const glm::dv
            (u.y * v.z + u.z * v.y) * (c[6] + p.x * c[7]);
 }
 
-// With the polar form b of the cubic f (Ramshaw, Blossoming: a connect-the-dots approach to
-// splines, 1987), the coefficients are b of three corners each, and
+// Let b be the polar form of the cubic f (Ramshaw, Blossoming: a connect-the-dots approach to
+// splines, 1987). The coefficients are b of three corners each, and
 //   b(p, p, p + u)     = f(p) + f'(p) u / 3
 //   b(p, p + u, p + v) = f(p) + f'(p) (u + v) / 3 + u^T f''(p) v / 6.
 BernsteinCubic::BernsteinCubic(const TrilinearPolynomial& polynomial, const CellPiece& piece) {
@@ -349,9 +349,9 @@ std::size_t BernsteinCubic::edge_to_halve(const CellPiece& piece) const {
                                       std::abs(piece.values[a] - piece.values[b])));
     }
     const double gap = largest() - at_corners;
-    // If the bound is at a corner, only the range of the two functions is still to be narrowed.
+    // A bound at a corner is the known difference: narrow the ranges, which decide what is visible.
     if (gap < 0.01 * at_corners) return steepest.edge;
-    // If the edges are nearly straight, the gap comes from inside the faces.
+    // If the difference is nearly linear along all edges, the gap comes from inside the faces.
     return most_bent.score > 0.25 * gap ? most_bent.edge : longest.edge;
 }
 

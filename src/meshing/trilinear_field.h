@@ -8,8 +8,9 @@
 
 namespace lamina {
 
-// A volume in index space. Planes lie at 0, ..., n - 1 along a `node` axis; along a `cell` axis at
-// -1/2 and n - 1/2, too (the border value repeats); at -1/2 and 1/2 for one sample.
+// A volume as a trilinear field in index space, cut into cells by planes. Along a `node` axis of n
+// samples, planes lie at 0, ..., n - 1. A `cell` axis has two more, at -1/2 and n - 1/2 (the border
+// value repeats there). An axis of one sample has planes at -1/2 and 1/2.
 class TrilinearField {
   public:
     using Cell = std::array<std::int32_t, 3>;  // between plane i and plane i + 1 of each axis
@@ -26,10 +27,10 @@ class TrilinearField {
     glm::dvec3 max() const { return {planes_[0].back(), planes_[1].back(), planes_[2].back()}; }
     const ValueRange& range() const { return range_; }
 
-    // Returns the nearest cell; between two cells the one with the higher index.
+    // Returns the cell of a place, or the nearest; on a plane between two cells, the upper one.
     Cell cell_of(const glm::dvec3& index) const;
     Corners corners(const Cell& cell) const;
-    double at_plane(const Cell& plane) const;  // the value where three planes meet
+    double at_plane(const Cell& plane) const;  // value where the planes of these numbers meet
     double at(const glm::dvec3& index) const;
 
   private:
@@ -40,7 +41,7 @@ class TrilinearField {
     ValueRange range_;
 };
 
-// The range over blocks of 2^level cells an axis, from level 1 to the one with one block.
+// The ranges of values in blocks of 2^level cells along each axis, up to a level of a single block.
 class CellRanges {
   public:
     explicit CellRanges(const TrilinearField& field);  // parallel; a quarter of the field's memory
@@ -75,7 +76,7 @@ struct CellPiece {
     std::array<double, 4> values;
 };
 
-// Replaces each piece by tets that fill its part in the cell. `spare` is working memory.
+// Replaces each tet by tets that fill the part of it in the cell. `spare` is working memory.
 void clip_to_cell(std::vector<CellPiece>& pieces, std::vector<CellPiece>& spare);
 
 // A trilinear function on a cell as a polynomial. The coefficient of x^i y^j z^k is at i + 2j + 4k.
@@ -89,9 +90,10 @@ struct TrilinearPolynomial {
     double second_derivative(const glm::dvec3& p, const glm::dvec3& u, const glm::dvec3& v) const;
 };
 
-// A cubic in Bernstein form: its values lie between the least and the largest coefficient.
+// A trilinear function, and its difference from a linear one, on a tet: cubics in Bernstein form.
+// Their values lie between the least and the largest coefficient.
 struct BernsteinCubic {
-    // Coefficients: 0 to 3 corners; 4 + 2i and 5 + 2i near the ends of edge i; 16 + i in face i.
+    // Coefficients: 0 to 3 at corners; 4 + 2i, 5 + 2i near the ends of edge i; 16 + i in face i.
     static constexpr std::array<std::array<std::size_t, 2>, 6> edges{
         {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
@@ -100,7 +102,7 @@ struct BernsteinCubic {
 
     BernsteinCubic(const TrilinearPolynomial& polynomial, const CellPiece& piece);
     double largest() const;  // upper bound of |difference|
-    // Returns the edge to cut so that bound and values come nearer to each other.
+    // Returns the edge whose halving brings the bound nearest to the true values.
     std::size_t edge_to_halve(const CellPiece& piece) const;
 };
 

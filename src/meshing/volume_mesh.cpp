@@ -17,7 +17,7 @@
 namespace lamina {
 namespace {
 
-// Corners (x + 2y + 4z) of the six positive tets, one for each path from 0 to 7.
+// The six tets of a cell (corners x + 2y + 4z): one for each path along edges from 0 to 7.
 constexpr std::array<Tet, 6> cell_tets{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 
@@ -41,13 +41,15 @@ void check_size(const TrilinearField& field, std::int64_t max_tets) {
     }
 }
 
-constexpr double finest_lattice = 256;  // places for points per sample
-// Distance from the box's surface, as a share of its tet's extent, at which a point is moved onto
-// the surface. Otherwise the flat tets between the two would stay.
+constexpr double finest_lattice = 256;  // places for points along an axis, per sample
+// Points nearer to the box's surface than this share of their tet's extent are moved onto it: flat
+// tets between them and the surface would remain.
 constexpr double surface_share = 0.125;
-constexpr double tets_per_point = 7;  // estimate, above the average (6.77 for random points)
+// Tets that a point adds: above the average (6.77 for random points).
+constexpr double tets_per_point = 7;
 constexpr std::int64_t tets_per_task = 16;
-constexpr double worth_a_round = 0.005;  // share of max_tets; refinement ends if less is left
+// Share of max_tets below which the tets still allowed are not worth a round.
+constexpr double worth_a_round = 0.005;
 
 struct PlaceHash {
     std::size_t operator()(const std::array<std::int64_t, 3>& place) const {
@@ -64,7 +66,7 @@ glm::dvec3 snapped(const glm::dvec3& place, double per_sample) {
     return glm::floor(place * per_sample + 0.5) / per_sample;
 }
 
-// The points so far. The last ones can be taken back.
+// The points of the mesh, all different, and the field's values. The last can be removed again.
 class Points {
   public:
     explicit Points(const TrilinearField& field) : field_(field) {}
@@ -103,7 +105,7 @@ class Points {
     std::unordered_set<std::array<std::int64_t, 3>, PlaceHash> places_;
 };
 
-// A tet named by its sorted corners, so that the next round recognises it.
+// A tet and its sorted corners, by which the next round recognises it.
 struct NamedTet {
     Tet corners;
     std::int32_t index;
@@ -130,7 +132,7 @@ double volume_of(const std::array<glm::dvec3, 4>& p) {
     return glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) / 6;
 }
 
-// Tells whether `point` lies in the sphere of a positive tet. Rounding only guides a choice.
+// Tells whether `point` is in a positive tet's circumsphere. Rounded: it only guides a choice.
 bool in_sphere(const std::array<glm::dvec3, 4>& p, const glm::dvec3& point) {
     const glm::dvec3 a = p[0] - point, b = p[1] - point, c = p[2] - point, d = p[3] - point;
     const glm::dvec3 ab = glm::cross(a, b), cd = glm::cross(c, d);
@@ -179,7 +181,7 @@ class Refinement {
         }
     }
 
-    // Does one round. Returns false at the end.
+    // Adds points and makes a new mesh. Returns false at the end.
     bool refine(MeshReport& report) {
         const std::vector<std::int32_t> worst = violators();
         report.within_tolerance = worst.empty();
@@ -204,7 +206,7 @@ class Refinement {
         return false;
     }
 
-    // Checks the tets, because they come from another program.
+    // Makes the Delaunay tets, and checks them, because they come from another program.
     DelaunayTets tetrahedralize() const {
         DelaunayTets mesh = delaunay_(points_.points());
         std::vector<bool> used(points_.size(), false);
@@ -228,7 +230,7 @@ class Refinement {
         return mesh;
     }
 
-    // Takes over a mesh and measures the tets that the round before did not have.
+    // Makes `mesh` the current one, and measures those tets that the previous mesh did not have.
     void accept(DelaunayTets mesh) {
         Round next{std::move(mesh), {}, {}};
         next.names = by_name(next.mesh.tets);
@@ -269,7 +271,7 @@ class Refinement {
         return list;
     }
 
-    // Adds points so that no two of a round lie in one cavity.
+    // Adds points, at most one for each cavity: the tets with the new point in their circumspheres.
     void add_points(const std::vector<std::int32_t>& violators, std::size_t most) {
         destroyed_.assign(round_.mesh.tets.size(), false);
         const std::size_t before = points_.size();
@@ -279,8 +281,8 @@ class Refinement {
         }
     }
 
-    // Adds a point on the coarsest lattice with a free place that destroys the tet: points at
-    // samples and halfway between them serve neighbouring tets, too.
+    // Adds a point that destroys the tet, at a free place on the coarsest lattice that has one:
+    // points at samples, and halfway between them, serve neighbouring tets, too.
     bool add_point_in(std::int32_t tet) {
         const auto corners = points_.corners(round_.mesh.tets[tet]);
         for (double per_sample = 1; per_sample <= finest_lattice; per_sample *= 2) {
@@ -328,7 +330,7 @@ class Refinement {
         return place;
     }
 
-    // Measures the errors of tets over the tolerance: of these, decide() says only that they are.
+    // Measures tets that ErrorGoal::decide left without a bound. Returns the largest of all bounds.
     double final_error() {
         const std::vector<std::int32_t> open = violators();
         parallel_for(std::ssize(open), 32, [&](std::int64_t i) {
@@ -346,12 +348,12 @@ class Refinement {
     double tolerance_;  // in the data's units
     Points points_;
     Round round_;
-    std::vector<bool> destroyed_;  // tets that points of this round destroy
+    std::vector<bool> destroyed_;  // marks tets that new points of this round destroy
     std::vector<std::int32_t> cavity_;
     int rounds_ = 0;
 };
 
-// Share of the range of values up to which the error of a Kuhn split is measured.
+// Tolerance of a Kuhn mesh's measured error, a share of the range: smaller ones are not told apart.
 constexpr double kuhn_error_floor = 1e-4;
 
 }  // namespace

@@ -16,7 +16,9 @@
 namespace lamina {
 namespace {
 
-constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255, in linear light
+// Largest error of a colour component, in the wanted space: a sixteenth of 1/255.
+constexpr double color_tolerance = 2.5e-4;
+// Limits the points between two points of a preset to 2^7.
 constexpr int most_halvings = 7;
 
 nlohmann::json load(const std::filesystem::path& file) {
@@ -52,7 +54,7 @@ ColorSpace color_space(const nlohmann::json& preset, const std::string& name) {
          shown(*found));
 }
 
-// Reads rows of four numbers, of which the first ascend; at most two share one.
+// Reads rows of four numbers. Their first numbers must ascend; at most two rows share one.
 std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const char* key,
                                              const std::string& name) {
     const nlohmann::json& flat = preset.at(key);
@@ -87,14 +89,13 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     return rows;
 }
 
-// Halves an interval until straight lines in the wanted space are close to the colours.
+// Adds points between two of a preset, for lines in the wanted space within color_tolerance of it.
 class SegmentSampler {
   public:
     SegmentSampler(ColorSpace space, ImageColorSpace wanted, const std::array<double, 4>& a,
                    const std::array<double, 4>& b)
         : space_(space), wanted_(wanted), a_(a), b_(b) {}
 
-    // Appends the points between share `lo`, exclusive, and share `hi`, inclusive.
     void append(double lo, double hi, int halvings, std::vector<ColorPoint>& points) const {
         if (halvings > 0 && !straight(lo, hi)) {
             append(lo, (lo + hi) / 2, halvings - 1, points);
@@ -140,7 +141,7 @@ std::vector<ColorPoint> sample_colors(ColorSpace space, ImageColorSpace wanted,
         if (a[0] == b[0]) {
             points.push_back({b[0], color_of(b)});
         } else if (space == ColorSpace::step) {
-            // Intervals have the colour of the upper point; below the first its own stays.
+            // An interval has its upper point's colour; below the first point the first one holds.
             points.push_back({a[0], color_of(b)});
             points.push_back({b[0], color_of(b)});
         } else {
@@ -166,7 +167,7 @@ std::vector<OpacityPoint> read_opacities(const nlohmann::json& preset, const std
     return points;
 }
 
-// The limits from below and from above; `mix(a, b, share)` interpolates.
+// Returns the quantity on both sides of `value` (different at a step), by mix(a, b, share).
 template <typename Point, typename Mix>
 auto limits(const std::vector<Point>& points, double value, const Mix& mix) {
     const auto not_below = std::ranges::lower_bound(points, value, {}, &Point::value);

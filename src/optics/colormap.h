@@ -14,13 +14,14 @@
 
 namespace lamina {
 
-// step: the colour of the upper end, as in VTK. diverging: interpolation in Msh of CIELAB
-// (Moreland, "Diverging Color Maps for Scientific Visualization", ISVC 2009).
+// How ParaView presets are interpolated. hsv_wrapped: the shorter way around the hue circle.
+// diverging: in Msh, polar coordinates of CIELAB (Moreland, "Diverging Color Maps for Scientific
+// Visualization", ISVC 2009). step: the upper point's colour, as in VTK.
 enum class ColorSpace { rgb, hsv, hsv_wrapped, lab, diverging, step };
 
 glm::dvec3 linear_from_srgb(const glm::dvec3& srgb);
 
-// The colour at `share` in [0, 1] of the way from `a` to `b`, in sRGB, clipped to its gamut.
+// Interpolates from `a` (share 0) to `b` (share 1), in sRGB, clipped to its gamut.
 glm::dvec3 interpolate_srgb(ColorSpace space, const glm::dvec3& a, const glm::dvec3& b,
                             double share);
 
@@ -29,7 +30,7 @@ struct CssColor {
     std::uint32_t rgb;  // 0xrrggbb, sRGB
 };
 
-// The named colours of CSS (W3C, "CSS Color Module Level 4", section 6.1), by name.
+// Returns the named colours of CSS (W3C, "CSS Color Module Level 4", section 6.1), sorted by name.
 std::span<const CssColor> css_colors();
 
 std::optional<std::uint32_t> css_color(std::string_view name);
@@ -40,28 +41,28 @@ struct ExtinctionPoint {
     bool smooth = false;    // as in TransferKnot
 };
 
-// Reads a ParaView preset: a JSON object, or the first of an array. Keys: ColorSpace ("RGB" if
-// absent), HSVWrap, RGBPoints [x, r, g, b, ...] in sRGB, Points [x, opacity, midpoint, sharpness,
-// ...]. Linear interpolation in `space` is within 5e-4 of the map. Throws Error.
+// Reads a ParaView preset: a JSON object, or the first element of an array. Keys: ColorSpace ("RGB"
+// if absent), HSVWrap, RGBPoints [x, r, g, b, ...] in sRGB, Points [x, opacity, midpoint,
+// sharpness, ...]. Adds points until linear interpolation in `space` is within 5e-4. Throws Error.
 Colormap read_paraview_colormap(const std::filesystem::path& file,
                                 ImageColorSpace space = ImageColorSpace::linear);
-// Reads a preset from parsed JSON; `name` stands for the file in messages.
+// Converts a preset that is already parsed; messages call it `name`.
 Colormap colormap_of(const nlohmann::json& preset, const std::string& name, ImageColorSpace space);
 
-// Maps the first and the last value, which differ, linearly to lo and hi > lo, opacities included.
+// Moves all points, opacities too: the first colour to lo, the last (at a higher value) to hi.
 void stretch(Colormap& colormap, double lo, double hi);
 
-// Combines both sets of points. A step of either becomes a step.
+// Makes a point at each value with colour or extinction. A step of either becomes a step.
 std::vector<TransferKnot> combine(const Colormap& colormap,
                                   const std::vector<ExtinctionPoint>& extinctions);
 
-// Combines the colours with the map's own opacities, linear between points (optics/opacity.h).
-// unit_length > 0 is in world units. Throws Error if there are none.
+// Makes points of the map's colours and its own opacities, which are linear between points
+// (optics/opacity.h). unit_length > 0: world units. Throws Error if the map has no opacities.
 std::vector<TransferKnot> combine(const Colormap& colormap, double unit_length);
-// The map's own opacities as points, without colours.
+// Returns the map's own opacities as points, without colours.
 std::vector<GivenPoint> given_points(const Colormap& colormap);
 
-// The files of share/colormaps, "viridis.json" and others.
+// Returns the files of share/colormaps, "viridis.json" and others, which are compiled into lamina.
 std::span<const EmbeddedFile> embedded_colormaps();
 
 bool is_colormap_name(const std::string& name);

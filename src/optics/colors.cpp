@@ -25,7 +25,7 @@ const glm::dmat3 xyz_from_linear(0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192,
 const glm::dmat3 linear_from_xyz = glm::inverse(xyz_from_linear);
 const glm::dvec3 white = xyz_from_linear * glm::dvec3(1);
 
-// CIE 15: the cube root is continued by its tangent near 0.
+// The function f of CIELAB (CIE 15): the cube root, replaced by its tangent near 0.
 constexpr double knee = 6.0 / 29.0;
 double lab_curve(double t) {
     return t > knee * knee * knee ? std::cbrt(t) : t / (3 * knee * knee) + 4.0 / 29.0;
@@ -40,7 +40,7 @@ glm::dvec3 lab_from_srgb(const glm::dvec3& srgb) {
     return glm::dvec3(116 * y - 16, 500 * (x - y), 200 * (y - z));
 }
 
-// As in VTK, colours become darker if a component exceeds 1, and negative components 0.
+// Clips as VTK does: divides by the largest component if it exceeds 1, then sets those < 0 to 0.
 glm::dvec3 srgb_from_lab(const glm::dvec3& lab) {
     const double y = (lab[0] + 16) / 116, x = y + lab[1] / 500, z = y - lab[2] / 200;
     const glm::dvec3 xyz(lab_curve_inverse(x), lab_curve_inverse(y), lab_curve_inverse(z));
@@ -51,7 +51,7 @@ glm::dvec3 srgb_from_lab(const glm::dvec3& lab) {
     return glm::max(srgb, glm::dvec3(0));
 }
 
-// Hue in [0, 1), saturation, value.
+// Returns hue in [0, 1), saturation, value.
 glm::dvec3 hsv_from_srgb(const glm::dvec3& srgb) {
     const double value = std::max({srgb.r, srgb.g, srgb.b});
     const double chroma = value - std::min({srgb.r, srgb.g, srgb.b});
@@ -83,6 +83,7 @@ glm::dvec3 interpolate_hsv(const glm::dvec3& a, const glm::dvec3& b, double shar
     return srgb_from_hsv(hsv);
 }
 
+// Polar coordinates of CIELAB: Moreland 2009, section 4.2.
 struct Msh {
     double magnitude, saturation, hue;
 };
@@ -101,7 +102,7 @@ glm::dvec3 srgb_from_msh(const Msh& msh) {
                                     chroma * std::cos(msh.hue), chroma * std::sin(msh.hue)));
 }
 
-// Moreland 2009, section 4.3: the hue of an unsaturated end is turned.
+// Returns an unsaturated end's hue: the saturated end's, turned (Moreland 2009, section 4.3).
 double spun_hue(const Msh& saturated, double unsaturated_magnitude) {
     if (saturated.magnitude >= unsaturated_magnitude - 0.1) return saturated.hue;
     const double reach = std::sqrt(unsaturated_magnitude * unsaturated_magnitude -

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chords between (1 - e) f and (1 + e) f approximate the optical depth f = -log1p(-o). Each starts
-// and ends on the lower curve and touches the upper one: none within e is longer.
+// Approximates the depth f(o) = -log1p(-o) of opacity o by chords between (1 - e) f and (1 + e) f.
+// Each starts and ends on the lower curve and touches the upper one: none within e is longer.
 #include "optics/opacity.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ double rise_to_touch(double d) {
     return x;
 }
 
-// A chain of chords, one after another, from `from` on, within a tolerance.
+// A chain of consecutive chords that begins at the opacity `from` and stays within a tolerance.
 class Chain {
   public:
     Chain(double from, double tolerance)
@@ -35,15 +35,17 @@ class Chain {
         aim();
     }
 
-    // Tells whether this chord can end on the curve at `opacity`: before it touches, or above f.
+    // Tells whether the chord can end on f here: it lies above f, or has not met the upper curve.
     bool reaches(double opacity, double depth) const {
         return opacity <= touch_ || at_.height + slope_ * (opacity - at_.opacity) >= depth;
     }
 
+    // Ends the current chord on the lower curve, begins the next one there, and returns that place.
     const Place& advance() {
         const double clear = 1 - at_.opacity;
-        // v is the part of `clear` that is left: height + slope clear (1 - v) = lower (depth - ln
-        // v). The difference is concave, so Newton's steps approach the smaller root from the left.
+        // v is the next place's 1 - opacity, divided by `clear`. The chord meets the lower curve
+        // where height + slope clear (1 - v) = lower (depth - ln v). The difference of both sides
+        // is concave in v, so Newton's steps approach the smaller root from below.
         const double offset = at_.height - lower_ * at_.depth, rise = slope_ * clear;
         const auto above = [&](double v) { return offset + rise * (1 - v) + lower_ * std::log(v); };
         double v = lower_ / rise / 2;
@@ -61,7 +63,8 @@ class Chain {
     }
 
   private:
-    // Touches the upper curve at 1 - o = clear / r, r - 1 - ln r = depth - height / upper.
+    // Finds the tangent from the current place to the upper curve. It touches at 1 - o = clear / r,
+    // where r - 1 - ln r = depth - height / upper.
     void aim() {
         const double x = rise_to_touch(at_.depth - at_.height / upper_), clear = 1 - at_.opacity;
         slope_ = upper_ * (1 + x) / clear;
@@ -73,7 +76,7 @@ class Chain {
     double slope_ = 0, touch_ = 0;
 };
 
-// Returns false if there are more than `most` chords.
+// Writes the chords' ends in [from, to). Returns false if there are more than `most` chords.
 bool follow(double from, double to, double tolerance, std::size_t most,
             std::vector<Place>& places) {
     places.clear();
@@ -86,7 +89,7 @@ bool follow(double from, double to, double tolerance, std::size_t most,
     return true;
 }
 
-// Finds the fewest chords, then nearly the smallest tolerance that they permit.
+// Finds the fewest chords within opacity_slope_tolerance, then nearly their least tolerance.
 std::vector<Place> follow_evenly(double from, double to) {
     constexpr std::size_t any = 1000;
     double kept = opacity_slope_tolerance, missed = 0;
@@ -110,7 +113,7 @@ double extinction_of(const GivenPoint& point, double unit_length) {
                                               : point.density;
 }
 
-// A point gets two knots if the extinctions on its sides differ.
+// Converts points to knots. A point gets two knots if the extinctions on its sides differ.
 class KnotBuilder {
   public:
     KnotBuilder(const std::vector<GivenPoint>& points, double unit_length)
@@ -131,7 +134,8 @@ class KnotBuilder {
     }
 
   private:
-    // Returns the extinction at a point on the side of its neighbour, which may be null.
+    // Returns the extinction at a point on the side of its neighbour, or of none if `neighbour` is
+    // null: on slopes of opacity it is limited to steepest_optical_depth.
     double at_side(const GivenPoint& point, const GivenPoint* neighbour) const {
         const double extinction = extinction_of(point, unit_length_);
         if (point.given_as != Density::opacity || neighbour == nullptr) return extinction;
@@ -140,7 +144,7 @@ class KnotBuilder {
         return std::min(extinction, steepest_optical_depth / unit_length_);
     }
 
-    // Two points at one value have one side each: the interval between them has no width.
+    // Adds one knot for each of two points at one value (their interval is empty), else one or two.
     void add_point(std::size_t i) {
         const GivenPoint& point = points_[i];
         const GivenPoint* const before = i > 0 ? &points_[i - 1] : nullptr;

@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// Interpolates between two knots of different value. Nothing cancels, and equal ends stay exact.
+// Interpolates between knots of different value, without cancellation; equal properties stay exact.
 inline OpticalProperties interpolate(const TransferKnot& a, const TransferKnot& b, double value) {
     const double width = b.value - a.value;
     const double weight_a = (b.value - value) / width;
@@ -24,11 +24,11 @@ inline OpticalProperties interpolate(const TransferKnot& a, const TransferKnot& 
 }
 
 struct LinearPiece {
-    double from = 0, to = 0;  // scalars, in walking order
+    double from = 0, to = 0;  // scalars: where the piece is entered, and where it is left
     OpticalProperties at_from, at_to;
 };
 
-// Calls visit(piece) from `front` to `back`; for front == back once, with a piece of no width.
+// Calls visit(piece) for the pieces from `front` to `back`; if equal, once for a piece of no width.
 template <typename Visit>
 void for_each_linear_piece(std::span<const TransferKnot> knots, double front, double back,
                            const Visit& visit) {
@@ -62,7 +62,7 @@ void for_each_linear_piece(std::span<const TransferKnot> knots, double front, do
     }
 }
 
-// Returns the colour at the first place of [lo, hi] with extinction > 0; black if there is none.
+// Returns the colour at the lowest value in [lo, hi] with extinction above; black if there is none.
 inline glm::dvec3 first_color(const TransferFunction& transfer_function, double lo, double hi) {
     glm::dvec3 color(0);
     bool found = false;
@@ -74,19 +74,20 @@ inline glm::dvec3 first_color(const TransferFunction& transfer_function, double 
     return color;
 }
 
-// Largest distance of a curve from straight pieces, as a share of their extinction. Curves of
-// slopes of opacity stay within opacity_slope_tolerance.
+// Largest distance of a cubic from the straight pieces that it replaces, as a share of extinction:
+// fits pieces that stand for slopes of opacity (themselves within opacity_slope_tolerance).
 inline constexpr double curve_tolerance = 1.3e-3;
-// In a channel, in 1/255, for colours up to 1 (docs/precision.md, "Opacity that is linear").
+// Largest error by such a curve, in 1/255 (docs/precision.md, "Opacity that is linear").
 inline constexpr double largest_curve_error = 255 * curve_tolerance / 2;
 
-// At the share u of the piece extinction is that of the straight line plus u (1 - u) (bend[0] + u
-// bend[1]); > 0 inside if any bend is not 0. Colour is linear.
+// A piece with linear colour. Its extinction may be a cubic in its share u, 0 at `from`, 1 at `to`:
+// the line plus u (1 - u) (bend[0] + u bend[1]). If any bend is not 0, it is > 0 inside.
 struct CurvedPiece : LinearPiece {
     double bend[2] = {0, 0};
 };
 
-// `curved`: a cubic replaces pieces that meet at smooth points if it keeps to curve_tolerance.
+// Returns the pieces between the scalars lo and hi. `curved`: a cubic replaces pieces that meet at
+// smooth points if it stays within curve_tolerance.
 std::vector<CurvedPiece> pieces_between(const TransferFunction& transfer_function, double lo,
                                         double hi, bool curved);
 

@@ -13,10 +13,10 @@ glm::dvec3 unit_vector(const glm::dvec3& v);
 // Lighting along one viewing ray (docs/numerics.md, section 10), in double precision.
 class RayLights {
   public:
-    // `lighting` passed scene/scene.h. `to_eye`: from the ray, in world space, not 0.
+    // `lighting` must pass scene/scene.h's checks. `to_eye`: world direction, any length but 0.
     RayLights(const Lighting& lighting, const glm::dvec3& to_eye);
 
-    // The lit colour is c + weight * (c * change + highlight), component by component.
+    // How light changes a colour c: the lit colour is c + weight * (c * change + highlight).
     struct Effect {
         double weight = 0;        // 0 if the gradient is 0, close to 1 if it is steep
         glm::dvec3 change{0};     // >= -1
@@ -26,15 +26,17 @@ class RayLights {
     // `gradient`: in scalar units per world unit.
     Effect effect(const glm::dvec3& gradient) const;
 
-    // The largest component that light changes colours up to `brightest` by, over the weight.
+    // Returns a bound, divided by the weight, on light's effect on components up to `brightest`.
     double largest_effect(double brightest) const;
-    // The largest less the least component that light adds to colours up to 1.
+    // Returns the span of what light can add to a component of colours up to 1.
     double effect_span() const;
+    // Returns the largest factor by which light multiplies a component, highlights aside.
     double largest_factor() const;
-    // Returns the largest component of lit colours whose own components are up to `brightest`.
+    // Returns a bound on the components of lit colours whose own components are up to `brightest`.
     double brightest_lit(double brightest) const;
 
     double smallest_gradient() const { return smallest_gradient_; }
+    // Returns the Effect's weight for a gradient of this length.
     double weight(double steepness) const;
     bool has_highlights() const { return specular_ > 0; }
     double power() const { return power_; }

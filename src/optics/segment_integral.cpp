@@ -11,11 +11,12 @@
 namespace lamina {
 namespace {
 
-// Limit of a piece's optical depth, so that sums of depths stay finite.
+// Limits a piece's optical depth, so that sums of depths stay finite.
 constexpr double largest_depth = 1e300;
 
-// docs/numerics.md, section 5, u(x) = px + kx^2: front = int 1 - exp(-u), back = int exp(-u) (1 -
-// exp(-(D - u))). Neither u nor D - u is a difference: every term is >= 0 and accurate.
+// Integrates over x in [0, 1] (docs/numerics.md, section 5), with u(x) = px + kx^2 and D = u(1):
+// front = int 1 - exp(-u), back = int exp(-u) (1 - exp(-(D - u))). Neither u nor D - u is computed
+// as a difference: every term is >= 0 and accurate.
 PieceWeights quadrature_weights(const GaussRule& rule, double p, double q) {
     PieceWeights weights;
     for (std::size_t i = 0; i < rule.points; ++i) {
@@ -29,12 +30,13 @@ PieceWeights quadrature_weights(const GaussRule& rule, double p, double q) {
     return weights;
 }
 
-// G of docs/numerics.md, section 5, for D >= 4: neither 1 - G nor G - exp(-D) cancels.
+// Returns G, the mean transmittance in front of a place in the piece (docs/numerics.md, section 5),
+// for D >= 4: neither 1 - G nor G - exp(-D) cancels then.
 double mean_transmittance(double p, double q) {
     const double depth = p / 2 + q / 2;
     const double k = (q - p) / 2;
     const double root = std::sqrt(std::abs(k));
-    // The closed forms keep their accuracy until p / root overflows. k <= 1e-17 D changes nothing.
+    // If k <= 1e-17 D, extinction is constant; above, closed forms hold until p / root overflows.
     if (std::abs(k) <= 1e-17 * depth) return opacity_from_depth(depth) / depth;
     const double front = p / (2 * root);
     const double back = q / (2 * root);
@@ -45,14 +47,14 @@ double mean_transmittance(double p, double q) {
     return (dawson(front) - transmittance * dawson(back)) / root;
 }
 
-// Returns the place, at most 1, up to which the optical depth is `wanted` < D.
+// Returns the x, at most 1, up to which the optical depth is `wanted` < D.
 double place_of_depth(double wanted, double p, double q) {
     const double root = std::sqrt(std::max(p * p + 2 * (q - p) * wanted, 0.0));
     return std::min(2 * wanted / (p + root), 1.0);
 }
 
 glm::dvec3 piece_color(const LinearPiece& piece, double p, double q) {
-    // Most pieces of palettes have one colour; its weight is the opacity.
+    // Palettes have mostly pieces of one colour, whose weight is the opacity.
     if (piece.at_from.color == piece.at_to.color) {
         return opacity_from_depth(p / 2 + q / 2) * piece.at_from.color;
     }
@@ -60,7 +62,7 @@ glm::dvec3 piece_color(const LinearPiece& piece, double p, double q) {
     return weights.front * piece.at_from.color + weights.back * piece.at_to.color;
 }
 
-constexpr double opaque = 1e30;  // stands for the infinite optical depth of the last node.
+constexpr double opaque = 1e30;  // stands for p or q of the last node, which is infinite
 
 std::size_t texel_index(int column, int row) {
     return std::size_t{FrontWeightTable::nodes} * row + column;
@@ -75,7 +77,7 @@ PieceWeights piece_weights(double p, double q) {
     return {1 - g, g - std::exp(-depth)};
 }
 
-// By parts: the integral of 2 (1 - x) (1 - exp(-u)). exp(-u) is below 2e-9 beyond a depth of 20.
+// Integrates 2 (1 - x) (1 - exp(-u)): by parts. exp(-u) is below 2e-9 where u exceeds 20.
 double front_moment(double p, double q) {
     constexpr double deep = 20;
     const double depth = p / 2 + q / 2;
@@ -96,7 +98,7 @@ SegmentIntegral integrate_segment(const TransferFunction& transfer_function, dou
     if (!(length > 0)) return result;
     DoubleDouble depth;  // compensated, so that exp(-depth) stays accurate behind many pieces
     for_each_linear_piece(transfer_function.knots(), front, back, [&](const LinearPiece& piece) {
-        // Both differences are of numbers given: the share is accurate.
+        // The scalars are given exactly, so both differences, and the share, are accurate.
         const double share = front == back ? 1 : (piece.to - piece.from) / (back - front);
         const double part = length * share;
         const double p = std::min(part * piece.at_from.extinction, largest_depth);
@@ -112,7 +114,7 @@ SegmentIntegral integrate_segment(const TransferFunction& transfer_function, dou
     return result;
 }
 
-// On the piece the factor is to_left + width * (1 - x), with x from 0 to 1.
+// The light factor on the piece is to_left + width * (1 - x), with x from 0 to 1.
 FrontParts front_parts_of(const SegmentStretch& piece) {
     const double p = std::min(piece.length * piece.front.extinction, largest_depth);
     const double q = std::min(piece.length * piece.back.extinction, largest_depth);
@@ -147,7 +149,7 @@ LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, dou
     return result;
 }
 
-// Degree 3, minimax over p, q >= 0, p + q <= 2 faint_depth, by iterated least squares.
+// Polynomial of degree 3, minimax over p, q >= 0, p + q <= 2 faint_depth: iterated least squares.
 double faint_front_weight(double p, double q) {
     const double pq = -0.07483143 + 0.01593537 * p + 0.01098378 * q;
     const double of_p = 0.33332185 + p * (-0.06649057 + p * 0.00875053) + q * pq;
@@ -155,7 +157,7 @@ double faint_front_weight(double p, double q) {
     return std::min(p * of_p + q * of_q, opacity_from_depth(p / 2 + q / 2));
 }
 
-// Degree 4, minimax over p, q >= 0, p + q <= 2 thin_depth, by iterated least squares.
+// Polynomial of degree 4, minimax over p, q >= 0, p + q <= 2 thin_depth: iterated least squares.
 double thin_front_weight(double p, double q) {
     const double c0 = q * (0.166777794 + q * (-0.025093103 + q * (0.002890381 - q * 0.000196459)));
     const double c1 = 0.333037217 + q * (-0.074477034 + q * (0.011162302 - q * 0.000919007));
@@ -186,7 +188,7 @@ FrontWeightTable::FrontWeightTable() : texels_(std::size_t{nodes} * nodes) {
 double FrontWeightTable::lookup(double p, double q) const {
     p = std::min(p, opaque);
     q = std::min(q, opaque);
-    // This form has no difference, so that faint segments keep their digits.
+    // Nodes as in the constructor, without a subtraction, so that small p and q keep their digits.
     const double root = std::sqrt(1 + q);
     const double x = (nodes - 1) * (p / (1 + p));
     const double y = (nodes - 1) * (q / root / (1 + root));

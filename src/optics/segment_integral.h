@@ -55,11 +55,11 @@ inline constexpr double gauss16_weight[] = {
     0.06231448562776693603, 0.0475792558412463924,  0.03112676196932394643, 0.01357622970587704743};
 inline constexpr GaussRule gauss16{16, gauss16_x, gauss16_weight};
 
-// Optical depth above which a piece has a closed form that loses no digits.
+// Optical depth from which closed forms lose no digits; below it Gauss' rules are used.
 inline constexpr double largest_gauss_depth = 4;
 
-// Returns the rule for a piece of optical depth D. The error of n points is about (n!)^3 / ((2n+1)
-// (2n)!^2) |k|^n with |k| <= D: at each limit less than 1e-15 of D.
+// Returns the rule for a piece of optical depth D with k, half the change of extinction * length,
+// |k| <= D. The error of n points, about (n!)^3 / ((2n+1) (2n)!^2) |k|^n, is below 1e-15 of D.
 inline const GaussRule& gauss_rule(double depth) {
     if (depth < 0.016) return depth < 1e-3 ? gauss4 : gauss5;
     if (depth < 0.5) return depth < 0.09 ? gauss6 : gauss8;
@@ -73,59 +73,62 @@ struct SegmentIntegral {
     glm::dvec3 color{0};
 };
 
-// Weights (>= 0) of the colours at both ends of a piece with extinction * length = p at its front
-// and q at its back (>= 0, finite). front + back = 1 - exp(-(p + q) / 2).
+// Weights (>= 0) of the colours at the ends of a piece with linear colour and extinction, which
+// times the length is p at the front, q at the back (>= 0, finite). Sum: 1 - exp(-(p + q) / 2).
 struct PieceWeights {
     double front = 0;
     double back = 0;
 };
 PieceWeights piece_weights(double p, double q);
 
-// Integrates a segment, linear from `front` (near the eye) to `back`, over `length` >= 0
-// (docs/numerics.md, section 5). Relative error about 1e-13, for depths from 1e-300 to 1e300.
+// Integrates a segment with linear scalar from `front` (near the eye) to `back`, over `length` >= 0
+// world units (docs/numerics.md, section 5). Relative error some 1e-13, depths 1e-300 to 1e300.
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length);
 
-// The integral of (1 - x)^2, weighted by visible opacity, x from 0 in front; error 1e-8.
+// Returns the integral of (1 - x)^2 over a piece, x from 0 at its front to 1 at its back, weighted
+// by visible opacity (extinction times transmittance); error 1e-8. p and q: as for piece_weights().
 double front_moment(double p, double q);
 
-// Under light that changes linearly (docs/numerics.md, section 10; Lum, Wilson, Ma 2004): what
-// remains of opacity and colour if a factor falls from 1 at the front to 0 at the back.
+// Opacity and colour of a segment under a light factor that falls linearly from 1 at its front to 0
+// at its back (docs/numerics.md, section 10; Lum, Wilson, Ma 2004).
 struct FrontParts {
     double alpha = 0;
     glm::dvec3 color{0};
 };
 
+// A segment without light, and under FrontParts' light: from both follows that of any linear light.
 struct LitIntegral {
     SegmentIntegral whole;
     FrontParts front;
 };
 
-// The front parts are accurate to about 1e-8 of the whole.
+// Integrates as integrate_segment() does. `front` is accurate to about 1e-8 of `whole`.
 LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length);
 
-// A linear part of a segment. `from` and `to` are shares of its length.
+// A piece of a segment: linear colour and extinction, from `from` to `to` (shares of the segment).
 struct SegmentStretch {
     OpticalProperties front, back;
     double length = 0, from = 0, to = 1;
 };
-// Returns what the part contributes, seen from its own front.
+// Returns what the piece adds to the segment's FrontParts if nothing lies in front of it.
 FrontParts front_parts_of(const SegmentStretch& piece);
 
-// Fast forms of piece_weights(p, q).front, twins of shaders/optics/linear_segment.glsl. A ray is
-// off by at most the error below times the sum of its changes of colour.
+// Fast approximations of piece_weights(p, q).front follow; shaders/optics/linear_segment.glsl has
+// twins of thin_front_weight() and FrontWeightTable. The error of a ray's colour is at most the
+// weight's error times the sum of the colour's changes along the ray.
 
-// For (p + q) / 2 up to thin_depth: error at most 3e-5, value at most the piece's opacity.
+// Largest depth (p + q) / 2 for thin_front_weight(): error <= 3e-5, value <= the piece's opacity.
 inline constexpr double thin_depth = 1.5;
 double thin_front_weight(double p, double q);
 
-// Shorter, for depths up to faint_depth. Its error is at most 3e-7 there.
+// Largest depth for faint_front_weight(), a shorter polynomial, whose error is at most 3e-7.
 inline constexpr double faint_depth = 0.2;
 double faint_front_weight(double p, double q);
 
-// A bilinear table, nodes equally spaced in p / (1 + p) and 1 - 1 / sqrt(1 + q). The error is at
-// most 2e-5 for p, q < 20, 5e-4 anywhere, and 2.2e-3 of the opacity of faint pieces.
+// Front weights, interpolated bilinearly; nodes are equally spaced in p / (1 + p), 1 - 1 / sqrt(1 +
+// q). Error <= 2e-5 for p, q < 20, 5e-4 anywhere; for faint pieces 2.2e-3 of their opacity.
 class FrontWeightTable {
   public:
     static constexpr int nodes = 256;

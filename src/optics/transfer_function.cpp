@@ -15,7 +15,7 @@
 namespace lamina {
 namespace {
 
-// Limit of scalars, so that their differences stay finite.
+// Largest magnitude of scalars, so that their differences stay finite.
 constexpr double largest_value = 1e300;
 
 void check_optics(const OpticalProperties& optics, std::size_t index) {
@@ -64,8 +64,8 @@ bool on_line(const TransferKnot& a, const TransferKnot& between, const TransferK
            near(there.color.b, between.optics.color.b);
 }
 
-// Calls visit(a, b) with the ends of every piece that shares more than a point with [lo, hi], and
-// visit(k, k) for every knot there and for the constant parts.
+// Calls visit(a, b) with the optics at the ends of every piece that shares more than a point with
+// [lo, hi], and visit(k, k) for every knot in it and for the constant optics outside the knots.
 template <typename Visit>
 void for_each_part(std::span<const TransferKnot> knots, double lo, double hi, const Visit& visit) {
     if (lo < knots.front().value) visit(knots.front().optics, knots.front().optics);
@@ -79,6 +79,7 @@ void for_each_part(std::span<const TransferKnot> knots, double lo, double hi, co
     if (hi > knots.back().value) visit(knots.back().optics, knots.back().optics);
 }
 
+// Tells whether key(optics) is the same in [lo, hi], apart from pieces without counts(a, b).
 template <typename Key, typename Counts>
 bool same_everywhere(std::span<const TransferKnot> knots, double lo, double hi, const Key& key,
                      const Counts& counts) {
@@ -96,12 +97,12 @@ bool same_everywhere(std::span<const TransferKnot> knots, double lo, double hi, 
 
 constexpr auto always = [](const OpticalProperties&, const OpticalProperties&) { return true; };
 
-// Pieces that one cubic may replace: bounds the time of the search.
+// Largest number of pieces that one cubic may replace: bounds the time of the search.
 constexpr std::size_t most_merged = 64;
-// Colours (1 is full scale) this close to a line are linear: the digits of a float.
+// Largest distance of colours (0..1) from a line that counts as linear: the precision of a float.
 constexpr double color_tolerance = 1e-6;
 
-// Extinctions above this are not replaced by curves, because bends must fit into floats.
+// Largest extinction of curves, because bends must fit into floats; pieces above it stay straight.
 constexpr double largest_extinction = 1e30;
 
 using Pieces = std::span<const CurvedPiece>;
@@ -125,7 +126,7 @@ bool colors_are_linear(Pieces pieces, const CurvedPiece& all) {
     return true;
 }
 
-// Calls visit(share of all, extinction) for some places in each piece.
+// Calls visit(share, extinction) at four places in each piece; share: 0 to 1 along `all`.
 template <typename Visit>
 void for_each_place(Pieces pieces, const CurvedPiece& all, const Visit& visit) {
     constexpr int places = 4;
@@ -140,7 +141,7 @@ void for_each_place(Pieces pieces, const CurvedPiece& all, const Visit& visit) {
     }
 }
 
-// Least squares of the relative error; nothing if that error is too large.
+// Returns the cubic with the least squared relative error, if all errors are <= curve_tolerance.
 std::optional<CurvedPiece> merged(Pieces pieces) {
     CurvedPiece all{
         {pieces.front().from, pieces.back().to, pieces.front().at_from, pieces.back().at_to}};

@@ -6,25 +6,24 @@
 
 namespace lamina {
 
-// Abilities and limits of the context: an OpenGL context (gl::Context fills this in) or the engine
-// `cpu` (cpu_capabilities()).
+// Abilities and limits of an OpenGL context (gl::Context) or the cpu engine (cpu_capabilities()).
 struct Capabilities {
     std::string renderer;  // GL_RENDERER, with how the context was made: "OSMesa: llvmpipe (...)"
-    int threads = 0;       // of the engine `cpu`; they do not change the picture
+    int threads = 0;       // of the cpu engine; they do not change the picture
     bool software = true;  // no GPU behind it
-    bool cpu = false;      // the engine `cpu`
+    bool cpu = false;      // the cpu engine, not OpenGL
     int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
     int max_3d_texture_size = 0;     // GL_MAX_3D_TEXTURE_SIZE
     int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS
     int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
     bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch
-    // Size of the largest texture. The limits that OpenGL reports are not reliable
+    // Largest texture that is made. The limits that OpenGL reports are not reliable
     // (docs/numerics.md, section 2).
     std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;
-    // As measured: linear filtering of R32F has errors below 1e-6 (on llvmpipe, not on GPUs).
+    // Measured: linear filtering of R32F has errors below 1e-6 (true on llvmpipe, not on GPUs).
     bool exact_float_filter = false;
-    // As measured: the filters of R8, R16 and R32F are as good as weights rounded to 8 bits. Trials
-    // of filters assume such weights. It matters only if exact_float_filter is false.
+    // Measured: the filters of R8, R16 and R32F are as good as weights rounded to 8 bits, which
+    // trials of filters assume. It matters only if exact_float_filter is false.
     bool eight_bit_filter = false;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What planners choose if a scene leaves it open: light, slabs, target, classification, table and
-// tree.
+// The choices that scenes leave to planners: light, slabs, target, classification, table, tree.
 #pragma once
 
 #include <optional>
@@ -19,60 +18,60 @@ namespace lamina {
 // Lighting of a scene as it is drawn.
 struct LightPlan {
     std::optional<Lighting> lighting;  // with the smallest gradient that is lit
-    // Bend of light above which pieces of rays are cut (slicing/cpu_light-inl.h).
+    // Largest bend of light in a piece of a ray; pieces with more are cut. The bend is the second
+    // difference of light at the piece's three nodes (docs/numerics.md, sections 10.4 and 10.5).
     double most_bend = 0;
-    double light_error = 0;  // error that this leaves, in 1/255
+    double light_error = 0;  // error that pieces with less bend may make, in 1/255
 
     friend bool operator==(const LightPlan&, const LightPlan&) = default;
 };
 
-// Plans the light of a scene. `max_color`: of the unlit picture. `cuts_rays`: tells
-// whether rays are cut at bends of light.
+// Plans the light of a scene. `max_color`: the largest colour component of the unlit picture.
+// `cuts_rays`: the method cuts rays at bends of light.
 LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays);
 
 // Returns the largest number of loop rounds that an OpenGL fragment takes, beyond those of unlit
 // scenes, to cut its ray at bends of light.
 double light_rounds(const Scene& scene, double max_color);
 
-// Returns the largest colour component that the scene may draw.
+// Returns the largest colour component that may be drawn with light. `max_color`: without light.
 double largest_drawn_color(const Scene& scene, double max_color);
 
-// Throw Error for a lit scene that the method cannot draw lit; nothing is drawn unlit instead.
+// These throw Error for a lit scene that the method cannot draw with its light.
 void check_lit_slicing(const Scene& scene);
 void check_lit_projection(const Scene& scene);
 
-// The error of slicing into so many slabs, found on rays all over the picture.
+// The error of slicing into `slabs` slabs, found on rays all over the picture.
 struct SlabTrial {
     int slabs = 1;
     double error = 0;         // Linf of colour and opacity, in 1/255
     std::int64_t rays = 0;    // number of rays that were tried
     double goal = 0;          // largest error that is allowed: slab_error_goal(), in 1/255
-    std::int64_t traced = 0;  // number of these rays that were compared with the reference tracer
-    // True: the picture's error may be larger, because the rays are those of a smaller picture, or
-    // because not all of them were traced and the tracer found a larger error than the comparison
-    // with other numbers of slabs.
+    std::int64_t traced = 0;  // rays that were compared with the reference tracer
+    // True: the picture's error may be larger, because rays are those of a smaller picture, or only
+    // some were traced, and the tracer found more than comparing with other numbers of slabs did.
     bool doubtful = false;
     bool keeps_goal() const { return error <= goal; }
 
     friend bool operator==(const SlabTrial&, const SlabTrial&) = default;
 };
 
-// Numbers of slabs that were tried if the scene has "auto" (slicing/slab_trials.h tries them).
+// Trials of several numbers of slabs, for automatic choices (slicing/slab_trials.h makes them).
 struct SampleTrials {
-    // For "samples": "auto"; otherwise empty.
+    // Trials for "samples": "auto"; otherwise empty.
     std::vector<SlabTrial> exact;
-    // For "filter": "auto", with filter weights rounded to 8 bits as in texture units. If the
-    // number of slabs is given, the error is that of the weights alone.
+    // Trials for "filter": "auto", with filter weights rounded to 8 bits as in texture units;
+    // otherwise empty. If the scene gives the slabs, their error is that of the weights alone.
     std::vector<SlabTrial> hardware;
 };
 
 // Returns the number of slabs, 1 .. max_slabs, that makes `slabs` slabs per voxel along the view.
 int slabs_per_voxel(const Facts& facts, double slabs);
 
-// Returns the largest error, in 1/255, that a trial of an automatic number of slabs may find.
-// Automatic compositing takes its share of max_error first. The goal is stricter if only `rays` of
-// the picture's rays were tried, because the largest error of all rays is then larger than the one
-// found. `max_color` and `slabs` matter if the target is automatic, too.
+// Returns the goal of the trials of an automatic number of slabs: the largest error, in 1/255, that
+// they may find. Automatic compositing takes its share of max_error first. The goal is stricter if
+// only `rays` of the picture's rays are tried, because the largest error of all rays is then larger
+// than the one found. `max_color` and `slabs` matter if the target is automatic, too.
 double slab_error_goal(const Scene& scene, double max_color, int slabs, double rays);
 
 // Tells whether the errors fall with about the second power of the number of slabs, as for smooth
@@ -88,10 +87,11 @@ SlabTrial chosen_slabs(const Facts& facts, const SampleTrials& trials);
 // units keeps its goal, if any does.
 std::optional<SlabTrial> slabs_of_hardware_filter(const SampleTrials& trials);
 
-// Share of max_error by which an automatic target may round. It is small, so that the remaining
-// bound hardly needs more slabs (their error falls with the square of their number).
+// Share of max_error by which an automatic target may round. It is so small that slabs, which get
+// the rest of max_error, need hardly be more (their error falls with the square of their number).
 inline constexpr double target_share = 0.15;
 
+// A target and why it is taken.
 struct TargetChoice {
     Target target = Target::float32;
     std::string reason;  // empty if the scene names the target
@@ -113,6 +113,7 @@ Scene with_chosen_target(Scene scene, Target target);
 // length of a cell jumps by less than .2 (docs/precision.md, "Exact segments").
 inline constexpr double exact_segment_error = 0.05;
 
+// A classification and why it is taken.
 struct ClassificationChoice {
     Classification classification = Classification::post;  // not automatic
     int slabs = 1;       // for exact segments if the scene names none
@@ -120,30 +121,30 @@ struct ClassificationChoice {
 };
 
 // Makes the choice of "classification": "auto" for slicing: exact segments, unless the context's
-// loops are too short for them or `trials` found few enough slabs that are quicker
-// (slicing/slab_trials.h). Throws Error if the filter or the number of slabs cannot do what the
-// scene asks for.
+// loops are too short for them or `trials` found few enough quicker slabs (slicing/slab_trials.h).
+// Throws Error if the filter or the number of slabs cannot do what the scene asks for.
 ClassificationChoice choose_classification(const Scene& scene, const Facts& facts,
                                            const Capabilities& capabilities,
                                            const SampleTrials& trials = {});
 
-// Largest number of post-classified slabs a voxel that take less of a frame than exact segments:
-// measured, these take as long as 2.7 or more (docs/precision.md).
+// Largest number of post-classified slabs a voxel that take less time than exact segments: these
+// take, as measured, as long as 2.7 slabs a voxel or more (docs/precision.md).
 inline constexpr double quicker_slabs_per_voxel = 2;
 
-// Tells whether trials may find slabs that are quicker than the exact segments which "auto"
-// chooses: not for targets whose error grows with the number of slabs.
+// Tells whether trials may find slabs that are quicker than the exact segments which "auto" would
+// choose. Never for targets whose error grows with the number of slabs.
 bool may_be_quicker(const Scene& scene);
 
-// Gives the scene a classification and a number of slabs: that of the tree or of the choice,
-// because with exact segments all numbers are equally good.
+// Gives the scene the chosen classification and, for exact segments, a number of slabs: the scene's
+// own, that of its tree, or the choice's. With exact segments all numbers are equally good.
 Scene with_classification(Scene scene, const ClassificationChoice& choice);
 
-// llvmpipe silently ends all loops of a fragment after 65535 rounds together
-// (LP_MAX_TGSI_LOOP_ITERATIONS); other drivers have no such limit.
+// llvmpipe silently ends the loops of a fragment after 65535 rounds in all
+// (LP_MAX_TGSI_LOOP_ITERATIONS); other drivers have no such limit. The next three functions respect
+// this.
 
-// Returns the number of slabs that one fragment can march through. With exact segments, for `slabs`
-// slabs, at least least_exact_slabs().
+// Returns the largest number of slabs that one fragment can march through. With exact segments it
+// is of `slabs` slabs, at least least_exact_slabs().
 int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                        int slabs);
 
@@ -151,37 +152,35 @@ int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilitie
 // the cells of each.
 int least_exact_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
 
-// Returns the least render.max_error to which one fragment can cut a lit ray; 0 if nothing is
-// limited.
+// Returns the least render.max_error that one fragment can keep with light, for which it cuts its
+// ray; 0 if the context has no such limit.
 double least_lit_error(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
 
 // Share of max_error that a table may add to the picture's error.
 inline constexpr double table_share = 0.1;
 
 // Largest optical depth of a segment for which a table of a single layer, the limit of short
-// segments, is enough. The front half of a segment of depth D weighs 1/2 + D/12 + O(D^3). So the
-// colour of a ray is then off by less than depth / 12 of the colour's change within a segment, at
-// most .5 / 255.
+// segments, is enough. The front half of a segment of depth D weighs 1/2 + D/12 + O(D^3), so a
+// ray's colour is off by less than D / 12 of its change within a segment, at most .5 / 255.
 inline constexpr double short_depth = 0.02;
 
-// Gets the table that the plan's request asks for, from the cache or built.
+// Sets table.built to the table that its request asks for, from the cache or newly built.
 void get_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables);
 
 // Returns the largest error of a ray's colour, in 1/255, that the built table makes on
 // Facts::scalar_rays cut into `slabs` segments. Opacity is exact.
 double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& table);
 
-// Chooses the scalar nodes and the lengths of a coloured table whose range and max_length are set.
-// Among a few sizes it takes the coarsest that keeps the error within table_share of max_error; if
-// none does, the one with the least error found. `depth`: the largest optical depth of a segment,
-// or 0 if the limit of short segments is enough for all.
+// Chooses the scalar nodes and lengths of a coloured table with range and max_length: the coarsest
+// of a few sizes that keeps the error within table_share of max_error, or else that with the least.
+// `depth`: a segment's largest optical depth; 0 if the limit of short segments is enough.
 void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth, TablePlan& table,
                   TableCache& tables);
 
-// Takes the table that the scene asks for, over the range that is set. If the longest segment of
-// this view, of `longest` world units, is longer than that table knows, the table is extended, with
-// layers as close, for all views of such a camera. The table is built, and its error measured, if
-// there are Facts::scalar_rays.
+// Takes the table that the scene asks for, over the range that is already set. If the longest
+// segment of this view, of `longest` world units, exceeds the longest one of that table, the table
+// is extended for all views of such a camera, with layers as close as the scene asks for. The table
+// is built, and its error measured, if there are Facts::scalar_rays.
 void take_table(const Scene& scene, const Facts& facts, int slabs, double longest, double unit,
                 TablePlan& table, TableCache& tables);
 
@@ -196,32 +195,36 @@ struct TreePlan {
     friend bool operator==(const TreePlan&, const TreePlan&) = default;
 };
 
-// Facts that the choice of "tree": "auto" depends on.
+// The facts on which the choice of "tree": "auto" depends.
 struct TreeQuestion {
     Target target = Target::float32;
     Emulation emulation;
     int slabs = 1;
-    int visible_slabs = 1;  // largest number of visible slabs that are composited on one ray
+    int visible_slabs = 1;  // largest number of slabs that are composited on one ray and show
     Order order = Order::back_to_front;
-    std::optional<Dither> dither;  // rounds opacity to codes
-    double largest_color = 1;      // largest colour component of what is composited
+    std::optional<Dither> dither;  // that rounds opacity to codes
+    double largest_color = 1;      // largest colour component that is composited
     double max_error = 1;          // in 1/255, as the scene has it
     double slab_error = 0;  // the share of max_error that the slabs were found to use, in 1/255
 };
 
+// A tree or none, and why.
 struct TreeChoice {
     std::optional<TreePlan> tree;  // none: slabs are blended one after the other
-    // In 1/255, relative to an exact compositing of these slabs; none for a tree that was given.
+    // Bound on the error of compositing, in 1/255, relative to an exact compositing of these slabs;
+    // none for a tree that was given.
     std::optional<double> error_bound;
     std::string reason;
 };
 
-// Bounds on the error of the picture, in 1/255 (docs/precision.md derives them).
+// These return bounds on the error of compositing, in 1/255 (docs/precision.md derives them): by
+// blending, and by one node computed in float.
 double straight_error_bound(const TreeQuestion& question);
 double one_level_error_bound(const TreeQuestion& question);
 
-// Bounds the error of a plan's compositing by blending (no tree), or by any tree whose nodes' code
-// has such a bound: the minimax code of shader nodes. Otherwise none.
+// Returns a bound on the error of a plan's compositing, in 1/255: by blending if there is no tree,
+// or by shader nodes. None for a tree with several levels whose code has no such bound (only
+// minimax has one), and for fixed-point nodes.
 std::optional<double> rounding_bound(const TreeQuestion& question,
                                      const std::optional<TreePlan>& tree);
 
@@ -230,13 +233,11 @@ std::optional<double> rounding_bound(const TreeQuestion& question,
 // if compositing alone exceeds max_error and the scene asks for another target than float32.
 TreeChoice choose_tree(const TreeQuestion& question);
 
-// Throws Error if a tree whose factors the scene gives cannot be drawn. `single_color`: everything
-// visible has one colour.
+// Throws Error if the scene's own tree cannot be drawn. `single_color`: all visible has one colour.
 void check_slice_tree(const Scene& scene, bool single_color);
 void check_project_tree(const Scene& scene, bool single_color);
 
-// Throws Error if a leaf has more than `most` slabs, the limit of the context's loops
-//.
+// Throws Error if a leaf has more than `most` slabs, the limit of the context's loops.
 void check_leaves(const Scene& scene, const TreeShape& shape, int most,
                   const Capabilities& capabilities);
 

@@ -17,33 +17,33 @@
 namespace lamina {
 namespace {
 
-// Shares of max_error: for kinks and bends, and for light as a whole, including pieces that are too
-// faint to be examined.
+// Shares of max_error for light: its kinks and bends; in all, with pieces too faint to examine.
 constexpr double bend_share = 0.5, light_share = 0.75;
-// Share of a bend that the rule of three nodes misses of a kink between them (docs/numerics.md,
-// section 10.4).
+// Largest share of a kink's bend that Gauss' rule of three nodes misses if the kink lies between
+// nodes (docs/numerics.md, section 10.4).
 constexpr double missed_of_kink = 0.045;
 const glm::dvec3 anywhere(0, 0, 1);  // a direction to the eye
 
-// Returns the bend that a piece may have (docs/numerics.md, equation (10.4)). A ray's opacity is at
-// most 1: if each of its pieces misses no more than its share of what it shows, so does the ray.
+// Returns the bend of light that a piece of a ray may have (docs/numerics.md, equation (10.4)). A
+// ray's opacity is at most 1: if each piece misses only this share of its colour, so does the ray.
 double most_bend(const Scene& scene, double max_color) {
     return bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);
 }
 
-constexpr int most_rounds = 65535;
+constexpr int most_rounds = 65535;  // rounds of llvmpipe's loops (plan/choices.h)
 constexpr int spare_rounds = 64;    // rounds for everything else that a fragment does
-constexpr int search_cells = 1024;  // parts of the range at which searches for an interval start
-// Rays end at an optical depth of 20.7. Cells deeper than .75 are cut: a piece at least as deep as
-// half of that takes up to 20 rounds to find and up to 20 more pieces before it, if extinction
-// rises from 0 (shaders/slicing/cut_cell.glsl).
+constexpr int search_cells = 1024;  // equal cells of the range, each with a first interval to try
+// Rounds for cutting deep cells: rays end at an optical depth of 20.7, and cells deeper than .75
+// are cut. A piece at least half as deep takes up to 20 rounds to find, and up to 20 pieces before
+// it if extinction rises from 0 (shaders/slicing/cut_cell.glsl).
 constexpr int deep_part_rounds = 8192;
 
 bool is_unlimited(const Capabilities& capabilities) {
     return !capabilities.software || capabilities.cpu;
 }
 
-// Returns the rounds of one search: knots in the fullest cell, and one to see that it is done.
+// Returns the rounds of one search for an interval: the knots in the cell (of search_cells) with
+// the most of them, and one to see that it is done.
 int search_rounds(const Scene& scene, const Facts& facts) {
     const ValueRange range = drawn_range(*scene.transfer_function, facts.range);
     assert(range.hi > range.lo);
@@ -56,9 +56,9 @@ int search_rounds(const Scene& scene, const Facts& facts) {
     return 1 + *std::ranges::max_element(knots);
 }
 
-// Counts the slab, a leap, light in the middle or at up to two ends, and for tables four searches
-// and up to three pieces (shaders/slicing/slab_march.glsl, slab_light.glsl,
-// shaders/preintegration/knot_table.glsl).
+// Returns the loop rounds of a slab: counts the slab, a leap, light in the middle or at up to two
+// ends, and for tables four searches and up to three pieces (shaders/slicing/slab_march.glsl,
+// slab_light.glsl, shaders/preintegration/knot_table.glsl).
 int rounds_of_slab(const Scene& scene, const Facts& facts) {
     const int search = search_rounds(scene, facts);
     const bool table = scene.slice.classification == Classification::preintegrated;
@@ -66,17 +66,16 @@ int rounds_of_slab(const Scene& scene, const Facts& facts) {
     return 2 + light + (table ? 4 * search + 4 : search);
 }
 
-// Counts the cell, a leap, its light, two searches, and if knots are crossed one for the cell and
-// up to three crossings of each (a cubic has three monotone pieces).
+// Returns the loop rounds of a cell: counts the cell, a leap, its light, two searches, and if there
+// are knots one for the cell and up to three crossings of each (a cubic has three monotone pieces).
 double rounds_of_cell(const Scene& scene, const Facts& facts) {
     const auto pieces = 3 * (static_cast<double>(facts.knots) + 1);
     const int light = scene.lighting ? 1 : 0;
     return 2 + light + 2 * search_rounds(scene, facts) + (facts.knots > 0 ? 1 + pieces : 0);
 }
 
-// Returns the largest number of cells that a ray crosses between two planes that are `depth` apart:
-// one for each plane of the grid, and the first. A direction's sum over axes is at most its length
-// by Cauchy and Schwarz.
+// Bounds the number of cells that a ray crosses between two planes `depth` apart: one for each grid
+// plane, and the first. A direction's component sum is bounded by its length (Cauchy and Schwarz).
 double most_cells(const Facts& facts, double depth) {
     const glm::dvec3 box = facts.occupied.max - facts.occupied.min;
     glm::dvec3 cells_per_unit;
@@ -99,8 +98,8 @@ double exact_rounds(const Scene& scene, const Facts& facts, double share) {
            most_cells(facts, depth) * rounds_of_cell(scene, facts);
 }
 
-// Returns the number of slabs of exact segments: the scene's own, that of a tree, or `least`, which
-// the context's loops need.
+// Returns the number of slabs of a scene with exact segments: the scene's own, that of its tree, or
+// `least`, which the context's loops need.
 int slabs_of(const Scene& scene, int least) {
     const SliceSettings& slice = scene.slice;
     if (slice.samples.is_given()) return *slice.samples;
@@ -161,8 +160,8 @@ void check_lit_slicing(const Scene& scene) {
     fail("{}: lighting.smallest_gradient: has not been chosen from the data", scene.file.string());
 }
 
-// The two colourings interpolate colours, or one opacity, between the vertices of a fan: they have
-// no place for a gradient. Neither has a table of segments.
+// The colourings that mix colours interpolate colours, or one opacity, between the vertices of a
+// fan: they have no place for a gradient. Neither has a table of segments.
 void check_lit_projection(const Scene& scene) {
     if (!scene.lighting) return;
     const ProjectSettings& project = scene.project;
@@ -237,7 +236,7 @@ ClassificationChoice choose_classification(const Scene& scene, const Facts& fact
     }
     if (scene.slice.filter == Filter::hardware)
         return {Classification::post, 1, "exact segments have no use for the hardware's filter"};
-    // If neither samples nor a tree are asked for, segments get as short as they must be. A
+    // If the scene asks for neither samples nor a tree, segments get as short as they must be. A
     // tree's leaves may be longer than a slab.
     if (slabs_of(scene, least) < least || (scene.slice.tree && least > 1)) {
         return {Classification::post, 1,

@@ -13,20 +13,20 @@ namespace lamina {
 // Throws Error if the picture does not fit the context's render targets.
 void check_limits(const Scene& scene, const Capabilities& capabilities);
 
-// The unit that computes OVER on the target's pixels.
+// What computes OVER on the target's pixels.
 enum class Blending {
     native,   // the blending unit
     fetch,    // the fragment program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
     barrier,  // the fragment program, which reads the target as a texture, with a barrier between
               // layers
-    tiles,    // the engine `cpu`, which holds the pixel
+    tiles,    // the cpu engine, which holds the pixel
 };
 
-// Returns the way in which a context does the compositing that its blending unit cannot do.
+// Returns how a context composites what its blending unit cannot.
 Blending programmable_blending(const Capabilities& capabilities);
 const char* name_of(Blending blending);
 
-// Returns the dithering of so many slabs, with its period chosen if that is automatic.
+// Returns the dithering for `slabs` slabs, with its period chosen if that is automatic.
 Dither dither_of(const DitherSettings& settings, int slabs);
 
 // How fragments are composited.

@@ -107,7 +107,7 @@ std::string text_of_table(const ProjectPlan& project) {
                        name_of(table.store), name_of(table.format));
 }
 
-// Includes a sentence on what a picture of one colour would leave out.
+// Includes a clause on what would be omitted without light.
 std::string text_of_light(const ProjectPlan& project, const MeshFacts& facts) {
     std::string text = fmt::format("{} lights, gradients at the points; off by up to {:.2g} / 255",
                                    project.lighting->lights.size(), project.light_error);

@@ -38,7 +38,8 @@ double bytes_per_pixel(Target target) {
     unreachable_enum();
 }
 
-// The engine `cpu` keeps bytes as words of four neighbours.
+// Returns the memory of the volume. The cpu engine (`tiles`) stores each sample of 8 bits with
+// three neighbours, as a word.
 double volume_bytes(const SlicePlan& plan, const Facts& facts, bool tiles) {
     if (plan.sampling == VolumeSampling::none || plan.nothing_visible) return 0;
     const auto sample = static_cast<double>(plan.float_texture ? 4 : bytes_of(facts.type));
@@ -64,7 +65,7 @@ double passes_of(const SlicePlan& plan) {
     return plan.tree->nodes == NodeArithmetic::fixed ? all + plan.slabs : all;
 }
 
-// Cells that a ray crosses per voxel edge of its length: 1 along an axis, 1.7 along a diagonal.
+// Typical number of cells a ray crosses per voxel edge: 1 along an axis, 1.7 along a diagonal.
 constexpr double cells_per_voxel = 1.5;
 
 double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
@@ -77,8 +78,8 @@ double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
     return (early ? shares.box_before_opaque : shares.box) - in_one_step;
 }
 
-// A program that marches many slabs fetches each scalar once: a scalar between two slabs serves
-// both.
+// Returns the texel fetches for a segment. A program that marches many slabs fetches each scalar
+// once: a scalar between two slabs serves both.
 double fetches_per_segment(const SlicePlan& plan) {
     if (plan.sampling == VolumeSampling::none) return 0;
     const double scalars = plan.classification != Classification::preintegrated ? 1
@@ -96,7 +97,7 @@ ProjectPlan without(ProjectPlan plan, const std::string& name) {
     return plan;
 }
 
-// Returns the plan of the tracer. `unread`: data that the scene has, too, if any.
+// Returns the plan of the tracer. `unread`: the omission of data that it does not read, if any.
 Plan traced(const Scene& scene, const std::optional<Omission>& unread) {
     Plan plan;
     plan.method = scene.method;
@@ -201,8 +202,7 @@ void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
             const Plan other = plan_slicing(scene, facts, capabilities, kept, trials, tables);
             omission.saves = planned_work(other.slice, facts, scene, capabilities.cpu) - plan.work;
         } catch (const Error&) {
-            // Without this omission the context could not draw the scene at all: there is no work
-            // to compare.
+            // Without this omission nothing could be drawn: there is no work to compare.
         }
     }
 }

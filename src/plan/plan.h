@@ -81,7 +81,7 @@ struct TextureBrick {
     friend bool operator==(const TextureBrick&, const TextureBrick&) = default;
 };
 
-// Ways to integrate the fragments of a tet between its front and its back.
+// How the ray's segment between the front and the back of a tet is integrated.
 enum class SegmentSource {
     constant,   // the transfer function is constant over the mesh: no scalar is needed
     table,      // one look-up in a table with equally spaced scalars
@@ -90,18 +90,18 @@ enum class SegmentSource {
                 // (optics/segment_integral.h)
     cut_table,  // up to three look-ups in a table whose scalar nodes lie on the transfer function's
                 // points
-    analytic,   // the linear pieces between those points, each in closed form
+    analytic,   // the linear pieces of the segment, each in closed form
     mean,       // the mean of the optics at front and back: Coloring::attenuation
     vertices    // no integration: Coloring::vertex
 };
 
-// The picture that projection draws. Renderers prepare for it once.
+// The part of a projection's plan that decides the picture. A renderer prepares for it once.
 struct ProjectedPicture : CompositingPlan, LightPlan {
     SegmentSource source = SegmentSource::table;
     Interpolation interpolation = Interpolation::perspective;
     Thickness thickness = Thickness::exact;
     OrderMethod visibility = OrderMethod::exact;
-    // Tets that hide one another in rings are ordered pixel by pixel (visibility/ring_order.h).
+    // True: rings of tets that hide one another are ordered by pixel (visibility/ring_order.h).
     bool solve_rings = false;
     ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
     ProjectDither dither = ProjectDither::none;
@@ -110,7 +110,8 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
     bool scattered = false;     // the tets of a tree's leaf come from all over the mesh
     bool orthographic = false;  // rays are parallel; fragments need no division
     bool single_color = false;  // the colour is a constant of the program
-    // the setup in float32 draws a tet if float32 can find its faces
+    // True: depths on faces are found in float32 for tets for which that is exact enough. False: in
+    // double precision for all.
     bool plain = true;
     bool draw_transparent = false;  // transparent tets are drawn, too
     bool nothing_visible = false;   // no tet is drawn
@@ -118,8 +119,8 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
     // Eye-space depth of the near plane, in the plan's units, as are lengths in tables.
     double near_depth = 0;
     ValueRange range;  // scalars, [0, 1] in shaders; lo < hi
-    // The range is the window of visible scalars. Scalars may lie outside it; there the transfer
-    // function is constant.
+    // True: the range is the window of visible scalars. Scalars may lie outside it; there the
+    // transfer function is constant.
     bool windowed = false;
     TablePlan table;  // for SegmentSource::table (uniform) and ::cut_table (knots)
 
@@ -129,20 +130,21 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
     friend bool operator==(const ProjectedPicture&, const ProjectedPicture&) = default;
 };
 
-// Remarks on the projection change no picture.
+// Remarks on a projection; they change no picture.
 struct ProjectRemarks {
     std::string target_reason;  // for "target": "auto"
     MeshFacts::TrialError trial_error;
     ErrorFigure error;  // of the picture
 };
 
+// The plan of Method::project.
 struct ProjectPlan : ProjectedPicture, ProjectRemarks {
     const ProjectedPicture& picture() const { return *this; }
 };
 
 const char* name_of(SegmentSource source);
 
-// Ways in which the slicing renderer's fragments read the scalar.
+// How the slicing renderer's fragments read the scalar.
 enum class VolumeSampling {
     none,      // the transfer function is constant over the volume: no scalar is needed
     fetch,     // eight texel fetches and float arithmetic
@@ -151,7 +153,7 @@ enum class VolumeSampling {
                // hardware
 };
 
-// The picture that slicing draws, independent of the view. Renderers prepare for it once.
+// The part of a slicing plan that decides the picture in any view. Renderers prepare for it once.
 struct PlannedPicture : CompositingPlan, LightPlan {
     int slabs = 1;
     std::optional<Dither> dither;
@@ -159,31 +161,29 @@ struct PlannedPicture : CompositingPlan, LightPlan {
     Classification classification = Classification::post;
     VolumeSampling sampling = VolumeSampling::fetch;
     bool float_texture = false;  // samples normalised to their range and stored as R32F
-    // tables are read through the texture unit's filter, not by single fetches
+    // Tables are read through the texture unit's filter, not by single fetches.
     bool table_filtered = false;
     bool single_color = false;     // the colour is a constant of the program
     bool precise_rays = true;      // rays and chords in double precision
     bool nan_transparent = false;  // samples may be NaN
     int batches = 1;  // number of draws of a frame, each waited for, for progress and Ctrl-C
-    // Segments are integrated in closed form, because colour and extinction are linear in the
-    // scalar.
+    // True: segments are integrated in closed form: colour and extinction are linear in the scalar.
     bool linear = false;
-    TablePlan table;  // otherwise, for Classification::preintegrated
+    TablePlan table;  // for Classification::preintegrated, unless `linear`
     // Segments end at these planes, in the volume's index space.
     std::vector<IndexPlane> clip;
     bool constant_regions = false;  // marched rays cross constant regions in one step
     std::vector<TextureBrick> bricks;
-    // The box of the volume, in its index space, that this renderer draws of a picture that several
-    // draw together (volume_shares.h); none: all of it. Exact segments end at its faces. A slab's
-    // segment is drawn whole by the renderer whose box has its middle.
+    // The box of the volume, in its index space, that this renderer draws if several draw one
+    // picture together (volume_shares.h); none: not shared. Exact segments end at the box's faces.
+    // Other slabs' segments are drawn, uncut, by the renderer whose box holds their middle.
     std::optional<IndexBox> share;
-    // Error, in 1/255, of exact segments that follow curves between smooth points of the transfer
-    // function; 0: they follow straight pieces.
+    // Error, in 1/255, of exact segments that follow curves instead of straight pieces between
+    // smooth points of the transfer function; 0 if there are no curves.
     double curve_error = 0;
 
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
-    // Tells whether segments are integrated from the scalars at both ends and in the middle.
-    // Otherwise they take the scalar in the middle alone.
+    // Tells whether segments are integrated from their ends and middle, not from the middle alone.
     bool integrates_runs() const {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }
@@ -198,11 +198,10 @@ struct PlannedPicture : CompositingPlan, LightPlan {
 
 // The part of a plan that depends on the view, and is planned again with each camera.
 struct ViewPart {
-    // rays are parallel: all have one direction and one length per depth
+    // Rays are parallel: all have one direction and one length per depth.
     bool orthographic = false;
     bool nothing_visible = false;  // no slab is drawn
-    // Polygons cover only this box inside the volume's box. Segments are clipped to the volume's
-    // box.
+    // The box that polygons cover, inside the volume's, to which segments are clipped.
     IndexBox drawn;
     bool occupied_only = false;  // segments that come near no occupied brick are not evaluated
     // Optical depth at which marched rays end, because nothing behind it is visible.
@@ -213,43 +212,41 @@ struct ViewPart {
     friend bool operator==(const ViewPart&, const ViewPart&) = default;
 };
 
-// Remarks say why slices are drawn in this way, and which errors were found, in 1/255. They change
-// no picture.
+// Remarks on a slicing plan: reasons, and errors found, in 1/255. They change no picture.
 struct Remarks {
     std::optional<SlabTrial> slab_trial;  // the trial that was chosen, for "samples": "auto"
-    std::string filter_reason;  // for "filter": "auto", if the hardware's filter is chosen
-    // Error that the hardware's filter was found to add: for "filter": "auto" with a given number
-    // of slabs.
+    std::string filter_reason;  // for "filter": "auto", if the texture unit's filter is chosen
+    // Error found of the texture unit's filter: for "filter": "auto" with a given number of slabs.
     double filter_error = 0;
     std::string classification_reason;  // for "classification": "auto"
     std::string target_reason;          // for "target": "auto"
     std::optional<double> error_bound;  // for "tree": "auto"; tree_reason explains it
     std::string tree_reason;
-    // Bound on the error that compositing adds to that of the slabs, chosen or given; none if
-    // nothing is known.
+    // Bound on the error that compositing adds, with a chosen or given tree; none if unknown.
     std::optional<double> rounding_bound;
-    // Largest error of exact segments. A picture is linear in its colours, and so is the error at a
-    // crossing of the transfer function: it grows with the brightest colour above 1.
+    // Largest error of exact segments, in 1/255. It grows in proportion to the brightest colour
+    // above 1, because a picture is linear in its colours.
     double segment_error = exact_segment_error;
 
     friend bool operator==(const Remarks&, const Remarks&) = default;
 };
 
+// The plan of Method::slice.
 struct SlicePlan : PlannedPicture, ViewPart, Remarks {
     // Returns the measured error of slabs, filter and table, in 1/255; or that of exact segments.
     double found_error() const {
         if (integrates_cells()) return segment_error + light_error + curve_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
-    // Returns the error including the bound on roundings; unknown for slabs that the scene states,
-    // because nothing was measured.
+    // Returns the error including the bound on roundings. It is unknown if the scene gives the
+    // number of slabs, because nothing was measured.
     ErrorFigure error() const;
 
     friend bool operator==(const SlicePlan&, const SlicePlan&) = default;
 };
 
-// Returns the part of a plan that renderers prepare for: another plan with an equal part draws only
-// another view. Tables stay without what a view changes, and without their errors.
+// Returns the part of a plan that renderers prepare for, without what a view changes in its table,
+// and without the table's error. Two plans for which it is equal differ only in the view.
 PlannedPicture of_all_views(PlannedPicture picture);
 
 // Says what will run, and has the pre-integration tables that renderers look up. It is a pure
@@ -265,14 +262,12 @@ struct Plan {
     ErrorFigure error() const;
 };
 
-// Makes the plan. Throws Error if the context cannot do what the scene asks for, and names the
-// limit. `trials`: measured errors, for automatic choices. `tables`: finds the tables of earlier
-// plans; without it, all are built.
+// Makes the plan. Throws Error, naming the limit, if the context cannot do what the scene asks for.
+// `trials`: measured errors, for automatic choices. `tables`: a cache with earlier plans' tables.
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions, const SampleTrials& trials = {},
                const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
-// Makes the plan for Method::slice without the work that omissions save; quicker, for the frames of
-// a moving scene.
+// Makes a slicing plan without the work that omissions save: quicker, for frames of moving scenes.
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials,
                 const std::shared_ptr<TableCache>& tables);
@@ -285,21 +280,20 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
 std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities);
 std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities& capabilities);
 
-// Draws frames of one scene as its plan says: by slicing or projection, with OpenGL or on the CPU.
-// Its constructor prepares the data and tables that all frames share.
+// Draws frames of one scene as its plan says: by slicing or projection, with OpenGL or by the cpu
+// engine. Its constructor prepares the data and tables that all frames share.
 class FrameRenderer {
   public:
     virtual ~FrameRenderer() = default;
 
     // Takes another plan of the same scene and size for further frames. Returns false, and changes
-    // nothing, if that plan differs in more than belongs to one view.
+    // nothing, if that plan needs other preparations: if it differs in more than the view.
     virtual bool take(const Plan& plan) = 0;
     // Draws a frame, which is complete on return. Ctrl-C ends it between steps; `progress` advances
     // by step_count() in all.
     virtual void draw(const View& view, Progress* progress = nullptr) = 0;
     virtual int step_count() const = 0;
-    // Returns the last frame: associated, linear, before the background. The one with `image` takes
-    // no memory if that has the frame's size.
+    // Returns the last frame: associated, linear, before the background. Reuses `image` if it fits.
     virtual void read(Image& image) const = 0;
     Image read() const {
         Image image;
@@ -307,13 +301,11 @@ class FrameRenderer {
         return image;
     }
 
-    // Returns the durations of preparing and of the last frame, under the names that statistics
-    // print.
+    // Returns durations of the preparations and the last frame's stages, by their printed names.
     virtual std::map<std::string, double> stages_ms() const = 0;
     // Returns the number of fragments of the last frame; 0 with OpenGL, where queries count them.
     virtual std::int64_t fragments() const { return 0; }
-    // Returns the host memory that the renderer takes beside the data; 0 with OpenGL, which has its
-    // own memory.
+    // Returns the host memory taken beside the data; 0 with OpenGL, which has its own memory.
     virtual std::int64_t byte_count() const { return 0; }
 };
 

@@ -25,58 +25,58 @@
 namespace lamina {
 namespace {
 
-// Distance of the near plane from the eye's, as a share of the mesh's diagonal (docs/numerics.md,
+// Distance of the near plane from the eye, as a share of the mesh's diagonal (docs/numerics.md,
 // section 7). Scene files have no near plane.
 constexpr double near_share = 1e-6;
 
-// Error that float32 arithmetic adds to a picture, in 1/255: as much as for exact segments of
-// volumes (plan/choices.h).
+// Error of float32 arithmetic, in 1/255: as for exact segments of volumes (plan/choices.h).
 constexpr double float_error = 0.05;
 
-// Share of a tet's longest edge by which faces are assumed to be out of their places, at both ends
-// of a segment. The bound is 9e-6 (docs/stability.md); planes of doubles relative to a near pixel
-// keep most faces far below it.
+// Share of a tet's longest edge by which faces at both ends of a segment are assumed to be out of
+// place. The bound is 9e-6 (docs/stability.md); planes of doubles relative to a near pixel keep
+// most faces far below it.
 constexpr double placing_share = 1e-6;
 
 // Rounding of scalars, as a share of the window: scalars and the transfer function's points are
-// float32 numbers of the window, rounded some times by at most half of 2^-23 of it. Pieces of tets
-// have windows of their own.
+// float32 numbers of the window, rounded a few times by at most half of 2^-23 of it. For pieces of
+// tets scalars are normalised to the piece, and this does not apply.
 constexpr double scalar_rounding = 0x1p-22;
 
-// Error, in 1/255, above which none is stated: few rays tell little of pictures that are so far
-// off.
+// Error, in 1/255, above which no error is stated, because a few rays tell little of pictures that
+// are so far off.
 constexpr double most_figure = 8;
 
 // Error that a table may add to the picture's, in 1/255.
 constexpr double most_segment_error = 0.5;
 
-// Factor by which the rest of the picture may be worse than the sample on which a table is tried.
+// Factor by which other rays of the picture may be worse than the trial rays.
 constexpr double sampling_margin = 1.25;
 
-// Largest average number of pieces of a visible tet: if the transfer function's points cut tets
-// into more, a table that knows the transfer function is faster.
+// Largest average number of pieces of a visible tet, cut at the transfer function's points, with
+// which tets are cut; with more pieces a table that knows the transfer function is faster.
 constexpr std::int64_t most_parts = 8;
 
 // Number of points of a transfer function above which a table takes longer to build than it saves.
 constexpr std::size_t most_table_points = 200;
 
-// Number of tets below which faces are always found in double, which takes about a third longer:
-// one tet may fill the picture, with a face that many rays meet at a grazing angle.
+// Number of tets below which depths on faces are always found in double precision (about a third
+// slower): one tet may fill the picture, with a face that many rays meet at a grazing angle.
 constexpr std::int64_t fewest_plain_tets = 10000;
 
-// Ratio of the whole range to the window of visible scalars from which on scalars are normalised to
-// the window: below it no more than 3 of float32's 24 bits are lost.
+// Ratio of the range of scalars to the window of visible ones from which on scalars are normalised
+// to the window. Below this ratio no more than 3 of float32's 24 bits are lost.
 constexpr double least_narrowing = 8;
 
 bool is_far_narrower(const ValueRange& window, const ValueRange& range) {
     return (range.hi - range.lo) / least_narrowing > window.hi - window.lo;
 }
 
-// Ratio of the whole range to most pieces of the transfer function from which on tets are cut, into
-// however many pieces, if no window holds these: float32 would have 1e-3 of a piece.
+// Ratio of the range of scalars to most pieces of the transfer function from which on tets are cut,
+// into however many pieces, unless a window is used: float32 would resolve only 1e-3 of a piece.
 constexpr double narrow_pieces = 0x1p12;
 
-// Tells whether most visible pieces are that narrow compared with the range.
+// Tells whether most visible pieces of the transfer function are narrower than the range by this
+// ratio.
 bool has_narrow_pieces(const TransferFunction& transfer_function, const ValueRange& range) {
     std::vector<double> widths;
     for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
@@ -167,8 +167,8 @@ struct ProjectPlanner {
             plan.blending = programmable_blending(capabilities);
         if (settings.tree) choose_tree();
         choose_source();
-        // A tree's leaves take a fixed number of tets each, so leaving out transparent tets would
-        // be another picture.
+        // With a tree, transparent cell fragments are never drawn, even with --no-omit: leaves have
+        // a fixed share of the cell fragments, so drawing more of them would make another picture.
         if (plan.source == SegmentSource::parts && settings.tree) plan.draw_transparent = false;
         plan.error = picture_error();
         Plan made;
@@ -178,7 +178,8 @@ struct ProjectPlanner {
         return made;
     }
 
-    // Products of four lengths decide the order of tets.
+    // Throws Error if the mesh is so small or large that products of four lengths, which decide the
+    // order of tets, would leave the range of double.
     void check_size() const {
         constexpr double least = 1e-60, most = 1e60;
         if (facts.diagonal == 0 || (facts.diagonal >= least && facts.diagonal <= most)) return;
@@ -186,14 +187,13 @@ struct ProjectPlanner {
              name_of_mesh(scene), facts.diagonal, least, most);
     }
 
-    // Returns `linear` for Shirley's and Tuchman's triangles: these interpolate colour and opacity
-    // themselves, which belong to no depth.
+    // Returns `linear` for Shirley's and Tuchman's triangles: their values have no single depth.
     Interpolation interpolation() const {
         return settings.coloring == Coloring::vertex ? Interpolation::linear
                                                      : settings.interpolation;
     }
 
-    // A silhouette cannot carry values that are interpolated between the vertices of a fan.
+    // Returns fans if values are interpolated between vertices, which silhouettes cannot do.
     ProjectGeometry geometry() const {
         const bool fan =
             settings.interpolation == Interpolation::linear || mixes_colors(settings.coloring);
@@ -282,8 +282,8 @@ struct ProjectPlanner {
         }
     }
 
-    // No error is measured of pictures that are wrong on purpose, to be studied, nor of triangles,
-    // whose corners lie on a rasteriser's grid; and overlapping tets have no right picture.
+    // Returns the error, or none for pictures that are wrong on purpose; for triangles, whose
+    // corners lie on a rasteriser's grid; and for overlapping tets, which have no right picture.
     ErrorFigure picture_error() const {
         if (plan.nothing_visible) return {ErrorKind::derived, 0, 0};
         const bool integrated =
@@ -346,7 +346,7 @@ struct ProjectPlanner {
         if (plan.windowed) plan.range = facts.window;
     }
 
-    // Returns the exact integral of a segment whose length is in the plan's units.
+    // Returns the integral of a segment whose length is in the plan's units.
     using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
 
     Lookup exact_integral() const {
@@ -356,8 +356,8 @@ struct ProjectPlanner {
     }
 
     // Returns errors on the trial rays, in 1/255: the largest difference in colour or opacity that
-    // a way of integrating tets makes, with its scalars rounded, and the additional difference if
-    // faces are not quite in their places. Without rays these are the errors found last.
+    // a lookup makes, with its scalars rounded, and the additional difference if faces are slightly
+    // out of place. Without trial rays, returns the errors found last.
     MeshFacts::TrialError error_of(const Lookup& lookup) const {
         if (facts.trial_rays.empty()) return facts.last_error;
         std::vector<RayError> errors(facts.trial_rays.size());
@@ -407,7 +407,8 @@ struct ProjectPlanner {
         return {segments, segments + largest_of(exact - moved)};
     }
 
-    // A tet of one value stays on its side of a step: its value is rounded as the step is.
+    // Returns a segment with its scalars moved by a rounding. One with a single scalar is not
+    // moved: it stays on its side of a step, because both are rounded alike.
     static MeshFacts::Run rounded(MeshFacts::Run run, double rounding) {
         if (run.front == run.back) return run;
         run.front += rounding;
@@ -452,8 +453,8 @@ struct ProjectPlanner {
         }
     }
 
-    // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh that
-    // has a value next to one would be off by several codes.
+    // Tries a table whose nodes lie on the transfer function's points; false if its error is too
+    // large. (Equally spaced nodes err by several codes in regions whose value is next to a point.)
     bool try_cut_table() {
         if (scene.transfer_function->knots().size() > most_table_points) return false;
         const double depth = facts.max_extinction * facts.longest_edge;
@@ -470,7 +471,7 @@ struct ProjectPlanner {
         return false;
     }
 
-    // Integrates pieces of tets as they are drawn (projection/tet_run-inl.h).
+    // Returns the lookup that integrates pieces of tets as drawn (projection/tet_run-inl.h).
     Lookup integral_of_parts() const {
         return [this, &weights = FrontWeightTable::get()](const MeshFacts::Run& run) {
             SegmentIntegral segment;

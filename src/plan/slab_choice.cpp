@@ -11,21 +11,21 @@
 namespace lamina {
 namespace {
 
-// Share of the goal that is used: the pictures and rays that trials are compared with have errors,
-// too, and the context that draws the picture rounds differently.
+// Share of the allowed error that trials may use: the pictures and rays that trials are compared
+// with have errors, too, and the context that draws the picture rounds differently.
 constexpr double used_share = 0.96;
 
-// Exponent of the growth of the largest error with the number of rays: on a quarter of a picture's
-// rays it was up to 1.37 times below that on all (docs/precision.md).
+// Exponent with which the largest error grows with the number of rays: on a quarter of a picture's
+// rays the largest error was down to 1 / 1.37 of that on all (docs/precision.md).
 constexpr double rays_power = 0.25;
 
-// Factor on the error that more slabs must gain to be worth their time.
+// Factor by which more slabs must reduce the error to be worth their time.
 constexpr double near_least = 1.2;
 
-// Powers of the number of slabs with which errors of second order fall.
+// Range of the powers of the number of slabs with which errors of second order fall.
 constexpr double least_order = 1.5, most_order = 3;
 
-// Ascending bytes; of the two with equal bytes, the one with the smaller steps first.
+// Targets by ascending bytes a pixel; of two with equal bytes, the one with smaller steps first.
 constexpr std::array smaller_targets{Target::fixed8, Target::fixed16, Target::float16};
 
 TargetChoice smallest_target(TreeQuestion question) {

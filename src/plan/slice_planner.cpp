@@ -23,17 +23,17 @@ std::uint64_t bytes_of_brick(const TextureBrick& brick, std::uint64_t texel) {
            static_cast<std::uint64_t>(brick.size[2]) * texel;
 }
 
-// Number of draws of a software frame, which may take a minute, so that it can show progress and be
-// stopped. It costs no time that could be measured.
+// Number of draws into which a frame in software is divided, so that it, which may take a minute,
+// can show progress and be stopped. The division costs no measurable time.
 constexpr int software_batches = 64;
 
-// Ratio of a box's sides whose digits rays lose in float32; from it on they are computed in double.
-// In software, doubles cost some 12 % of a frame.
+// Ratio of the volume's longest to its shortest side from which on rays are computed in double
+// precision, because float32 loses too many digits. In software, doubles cost some 12 % of a frame.
 constexpr double thin_box_ratio = 20;
 
-// Shares of a ray that must be empty for leaps over empty bricks to pay. In OpenGL (llvmpipe,
-// post-classified) hydrogen, .6 % of which is empty, took 1.2 times as long with them, and neghip,
-// 30 %, .9 times.
+// Least share of the rays' length in the box that must be empty for leaps over empty bricks to pay,
+// with the cpu engine and with OpenGL. In OpenGL (llvmpipe, post-classified) hydrogen, .6 % of
+// which is empty, took 1.2 times as long with them, and neghip, 30 %, .9 times.
 constexpr double least_empty_in_tiles = 0.01, least_empty_in_shaders = 0.2;
 
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
@@ -130,8 +130,9 @@ struct SlicePlanner {
         return omissions.leave_out(idle > 0, "clip_planes", reason) ? cutting : facts.clip;
     }
 
-    // Returns whether the texture unit's filter is taken: if it was measured to be no worse than
-    // the one that was tried. (Nothing was tried with tables: they keep their fetches.)
+    // Sets the slabs; returns true if the texture unit's filter is taken: if the scene asks for it,
+    // or if trials chose it and it was measured to be no worse than the filter that was tried.
+    // (Nothing was tried with tables: they keep their fetches.)
     bool choose_slabs(SlicePlan& slice) const {
         const bool given = scene.slice.samples.is_given();
         if (given) {
@@ -176,9 +177,8 @@ struct SlicePlanner {
         return filtered ? VolumeSampling::filtered : VolumeSampling::fetch;
     }
 
-    // Returns the error, in 1/255, of curves in place of straight pieces (optics/pieces.h).
-    // It is 0, and there are none, if no point of the transfer function is smooth or max_error is
-    // too small.
+    // Returns the error, in 1/255, of curves in place of straight pieces (optics/pieces.h); 0 if
+    // there are none: no smooth point, too small a max_error, or OpenGL.
     double choose_curves() {
         const double error = largest_curve_error * std::max(facts.max_color, 1.0);
         const bool pay = capabilities.cpu && facts.curves != facts.pieces &&
@@ -233,8 +233,7 @@ struct SlicePlanner {
         refine_table(scene, facts, slice.slabs, limit_alone ? 0 : depth, slice.table, tables);
     }
 
-    // OpenGL keeps the gradients of lit volumes in textures, too; these then have the largest
-    // texels.
+    // Returns the bricks. For lit volumes OpenGL's textures of gradients have the largest texels.
     std::vector<TextureBrick> choose_bricks(VolumeSampling sampling, bool float_texture) const {
         if (sampling == VolumeSampling::none) return {TextureBrick{{0, 0, 0}, facts.grid.size}};
         const std::uint64_t sample_bytes = float_texture ? 4 : bytes_of(facts.type);
@@ -265,8 +264,8 @@ struct SlicePlanner {
         return question;
     }
 
-    // Returns the scene's tree, or the choice of an automatic one, or for float32 the one that
-    // marches as many slabs in registers as it can.
+    // Returns the scene's tree, or the choice of an automatic one, or for float32 a tree whose
+    // nodes march as many slabs in registers as the context's loops can.
     TreeChoice choose_compositing(const TreeQuestion& question) {
         const int slabs = question.slabs;
         const auto most_marched = [&] {
@@ -344,9 +343,9 @@ struct SlicePlanner {
         return view;
     }
 
-    // Skips empty bricks if a large enough share is empty. Two empty bricks with NaN between them
-    // count as visible: the scalar may jump across a visible value there, and a segment from one
-    // into the other would show it.
+    // Tells whether rays leap over empty bricks: if enough of their length is empty. Pre-integrated
+    // volumes with NaN are excluded: between two empty bricks with NaN between them the scalar may
+    // jump across a visible value, and a segment from one into the other would show it.
     bool skips_bricks(bool marched) const {
         const bool jumps = facts.non_finite > 0 && classification == Classification::preintegrated;
         const std::int64_t longest = std::ranges::max(facts.occupied_bricks.count);
@@ -360,8 +359,8 @@ struct SlicePlanner {
         return leaps && pays && facts.occupied_share < 1 && !jumps;
     }
 
-    // Codes are those of single slabs. In OpenGL, measured in software, finding the constant
-    // regions takes longer than they save.
+    // Tells whether rays cross constant regions in one step: not if slabs are rounded to codes one
+    // by one. In OpenGL, measured in software, finding these regions costs more than it saves.
     bool choose_constant_regions(bool one_program) {
         const ConstantBricks& constant = facts.constant_bricks;
         return omissions.leave_out(
@@ -372,9 +371,8 @@ struct SlicePlanner {
                         percent_text(constant.share), 2 * constant.kind.size()));
     }
 
-    // Returns the optical depth at which rays end that one program marches whole. In a tree, the
-    // part of a ray behind a leaf belongs to another leaf; on OpenGL with several bricks, to
-    // another program.
+    // Returns the optical depth at which rays end, or infinity. Only a ray that one program marches
+    // from end to end can end early; in OpenGL, several programs draw several bricks.
     double choose_end_of_rays(std::size_t bricks, const std::optional<double>& error_bound) {
         constexpr double never = std::numeric_limits<double>::infinity();
         if (!capabilities.cpu && bricks > 1) return never;

@@ -13,26 +13,27 @@
 namespace lamina {
 namespace {
 
-// Largest number of segments of a ray that are tried one by one; of more segments, some stand for
-// all. If rays have fewer segments, more rays are tried.
+// Most segments of a ray that are tried; of more, equally spaced ones stand for all.
+// most_tried_of_all_rays limits those of all rays: the fewer a ray has, the more rays are tried.
 constexpr int most_tried = 64, most_tried_of_all_rays = 1 << 14;
 
-// Number of linear pieces that are tried one by one, from all over the range.
+// Largest number of linear pieces that are tried one by one, from all over the range.
 constexpr std::size_t most_pieces_tried = 64;
 
-// Limits of a table's colours, in pieces of segment integrals (some .2 s on two cores) and in
-// bytes: choosing the number of slabs takes several tables.
+// Limits of a table's colours, in linear pieces that are integrated (some .2 s on two cores) and in
+// bytes. They are low because several tables are built to choose the number of slabs.
 constexpr double most_table_work = 4e6, most_table_bytes = 128 << 20;
 constexpr double most_nodes = 2048;  // limit of a texture
 
-// Numbers of layers. Linear interpolation between layers is good to .0025 if they are a depth of 1
-// or less apart, as far as that is affordable; deeper segments are nearly opaque and change little
-// with length.
+// Numbers of layers, usual and largest. Linear interpolation between layers is good to .0025 if
+// they are an optical depth of 1 or less apart, as far as that is affordable; deeper segments are
+// nearly opaque and change little with length.
 constexpr double usual_length_layers = 9, most_length_layers = 33;
 
 // Factor on the number of nodes for the next table that is tried.
 constexpr int finer_nodes = 4;
 
+// A segment of a ray on which the table is tried: the scalars at its ends, and its length.
 struct Segment {
     double front = 0, back = 0, length = 0;
     double transmittance = 1;  // of everything in front of the segment
@@ -86,8 +87,8 @@ MostLight most_light(const Scene& scene) {
     return {lights.largest_effect(1) - highlight, highlight};
 }
 
-// Adds the errors of segments one behind the other: of the unlit colour, and of light that is all
-// at the fronts of segments.
+// Adds the errors of segments one behind the other: of the unlit colour, and of light that lies
+// only on the fronts of segments.
 struct ErrorSum {
     MostLight light;
     glm::dvec3 unlit{0}, front{0};
@@ -106,8 +107,8 @@ struct ErrorSum {
     }
 };
 
-// Returns segments around places in every linear piece, of three widths up to `widest`, because few
-// rays meet narrow pieces.
+// Returns segments around four places in every linear piece, of three widths up to `widest`,
+// because few rays meet narrow pieces.
 std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_function,
                                         const ValueRange& range, double widest) {
     std::vector<LinearPiece> pieces;
@@ -133,7 +134,7 @@ std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_functio
 
 // Returns fewer layers if those wanted would take too long or too much memory.
 int affordable_layers(const TableRequest& table, double knots, double wanted) {
-    // At most so many (preintegration/preintegration_table.h).
+    // Most nodes that the table can have (preintegration/preintegration_table.h).
     const double nodes = 1.5 * table.scalar_nodes + 3 * (knots + 1);
     // Pairs within each of the pieces, and from point to point through all pieces between.
     const double work = nodes * nodes / (knots + 1) + knots * knots * knots / 3;

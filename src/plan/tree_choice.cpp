@@ -45,24 +45,23 @@ double opacity_roundings(const TreeQuestion& question) {
 }
 
 // Returns the storage errors per slab: of its opacity, its colour and the share of the rest that
-// stays visible. Front to back, the opacity that is there is rounded, too, and hides what comes
-// behind.
+// stays visible. Front to back, the opacity in front, which hides those behind, is rounded, too.
 double roundings_per_slab(const TreeQuestion& question) {
     return 2 + opacity_roundings(question) + (question.order == Order::front_to_back ? 1 : 0);
 }
 
-// Returns the storage errors of colours before they are weighted by opacity: the sum of these
-// weights is at most 1.
+// Returns the error of slabs' colours, in storage errors, before they are weighted by opacity. It
+// counts once, because the sum of these weights is at most 1.
 double color_roundings(const TreeQuestion& question) {
     if (question.dither && question.dither->color) return 2.0 * question.dither->increment;
     return question.target == Target::emulated ? 1 : 0;
 }
 
-// Roundings of a leaf's registers: transmittance, colour and optical depth are rounded once a slab
-// each.
+// Rounding error per slab of a leaf's float32 registers: transmittance, colour, optical depth.
 constexpr double leaf_roundings = 3 * 0x1p-24;
 
-// Fixed-point targets hold colours up to 1; the others round in proportion to what they hold.
+// Scales a bound for colours up to 1 to the question's colours, in 1/255. Fixed-point targets clamp
+// colours to 1; the others round in proportion to the colour.
 double scaled_for_color(const TreeQuestion& question, double bound) {
     const double largest = std::max(question.largest_color, 1.0);
     const double scaled = is_fixed_point(question.target) ? bound + (largest - 1) : bound * largest;
@@ -81,7 +80,7 @@ double level_rounding(const TreeQuestion& question, const TreePlan& tree, double
     return storage + (lost < 1 ? std::min(-std::log1p(-lost), 1.0) : 1.0);
 }
 
-// Returns the bound of a node, which emulated buffers do not have, or of blending.
+// Returns the smaller bound of blending and one float node; emulated buffers have only blending.
 double best_error_bound(const TreeQuestion& question) {
     const double straight = straight_error_bound(question);
     if (question.target == Target::emulated) return straight;
@@ -129,7 +128,8 @@ std::string targets_that_keep(TreeQuestion question) {
         best_error_bound(question), clamping, fmt::join(remedies, ", or "));
 }
 
-// `otherwise`: alternatives to one colour that the scene may ask for.
+// Throws Error if a tree of fixed-point nodes cannot draw the scene. `otherwise`: what messages
+// name as an alternative.
 void check_fixed_nodes(const Scene& scene, bool single_color, const char* tree,
                        const char* otherwise) {
     if (!is_fixed_point(*scene.target)) {
@@ -186,8 +186,8 @@ std::optional<double> rounding_bound(const TreeQuestion& question,
 TreeChoice choose_tree(const TreeQuestion& question) {
     const double straight = straight_error_bound(question);
     const double best = best_error_bound(question);
-    // No target has more bits than float32: it is taken even if it exceeds max_error, as it is
-    // without a tree.
+    // No target has more bits than float32, so a scene with this target is drawn even if max_error
+    // is exceeded, as it is without a tree.
     if (best > question.max_error && question.target != Target::float32) fail_for(question);
     if (question.target == Target::emulated)
         return {{}, straight, "an emulated buffer has no nodes computed in a shader"};

@@ -19,14 +19,15 @@
 namespace lamina {
 namespace {
 
+// Number of rays along a picture's side, and of steps along a ray, to estimate costs on.
 constexpr int rays_along_side = 48, most_steps = 192;
 
-// Cost, in cells, of a ray in each part in which something is visible on it: it is set up there,
-// and its pixel is composited once more.
+// Cost, in cells that rays walk through, of each ray in each box in which something shows on it:
+// the ray is set up, and its pixel is composited once more.
 constexpr double cells_of_ray = 8;
 
-// Cost, in cells, of reading a brick of the cache: measured 130 us from a file that the system has
-// in its memory, against 68 ns for a cell.
+// Cost, in cells that rays walk through, of reading a brick of the cache: measured 130 us from a
+// file that the system has in memory, against 68 ns for a cell.
 constexpr double cells_of_page = 1900;
 
 int columns_of(const View& view) {
@@ -44,7 +45,7 @@ bool in_picture(const View& view, const glm::dvec3& point) {
            std::abs(glm::dot(way, view.up)) < half * view.height;
 }
 
-// Returns the mean over a brick's range of values, because their distribution is not known.
+// Returns the mean extinction over a brick's range of values, taken as equally frequent.
 double mean_extinction(const TransferFunction& transfer_function, const ValueRange& range) {
     constexpr int places = 4;
     double sum = 0;
@@ -59,13 +60,14 @@ bool cut_away(const Facts& facts, const glm::dvec3& at) {
                                [&](const IndexPlane& plane) { return plane.distance(at) < 0; });
 }
 
+// Place of a box's side that is not cut.
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-// Number of cells from which on boxes are cut between bricks: the ranges of bricks tell nothing
-// about smaller pieces.
+// Number of cells along a side from which on boxes are cut only between bricks, because the ranges
+// of bricks tell nothing about smaller pieces.
 constexpr double cells_to_cut_finely = 16 * MinMaxBricks::edge;
 
-// Cost of a box that shows nothing, so that its halves are equal parts.
+// Cost of a box in which nothing shows, in cells: above 0, so that it, too, is cut into halves.
 constexpr double cost_of_emptiness = 1e-6;
 
 // Returns the number of boxes on the lower side of the cut that divides `count` boxes.
@@ -75,20 +77,19 @@ int below_of(int count) {
 
 }  // namespace
 
-// Costs of drawing parts of a volume, in cells that rays walk through, estimated on rays all over
-// the view from the ranges of bricks alone. In each part rays end once the part by itself is
-// opaque.
+// Costs of drawing a box of a volume, in cells that rays walk through, estimated on rays all over
+// the view from the ranges of bricks. A ray ends in a box once the box alone is opaque on it.
 struct ShareCosts {
-    // Costs of the parts below and above a plane across an axis.
+    // Costs of the two boxes below and above a plane across an axis.
     struct Pair {
         double below = 0, above = 0;
     };
     Pair of_parts(int axis, double place) const;
 
-    // Returns the costs inside one of these parts.
+    // Returns the costs inside one of these two boxes, without those of reading (`pages`).
     ShareCosts part(int axis, double place, bool above) const;
 
-    // A part of a ray in visible bricks.
+    // A step along a ray in a visible brick.
     struct Stretch {
         glm::vec3 middle;     // in index space
         float cells;          // that the ray walks through in it
@@ -140,7 +141,7 @@ std::vector<ShareCosts::Stretch> find_stretches(const Scene& scene, const Facts&
     return all;
 }
 
-// Adds the samples that are read from files.
+// Adds the bricks of the cache that are read from files.
 void find_pages(const Scene& scene, const Facts& facts, ShareCosts& costs) {
     constexpr double edge = BrickCache::edge;
     const View view(*scene.camera, scene.width, scene.height);
@@ -212,16 +213,16 @@ void VolumeShares::divide(const ShareCosts& costs, const IndexBox& box, const In
     divide(costs.part(cut.axis, cut.place, true), above, between_above, count - below_of(count));
 }
 
-// On each axis the plane is found that divides the cost in the ratio of the boxes. Of these three
-// the one with the least cost for a renderer is taken: a part behind another one draws much that
-// the other hides.
+// Finds on each axis the plane that divides the cost in the ratio of the numbers of boxes, and
+// takes the one of the three with the least cost for a renderer. They differ because a box behind
+// another one may draw much that the other hides.
 VolumeShares::Cut VolumeShares::best_cut(const ShareCosts& costs, const IndexBox& between,
                                          int count) {
     const double below = below_of(count), above = count - below_of(count);
     const glm::dvec3 size = between.max - between.min;
     std::array<int, 3> axes{0, 1, 2};
     std::ranges::stable_sort(axes, std::greater(), [&](int axis) { return size[axis]; });
-    // All is below if nothing can be cut.
+    // If nothing can be cut, everything is below.
     Cut best{axes[0], between.max[axes[0]] + 1};
     double least = endless;
     for (const int axis : axes) {

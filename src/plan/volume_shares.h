@@ -12,8 +12,9 @@ namespace lamina {
 
 struct ShareCosts;
 
-// A volume cut into boxes, for renderers that draw one picture together, each its own box. A box is
-// cut in two by a plane through samples, again and again.
+// A volume cut into boxes, one for each of the renderers that draw one picture together. The
+// volume, and then each box, is cut in two by a plane through samples, until there are enough
+// boxes.
 class VolumeShares {
   public:
     // Cuts the volume so that each of `count` renderers takes about as long as the others for the
@@ -21,25 +22,26 @@ class VolumeShares {
     VolumeShares(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks, bool in_files,
                  int count);
 
-    // Returns the boxes in the volume's index space, endless if they reach the volume's border.
-    // Boxes are empty if there were too few samples to cut between.
+    // Returns the boxes in the volume's index space; a box that reaches the volume's border is
+    // endless on that side. Boxes are empty if there were too few samples to cut between.
     const std::vector<IndexBox>& boxes() const { return boxes_; }
 
-    // Returns the numbers of the boxes, sorted so that along every ray of a view nearer ones come
-    // first.
+    // Returns the boxes' numbers, sorted so that nearer ones come first along every ray of a view.
     std::vector<int> front_to_back(const Grid& grid, const View& view) const;
 
   private:
+    // A plane across an axis, in index space.
     struct Cut {
         int axis = 0;
         double place = 0;
     };
 
-    // `costs`: inside `box`; `between`: its first and last sample on each axis.
+    // Cuts `box` into `count` boxes. `costs`: inside `box`. `between`: its first and last samples.
     void divide(const ShareCosts& costs, const IndexBox& box, const IndexBox& between, int count);
+    // Returns the cut of a box that is to become `count` boxes.
     static Cut best_cut(const ShareCosts& costs, const IndexBox& between, int count);
 
-    // Order: a cut, those below it, those above it. Boxes come in this order, too.
+    // Preorder of the tree of cuts: a cut, the cuts of the box below it, those of the box above it.
     std::vector<Cut> cuts_;
     std::vector<IndexBox> boxes_;
 };

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables whose nodes lie on the transfer function's knots: how they are filled, and looked up.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -20,16 +19,16 @@ namespace lamina {
 namespace {
 
 constexpr std::size_t most_knots = 1022;  // two nodes an interval: textures of 2048 hold them
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
-// Transmittance below which the rest of a segment is left out: it is far below a float's precision.
+constexpr std::size_t most_bytes = std::size_t{1} << 30;  // of a table
+// Transmittance below which the rest of a segment is skipped: it is far below a float's precision.
 constexpr double least_transmittance = 1e-12;
 
 float as_float(double x) {
     return static_cast<float>(std::min<double>(x, std::numeric_limits<float>::max()));
 }
 
-// The nodes, each with the transfer function's one-sided limit, and the next anchors above and
-// below.
+// A node of the table, with the transfer function's optics there (at a step, those of the node's
+// side), and the next anchors above and below.
 struct Node {
     double value;
     OpticalProperties optics;
@@ -38,12 +37,13 @@ struct Node {
     bool anchor;
 };
 
+// Lists the nodes of a table, linear piece by linear piece.
 struct NodeBuilder {
     KnotTable& table;
     std::vector<Node> nodes = {};
 
     void add_interval(const LinearPiece& piece, int wanted_cells) {
-        // Points that are a few roundings apart leave no room for more nodes.
+        // Between points that are only a few roundings apart no further nodes fit.
         const double rounding = std::numeric_limits<double>::epsilon() *
                                 std::max(std::abs(piece.from), std::abs(piece.to));
         const int cells = piece.to - piece.from > 2 * wanted_cells * rounding ? wanted_cells : 1;
@@ -87,7 +87,7 @@ std::vector<Node> place_nodes(const TransferFunction& transfer_function,
         return builder.finish();
     }
     const double width = request.hi - request.lo;
-    // Emission is a product of two linear functions even within an interval, so narrow intervals
+    // Emission is the product of two linear functions even within a linear piece, so narrow pieces
     // need inner nodes, too.
     int intervals = 0;
     for_each_linear_piece(transfer_function.knots(), request.lo, request.hi,
@@ -129,6 +129,7 @@ void check_size(const KnotTable& table) {
     }
 }
 
+// Computes the table's entries for all pairs of nodes.
 struct TableBuilder {
     KnotTable& table;
     const std::vector<Node>& nodes;
@@ -141,16 +142,16 @@ struct TableBuilder {
         fill_half_row(front, -1);
     }
 
-    // Numbers per length of a segment whose length goes to 0.
+    // The table's numbers in the limit of segments of length 0: means over the segment.
     struct Limit {
         double extinction = 0;
         glm::dvec3 emission{0};
         FrontParts front;
     };
 
-    // Fills in the means over the scalars between `front` and each node on one side of it. They are
-    // running sums, in which nothing cancels. The last two are weighted with the distance from the
-    // front.
+    // Fills in the entries of segments between `front` and each node on one side of it, from means
+    // over the scalars between both. These are running sums, in which nothing cancels. The sums
+    // called `behind` are weighted with the distance from the front.
     void fill_half_row(int front, int direction) {
         double extinction = 0, extinction_behind = 0;
         glm::dvec3 emission(0), emission_behind(0);
@@ -208,8 +209,8 @@ struct TableBuilder {
         }
     }
 
-    // Segments are cut at the first and at the last anchor between their ends. So look-ups reach
-    // the other entries by rounding alone, with next to no weight.
+    // Tells whether look-ups use an entry. They cut segments at the first and at the last anchor
+    // between their ends, so only rounding leads them to other entries, with next to no weight.
     bool is_looked_up(int front, int back) const {
         const int lower = std::min(front, back), upper = std::max(front, back);
         return upper <= nodes[lower].next_anchor || (nodes[lower].anchor && nodes[upper].anchor);
@@ -225,9 +226,9 @@ struct TableBuilder {
     }
 
     // Calls visit(from, to, begin, end, share) for the linear pieces of a segment from the front
-    // on: nodes, their places in it, and their share of its length. This is integrate_segment()
-    // without the search for pieces, because both ends of every piece are nodes. It ends when
-    // visit() returns false.
+    // on: its nodes `from` and `to`, their places in the segment, 0 to 1, and the piece's share of
+    // the segment's length. Ends when visit() returns false. Unlike integrate_segment(), it does
+    // not search for pieces, because both ends of every piece are nodes.
     template <typename Visit>
     void for_each_piece(int front, int back, const Visit& visit) const {
         const double start = nodes[front].value, width = nodes[back].value - start;
@@ -246,7 +247,7 @@ struct TableBuilder {
         }
     }
 
-    // The associated colour of the segment.
+    // Returns the associated colour of the segment.
     glm::dvec3 color(int front, int back, double length) const {
         glm::dvec3 sum(0);
         double transmittance = 1;
@@ -321,6 +322,7 @@ std::int64_t KnotTable::byte_count() const {
 
 namespace {
 
+// The two neighbours of a coordinate on one axis of the table.
 struct Cell {
     std::size_t first, second;
     double weight;  // of the second
@@ -331,7 +333,7 @@ Cell cell_of(double position, std::size_t count) {
     return {first, std::min(first + 1, count - 1), position - static_cast<double>(first)};
 }
 
-// `front` and `back` are node coordinates.
+// Interpolates in the table. `front` and `back` are node coordinates.
 LitIntegral sample(const KnotTable& table, double front, double back, double length) {
     const std::size_t count = table.nodes.size();
     const Cell f = cell_of(front, count), b = cell_of(back, count);
@@ -385,13 +387,13 @@ double left_coordinate(const KnotTable& table, double value) {
     return coordinate_between(*(at - 1), *at, value);
 }
 
+// A piece of a segment, for one look-up.
 struct Part {
     double from, to;  // node coordinates, ascending
     double width;     // in scalars
 };
 
-// Splits the interval from `lo` to `hi` >= lo at the first and at the last anchor strictly between
-// them.
+// Splits [lo, hi] at the first and the last anchor strictly inside; unneeded pieces have width 0.
 std::array<Part, 3> split(const KnotTable& table, double lo, double hi) {
     const auto& anchors = table.anchors;
     const double first = table.coordinate(lo);
@@ -401,7 +403,7 @@ std::array<Part, 3> split(const KnotTable& table, double lo, double hi) {
     if (above >= not_below) return {Part{first, last, hi - lo}, Part{}, Part{}};
     const auto below = not_below - 1;
     const double inner = below->value - above->value;
-    // If the inner part ends at a step, it takes the node on its own side.
+    // If the inner piece ends at a step, it takes the node on its own side.
     return {Part{first, double(above->node), above->value - lo},
             Part{table.coordinate(above->value), left_coordinate(table, below->value), inner},
             Part{double(below->node), last, hi - below->value}};
@@ -425,7 +427,7 @@ LitIntegral KnotTable::lookup_lit(double front, double back, double length) cons
     if (front == back) return sample(*this, parts[0].from, parts[0].to, length);
     LitIntegral result;
     SegmentIntegral& whole = result.whole;
-    double left = 1;  // length behind the part, as a share of the segment
+    double left = 1;  // share of the segment's length that is behind the piece
     for (const Part& part : parts) {
         if (part.width == 0) continue;
         const double share = part.width / std::abs(back - front);

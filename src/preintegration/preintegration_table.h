@@ -18,16 +18,17 @@
 
 namespace lamina {
 
-// A table's nodes lie on the transfer function's knots and equally spaced between two of them
-// (KnotTable), or are equally spaced over the whole range (UniformTable).
+// The places of a table's nodes: on the transfer function's knots and equally spaced between two of
+// them (knots: KnotTable), or equally spaced over the whole range (uniform: UniformTable).
 enum class TableKind { knots, uniform };
 
+// Says which table of a transfer function is wanted.
 struct TableRequest {
     double lo = 0, hi = 1;  // scalars, lo <= hi, both finite
     // Longest segment in the transfer function's unit of length, finite, >= 0. A KnotTable of one
     // layer does not depend on it.
     double max_length = 1;
-    int scalar_nodes = 256;  // >= 2; of a KnotTable approximate, of a UniformTable at most 4096
+    int scalar_nodes = 256;  // >= 2; a KnotTable has about so many; a UniformTable at most 4096
     int length_layers = 1;   // >= 1, of a UniformTable at most 64
     bool colored = true;     // may be false if transfer_function.single_color(lo, hi)
     bool lit = false;  // with front parts (optics/segment_integral.h): KnotTable, if `colored`
@@ -41,12 +42,13 @@ struct TableRequest {
     friend bool operator==(const TableRequest&, const TableRequest&) = default;
 };
 
+// A table, as the request that it was built for and its numbers.
 struct PreintegrationTable {
     TableRequest request;
     glm::dvec3 single_color{0};  // the colour if the request is not coloured
 
     virtual ~PreintegrationTable() = default;
-    // Computes in double precision what shaders compute in float.
+    // Returns the integral of a segment, in double precision, as shaders compute it in float32.
     virtual SegmentIntegral lookup(double front, double back, double length) const = 0;
     virtual std::int64_t byte_count() const = 0;  // memory
 
@@ -56,29 +58,31 @@ struct PreintegrationTable {
 
 // A table whose nodes are aligned with the transfer function's knots: within one linear piece the
 // mean extinction is exactly bilinear, and nothing is interpolated across a step (for segments
-// across it no table is right; the corner holds the mean of both sides). Its numbers do not scale
-// with length, so opacity is exact at every length, and colour has a limit at length 0.
+// across one no table is right; the corner holds the mean of both sides). Its numbers are means
+// over the segment, so opacity is exact at every length, and colour has a limit at length 0. Below,
+// tbar is a segment's mean extinction, C its associated colour and alpha its opacity.
 struct KnotTable : PreintegrationTable {
     struct Anchor {
         double value;
         int node;
     };
 
-    // S scalars over [lo, hi], in non-decreasing order. A step's value occurs twice (left, right).
+    // The S scalars of the nodes over [lo, hi], in non-decreasing order. A step's value occurs
+    // twice (left, right).
     std::vector<double> nodes;
-    // The scalars lo, the knots in (lo, hi) (steps twice), and hi. Between two anchors lie one or
-    // more equally spaced nodes. For lo == hi there is one node and one anchor.
+    // The nodes at lo, at the knots in (lo, hi) (steps twice), and at hi. Between two anchors are
+    // one or more equally spaced cells. If lo == hi there is one node and one anchor.
     std::vector<Anchor> anchors;
     // L >= 1 lengths, equally spaced from lengths[0] = 0 (the limit) to max_length.
     std::vector<double> lengths;
     // S * S values tbar = optical depth / length, index back * S + front.
     std::vector<float> mean_extinction;
     // L * S * S * 3 values E = tbar * C / alpha, index ((layer * S + back) * S + front) * 3 +
-    // channel; empty if the table is not coloured. Look-ups need pairs of nodes within one linear
-    // piece and pairs of anchors. For all other pairs every layer holds the limit.
+    // channel; empty if not coloured. Look-ups use only pairs of nodes within one linear piece and
+    // pairs of anchors. For all other pairs every layer holds the limit of length 0.
     std::vector<float> emission;
-    // L * S * S * 4 values tbar * FrontParts / alpha of a lit table: of the colour, then of the
-    // opacity; in the order of `emission`, and looked up as that is. Otherwise empty.
+    // L * S * S * 4 values tbar * FrontParts / alpha of a lit table, first of the colour, then of
+    // the opacity, indexed and interpolated as `emission`; empty if the table is not lit.
     std::vector<float> front_parts;
 
     // Builds in parallel, with progress. There are at most 1.5 * scalar_nodes + 3 * (knots in (lo,
@@ -86,14 +90,15 @@ struct KnotTable : PreintegrationTable {
     // exceed 1 GiB. Extinctions beyond the largest float are clamped to it.
     KnotTable(const TransferFunction& transfer_function, const TableRequest& asked);
 
-    // The node coordinate of a scalar (clamped to [lo, hi]): whole numbers are nodes. At a step it
-    // is the right node.
+    // Returns the node coordinate of a scalar (clamped to [lo, hi]): whole numbers are nodes. At a
+    // step it is the right node.
     double coordinate(double value) const;
 
-    // Twin of shaders/preintegration/knot_table.glsl: it interpolates bilinearly in the scalars and
-    // linearly in length (clamped to max_length), then alpha = -expm1(-tbar * length) and C = alpha
-    // * E / tbar. These are smooth only within a linear piece, so a segment is cut at the first and
-    // at the last anchor inside: three look-ups, in smooth cells or, between anchors, exact.
+    // Twin of shaders/preintegration/knot_table.glsl. It interpolates bilinearly in the scalars and
+    // linearly in length (clamped to max_length); then alpha = -expm1(-tbar * length) and C = alpha
+    // * E / tbar. The table is smooth only within a linear piece, so a segment is cut at the first
+    // and at the last anchor inside it. That makes up to three look-ups: two within a linear piece,
+    // and between them one from anchor to anchor, which needs no interpolation in the scalars.
     SegmentIntegral lookup(double front, double back, double length) const override {
         return lookup_lit(front, back, length).whole;
     }
@@ -103,11 +108,10 @@ struct KnotTable : PreintegrationTable {
     std::int64_t byte_count() const override;
 };
 
-// A table with equally spaced scalars.
+// A table with equally spaced scalars (Kraus, Qiao, Ebert 2004); tbar and alpha: as in KnotTable.
 struct UniformTable : PreintegrationTable {
     int channels = 4;  // of a texel: 4 (rgb, then tbar or alpha) or 1 (tbar or alpha)
-    // Number of layers that are stored: 1 for a mean extinction without colour, which does not
-    // depend on length.
+    // Layers that are stored: 1 for mean extinction without colour, independent of length.
     int layers = 1;
     // Value = stored * scale; fixed formats store [0, 1], float16 stores values below 32768.
     float scale = 1;
@@ -121,10 +125,9 @@ struct UniformTable : PreintegrationTable {
     UniformTable(const TransferFunction& transfer_function, const TableRequest& asked);
 
     double length_of(int layer) const;
-    // 1 / length_of(1), a uniform of the shader; 0 if there is none.
+    // Returns 1 / length_of(1), a uniform of uniform_table.glsl; 0 for one layer or no length.
     double inverse_first_length() const;
-    // The layer coordinate of a length: whole numbers are layers, 0..layers - 1. Lengths are
-    // clamped to max_length.
+    // Returns a length's layer coordinate, 0..layers - 1; lengths are clamped to max_length.
     double layer_of(double length) const;
 
     // Twin of shaders/preintegration/uniform_table.glsl: trilinear interpolation between texels.
@@ -138,12 +141,12 @@ struct UniformTable : PreintegrationTable {
 std::shared_ptr<const PreintegrationTable> build_table(const TransferFunction& transfer_function,
                                                        const TableRequest& request);
 
-// A plan's table. It follows from its request and from the transfer function, so plans are compared
-// by the request (and the error) alone.
+// A plan's table. The request and the transfer function determine it, so plans are compared by the
+// request (and the error) alone.
 struct TablePlan {
     TableRequest request;  // lengths in the plan's units
-    double error = 0;      // found error that it adds to the picture, in 1/255
-    // Null if nothing looks it up; else of the request's kind.
+    double error = 0;      // that it was found to add to the picture, in 1/255
+    // Null if nothing looks it up; otherwise a table of the request's kind.
     std::shared_ptr<const PreintegrationTable> built = nullptr;
 
     std::shared_ptr<const KnotTable> knot_table() const {
@@ -160,7 +163,7 @@ struct TablePlan {
 
 // Builds tables, and finds them again by content: transfer function and request. The cache keeps
 // the tables that were asked for last, at most 8 that take no more than `most_bytes` in all. A
-// table that it keeps no longer is still found while someone else holds it. Safe from any thread.
+// table that it has dropped is still found while somebody else holds it. Safe from any thread.
 class TableCache {
   public:
     static constexpr std::size_t most_tables = 8;
@@ -170,9 +173,9 @@ class TableCache {
     TableCache(const TableCache&) = delete;
     TableCache& operator=(const TableCache&) = delete;
 
-    // Throws what build_table() throws. Requests that differ only in values on which their table
-    // does not depend get one table: views that differ in the longest segment share a KnotTable of
-    // one layer.
+    // Returns the table of a request, found or built. Throws what build_table() throws. Requests
+    // that differ only in values on which their table does not depend get one table: views that
+    // differ in the longest segment share a KnotTable of one layer.
     std::shared_ptr<const PreintegrationTable> get(const TransferFunction& transfer_function,
                                                    const TableRequest& request);
 

@@ -20,7 +20,7 @@ std::vector<double> numbers_of(const TransferFunction& transfer_function) {
     return numbers;
 }
 
-// Returns the request with 0 for a length that its table does not depend on.
+// Returns the request with 0 for max_length if its table does not depend on that.
 TableRequest without_idle_length(TableRequest request) {
     if (request.kind == TableKind::knots && request.length_layers == 1) request.max_length = 0;
     return request;
@@ -39,8 +39,8 @@ std::shared_ptr<const PreintegrationTable> build_table(const TransferFunction& t
     unreachable_enum();
 }
 
-// The table is not built under the lock: the build runs on all cores and may execute a task that
-// waits for the lock. If two threads build one table, both get the one that was added first.
+// Builds the table without holding the lock: the build uses all cores, and a core may meanwhile run
+// a task that waits for the lock. If two threads build one table, both get the one added first.
 std::shared_ptr<const PreintegrationTable> TableCache::get(
     const TransferFunction& transfer_function, const TableRequest& request) {
     Content content{numbers_of(transfer_function), without_idle_length(request)};

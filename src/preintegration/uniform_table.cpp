@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables with equally spaced scalars: how they are filled, rounded, and looked up.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -20,8 +19,8 @@
 namespace lamina {
 namespace {
 
-constexpr std::int64_t most_bytes = std::int64_t{1} << 30;
-constexpr double largest_depth = 1e30;
+constexpr std::int64_t most_bytes = std::int64_t{1} << 30;  // of a table
+constexpr double largest_depth = 1e30;                      // optical depth
 
 TransferFunction with_finite_depths(const TransferFunction& transfer_function, double max_length) {
     const double largest = largest_depth / std::max(1.0, max_length);
@@ -33,7 +32,7 @@ TransferFunction with_finite_depths(const TransferFunction& transfer_function, d
     return TransferFunction::linear(std::move(knots));
 }
 
-// Rounds to the nearest number with 11 significant bits, or multiple of 2^-24.
+// Rounds to the nearest half float: 11 significant bits, or a multiple of 2^-24.
 float round_to_half(float x) {
     int exponent = 0;
     std::frexp(x, &exponent);
@@ -74,7 +73,7 @@ std::vector<double> nodes_of(const TableRequest& request) {
     return nodes;
 }
 
-// Transmittance below which the rest of a segment is left out: it is far below a float's precision.
+// Transmittance below which the rest of a segment is skipped: it is far below a float's precision.
 constexpr double least_transmittance = 1e-12;
 
 // Integrals over the scalars.
@@ -91,12 +90,12 @@ struct Sums {
     }
 };
 
-// The straight run between two nodes.
+// A segment between two nodes, with its linear pieces.
 struct Run {
     std::span<const LinearPiece> pieces;
-    double width = 0;  // in scalars; 0: homogeneous
-    double extinction = 0;
-    glm::dvec3 emission{0};  // both: means over the scalars
+    double width = 0;        // in scalars; 0: homogeneous
+    double extinction = 0;   // mean over the scalars
+    glm::dvec3 emission{0};  // mean over the scalars
 };
 
 glm::dvec3 associated_color(const Run& run, double length) {
@@ -124,6 +123,7 @@ float as_float(double x) {
     return static_cast<float>(std::min<double>(x, std::numeric_limits<float>::max()));
 }
 
+// Computes layers by integrating every pair of nodes.
 struct ExactLayers {
     UniformTable& table;
     const TransferFunction& transfer_function;
@@ -136,7 +136,7 @@ struct ExactLayers {
         fill_side(front, -1);
     }
 
-    // Fills in all nodes on one side of `front`, with running sums over the pieces between.
+    // Fills in the entries of `front` and all nodes on one side, with running sums over pieces.
     void fill_side(int front, int direction) {
         const int count = table.request.scalar_nodes;
         const double start = nodes[front], end = direction > 0 ? nodes.back() : nodes.front();
@@ -182,8 +182,7 @@ struct ExactLayers {
         for (int layer = 0; layer < layer_count; ++layer) {
             const double length = table.length_of(layer);
             const double alpha = opacity_from_depth(run.extinction * length);
-            // The limit is taken if the run is homogeneous, has length 0, or has a depth that
-            // underflows.
+            // The limit of length 0 serves one scalar, length 0, and depths that underflow.
             const bool at_limit = run.width == 0 || !(alpha > std::numeric_limits<double>::min());
             const std::size_t count = nodes.size();
             float* texel = &table.texels[((layer * count + back) * count + front) * table.channels];
@@ -202,20 +201,21 @@ struct ExactLayers {
     }
 };
 
-// A part of a segment, from interpolated texels. Without colour, the first three are unused; with
-// TableStore::opacity, extinction and emission are.
+// One of two pieces of a segment, from interpolated texels. Without colour, color and emission are
+// unused; with TableStore::opacity, extinction and emission are.
 struct Part {
     std::array<double, 3> color{}, emission{};
     double alpha = 0, extinction = 0;
 };
 
+// Computes layers from layers of shorter segments.
 struct IncrementalLayers {
     UniformTable& table;
     std::size_t nodes;
 
-    // Weiler, Kraus, Merz, Ertl 2003, as Kraus 2004, section 3, adapts it: a segment of length 2 l
-    // from its two halves of length l, with `linear` one of length (n + 1) l from its first share l
-    // and the rest. Where they meet, the scalar lies between two nodes.
+    // Fills in a row as Weiler, Kraus, Merz, Ertl 2003, adapted by Kraus 2004, section 3: a segment
+    // of length 2 l from its two halves; with LengthMapping::linear one of length n l from pieces
+    // of length l and (n - 1) l. The scalar between the two lies between two nodes.
     void fill_row(int layer, std::size_t back) {
         const bool doubling = table.request.mapping != LengthMapping::linear;
         const double share = doubling ? 0.5 : 1.0 / layer;
@@ -270,7 +270,7 @@ struct IncrementalLayers {
             static_cast<float>(first.alpha + (1 - first.alpha) * second.alpha);
     }
 
-    // `share` is the first part's share of `length`.
+    // `share`: the first piece's share of `length`.
     void store_emission(const Part& first, const Part& second, double share, double length,
                         float* texel) const {
         const auto mean = [&](double a, double b) { return a * share + b * (1 - share); };
@@ -360,6 +360,7 @@ double UniformTable::layer_of(double length) const {
 
 namespace {
 
+// The two neighbours of a coordinate on one axis of the table.
 struct Cell {
     std::size_t first, second;
     double weight;  // of the second

@@ -15,16 +15,14 @@ void for_each_member(std::size_t first, std::uint64_t word, const Visit& visit) 
         visit(first + static_cast<std::size_t>(std::countr_zero(left)));
 }
 
-// Some projected cell fragments that follow each other in visibility order, and the set of them
-// that each tile of the picture draws. Threads fill it in chunks, each its own. Its size does not
-// depend on the view.
+// Projected cell fragments (TetPart) in visibility order, and for each tile of the picture those
+// that it draws. Each thread fills a chunk of its own. The memory does not depend on the view.
 class TileBatch {
   public:
     // The cell fragments (or triangles) of chunk i have numbers from i * chunk_parts on.
     static constexpr std::size_t chunk_parts = 512, most_chunks = 12;
 
-    // `triangles`: the batch holds triangles instead of cell fragments. `lit`: these have
-    // gradients.
+    // `triangles`: holds triangles instead of cell fragments. `lit`: these have gradients.
     TileBatch(std::size_t chunks, int tiles, bool triangles, bool lit)
         : records_(triangles ? 0 : chunks * chunk_parts),
           gradients_(lit ? chunks * chunk_parts : 0),
@@ -39,8 +37,8 @@ class TileBatch {
     TileBatch& operator=(const TileBatch&) = delete;
 
   private:
-    // A set of numbers below chunk_parts. It fills a cache line, because the sets that a tile has
-    // in different chunks are written at the same time.
+    // A set of numbers below chunk_parts. It fills a cache line of its own, because threads write
+    // the sets that one tile has in different chunks at the same time.
     struct alignas(64) Set {
         std::array<std::uint64_t, chunk_parts / 64> words{};
 
@@ -67,8 +65,7 @@ class TileBatch {
             tets_ = 0;
             first_tet_ = last_tet_ = -1;
         }
-        // Returns the record to which the next cell fragment is written. It is kept once add() is
-        // called.
+        // Returns the record for the next cell fragment; it is overwritten until add() keeps it.
         SilhouetteRecord& next() { return batch_->records_[end()]; }
         GradientRecord* next_gradient() {
             return batch_->is_lit() ? &batch_->gradients_[end()] : nullptr;
@@ -88,7 +85,7 @@ class TileBatch {
         }
 
         bool empty() const { return count_ == 0; }
-        std::int64_t tets() const { return tets_; }  // tets of its cell fragments
+        std::int64_t tets() const { return tets_; }  // of which it has cell fragments
         std::int32_t first_tet() const { return first_tet_; }
         std::int32_t last_tet() const { return last_tet_; }
         bool is_drawn_by(std::size_t tile) const {

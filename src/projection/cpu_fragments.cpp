@@ -9,7 +9,8 @@
 
 LAMINA_SIMD_BEGIN
 
-// Draws coloured parts in perspective over a float32 target.
+// A Shader (tet_drawing-inl.h) for the most frequent plans: coloured cell fragments in perspective,
+// over a float32 target.
 struct PartShader {
     static constexpr bool lit = false, cut = true, scalars = true, perspective = true,
                           opacity_only = false;
@@ -26,6 +27,7 @@ struct PartShader {
     }
 };
 
+// draw_tets() for these plans.
 std::int64_t draw_colored_parts(const TetFragments& fragments, const TileBatch& batch,
                                 const TetTile& tile) {
     TetDrawing drawing(fragments, batch, tile);

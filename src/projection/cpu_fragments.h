@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// Ways in which a fragment is written to the target (shaders/projection/output.glsl).
+// How a fragment is written to the target (shaders/projection/output.glsl).
 enum class FragmentOutput {
     native,      // as a blending unit does it
     dithered,    // rounded to codes at random first: ProjectDither::alpha
@@ -17,8 +17,7 @@ enum class FragmentOutput {
     emulated     // as render.emulate says
 };
 
-// Data that all fragments of a frame read beside their records: the uniforms of
-// shaders/projection/*.glsl.
+// Data of a frame's fragments beside their records: the uniforms of shaders/projection/*.glsl.
 struct TetFragments {
     SegmentSource source;
     bool perspective, colored;
@@ -28,14 +27,14 @@ struct TetFragments {
     TargetBlend blend;
     // Scalars of whole tets may lie outside [0, 1] (ProjectPlan::windowed).
     bool windowed = false;
-    bool opacity_only = false;  // for a node of a tree (shaders/projection/tet.frag)
-    float depth_scale = 1;      // for that node: number of all cell fragments over that of the leaf
+    bool opacity_only = false;  // for the leaves of a tree (shaders/projection/tet.frag)
+    float depth_scale = 1;      // for a leaf: number of all cell fragments over that of the leaf
     glm::vec2 image_middle;     // window coordinates
     int image_rows;
     float pixel_size;
     float near_depth;
-    // True: one division serves both ends of a segment. That needs depths whose squares are finite
-    // floats. It is not used for codes, because these must equal those of OpenGL's programs.
+    // True: both ends of a segment share one division, for which squares of depths must be finite.
+    // False for targets with codes, which must equal those of OpenGL's programs.
     bool one_division;
     glm::dvec3 ray_perturbation;
     glm::vec4 constant_optics;              // SegmentSource::constant
@@ -44,7 +43,7 @@ struct TetFragments {
     const UniformTable* table = nullptr;    // SegmentSource::table
     float inverse_first_length = 0;         // of `table`
     const CpuTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
-    // The following are set if something is lit.
+    // The members below are set if something is lit.
     const CpuLight* light = nullptr;  // in the axes of the world
     float smallest_square = 0;        // of the smallest gradient, in the unit of GradientRecord
     std::array<glm::vec3, 3> axes;    // unit vectors to the right, up and forward
@@ -61,16 +60,13 @@ struct TetTile {
     TilePlane* opacity;  // used instead of `pixels` if opacity_only
 };
 
-// Puts those cell fragments of a batch that the tile draws over its pixels. Returns the number of
-// fragments.
+// Draws the tile's cell fragments of a batch over its pixels; returns the number of fragments.
 std::int64_t draw_tets(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile);
 
-// Draws a lit batch.
 std::int64_t draw_lit_tets(const TetFragments& fragments, const TileBatch& batch,
                            const TetTile& tile);
 
-// Draws everything else that a plan may ask for. draw_tets() is specialised for the most frequent
-// plans and calls this for others.
+// Draws with every source and output; draw_tets() calls it for all but the most frequent plan.
 std::int64_t draw_general_tets(const TetFragments& fragments, const TileBatch& batch,
                                const TetTile& tile);
 

@@ -9,13 +9,13 @@
 
 LAMINA_SIMD_BEGIN
 
-// The barycentric weight of each corner at some pixels; 0 for pixels that are not covered.
+// The barycentric weights of a triangle's corners at some pixels; 0 for pixels not covered.
 struct CornerWeights {
     Float corner[3];
     bool any = false;
 };
 
-// `column`, `row`: window coordinates of pixel centres.
+// Returns the weights; `column`, `row`: window coordinates of pixel centres.
 LAMINA_INLINE CornerWeights corner_weights_at(const TriangleRecord& triangle, Float column,
                                               Float row) {
     const Float64 columns(column), rows(row);
@@ -42,7 +42,7 @@ LAMINA_INLINE Float interpolate(const CornerWeights& weights, float a, float b, 
     return weights.corner[0] * a + (weights.corner[1] * b + weights.corner[2] * c);
 }
 
-// Draws pixels of the paper's triangles, as shaders/projection/fan.glsl does.
+// Draws the triangles of Kraus 2004 on a tile, as shaders/projection/fan.glsl does.
 class TriangleDrawing {
   public:
     TriangleDrawing(const TetFragments& fragments, const TetTile& tile)

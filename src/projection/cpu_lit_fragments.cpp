@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lit fragments: light along their segments (docs/numerics.md, section 10) is added to the colours
-// that they have without it.
+// Draws lit fragments: adds light along segments (docs/numerics.md, section 10) to their colours.
 #include "projection/cpu_fragments.h"
 
 #undef LAMINA_TARGET_FILE
@@ -33,9 +32,10 @@ struct LightSums {
 };
 
 // Adds up the contribution of light to segments, piece by piece from the front, by Gauss' rule with
-// three nodes, whose weights add up to the piece's opacity. Pieces end at kinks, and are as long as
-// depth and light allow in each lane: the rule misses less than .045 of the bend of light from node
-// to node to node.
+// three nodes, whose weights add up to the piece's opacity. Pieces end at kinks, where the gradient
+// is perpendicular to a light. In each lane a piece is as long as its optical depth and the bend of
+// light allow. The bend is the second difference of light at the three nodes, of which the rule
+// misses less than .045.
 template <std::size_t channels>
 class LightAlong {
   public:
@@ -64,14 +64,14 @@ class LightAlong {
     }
 
   private:
+    // Optical depth to which extinctions times length are limited.
     static constexpr float deepest = 1e12f;
     // Transmittance behind which nothing is visible.
     static constexpr float least_transmittance = 1e-5f;
-    // Extent below which a piece has one colour, whatever its depth.
+    // Shortest piece, as a share of the segment; it counts as one colour, whatever its depth.
     static constexpr float shortest = 1e-6f;
 
-    // Finds the places at which the gradient is perpendicular to a light; beyond the segment if
-    // there is none.
+    // Finds where the gradient is perpendicular to a light; beyond the segment if nowhere.
     LAMINA_INLINE void find_kinks() {
         for (std::size_t i = 0; i < light_.directions.size(); ++i) {
             const CpuLight::Direction& direction = light_.directions[i];
@@ -87,6 +87,7 @@ class LightAlong {
         }
     }
 
+    // The next piece of the segment in each lane. `last`: it ends at the segment's end.
     struct Piece {
         Float extent;
         FloatMask last;
@@ -106,8 +107,7 @@ class LightAlong {
         const auto depth_to = [&](Float extent) LAMINA_LAMBDA {
             return max(extent * (piece.front + 0.5f * change_ * extent), 0);
         };
-        // Cuts deep pieces to the depth of a shallow one: a quadratic equation, in the form without
-        // cancellation.
+        // Cuts deep pieces to a shallow one's depth: a quadratic equation, without cancellation.
         const FloatMask deep = depth_to(piece.extent) > largest_piece_depth;
         const Float goal(0.7f), square = piece.front * piece.front + 2 * goal * change_;
         const Float root = sqrt(max(square, 0));
@@ -158,7 +158,7 @@ class LightAlong {
         return effect_of<channels>(light_, there, smallest_square_, run_.to_eye);
     }
 
-    // Returns the bend that the nodes of the next piece may miss.
+    // Returns a bound on the bend of light within the next piece that its three nodes may not show.
     LAMINA_INLINE Float hidden_bend(Float extent) const {
         const Float half = 0.5f * extent, middle = at_ + half;
         Float square(0), reach(0);
@@ -199,8 +199,8 @@ struct GradientRun {
     }
 };
 
-// Colour and opacity of a piece of a segment on which both are linear from `near` to `far`, with
-// light, as they reach the front of the segment.
+// A piece of a segment on which colour is linear from `near` to `far`; `unlit`: its colour without
+// light, as it reaches the front of the segment.
 struct LitEnds {
     Float near[3], far[3];
     Float unlit[3];
@@ -214,7 +214,7 @@ LAMINA_INLINE void add_channels(const TetFragments& fragments, const LitRun& run
             .sum(in_front, wanted);
     for (std::size_t c = 0; c < 3; ++c) {
         const Float sum = piece.unlit[c] + sums.added(c, piece.near[c], piece.far[c]);
-        // Light only multiplies existing colour: rounding may leave less than 0.
+        // Only rounding makes the sum less than 0, because light only multiplies colour.
         color[c] += max(sum, 0);
     }
 }
@@ -228,6 +228,7 @@ LAMINA_INLINE void add_lit(const TetFragments& fragments, const LitRun& run, Flo
     }
 }
 
+// A Shader (tet_drawing-inl.h) for plans with light.
 struct LitShader {
     static constexpr bool lit = true, scalars = true, opacity_only = false;
     const TetFragments& fragments;
@@ -285,7 +286,8 @@ struct LitShader {
             const Float aside = column * of.per_column + row * of.per_row;
             const auto at = [&](const TetSpanEnd& end) LAMINA_LAMBDA {
                 const Float sum = of.at_center + end.from_center * of.per_z + end.z * aside;
-                // It is nowhere longer than at the points, except for rounding in slivers.
+                // A gradient inside a tet is no longer than those at the corners, but for rounding
+                // in slivers.
                 return clamp(sum, -1, 1);
             };
             gradient.front[axis] = at(ends.front);

@@ -20,8 +20,8 @@
 namespace lamina {
 namespace {
 
-// Distance from the corners' outline within which pixels are examined. It exceeds the outline's
-// rounding errors.
+// Distance from a tet's outline, in pixels, within which pixels are examined. It exceeds the
+// outline's rounding errors.
 constexpr double margin = 1e-3;
 
 FragmentOutput output_of(const ProjectPlan& plan) {
@@ -64,9 +64,9 @@ CpuProjectRenderer::CpuProjectRenderer(const SceneMesh& mesh,
         tree_.emplace(plan_, TreeShape(plan_.tree, static_cast<int>(visible_->count())),
                       std::array{color.r, color.g, color.b}, image_.grid());
     }
-    // The chunks of a batch are enough for the tiles of all threads to find work, few enough for
-    // the caches (2 MB with 800 x 600 pixels), and few enough that two batches take less memory
-    // than a fourth of the mesh's cell fragments, beside 64 bytes for each tile and chunk.
+    // A batch has enough chunks that the tiles of all threads find work, and few enough that it
+    // fits the caches (2 MB with 800 x 600 pixels). Two batches also take less memory than a fourth
+    // of the mesh's cell fragments, beside 64 bytes for each tile and chunk.
     const std::size_t chunks =
         std::clamp<std::size_t>(static_cast<std::size_t>(visible_->count()) / (8 * parts_a_chunk()),
                                 1, TileBatch::most_chunks);
@@ -149,7 +149,7 @@ void CpuProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrde
     project_batch(0);
     for (std::size_t batch = 0; batch < batch_count(count); ++batch) {
         const TileBatch& projected = *batches_[batch % 2];
-        // Cell fragments of one tet follow each other, also from chunk to chunk.
+        // Cell fragments of one tet follow each other, even across batches: the tet counts once.
         for (std::size_t i = 0; i < projected.chunk_count(); ++i) {
             const TileBatch::Chunk& chunk = projected.chunk(i);
             if (chunk.empty()) continue;
@@ -161,7 +161,7 @@ void CpuProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrde
     }
 }
 
-// The samples of a ray are the cell fragments, the last one the farthest.
+// The tree's samples are the cell fragments of the mesh, the last one the farthest.
 void CpuProjectRenderer::draw_tree(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                                    Progress* progress) {
     const auto draw_leaf = [&](const SampleSpan& span, double depth_scale, CpuTetTree::Node& leaf) {
@@ -269,7 +269,7 @@ void CpuProjectRenderer::project_chunk(const Projectors& projectors,
         const auto group =
             parts.subspan(first, std::min(TetSetup::most_parts, parts.size() - first));
         TetSetup done;
-        // Records are written in place, and moved if one before them is not drawn.
+        // Records are written in the chunk, and moved up if one before them is not drawn.
         SilhouetteRecord* const records = &chunk.next();
         GradientRecord* const lit = chunk.next_gradient();
         set_up_tets(projectors.tets, group, parts.subspan(first + group.size()), records, lit,
@@ -297,7 +297,8 @@ void CpuProjectRenderer::project_doubtful(const TetProjector& projector, const T
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
     // Doubtful cell fragments are drawn as careful ones, which is right for every kind. They are
-    // few, unless all are drawn so; then the table gives the weights (the plan's weight_error).
+    // few, unless the plan draws all so (not `plain`). Then PartDepth::any is passed, so that
+    // weights come from FrontWeightTable.
     add({{bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
           grid.height() - 1 - bounds.first_row},
          true,
@@ -416,7 +417,7 @@ void CpuTetTree::evaluate(int level, const SampleSpan& span, const DrawLeaf& dra
     }
 }
 
-// A sample without opacity adds none, however it is rounded.
+// Skips tiles in which the child has no opacity, because 0 is not changed by any rounding.
 void CpuTetTree::put_into_parent(int level, const SampleSpan& child, const SampleSpan& parent) {
     const Node& from = nodes_[static_cast<std::size_t>(level) + 1];
     Node& to = nodes_[static_cast<std::size_t>(level)];

@@ -12,8 +12,8 @@
 
 namespace lamina {
 
-// A tree of fixed-point nodes whose samples are composited onto all tiles together. It keeps one
-// plane for each tile and level, and takes its memory once.
+// A compositing tree of fixed-point nodes, evaluated for all tiles together. It keeps one plane for
+// each tile and level, and takes its memory once.
 class CpuTetTree {
   public:
     // The opacity of one node, and the tiles with opacity above 0.
@@ -21,10 +21,10 @@ class CpuTetTree {
         std::vector<TilePlane> opacity;
         std::vector<std::uint8_t> touched;
     };
-    // Composites samples onto a node that is 0, as TileLeaves::draw does, but for all tiles.
+    // Composites samples, for all tiles, onto a node of opacity 0, as TileLeaves::draw does.
     using DrawLeaf = std::function<void(const SampleSpan&, double depth_scale, Node&)>;
 
-    // `plan`: how the nodes composite. Leaves may be drawn in another way.
+    // `plan`: how the nodes are composited. Leaves may be drawn in another format.
     CpuTetTree(const CompositingPlan& plan, const TreeShape& shape,
                const std::array<float, 3>& single_color, const TileGrid& grid);
 
@@ -41,17 +41,16 @@ class CpuTetTree {
     CpuFixedTree tree_;
     TileGrid grid_;
     std::vector<Node> nodes_;  // by level
-    // Number of nodes in this frame so far, which seeds stochastic rounding.
+    // Number of nodes that were put into their parents in this frame; it seeds stochastic rounding.
     std::uint32_t swizzled_ = 0;
 };
 
-// Draws a mesh as the plan says, on the CPU. Cell fragments are projected in batches, in visibility
-// order, while the tiles of the picture draw the batch before. The picture does not depend on the
-// number of threads.
+// Draws a mesh on the CPU. Cell fragments are projected in batches, in visibility order, while the
+// tiles draw the batch before. The picture does not depend on the number of threads.
 class CpuProjectRenderer : public ProjectRenderer {
   public:
-    // Builds tables, and the order if that of another renderer cannot be used. The mesh must
-    // outlive it.
+    // Builds tables. Takes `order`, that of another renderer, if it fits, and otherwise builds its
+    // own. The mesh must outlive the renderer.
     CpuProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                        const ProjectPlan& plan, int width, int height,
                        std::shared_ptr<VisibilityOrder> order = nullptr);
@@ -97,17 +96,17 @@ class CpuProjectRenderer : public ProjectRenderer {
              TileBatch::Chunk& chunk) const;
     void draw_batch(const TileBatch& batch, CpuTetTree::Node* leaf);
 
-    // The transfer function as fragments read it, which point to these.
+    // The transfer function in the form that fragments read; fragments_ points to these members.
     std::shared_ptr<const UniformTable> table_;
     std::optional<CpuTransfer> transfer_;  // for SegmentSource::cut_table and ::analytic
     std::optional<CpuTetTree> tree_;       // if the plan has one
-    StoredGradients gradients_;            // empty if nothing is lit, like this one:
-    std::optional<CpuLight> light_;
+    StoredGradients gradients_;            // empty if nothing is lit
+    std::optional<CpuLight> light_;        // none if nothing is lit
     TetFragments fragments_{};
     TileImage image_;
     std::vector<TilePixels::Plane> slants_;  // for each tile; empty if all are 1
     double slant_pixel_ = 0;                 // View::pixel that the slants were computed for
-    // One is projected while the other is drawn.
+    // Two batches: one is projected while the other is drawn.
     std::array<std::unique_ptr<TileBatch>, 2> batches_;
     std::vector<std::int64_t> fragment_counts_;  // for each tile
     std::int32_t last_tet_ = -1;

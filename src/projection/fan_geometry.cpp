@@ -14,25 +14,25 @@
 namespace lamina {
 namespace {
 
-// Distance by which polygons reach beyond the picture, because rounded corners there must not
-// uncover a pixel's centre.
+// Polygons reach this far beyond the picture: rounded corners leave no pixel centre uncovered.
 constexpr double guard = 2;  // pixels
 
 // Distance below which two corners count as one.
 constexpr double same = 1e-9;  // pixels
 
-// Shares of the corners of a face that is seen edge-on.
+// Shares of the corners of a face seen edge-on: negative at every pixel, so no ray meets the face.
 constexpr glm::dvec3 nowhere(0, 0, -1);
 
-// Distance from the picture, in pixels, up to which corners of fans keep the sub-pixel digits of
-// float32 and of rasterisers.
+// Distance from the picture, in pixels, up to which fans are drawn: nearer corners keep the
+// sub-pixel digits of float32 and of rasterisers.
 constexpr double farthest_beyond = 1024;
 
-constexpr double grid_steps = 4096;  // steps a pixel, sixteen times as many as in most rasterisers
+// Steps of the grid to which corners are rounded, a pixel: sixteen times those of most rasterisers.
+constexpr double grid_steps = 4096;
 
-// An edge starts at its lesser corner, so that both of its triangles compute the same numbers. The
-// top-left rule of rasterisers whose rows run upwards decides: a point on an edge belongs to the
-// triangle to the right, on horizontal edges to the one above.
+// Returns the edge from a to b of a triangle on the side of `inside`, from its lesser corner, so
+// that both of its triangles compute the same numbers. A point on an edge belongs to the triangle
+// on the right, on horizontal edges to the one above (the top-left rule with rows running upwards).
 TriangleRecord::Edge edge_of(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& inside) {
     if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
     const glm::dvec2 along = b - a;
@@ -41,7 +41,7 @@ TriangleRecord::Edge edge_of(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& insid
     return {a.x, a.y, -sign * along.y, sign * along.x, along.y > 0 ? !left : left};
 }
 
-// `area` is twice the triangle's area, and may be negative.
+// Returns the share of the corner opposite the edge a, b. `area`: twice the triangle's, signed.
 TriangleRecord::Share share_of(const glm::dvec2& a, const glm::dvec2& b, double area) {
     const glm::dvec2 along = (b - a) / area;
     return {a.x, a.y, -along.y, along.x};
@@ -49,15 +49,16 @@ TriangleRecord::Share share_of(const glm::dvec2& a, const glm::dvec2& b, double 
 
 }  // namespace
 
-// The ray z (x, y, 1) of a place meets the face a, b, c if it is a positive combination of the
-// three. The share of a is det(ray, b, c) / det(a, b, c), over z (Olano and Greer 1997, section 3;
-// this holds with corners behind the eye, too). For parallel rays areas take the place of volumes.
-// right, up, forward are left-handed, so the divisor is positive for fronts.
+// Computes the shares. The ray z (x, y, 1) of a place meets the face a, b, c if it is a positive
+// combination of these. The share of a is det(ray, b, c) / det(a, b, c), over z (Olano and Greer
+// 1997, section 3; also with corners behind the eye). For parallel rays areas take the place of
+// volumes. The axes right, up, forward are left-handed, so the divisor is positive for front faces.
 FacePairs::FacePairs(const WindowView& window, double near_depth, const Tet& tet,
                      const std::array<glm::dvec3, 4>& seen, const Fronts& fronts)
     : window_(window), near_depth_(near_depth), seen_(seen), fronts_(fronts) {
     const bool perspective = window.perspective();
-    // All faces of the edge, in all tets, get the same numbers up to their sign.
+    // Returns the plane through an edge and the eye (or the line of the edge in the picture). All
+    // faces that share the edge, in all tets, get the same numbers up to their sign.
     const auto edge = [&](std::size_t i, std::size_t j) {
         const double sign = tet[i] < tet[j] ? 1 : -1;
         if (tet[i] > tet[j]) std::swap(i, j);
@@ -88,7 +89,7 @@ glm::dvec3 FacePairs::ray_at(const glm::dvec2& place) const {
     return {(place - window_.middle()) * window_.view().pixel, 1};
 }
 
-// Returns the part on which the function is not negative (Sutherland and Hodgman 1974).
+// Returns the polygon's region on which the function is not negative (Sutherland and Hodgman 1974).
 FacePairs::Polygon FacePairs::cut(const Polygon& polygon, const Linear& function) const {
     Polygon part;
     const auto add = [&](const glm::dvec2& corner) {
@@ -109,6 +110,7 @@ FacePairs::Polygon FacePairs::cut(const Polygon& polygon, const Linear& function
     return part;
 }
 
+// Returns the polygon's region whose rays meet the face.
 FacePairs::Polygon FacePairs::part_of(std::size_t face, const Polygon& polygon) const {
     Polygon part = polygon;
     for (const Linear& share : shares_[face]) {
@@ -117,7 +119,7 @@ FacePairs::Polygon FacePairs::part_of(std::size_t face, const Polygon& polygon) 
     return part;
 }
 
-// 1/z, or z of parallel rays: values below 0 are farther.
+// Returns the depth of a face's plane: 1/z, or z if rays are parallel.
 FacePairs::Linear FacePairs::depth_of(std::size_t face) const {
     Linear depth(0);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -127,7 +129,7 @@ FacePairs::Linear FacePairs::depth_of(std::size_t face) const {
     return depth;
 }
 
-// Returns the part in which rays meet the face behind the near plane, or in front of it.
+// Returns the polygon's region in which rays meet the face behind the near plane, or before it.
 FacePairs::Polygon FacePairs::limited(const Polygon& polygon, std::size_t face,
                                       bool behind_near) const {
     if (!cut_ || polygon.count == 0) return polygon;
@@ -224,8 +226,8 @@ FanGeometry::Point FanGeometry::mix(std::span<const Point> points,
     return sum;
 }
 
-// `inverse_difference` is that of inverse depths in perspective views, and of depths in
-// orthographic ones.
+// Makes a vertex from the points at which its ray enters and leaves the tet. `inverse_difference`:
+// their difference of 1/z in perspective views, of z in orthographic ones.
 FanVertex FanGeometry::thick_vertex(const glm::dvec2& window, const Point& front, const Point& back,
                                     double inverse_difference) const {
     const double difference = std::max(inverse_difference, 0.0);
@@ -277,8 +279,7 @@ bool FanGeometry::make_fan(const Corners& corners, const Fronts& fronts, Fan& fa
                                 {back_faces[0], back_faces[1]}, fan);
 }
 
-// Makes classes 1a and 1b (Kraus 2004, Figure 1), in which a corner is seen inside the face
-// opposite.
+// Makes classes 1a and 1b (Kraus 2004, Figure 1): a corner is seen inside the face opposite.
 bool FanGeometry::make_around_corner(const Corners& corners, std::size_t lone_face, bool front,
                                      Fan& fan) const {
     const Corner& apex = corners[lone_face];
@@ -311,8 +312,8 @@ bool FanGeometry::make_around_corner(const Corners& corners, std::size_t lone_fa
     return true;
 }
 
-// Makes class 2, in which two edges cross. The two front faces share the edge of the other two
-// corners, and so do the back faces.
+// Makes class 2 (Kraus 2004, Figure 1), in which two edges cross in the picture. The two front
+// faces share one of these edges, and the two back faces the other.
 bool FanGeometry::make_around_crossing(const Corners& corners,
                                        const std::array<std::size_t, 2>& front_faces,
                                        const std::array<std::size_t, 2>& back_faces,
@@ -383,7 +384,8 @@ TetGeometry::Written FanGeometry::write(const TetPart& part, const Place& place)
     if (behind > 0) return write_pairs(owner, corners, place);
     const glm::dvec2 size = 2.0 * window_.middle();
     if (hi.x < 0 || hi.y < 0 || lo.x > size.x || lo.y > size.y) return {};
-    // Linear interpolation is the paper's only between the corners of whole tets.
+    // If it draws exact pictures, a tet that reaches far beyond the picture is cut to it. Linear
+    // interpolation in perspective views must have the corners of whole tets, as in the paper.
     const glm::dvec2 beyond = glm::max(-lo, hi - size);
     const bool exact = divided_ || !window_.perspective();
     if (exact && std::max(beyond.x, beyond.y) > farthest_beyond)
@@ -424,7 +426,7 @@ TetGeometry::Written FanGeometry::write_pairs(const Owner& owner, const Corners&
     return written;
 }
 
-// The result is exact up to 2^44 pixels, so that edge functions below are exact up to 2^17.
+// Exact up to 2^44 pixels from the picture's corner, so functions of edges are exact up to 2^17.
 glm::dvec2 rounded_to_grid(const glm::vec2& window) {
     const auto rounded = [](float v) {
         return std::floor(static_cast<double>(v) * grid_steps + 0.5) / grid_steps;
@@ -443,8 +445,8 @@ bool make_triangle(const std::array<const FanVertex*, 3>& vertices, TriangleReco
     };
     const double rounded_area = area_of(places);
     if (!(std::abs(rounded_area) > 0) || !std::isfinite(rounded_area)) return false;
-    // Rounding widens slivers and may turn them over. Far outside their exact corners nothing can
-    // be interpolated, so interpolation is between the rounded corners.
+    // Rounding widens slivers and may turn them over. Interpolation between their exact corners
+    // would then be extrapolation by far, so it is between the rounded corners.
     const bool is_sliver = area_of(exact) * rounded_area <= 0.01 * rounded_area * rounded_area;
     const std::array<glm::dvec2, 3>& between = is_sliver ? places : exact;
     const double area = area_of(between);

@@ -13,7 +13,7 @@ namespace lamina {
 // A tet in one view, cut into convex polygons of the picture. On each polygon the rays enter the
 // tet by one face or at the near plane, and leave it by one other face. Unlike the fans of Kraus
 // 2004, these polygons are right if a corner lies behind the eye. None of them reaches far beyond
-// the picture, where float32 resolves window coordinates only to whole pixels.
+// the picture, because there float32 resolves window coordinates only to whole pixels.
 class FacePairs {
   public:
     using Fronts = std::array<bool, 4>;  // for each corner: the face opposite is a front face
@@ -22,13 +22,11 @@ class FacePairs {
     FacePairs(const WindowView& window, double near_depth, const Tet& tet,
               const std::array<glm::dvec3, 4>& seen, const Fronts& fronts);
 
-    // A polygon is the picture's rectangle, cut by at most three edges of either face and by the
-    // near plane.
+    // The picture's rectangle, cut by at most three edges of either face and by the near plane.
     using Polygon = FewPoints<glm::dvec2, 12>;  // window coordinates
 
-    // Shares are the barycentric coordinates, with respect to the tet's corners, of the point where
-    // a ray meets a face or the near plane. In perspective views they are divided by z, so that
-    // they are linear in the picture.
+    // Barycentric coordinates in the tet of the point where a ray meets a face or the near plane;
+    // in perspective divided by z, so that they are linear in the picture.
     using Shares = std::array<double, 4>;
     struct Hit {
         double inverse_z;  // 1 in orthographic views
@@ -36,6 +34,7 @@ class FacePairs {
         Shares shares;
     };
     static constexpr std::size_t near_plane = 4;  // stands for the near plane instead of a face
+    // Returns the hit of the ray at a place of the window with a face's plane or the near plane.
     Hit hit(std::size_t face, const glm::dvec2& place) const;
 
     // Calls visit(polygon, front face or near_plane, back face).
@@ -66,8 +65,7 @@ class FacePairs {
     static constexpr std::size_t most_triangles = 28;
 
   private:
-    // A linear function a.x + b.y + c of a ray's position at depth 1, or of its position if rays
-    // are parallel.
+    // A linear function a.x + b.y + c of a ray's position (at depth 1 unless rays are parallel).
     using Linear = glm::dvec3;
 
     glm::dvec3 ray_at(const glm::dvec2& place) const;
@@ -88,16 +86,16 @@ class FacePairs {
     Polygon picture_;
 };
 
-// A vertex of the triangles of Kraus 2004 (shaders/projection/fan.vert). It holds two points of the
-// tet that are seen at one position of the window: one on its front and one on its back.
+// A vertex of the triangles of Kraus 2004 (shaders/projection/fan.vert): two points of the tet, one
+// on its front and one on its back, that are seen at one position of the window.
 struct FanVertex {
     glm::vec2 position;  // window coordinates
-    // Perspective interpolation: 1/z at the front, 1/z at the back, and their difference. The
-    // difference of the two float32 numbers would have few digits. All three are linear in window
-    // coordinates. Linear interpolation: 0, 0, and the thickness.
+    // For perspective interpolation: 1/z at the front, 1/z at the back, and their difference, which
+    // would have few digits if it were computed from the two float32 numbers. All three are linear
+    // in window coordinates. For linear interpolation: 0, 0, and the thickness.
     glm::vec3 inverse;
-    // The normalised scalar in x, or colour and extinction; for perspective interpolation divided
-    // by z. With Coloring::vertex `front` holds the vertex's colour and opacity.
+    // The normalised scalar in x, or colour and extinction; divided by z for perspective
+    // interpolation. With Coloring::vertex `front` holds the vertex's colour and opacity.
     glm::vec4 front, back;
     // The tet's least and largest normalised scalar. Interpolated scalars are clamped to these,
     // because they are rounded, and the scalar of a constant tet may lie exactly at a step.
@@ -105,9 +103,10 @@ struct FanVertex {
     std::uint32_t tet;
 };
 
-// Projects each tet as three or four triangles around a thick vertex, the projections of the
-// smaller tets of Kraus 2004, Figure 3. Tets that cross the near plane are projected as the
-// polygons of FacePairs; so are, if pictures are exact, tets that reach far beyond the picture.
+// Projects each tet as three or four triangles around a thick vertex, at which the ray is longest
+// in the tet: the projections of the smaller tets of Kraus 2004, Figure 3. Tets that cross the near
+// plane are projected as the polygons of FacePairs. So are tets that reach far beyond the picture,
+// unless perspective views are interpolated linearly.
 class FanGeometry : public TetGeometry {
   public:
     // A polygon has two more vertices than triangles, and there are at most six polygons.
@@ -118,7 +117,7 @@ class FanGeometry : public TetGeometry {
     FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
                 const ProjectPlan& plan, const View& view);
     static Size largest_size();
-    // Always projects the whole tet.
+    // Projects the tet uncut, whatever the part's piece.
     Written write(const TetPart& part, const Place& place) const override;
 
     // A corner of a tet.
@@ -136,6 +135,7 @@ class FanGeometry : public TetGeometry {
     using Fronts = FacePairs::Fronts;
 
   private:
+    // Triangles around the thick vertex, which is the first.
     struct Fan {
         int rim = 0;  // number of vertices around the first one: 3 or 4
         std::array<FanVertex, 5> vertices;
@@ -172,11 +172,11 @@ class FanGeometry : public TetGeometry {
     bool divided_;  // values are divided by z for interpolation
 };
 
-// A triangle of Kraus 2004 (projection/fan_geometry.h) as a rasteriser treats it. Its corners are
-// rounded to 1/256 pixel, and values are interpolated linearly between them.
+// A triangle of Kraus 2004 (FanVertex) as a rasteriser treats it: its corners are rounded to a grid
+// (rounded_to_grid()), and values are interpolated linearly between them.
 struct TriangleRecord {
-    // Twice the area of the triangle of an edge and a pixel centre, >= 0 on the inner side. Two
-    // triangles that share an edge compute the same number with opposite signs.
+    // A function of the pixel: twice the area of the triangle of an edge and a pixel centre, >= 0
+    // on the inner side. Two triangles that share an edge compute it with opposite signs.
     struct Edge {
         double column, row;          // a corner of the edge, window coordinates
         double per_column, per_row;  // change of the area from that corner
@@ -187,8 +187,8 @@ struct TriangleRecord {
         glm::vec4 front, back;
     };
     std::array<Edge, 3> edges;  // opposite the corners; these are rounded to the grid
-    // The weight of a corner in the interpolation. It is linear in the pixel between corners that
-    // are not rounded, as in rasterisers.
+    // The weight of a corner in the interpolation, a linear function of the pixel. As in
+    // rasterisers, it refers to the corners before rounding.
     struct Share {
         double column, row;  // place at which it is 0
         double per_column, per_row;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shades fragments with everything that a plan may ask for. The plan is read for each vector of
-// pixels.
+// Shades fragments with every source, output and target of plans, chosen for each vector of pixels.
 #if defined(LAMINA_PROJECTION_GENERAL_SHADING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
 #undef LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
@@ -16,8 +15,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// Returns random bits for the pixels of a tile from `place` on, and the cell fragment that is
-// drawn; 0 if its output does not depend on them.
+// Returns random bits for a cell fragment's pixels from `place` on; 0 if the output is not random.
 LAMINA_INLINE Word random_of_fragments(const TetFragments& fragments, const TileGrid::Tile& area,
                                        std::size_t place, std::uint32_t number) {
     const bool stochastic = fragments.blend.alpha_rounding == AlphaRounding::stochastic;
@@ -29,8 +27,8 @@ LAMINA_INLINE Word random_of_fragments(const TetFragments& fragments, const Tile
                             fragments.seed);
 }
 
-// Dithers as in Kraus 2004, section 4.2, but with one random number for all channels, because the
-// blending unit rounds associated colours, too.
+// Dithers as in Kraus 2004, section 4.2, but with one random number for opacity and colour, because
+// the blending unit rounds associated colours, too.
 LAMINA_INLINE Float dithered(float largest, Float value, Float random) {
     const Float scaled = clamp01(value) * largest;
     const Float whole = floor(scaled);
@@ -81,7 +79,7 @@ LAMINA_INLINE void put_fragment(const TetFragments& fragments, const Fragment& f
     }
 }
 
-// Puts opacity alone over `there`.
+// Returns a pixel's opacity, `there`, with a fragment's opacity composited over it.
 LAMINA_INLINE Float put_opacity(const TetFragments& fragments, Float opacity, Word random,
                                 Float there) {
     const TargetBlend& target = fragments.blend;
@@ -136,7 +134,7 @@ struct EndWeights {
 };
 
 // Calls visit(AnalyticPiece) for the pieces of segments, front to back. Scalars may lie outside [0,
-// 1], beyond which the first and the last interval go on.
+// 1]; there the first and the last interval go on.
 template <class Visit>
 LAMINA_INLINE void for_each_analytic_piece(const CpuTransfer& transfer, Float front, Float back,
                                            Float world_length, const Visit& visit) {
@@ -181,7 +179,7 @@ LAMINA_INLINE EndWeights end_weights(const AnalyticPiece& piece, Float opacity) 
     return {near, max(opacity - near, 0)};
 }
 
-// `colored`: otherwise only the optical depth is computed.
+// Returns colour (if `colored`) and optical depth of segments by exact integrals of their pieces.
 LAMINA_INLINE AnalyticSum integrate_analytic(const CpuTransfer& transfer, bool colored, Float front,
                                              Float back, Float world_length) {
     Float transmittance(1);
@@ -238,9 +236,9 @@ LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments, const TetR
     return {sum.color[0] * opacity, sum.color[1] * opacity, sum.color[2] * opacity, opacity};
 }
 
-// Returns the colour of segments that may leave the window: of the pieces before it, within it and
-// behind it, one behind the other; the transfer function is constant outside. `color`: that of
-// segments within [0, 1].
+// Returns the colour of segments whose scalars may leave the window [0, 1], outside which the
+// transfer function is constant: the colour of the pieces before the window, within it and behind
+// it, composited. `color`: the function that returns the colour of segments within [0, 1].
 template <class Color>
 LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const TetRun& run,
                                       const Color& color) {
@@ -300,6 +298,7 @@ LAMINA_NOINLINE inline void put_fragments(const TetFragments& fragments, std::ui
     store_pixels(there, *tile.pixels, place);
 }
 
+// A Shader (tet_drawing-inl.h) for all plans without light.
 struct GeneralShader {
     static constexpr bool lit = false;
     bool cut, scalars, perspective, opacity_only;
@@ -310,8 +309,9 @@ struct GeneralShader {
           perspective(fragments.perspective),
           opacity_only(fragments.opacity_only) {}
 
-    // Codes must equal those of OpenGL's programs. These have no special case for optical depths
-    // below faint_depth, and none at all if depths are found in double precision.
+    // Returns the bound by which a cell fragment's colour is computed. For targets with codes it is
+    // that of OpenGL's programs, so that codes are equal: they have no case for depths below
+    // faint_depth, and none at all if depths on faces are found in double precision.
     static PartDepth depth_of(const TetFragments& fragments, const PartArea& area) {
         if (!is_fixed_point(fragments.blend.target)) return area.depth;
         if (area.careful) return PartDepth::any;

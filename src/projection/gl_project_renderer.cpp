@@ -26,6 +26,7 @@ namespace {
 // (screen_polygon.h).
 constexpr double margin_steps = 2;
 
+// The attributes of the vertex shaders, in the order of their locations.
 constexpr std::array silhouette_attributes{
     GlTetStream::Attribute{2, offsetof(SilhouetteVertex, position), false},
     GlTetStream::Attribute{1, offsetof(SilhouetteVertex, record), true}};
@@ -63,7 +64,7 @@ std::vector<Code> to_codes(const std::vector<float>& texels) {
     return codes;
 }
 
-// The leaves of a tree, drawn by a function.
+// Draws the leaves of a tree by calling a function.
 template <typename DrawLeaf>
 struct TetLeaves : TreeLeaves {
     explicit TetLeaves(DrawLeaf& function) : draw_leaf(function) {}
@@ -235,7 +236,7 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
     if (visible_->count() == 0) return;
     make_stream(std::move(stream));
     if (plan_.tree.empty()) return;
-    // The samples of a ray are the cell fragments, as many in every view.
+    // The tree's samples are the mesh's cell fragments, whose number does not depend on the view.
     CompositingPlan nodes = plan_;
     if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered
     const TreeShape shape(plan_.tree, static_cast<int>(visible_->count()));
@@ -359,7 +360,7 @@ void GlProjectRenderer::read(Image& image) const {
 }
 
 std::map<std::string, double> GlProjectRenderer::stages_ms() const {
-    // The geometry is written while the batch before is drawn.
+    // The geometry of a batch is written while the batch before is drawn, so these times overlap.
     return {{"tables", table_ms_},
             {"order", order_ms_},
             {"geometry", stream_ ? stream_->write_ms() : 0},

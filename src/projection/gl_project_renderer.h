@@ -11,10 +11,9 @@
 
 namespace lamina {
 
-// Tells whether the plan needs a program of that kind beside those of later kinds.
+// Tells whether the plan needs a program for this kind; otherwise a later kind's program draws it.
 bool has_program(const ProjectPlan& plan, FragmentKind kind);
-// Returns the definitions that specialise projection/tet.frag and its vertex shader, except for the
-// tables.
+// Returns the definitions of projection/tet.frag and its vertex shader, except for the tables.
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
 
 // The transfer function in the form that the fragments of tets read
@@ -42,8 +41,8 @@ class GlProjectTables {
 // Draws a mesh as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlProjectRenderer : public ProjectRenderer {
   public:
-    // Builds tables and programs, and order and stream if those of another renderer cannot be used;
-    // errors of OpenGL are Errors. The mesh must outlive it.
+    // Takes `order` and `stream`, those of another renderer, if they fit, and otherwise builds its
+    // own. Errors of OpenGL are Errors. The mesh must outlive the renderer.
     GlProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                       const ProjectPlan& plan, const Capabilities& capabilities, int width,
                       int height, std::shared_ptr<VisibilityOrder> order = nullptr,

@@ -13,8 +13,8 @@
 namespace lamina {
 namespace {
 
-// Batches are small enough that the second core soon has work, and large enough that a draw costs
-// little.
+// Cell fragments in a batch and in a chunk. Batches are small enough that drawing starts soon, and
+// large enough that a draw call costs little.
 constexpr std::size_t most_batch_parts = 32768;
 constexpr std::size_t chunk_parts = 64;
 
@@ -30,7 +30,7 @@ const void* offset_of(std::size_t index) {
     return reinterpret_cast<const void*>(index * sizeof(std::uint32_t));
 }
 
-// Draws in these pixels alone; null: in all.
+// Limits drawing to some pixels; null: no limit. `rows`: of the picture.
 void set_scissor(const PixelArea* pixels, int rows) {
     const auto& api = gl::api();
     if (pixels == nullptr) {
@@ -165,8 +165,8 @@ void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPa
     chunk.indices = static_cast<int>(index - first * size_.indices);
 }
 
-// Submits runs of chunks with the same program. Empty chunks are left out, because at a draw of no
-// indices Mesa 22.3 forgets the rest of a multi-draw.
+// Submits consecutive chunks of one program together. Empty chunks are skipped, because at a draw
+// of no indices Mesa 22.3 forgets the other draws of a multi-draw.
 void GlTetStream::submit(std::size_t chunks, const Programs& programs) {
     const auto program_of = [&](std::size_t chunk) {
         return programs[static_cast<std::size_t>(chunks_[chunk].kind)];

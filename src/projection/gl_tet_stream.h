@@ -12,8 +12,8 @@
 
 namespace lamina {
 
-// Streams tets or cell fragments through mapped buffers in batches. While the context draws one
-// batch, all cores write the next. It takes its memory once.
+// Streams cell fragments (TetPart) to OpenGL through mapped buffers, in batches. While the context
+// draws one batch, all cores write the next. It takes its memory once.
 class GlTetStream {
   public:
     // An attribute of a vertex; attributes have the locations 0, 1, ...
@@ -26,7 +26,7 @@ class GlTetStream {
     GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
                 std::size_t parts);
 
-    // Tells whether it equals what the constructor would make, for geometry of one kind.
+    // Tells whether the constructor would make an equal stream, given equal kinds of geometry.
     bool serves(const TetGeometry::Size& size, std::size_t parts) const;
 
     // Sets whether draw() waits between cell fragments, for programs that read the target as a
@@ -35,10 +35,9 @@ class GlTetStream {
 
     using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; several may be
                                                                 // the same program
-    // Draws cell fragments in their order with the state that is bound; the viewport is the
-    // picture. Ctrl-C ends it between batches, and `batch_done` is called after each batch. Returns
-    // the number of tets that were drawn, that is, cover the centre of a pixel. `rows`: of the
-    // picture.
+    // Draws cell fragments in order with the bound state; the viewport is the picture. Ctrl-C ends
+    // it between batches, and `batch_done` is called after each. Returns the number of tets drawn,
+    // that is, that cover a pixel centre. `rows`: of the picture.
     std::int64_t draw(const TetGeometry& geometry, const DrawOrder<TetPart>& parts, int rows,
                       const Programs& programs, const std::function<void()>& batch_done);
 
@@ -54,7 +53,7 @@ class GlTetStream {
         gl::Fence drawn;
     };
     static constexpr std::int32_t none = -1;
-    // Cell fragments that one task writes to its own region of the buffers.
+    // The cell fragments that one task writes, each task to its own region of the buffers.
     struct Chunk {
         int indices = 0;
         // Tets that are drawn; consecutive cell fragments of one tet count once.
@@ -73,11 +72,12 @@ class GlTetStream {
     bool barriers_ = false;
     std::size_t batch_parts_;
     std::array<Batch, 3> batches_;
-    // Goes on from draw to draw, so that a draw of few tets need not wait.
+    // The batch that is written next. It goes on from draw to draw, so that a draw of few tets does
+    // not wait for the one before.
     std::size_t next_batch_ = 0;
     std::vector<Chunk> chunks_;
-    // Number of indices of each cell fragment of the batch, if these are submitted one by one: with
-    // barriers between them, or if some are drawn in some pixels alone.
+    // Number of indices of each cell fragment of the batch; empty unless these are submitted one by
+    // one: with barriers between them, or if some are limited to some pixels.
     std::vector<int> part_indices_;
     std::vector<int> counts_;  // number of indices of each chunk of one draw
     std::vector<const void*> offsets_;

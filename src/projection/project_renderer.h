@@ -15,7 +15,7 @@ namespace lamina {
 
 class GlTetStream;
 
-// Parts that the next renderer of the mesh can take over.
+// Parts of a renderer that the next renderer of the same mesh can take over.
 struct ProjectParts {
     std::shared_ptr<VisibilityOrder> order;
     std::shared_ptr<GlTetStream> stream;  // buffers of OpenGL
@@ -26,9 +26,9 @@ class ProjectRenderer : public FrameRenderer {
   public:
     bool take(const Plan& plan) override { return plan.project.picture() == plan_.picture(); }
     virtual ProjectParts parts() const = 0;
-    // Of the last frame:
+    // These two describe the last frame.
     const OrderReport& order_report() const { return order_->report(); }
-    std::int64_t tets_drawn() const { return tets_drawn_; }  // that cover the centre of a pixel
+    std::int64_t tets_drawn() const { return tets_drawn_; }  // tets that cover a pixel centre
 
     // Makes the mesh live as long as the renderer.
     void keep(std::shared_ptr<const SceneMesh> mesh) { kept_mesh_ = std::move(mesh); }
@@ -40,7 +40,7 @@ class ProjectRenderer : public FrameRenderer {
   protected:
     ProjectRenderer(const ProjectRenderer&) = delete;
     ProjectRenderer& operator=(const ProjectRenderer&) = delete;
-    // Takes `ready`, an order of the mesh's tets or null, if it sorts as the plan says.
+    // Takes the order `ready` (or null) if it is of the plan's method, and otherwise makes one.
     ProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                     const ProjectPlan& plan, std::shared_ptr<VisibilityOrder> ready);
     void find_visible_parts();
@@ -57,9 +57,9 @@ class ProjectRenderer : public FrameRenderer {
     double order_ms_ = 0, draw_ms_ = 0;  // of the last frame
 };
 
-// Makes a renderer that draws a mesh as the plan says, on the context of the capabilities: the
-// engine `cpu`, or the current OpenGL context, which must outlive it, as must the mesh. `ready`:
-// parts of a renderer of the same mesh and capabilities, which draws no more, or none.
+// Makes a renderer that draws a mesh as the plan says: by the cpu engine or in the current OpenGL
+// context, as the capabilities say. The mesh and the context must outlive it. `ready`: parts of a
+// renderer of the same mesh and capabilities that draws no more; may be empty.
 std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const TransferFunction& transfer_function,
                                                        const ProjectPlan& plan,

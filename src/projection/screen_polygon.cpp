@@ -12,16 +12,16 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t most_points = 8;
+constexpr std::size_t most_points = 8;  // of surround()
 
-// Distance beyond which corners are cut off, so that rasterisers keep their sub-pixel digits.
+// Polygons are cut off this far from the picture, so that rasterisers keep sub-pixel digits.
 constexpr double guard = 2;  // pixels
 
 // Distance below which two corners count as one.
 constexpr double same = 1e-9;  // pixels
 
-// Cosine of the sharpest corner. Corners of the enlarged polygon stick out by at most 1 / sqrt((1 +
-// this) / 2) margins. Sharper ones are cut off square.
+// Cosine of the sharpest corner c that is kept; sharper ones are cut off square. So corners of the
+// enlarged polygon stick out by at most 1 / sqrt((1 + c) / 2) margins.
 constexpr double sharpest = -0.96;
 
 bool are_same(const glm::dvec2& a, const glm::dvec2& b) {
@@ -30,7 +30,8 @@ bool are_same(const glm::dvec2& a, const glm::dvec2& b) {
 
 using Hull = FewPoints<glm::dvec2, most_points + 5>;
 
-// Andrew's monotone chain. The hull is counter-clockwise, without corners on straight edges.
+// Returns the convex hull by Andrew's monotone chain: counter-clockwise, without corners on
+// straight edges.
 Hull convex_hull(std::span<const glm::dvec2> points) {
     std::array<glm::dvec2, most_points> sorted;
     const std::size_t count = points.size();
@@ -63,8 +64,8 @@ Hull convex_hull(std::span<const glm::dvec2> points) {
     return hull;
 }
 
-// Returns the part with a coordinate `axis` of at most `limit` or, if `sign` is -1, at least
-// `limit` (Sutherland and Hodgman 1974).
+// Returns the hull's region with a coordinate `axis` of at most `limit` or, if `sign` is -1, at
+// least `limit` (Sutherland and Hodgman 1974).
 Hull cut(const Hull& hull, int axis, double limit, double sign) {
     Hull part;
     for (std::size_t i = 0; i < hull.count; ++i) {
@@ -106,8 +107,8 @@ bool is_convex(const Hull& hull) {
     return true;
 }
 
-// Moves the hull's edges outwards by `margin`. The corners lie on a grid of half of that, on which
-// coordinates and cross products are exact.
+// Moves the hull's edges outwards by `margin`. The corners lie on a grid of half of `margin`, on
+// which coordinates and cross products are exact.
 ScreenPolygon enlarged(const Hull& hull, double margin) {
     const double step = margin / 2;
     Hull larger;
@@ -158,7 +159,7 @@ ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int wi
         if (bounds.max[axis] > hi[axis]) hull = cut(hull, axis, hi[axis], 1);
     }
     if (hull.count == 0) return {};
-    // A rectangle may cover more than the tet: fragments beside the tet find no thickness there.
+    // A rectangle may cover more than the tet: fragments beside the tet find segments of length 0.
     if (hull.count == 1 || hull.count > 6)
         return rectangle(bounds_of(hull.points(), margin), margin / 2);
     return enlarged(hull, margin);

@@ -18,7 +18,7 @@ struct ScreenPolygon {
     std::array<glm::vec2, most_corners> corners;
 };
 
-// Up to `most` points; further ones are left out.
+// A list of up to `most` points; points beyond that number are dropped.
 template <typename Point, std::size_t most>
 struct FewPoints {
     std::size_t count = 0;
@@ -39,14 +39,13 @@ struct PixelBounds {
     bool empty() const { return last_column < first_column || last_row < first_row; }
 };
 
-// Returns the pixels of a picture whose centres may lie nearer to the convex hull of `points` than
-// `margin`, in pixels.
+// Returns a rectangle with all pixel centres nearer than `margin` pixels to the hull of `points`.
 PixelBounds pixel_bounds(std::span<const glm::dvec2> points, double margin, int width, int height);
 
 // Returns a polygon around `points` (at most 8) that covers every pixel centre nearer to their
-// convex hull than half of `margin`, 2 steps of the rasteriser's grid; 0 corners if none is in the
-// picture. Corners lie on that grid, because rounding could turn very thin polygons over. Drawn as
-// a triangle fan around a corner, it covers each pixel centre once.
+// convex hull than half of `margin` (2 steps of the rasteriser's grid, in pixels); it has 0 corners
+// if it covers no pixel centre of the picture. Corners lie on that grid, because rounding could
+// turn very thin polygons over. As a triangle fan around a corner it covers each pixel centre once.
 ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int width, int height);
 
 }  // namespace lamina

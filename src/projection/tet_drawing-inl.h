@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws cell fragments over the pixels of a tile. A `Shader` says how fragments are drawn. It has
-// the constant `lit`; `cut`, `scalars`, `perspective` and `opacity_only` (constants or members);
-// and the functions color() (lit: lit_color()) and put().
+// Draws cell fragments (TetPart) over a tile's pixels. A `Shader` says how fragments are coloured
+// and written: GeneralShader, LitShader or PartShader. It has the constant `lit`; `cut`, `scalars`,
+// `perspective`, `opacity_only` (constants or members); and color() (lit_color() if lit) and put().
 #if defined(LAMINA_PROJECTION_TET_DRAWING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_DRAWING_INL_H_
 #undef LAMINA_PROJECTION_TET_DRAWING_INL_H_
@@ -19,16 +19,17 @@
 
 LAMINA_SIMD_BEGIN
 
-// Fragments are added as vectors of 4 x 1, 4 x 2 or 4 x 4 pixels. A cell fragment covers about half
-// of the pixels of a vector. AVX-512 packs the covered pixels of one cell fragment, so that few
-// colours are computed in vain. Each step is done for all fragments of the queue before the next
-// step, because vectors within a step do not depend on each other.
+// A queue of fragments, that is, of pixels that cell fragments cover. They are added as vectors of
+// 4 x 1, 4 x 2 or 4 x 4 pixels, about half of which a cell fragment covers. With AVX-512 the queue
+// packs the covered pixels of one cell fragment, so that few colours are computed in vain. Each
+// step of shading is done for all fragments of the queue before the next step, because vectors
+// within a step do not depend on each other.
 class FragmentQueue {
   public:
     static constexpr std::size_t lanes = Float::lanes;
 
-    // A vector of pixels, by the TileGrid::place() of the first one, and the number in the
-    // TileBatch of the cell fragment that covers some of them.
+    // A vector of pixels: the TileGrid::place() of the first one, and the number in the TileBatch
+    // of the cell fragment that covers some of them.
     struct Place {
         std::uint16_t place, part;
     };
@@ -51,7 +52,7 @@ class FragmentQueue {
         LAMINA_INLINE void add(std::size_t place, const PlacedRay& found, FloatMask inside) {
             add(place, found.span, found.column, found.row, inside);
         }
-        // Ends the vectors, and returns the number of fragments.
+        // Ends the cell fragment, and returns the number of its fragments.
         LAMINA_INLINE std::size_t finish() {
             if constexpr (packs) {
                 for (std::size_t i = 0; i < values; ++i) put(i, 0);
@@ -59,8 +60,7 @@ class FragmentQueue {
             const auto written = static_cast<std::size_t>(to_ - queue_.values_);
             const std::size_t end =
                 packs ? (written + lanes - 1) / lanes * lanes : written / values;
-            // A single store is mostly enough. A branch on the number that is needed could not be
-            // predicted.
+            // The first fill is mostly enough; its fixed length needs no unpredictable branch.
             std::uint16_t* const parts = queue_.parts_ + queue_.end_ / lanes;
             const std::size_t vectors = (end - queue_.end_) / lanes;
             std::fill_n(parts, some_parts, part_);
@@ -71,9 +71,8 @@ class FragmentQueue {
         }
 
       private:
-        // Keeps the vector if one of its pixels is `inside`. It does so without a branch, which
-        // could not be predicted. The span of pixels that are not inside becomes 0, so that the
-        // other two numbers, which keep their values, make no difference there.
+        // Keeps the vector if a pixel is `inside`, without a branch, which could not be predicted.
+        // Pixels not inside get span 0; their `third` and `fourth` make no difference.
         LAMINA_INLINE void add(std::size_t place, const InsideSpan<Float>& span, Float third,
                                Float fourth, FloatMask inside) {
             const std::size_t count = count_of(inside), some = count > 0 ? 1 : 0;
@@ -113,8 +112,7 @@ class FragmentQueue {
     LAMINA_INLINE void for_each_vector(const Visit& visit) const {
         for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{parts_[i / lanes]}, i);
     }
-    // Calls visit(Place, color) for each vector of pixels. The colour of a pixel that is not
-    // covered is 0.
+    // Calls visit(Place, color) for each vector; pixels that are not covered have colour 0.
     template <class Visit>
     LAMINA_INLINE void for_each_place(const Visit& visit) const {
         for (std::size_t i = 0; i < place_count_; ++i) {
@@ -123,8 +121,8 @@ class FragmentQueue {
         }
     }
 
-    // A fragment has four numbers at a time: those of the first step, then those of a segment
-    // unless it is lit, then those of a colour.
+    // A fragment has four numbers, which change from step to step: first a SlantedRay or PlacedRay,
+    // then a TetRun unless it is lit, at last a colour.
     LAMINA_INLINE SlantedRay slanted(std::size_t i) const {
         return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
     }
@@ -152,14 +150,14 @@ class FragmentQueue {
     static constexpr bool packs = packs_quickly;
     static constexpr std::size_t values = 4, enough = 256, most = enough + TileGrid::pixels + lanes,
                                  some_parts = 16;
-    // The position of a place's fragments in a queue that packs them.
+    // The position of a place's packed fragments.
     struct Packed {
         std::uint16_t first;
         std::uint16_t inside;  // one bit a pixel
     };
 
-    // Packed fragments begin anywhere, so each value has an array of its own. Else the values of a
-    // vector follow each other.
+    // Returns the index in values_. Packed fragments begin anywhere, so each of the four values has
+    // an array of its own. Without packing, the four values of a vector follow each other.
     static constexpr std::size_t position(std::size_t value, std::size_t i) {
         return packs ? value * most + i : value * lanes + i * values;
     }
@@ -209,6 +207,7 @@ LAMINA_INLINE void for_each_block(std::uint64_t blocks, const Visit& visit) {
     }
 }
 
+// Finds the pixels of a tile that cell fragments cover.
 class TetCoverage {
   public:
     TetCoverage(const TetFragments& fragments, const TetTile& tile)
@@ -219,8 +218,8 @@ class TetCoverage {
         return blocks_of(area, area_) & blocks_within(area);
     }
 
-    // `cut`: the cell fragment ends at planes of constant scalar. `lit`: the fragments found are
-    // lit.
+    // Adds the pixels of `blocks` that cell fragment `part` covers to the queue. `cut`: it ends at
+    // planes of constant scalar. `lit`: its fragments are lit.
     template <bool lit>
     LAMINA_INLINE void find(bool cut, const SilhouetteRecord& record, const PartArea& area,
                             std::uint64_t blocks, std::size_t part, FragmentQueue& found) {
@@ -256,8 +255,7 @@ class TetCoverage {
         const auto pixels = [](std::int32_t from, std::int32_t to) {
             return static_cast<float>(to - from);
         };
-        // Bounds in blocks from the tile's first block, plus one half: rounding then gives the next
-        // whole number after the bound.
+        // Bounds in blocks from the tile's first, plus 1/2, to be rounded to the next whole number.
         const Float4 per_row = load_unaligned<Float4>(area.outline.per_row.data());
         const Float4 bound = (load_unaligned<Float4>(area.outline.at_first.data()) +
                               per_row * pixels(area.first_row, area_.row) -
@@ -304,7 +302,7 @@ class TetCoverage {
         __builtin_prefetch(tile_.pixels->alpha.data() + first);
     }
 
-    // `placed`: the queue gets the places of pixels.
+    // `placed`: the queue gets PlacedRays, otherwise SlantedRays.
     template <bool placed, bool bounded, class Depths>
     LAMINA_INLINE void find_in(bool cut, const SilhouetteRecord& record, const PartArea& area,
                                std::uint64_t blocks, FragmentQueue::Writer& writer) const {
@@ -318,8 +316,7 @@ class TetCoverage {
         };
         const float first_in = column_of(area.first_column), last_in = column_of(area.last_column);
         const float highest = row_of(area.first_row), lowest = row_of(area.last_row);
-        // These are read before the loop, because for all that the compiler knows the loop's writes
-        // could overwrite the record.
+        // Read before the loop: for all the compiler knows, its writes could overwrite the record.
         const Float scalar_per_column(record.seen().scalar_per_column),
             scalar_per_row(record.seen().scalar_per_row);
         const float* const slants = tile_.slants;
@@ -356,8 +353,7 @@ class TetCoverage {
         }
     }
 
-    // One number for each pixel of the blocks in a row or a column of blocks, counted from the
-    // tile's first pixel.
+    // For each pixel of a row or column of blocks: its column or row from the tile's first pixel.
     struct alignas(64) PixelRow : std::array<float, TileGrid::edge * TileGrid::block> {};
     static constexpr PixelRow block_columns = [] {
         PixelRow columns{};
@@ -391,6 +387,7 @@ LAMINA_INLINE void store_pixels(const Pixels& there, TilePixels& pixels, std::si
     store(there.alpha, pixels.alpha.data() + place);
 }
 
+// Draws the cell fragments of a batch over a tile.
 class TetDrawing {
   public:
     TetDrawing(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile)
@@ -405,6 +402,7 @@ class TetDrawing {
     std::int64_t fragments() const { return coverage_.fragments(); }
 
   private:
+    // A cell fragment, and the tile's blocks that it may cover: one bit a block.
     struct Blocks {
         std::uint64_t blocks;
         std::size_t part;
@@ -425,7 +423,8 @@ class TetDrawing {
         }
     }
 
-    // It is not inlined, because only then does GCC inline the shader into it.
+    // Shades and writes the queue's fragments. It is not inlined, because only then does GCC inline
+    // the Shader's functions into it.
     template <class Shader>
     LAMINA_NOINLINE void draw_queue(const Shader& shader) {
         if constexpr (Shader::lit) {

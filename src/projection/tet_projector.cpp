@@ -13,15 +13,14 @@
 LAMINA_SIMD_BEGIN
 namespace {
 
-// The front face and the back face of each pair of one of either kind, by the number of front
-// faces.
+// By the number of front faces: front and back face of each pair of a front and a back face.
 alignas(16) constexpr std::int32_t front_of[4][4] = {
     {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 0, 1}, {0, 1, 2, 2}};
 alignas(16) constexpr std::int32_t back_of[4][4] = {
     {0, 0, 0, 0}, {1, 2, 3, 3}, {2, 2, 3, 3}, {3, 3, 3, 3}};
 
-// These exceed all rounding errors of depths and of the bounds, in depth and per pixel from the
-// center, because parts that the outline leaves out must not be visible.
+// Margins, as a share of depths and in pixels, that exceed all rounding errors of depths and of the
+// bounds, because no pixel that the outline leaves out may be visible.
 constexpr float rounding = 1e-6f, least_slack = 1e-3f;
 
 // Lines along rows are made a little oblique, so that they bound columns, too.
@@ -29,8 +28,8 @@ constexpr float oblique = 1e-4f;
 
 }  // namespace
 
-// The largest difference of depth at a corner of the square X columns and Y rows from the area's
-// first pixel is most + c X - r Y. There is a lane for each line.
+// The largest difference between back and front depth at a corner of the block that begins X
+// columns and Y rows from the area's first pixel is most + c X - r Y. Each line has a lane.
 PartOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
     constexpr float middle = 0.5f * (TileGrid::block - 1);
     const SeenTet& seen = record.seen();
@@ -70,28 +69,28 @@ LAMINA_SIMD_END
 namespace lamina {
 namespace {
 
-// Exponent of the smallest gradient in the unit, which is 2^-40 or up to twice that. Light depends
-// on the lengths of gradients relative to it, and its square, 2^-80, leaves room for those that are
-// 2^20 times as short.
+// Exponent that the smallest gradient gets in the unit of StoredGradients: it becomes 2^-40 to
+// 2^-39. Light depends on lengths of gradients relative to the smallest one. Its square, 2^-80,
+// still leaves float32 digits for those of gradients that are 2^20 times as short.
 constexpr int smallest_exponent = -40;
 
-// Length, in the unit, to which longer gradients are shortened: float32 has no larger numbers.
+// Gradients are shortened to this length, in StoredGradients' unit, to stay finite in float32.
 constexpr double longest_stored = 0x1p120;
 
 using LAMINA_LEAST(finite);
 using OneTet = LAMINA_LEAST(TetView)<double>;
 
-// Angle by which a face seen edge-on is taken as inclined, so that its depth per pixel is a number.
-// It is far below the perturbation of rays that run along faces (GlProjectRenderer).
+// Angle, in radians, by which a face seen edge-on is taken as inclined, so that its depth per pixel
+// is finite. It is far below the perturbation of rays that run along faces (ray_perturbation()).
 constexpr double least_inclination = 1e-16;
 
 double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// Width, as a share of its distance, below which a tet is a needle. Seen from the eye, its corners
-// are rounded by about a 1000th of its width, and planes through them may lie anywhere along it. A
-// ray meets it only by a chance of about this share.
+// Width, as a share of its distance from the eye, below which a tet is a needle and is not drawn.
+// Its corners relative to the eye are rounded by about a 1000th of this width, so planes through
+// them may lie anywhere along it. A ray meets it only by a chance of about this share.
 constexpr double least_width = 0x1p-42;
 
 bool is_too_thin(const std::array<glm::dvec3, 4>& corners) {
@@ -106,8 +105,7 @@ bool is_too_thin(const std::array<glm::dvec3, 4>& corners) {
     return widest <= least_width * reach * longest;
 }
 
-// Returns the corners of a face in the order of their numbers, which is the same for both tets that
-// share it.
+// Returns the corners of a face in the order of their numbers, the same for both of its tets.
 std::array<std::size_t, 3> sorted_face(const Tet& tet, std::size_t face) {
     std::array<std::size_t, 3> corners = face_corners[face];
     const auto sort = [&](std::size_t& low, std::size_t& high) {
@@ -145,9 +143,9 @@ OneTet::Linear linear(const OneTet& tet, const PartField& field, double origin, 
     return tet.linear((field.at(tet.center()) - origin) * scale, field.gradient() * scale);
 }
 
-// Only the face's own corners are used, in the order of their numbers, so that the two tets of a
-// face compute the same numbers, and no ray leaves one before or after it enters the other. `front`
-// is the exact sign of a face that is not edge-on, and equal for both tets of one that is.
+// Returns the plane of a face, from its corners alone, in the order of their numbers, so that both
+// of its tets compute the same numbers, and no ray leaves one before or after it enters the other.
+// `front`: the exact sign of the face; if it is edge-on, equal for both tets.
 OneTet::DepthPlane depth_plane(const OneTet& view, const Tet& tet, std::size_t face, bool front,
                                const std::array<glm::dvec3, 4>& corners) {
     const auto sorted = sorted_face(tet, face);
@@ -156,7 +154,7 @@ OneTet::DepthPlane depth_plane(const OneTet& view, const Tet& tet, std::size_t f
     const glm::dvec3& c = corners[sorted[2]];
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double distance = glm::dot(normal, a);
-    // right, up, forward are left-handed, so determinants have the other sign than in the world.
+    // Right, up, forward are left-handed: determinants have the other sign than in the world.
     const double sign = front == turned_by_sorting(tet, face) ? -1 : 1;
     const double reach = view.perspective() ? std::max({largest(a), largest(b), largest(c)}) : 1;
     const double least = least_inclination * largest(normal) * reach;
@@ -164,7 +162,7 @@ OneTet::DepthPlane depth_plane(const OneTet& view, const Tet& tet, std::size_t f
     return view.plane(normal, distance, sign * std::max(sign * rounded, std::max(least, 1e-300)));
 }
 
-// Returns whether float32 is good enough for the depths. `cut`: the near plane cuts the tet.
+// Sets the faces' planes; returns true if float32 is good enough. `cut`: by the near plane.
 bool set_depths(const OneTet& view, const Tet& tet, FaceSigns signs, bool cut,
                 const std::array<glm::dvec3, 4>& corners, SilhouetteRecord& record) {
     SeenTet& seen = record.seen();
@@ -185,7 +183,7 @@ bool set_depths(const OneTet& view, const Tet& tet, FaceSigns signs, bool cut,
     return !(steep || first_back == 0 || cut);
 }
 
-// Returns whether float32 is good enough for the scalars.
+// Sets the scalars of a whole tet; returns true if float32 is good enough for them.
 bool set_whole(const OneTet& view, const PartField& field, const ValueRange& range,
                TetRecord& record) {
     const double width = range.hi - range.lo;
@@ -204,8 +202,8 @@ bool set_whole(const OneTet& view, const PartField& field, const ValueRange& ran
     return !runs_beyond({field.least(), field.largest()}, range, far_for_floats);
 }
 
-// Returns a cut of a fragment, or a plane in front of everything if the tet has no scalars beyond
-// `level`.
+// Returns the plane on which the scalar is `level`; if the tet does not reach beyond it (`is_cut`
+// is false), a front plane in front of everything.
 OneTet::Level cut_at(const OneTet& view, const PartField& field, double level, bool is_cut) {
     if (!is_cut) return {{-beyond_all, 0, 0}, true};
     return view.level(field.gradient(), level - field.at(glm::dvec3(0)));

@@ -51,30 +51,28 @@ class PartField {
 
 inline const std::array world_axes{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
 
-// The gradients at the points of a mesh, in a unit in which float32 has room for them.
+// Gradients at a mesh's points, in a unit in which float32 holds them and squares of small ones.
 struct StoredGradients {
     StoredGradients() = default;  // nothing is lit
     // `gradients`: in scalar units per world unit. `smallest`: the light's smallest gradient.
     StoredGradients(std::span<const glm::dvec3> gradients, double smallest);
 
-    // Gradients times `scale`, which depends on the smallest gradient alone: usual ones are then
-    // far below 1. Those around a value that marks missing data may be longer: tets shorten them
-    // (scale_of_tet()).
+    // Gradients times `scale`, which depends on the smallest gradient alone. Most are then far
+    // below 1. Longer ones, around missing data, are shortened in each tet by scale_of_tet().
     std::vector<glm::vec3> at_points;
     double scale = 1;  // a power of two
 
     // Largest component of a tet's gradients after scaling: lengths are then below 1.
     static constexpr double most_of_tet = 0.5;
-    // Returns the factor for all gradients of a tet, of which `largest` is the largest component.
-    // Light depends on directions, which stay. Lengths matter only near the smallest gradient: in a
-    // tet that is scaled, with gradients of 2^38 of it and more, that is less than 1e-11 of the
-    // tet.
+    // Returns the factor for all gradients of a tet whose largest component is `largest`. It keeps
+    // directions, on which light depends. Lengths matter only near the smallest gradient: in a tet
+    // that is scaled, with gradients of 2^38 times that and more, in less than 1e-11 of the tet.
     static double scale_of_tet(double largest) {
         return largest > most_of_tet ? most_of_tet / largest : 1;
     }
 
-    // Returns the square of a smallest gradient in this unit. It is limited to the numbers that
-    // float32 can square: outside, all or nothing is lit.
+    // Returns the square of the lighting's smallest gradient in the unit of at_points. It is
+    // limited to numbers that float32 can square; beyond them, everything or nothing is lit.
     float smallest_square(const Lighting& lighting) const;
 };
 
@@ -83,7 +81,7 @@ struct TetsInView {
     const TetMesh& mesh;
     std::span<const double> scalar;  // one value a point
     ValueRange range;                // the scalars that become [0, 1] in whole tets
-    const TetPieces& pieces;         // that cell fragments refer to
+    const TetPieces& pieces;         // TetPart::piece refers to these
     WindowView window;
     double near_depth;
     double margin;                         // see pixel_bounds()
@@ -102,16 +100,15 @@ class TetProjector {
     explicit TetProjector(const TetsInView& tets)
         : tets_(tets), signer_(tets.mesh, eye_of(tets.view())) {}
 
-    // Fills the record and the outline, and returns the kind of its fragments. The outline covers
+    // Fills the record and the outline, and returns the kind of the fragments. The outline covers
     // the cell fragment and may cover more of its tet. Returns nothing, and leaves the outputs
-    // undefined, if the centre of no pixel is covered. `lit`: null if nothing is lit.
+    // undefined, if no pixel centre is covered. `lit`: gets the gradients; null if nothing is lit.
     std::optional<FragmentKind> project(const TetPart& part, SilhouetteRecord& record,
                                         ScreenOutline& outline, GradientRecord* lit) const;
     const TetsInView& tets() const { return tets_; }
 
   private:
-    // The corners of the region of a tet beyond the near plane (z >= near_depth), which is the
-    // visible one: relative to the eye, along right, up and forward.
+    // Corners of the tet's region z >= near_depth, relative to the eye along right, up and forward.
     using VisibleCorners = FewPoints<glm::dvec3, 6>;
     VisibleCorners clip_near(const PartField::Corners& corners) const;
     ScreenOutline outline_of(const VisibleCorners& visible, const PartField& field,
@@ -121,13 +118,12 @@ class TetProjector {
     FaceSigner signer_;
 };
 
-// Turns the tets or cell fragments of one view into triangles for a rasteriser. Safe from many
-// threads.
+// Turns tets or cell fragments of a view into triangles for a rasteriser. Safe from many threads.
 class TetGeometry {
   public:
     virtual ~TetGeometry() = default;
 
-    // Largest memory that one cell fragment needs.
+    // The memory that one cell fragment needs at most.
     struct Size {
         std::size_t vertex_bytes;  // of one vertex
         std::size_t vertices, indices;
@@ -137,7 +133,7 @@ class TetGeometry {
         friend bool operator==(const Size&, const Size&) = default;
     };
 
-    // The place at which a cell fragment is written.
+    // The memory to which a cell fragment is written.
     struct Place {
         std::byte* vertices;
         std::uint32_t first_vertex;  // number of the vertex at `vertices`, for the indices
@@ -146,8 +142,7 @@ class TetGeometry {
         GradientRecord* gradient;    // null if nothing is lit
         std::uint32_t record_number;
     };
-    // The numbers of vertices and indices that were written; 0 if no pixel centre is covered.
-    // Triangles of one cell fragment do not overlap.
+    // Numbers of written vertices and indices, 0 if nothing is covered; triangles do not overlap.
     struct Written {
         std::size_t vertices = 0, indices = 0;
         FragmentKind kind = FragmentKind::thin;
@@ -161,8 +156,7 @@ struct SilhouetteVertex {
     std::uint32_t record;
 };
 
-// Projects each tet as one polygon around it. The fragments find the front and the back from the
-// planes of the faces.
+// Projects each tet as one polygon; fragments find front and back from the planes of its faces.
 class SilhouetteGeometry : public TetGeometry {
   public:
     explicit SilhouetteGeometry(const TetProjector& projector) : projector_(projector) {}

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records that are computed once for each whole tet, or each cell fragment, of one view.
-//
-// `Depth` is z in orthographic views and -1/z in perspective ones. It grows with eye-space depth z
-// and is linear in window coordinates on every plane (Kraus 2004, section 2.1). A ray is inside the
-// tet from the largest depth on front faces, which the eye is in front of, to the least depth on
-// the other faces.
+// Records of tets as one view sees them, from which fragments find their rays' segments: one for
+// each whole tet or, if tets are cut, for each cell fragment. `Depth` is z in orthographic views
+// and -1/z in perspective ones. It grows with eye-space depth z and is linear in window coordinates
+// on every plane (Kraus 2004, section 2.1). Front faces are those that the eye is in front of. A
+// ray is inside the tet from the largest depth on front faces to the least depth on the others.
 #pragma once
 
 #include <array>
@@ -32,8 +31,8 @@ inline std::uint32_t part_number(const TetPart& part, std::size_t tets) {
            static_cast<std::uint32_t>(part.piece + 1) * static_cast<std::uint32_t>(tets);
 }
 
-// Ways in which the fragments of a cell fragment (TetPart) are computed. A later kind is also right
-// for the fragments of an earlier one, but slower.
+// How the fragments of a cell fragment (TetPart) are computed. A later kind is also right for the
+// fragments of an earlier one, but slower.
 enum class FragmentKind {
     thin,    // optical depth at most thin_depth (optics/segment_integral.h); depths on faces in
              // float32
@@ -41,7 +40,7 @@ enum class FragmentKind {
     careful  // depths on faces in double precision: for faces that are seen nearly edge-on, for
              // cell fragments that the near plane cuts, and if the eye is inside
 };
-inline constexpr std::size_t fragment_kinds = 3;
+inline constexpr std::size_t fragment_kinds = 3;  // number of FragmentKinds
 
 // The faces and the scalar of a tet, with which both records begin.
 struct alignas(16) SeenTet {
@@ -55,9 +54,9 @@ struct alignas(16) SeenTet {
     std::array<float, 2> center;  // a pixel centre near the tet, in window coordinates
     float center_depth;           // depth of a point in the tet
     float center_z;               // z of that point
-    // The scalar at that point, normalised so that a range becomes [0, 1]: the projector's range,
-    // or that of the cell fragment. Then its change along the ray per unit of z, and its change per
-    // pixel (in perspective views, per pixel at z = 1).
+    // The scalar at that point, normalised so that [0, 1] is TetsInView::range for a whole tet, and
+    // the cell fragment's own range for a cell fragment. Then its change along the ray per unit of
+    // z, and its change per pixel (in perspective views, per pixel at z = 1).
     float scalar, scalar_per_z, scalar_per_column, scalar_per_row;
 };
 
@@ -68,16 +67,15 @@ struct TetRecord {
     std::uint32_t fronts;  // the number of front faces, 0 (the eye is inside) to 3
     std::uint32_t number;  // for dithering
     std::array<float, 4> unused;
-    // The remainders of `scalar` and the three numbers behind it that float does not hold. Only
+    // The remainders of `scalar` and the three members behind it that float does not hold. Only
     // TetProjector sets them.
     std::array<float, 4> scalar_rest;
     std::array<float, 4> also_unused;
 };
 
-// A cell fragment: the region of a tet in one interval of the transfer function. It ends at two
-// planes on which the scalar is its least and its largest, in the form that SeenTet::depth has for
-// faces. If the tet itself has no smaller (larger) scalars, the plane is a front in front of
-// everything.
+// A cell fragment: the region of a tet in one interval of the transfer function. Two planes bound
+// it, the cuts at its least and largest scalar, in the form of SeenTet::depth. If the tet has no
+// smaller (larger) scalars, the lower (upper) cut is a front plane in front of everything.
 struct FragmentRecord {
     SeenTet seen;
     float upper_cut_per_column, upper_cut_per_row;
@@ -102,9 +100,8 @@ struct FragmentRecord {
     }
 };
 
-// Either record, as buffers hold them and shaders/projection/silhouette.vert reads them: 12 uvec4.
-// A plan draws whole tets or cell fragments. Both begin with the same members, which are read
-// through either.
+// Either record, in the layout of shaders/projection/silhouette.vert: 12 uvec4. A plan draws only
+// whole tets or only cell fragments; the common first members are read through either.
 union SilhouetteRecord {
     TetRecord tet;
     FragmentRecord fragment;
@@ -117,9 +114,9 @@ union SilhouetteRecord {
 static_assert(sizeof(TetRecord) == 192 && sizeof(FragmentRecord) == 192);
 static_assert(sizeof(SilhouetteRecord) == 192);
 
-// The gradient in a tet of one view, linear in space, for a lit cell fragment: beside its record,
-// as shaders/projection/silhouette.vert reads it: 3 uvec4. Gradients are in the axes of the world
-// and in units in which the longest at a point of the mesh is 1 (projection/tet_projector.h).
+// The gradient in a tet of one view, linear in space, for a lit cell fragment, in the layout of
+// shaders/projection/silhouette.vert: 3 uvec4. It is in the axes of the world and in the unit of
+// StoredGradients (projection/tet_projector.h), in which no component exceeds 1.
 struct alignas(16) GradientRecord {
     // One component: at the point of SeenTet::center, its change along the ray per unit of z, and
     // its change per pixel to the right and upwards (in perspective views, per pixel at z = 1).
@@ -130,19 +127,19 @@ struct alignas(16) GradientRecord {
 };
 static_assert(sizeof(GradientRecord) == 48);
 
-// Largest rounding error, as a share of the tet's thickness in depth, with which depths on faces in
-// float32 are good enough. A face exceeds this if it is seen nearly edge-on. Few pixels have rays
-// that meet such a face, unless a mesh has whole walls of them.
+// Largest rounding error, as a share of the tet's thickness in depth, at which depths on faces in
+// float32 are good enough. A face exceeds it if it is seen nearly edge-on. Few pixels have rays
+// that meet such a face, unless a mesh has large walls of them.
 inline constexpr double float_tolerance = 2e-3;
 
 // A depth beyond everything. Its product with any window coordinate is still finite.
 inline constexpr double beyond_all = -double{FragmentRecord::in_front_of_all};
 
-// The squares of TileGrid::block pixels that a tet may cover. Rays meet the tet if the depths on
-// all its front faces are less than those on all its back faces: inside three or four lines, the
-// silhouette, on which a front and a back depth are equal. Each line bounds the first column of the
-// squares in a row: by `at_first`, in pixels from the area's first column, if their first row is
-// the area's, and by `per_row` more for each row below.
+// The blocks of TileGrid::block x TileGrid::block pixels that a tet may cover. Rays meet the tet if
+// the depths on all its front faces are less than those on all its back faces: inside three or four
+// lines, the silhouette, on which a front and a back depth are equal. Each line bounds the columns
+// of the first pixels of blocks: to `at_first`, in pixels from the area's first column, for blocks
+// that begin in the area's first row, and to `per_row` more for each row below.
 struct PartOutline {
     static constexpr float none = std::numeric_limits<float>::infinity();
 
@@ -155,21 +152,19 @@ struct PartOutline {
 // colour depends. thin: at most thin_depth; faint: at most faint_depth (optics/segment_integral.h).
 enum class PartDepth : std::uint8_t { any, thin, faint };
 
-// The pixels that a cell fragment may cover: columns from the left, rows from the top of the
-// picture.
+// The pixels that a cell fragment may cover: columns from the left, rows from the picture's top.
 struct alignas(64) PartArea : PixelArea {
     bool careful;     // depths on its faces are found in double precision (FragmentKind::careful)
     PartDepth depth;  // bound for any segment through it
-    // True: pixels outside these columns and rows do not count, and no segment ends beyond
+    // True: pixels outside these columns and rows are not drawn, and no segment ends beyond
     // `farthest`, a depth relative to the record's center. Outside a tet the planes of its faces
-    // meet at any depth, and there rounding alone may make visible segments.
+    // meet at any depth, where rounding alone may make segments of length above 0.
     bool bounded = true;
     float farthest = std::numeric_limits<float>::infinity();
     PartOutline outline = {};
 };
 
 // Returns the outline of a tet with 1 to 3 front faces whose depths are found in float32.
-// `image_rows`: number of rows of the picture.
 PartOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows);
 
 }  // namespace lamina

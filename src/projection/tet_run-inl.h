@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The segments of the rays of some pixels inside a cell fragment. This is the vector form of
-// shaders/projection/silhouette.glsl, which gives the reasons.
+// Finds the segments of the rays of some pixels inside a cell fragment. This is the vector form of
+// shaders/projection/silhouette.glsl, whose comments give the reasons.
 #if defined(LAMINA_PROJECTION_TET_RUN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_RUN_INL_H_
 #undef LAMINA_PROJECTION_TET_RUN_INL_H_
@@ -16,18 +16,19 @@
 
 LAMINA_SIMD_BEGIN
 
+// The depths at which a ray enters and leaves a cell fragment, relative to the record's center.
 template <class V>
 struct InsideSpan {
     V enter, leave;
 };
 
-// A ray inside a cell fragment, with the values that a segment in float32 needs: the scalar's
-// change from the record's center at z = 1, and the world length per unit of z.
+// A ray inside a cell fragment, with values that segments in float32 need: `aside`, the scalar's
+// change from the record's center to the ray at z = 1; `slant`, world length per unit of z.
 struct SlantedRay {
     InsideSpan<Float> span;
     Float aside, slant;
 };
-// Such a ray with its pixel, from the record's center: lit fragments and exact segments need it.
+// A ray inside a cell fragment with its pixel from the record's center: for lit or exact segments.
 struct PlacedRay {
     InsideSpan<Float> span;
     Float column, row;
@@ -39,8 +40,9 @@ struct TetRun {
     Float front, back, world_length;
 };
 
-// Computes a linear function of the pixel: its value at a column, counted from the record's center,
-// and its change from row to row. It is rounded as in the shader.
+// These two compute a linear function of the pixel, rounded as in
+// shaders/projection/silhouette.glsl: its value at a column, counted from the record's center, and
+// then at a row.
 LAMINA_INLINE Float at_column(float at_center, float per_column, Float column) {
     return at_center + per_column * column;
 }
@@ -48,8 +50,8 @@ LAMINA_INLINE Float at_row(Float value, float per_row, Float row) {
     return value + per_row * row;
 }
 
-// The entry is the largest depth on front faces, which come first; the exit is the least depth on
-// the other faces.
+// Returns the depths at which the ray enters and leaves: the largest depth on front faces, which
+// come first, and the least depth on the other faces.
 template <class V>
 LAMINA_INLINE InsideSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2, V d3) {
     switch (fronts) {
@@ -62,6 +64,7 @@ LAMINA_INLINE InsideSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2,
     }
 }
 
+// Returns these depths for 0 to 3 front faces, the entry not before the near plane, `nearest`.
 template <class V>
 LAMINA_INLINE InsideSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V d0, V d1, V d2,
                                               V d3) {
@@ -97,8 +100,7 @@ class PlainDepths {
     std::uint32_t fronts_;
 };
 
-// Depths on faces in double precision, for faces that are seen nearly edge-on, for the near plane,
-// and if the eye is inside.
+// Depths in double precision: for faces nearly edge-on, the near plane, and if the eye is inside.
 class CarefulDepths {
   public:
     LAMINA_INLINE CarefulDepths(const TetFragments& fragments, const SilhouetteRecord& record)
@@ -115,7 +117,7 @@ class CarefulDepths {
                                  depth(3));
     }
 
-    // The span of rays inside, and the scalar's ends there, not clamped.
+    // A ray's segment: its length along z, and the scalars at its ends, not clamped.
     struct ExactSpan {
         Float64 length;  // along z
         Float64 front, back;
@@ -154,7 +156,7 @@ class CarefulDepths {
         return sum(seen_.depth) + sum(seen_.depth_per_column) * x + sum(seen_.depth_per_row) * y;
     }
 
-    // The ray perturbation moves the ray in space. Its component along the ray does not count.
+    // These return a pixel's place with the ray perturbation, but not its component along the ray.
     LAMINA_INLINE Float64 moved_column(Float64 column) const {
         return moved(column, seen_.center[0], fragments_.image_middle.x,
                      fragments_.ray_perturbation.x);
@@ -174,11 +176,11 @@ class CarefulDepths {
     const SeenTet& seen_;
 };
 
-// Those of the two planes of a cell fragment, on which the scalar is its least or its largest, that
-// rays may meet within the tet.
+// The cuts of a cell fragment, planes on which the scalar is its least or its largest, without
+// those in front of everything, which no ray meets.
 class PartCuts {
   public:
-    // Neither plane if `cut` is false.
+    // `cut`: false if the record is that of a whole tet, without cuts.
     PartCuts(bool cut, const FragmentRecord& record)
         : lower_(cut && record.has_lower_cut()),
           upper_(cut && record.has_upper_cut()),
@@ -213,13 +215,14 @@ class PartCuts {
 struct TetSpanEnd {
     Float z, from_center;
 };
+// A ray's segment in a cell fragment, without scalars.
 struct TetSpan {
     TetSpanEnd front, back;
     Float world_length;
 };
 
-// `slant`: world length per unit of z. Rays that miss the cell fragment get a span of 0. `Shader`:
-// see projection/tet_drawing-inl.h.
+// Returns the ends and the length of segments. `slant`: world length per unit of z. Rays that miss
+// the cell fragment come with a span of 0. `Shader`: see projection/tet_drawing-inl.h.
 template <class Shader>
 LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragments,
                                 const SilhouetteRecord& record, const InsideSpan<Float>& span,
@@ -228,8 +231,7 @@ LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragme
     Float length = span.leave - span.enter;
     Float z_front(1), z_back(1), front = span.enter, back = span.leave;
     if (shader.perspective) {
-        // Differences of z are computed from differences of depth, so that a distant eye costs no
-        // digits.
+        // Differences of z come from differences of depth, so that a distant eye costs no digits.
         const Float depth_front = seen.center_depth + span.enter;
         const Float depth_back = seen.center_depth + span.leave;
         if (fragments.one_division) {
@@ -250,7 +252,7 @@ LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragme
     return {{z_front, front}, {z_back, back}, length};
 }
 
-// `aside`: the scalar's change from the record's center, at z = 1.
+// Returns the segments with the scalars at their ends. `aside`: as in SlantedRay.
 template <class Shader>
 LAMINA_INLINE TetRun run_between(const Shader& shader, const SilhouetteRecord& record,
                                  const TetSpan& ends, Float aside) {
@@ -268,16 +270,15 @@ LAMINA_INLINE TetRun run_between(const Shader& shader, const SilhouetteRecord& r
     return run;
 }
 
-// Tells whether lengths and scalars of the tet's segments are computed in double precision: of
-// careful tets that are not cut.
+// Tells whether segments of a tet are computed in double precision: if it is careful and not cut.
 LAMINA_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea& area) {
     return area.careful && fragments.source != SegmentSource::parts;
 }
 
-// Returns the segment of a ray through a careful tet. In float32 a short segment through a long tet
-// would be a small difference of large numbers, and so would be a scalar within the window of a tet
-// that runs far outside it (facts/drawn_range.h). `slanted`: lengths along rays are longer than
-// differences of z.
+// Returns the segment of a ray through a careful tet, computed in double precision. In float32 a
+// short segment through a long tet would be a small difference of large numbers, and so would be a
+// scalar within the window in a tet whose scalars reach far outside it (facts/drawn_range.h).
+// `slanted`: lengths along rays are longer than differences of z.
 template <class Shader>
 LAMINA_INLINE TetRun find_exact_run(const Shader& shader, const TetFragments& fragments,
                                     const SilhouetteRecord& record, const PlacedRay& ray,
@@ -309,8 +310,8 @@ LAMINA_INLINE Fragment constant_color(const TetFragments& fragments, const TetRu
     return with_color(glm::vec3(optics), opacity_from_depth(optics.a * run.world_length));
 }
 
-// `colored`: otherwise the colour is fragments.single_color. `most_depth`: a bound on the optical
-// depth of the cell fragment.
+// Returns the colour of segments through a cell fragment, with linear optics; if not `colored`, it
+// is fragments.single_color. `most_depth`: a bound on the segments' optical depth.
 LAMINA_INLINE Fragment part_color(bool colored, PartDepth most_depth, const TetFragments& fragments,
                                   const FragmentRecord& record, const TetRun& run) {
     const auto optics = [&](std::size_t i, Float place) LAMINA_LAMBDA {

@@ -17,7 +17,8 @@
 
 LAMINA_SIMD_BEGIN
 
-// Puts the planes of front faces first, and those of others from the last place on.
+// Collects the planes of a tet's faces: those of front faces from the first place on, the others
+// from the last place backwards.
 struct FacePlanes {
     Double depth[4], per_column[4], per_row[4];
     Double fronts;  // number of front faces so far
@@ -43,6 +44,7 @@ struct FacePlanes {
     Double place_of_back_;
 };
 
+// Sets up one vector of tets, lanes `first` and following of a SetupLanes.
 class TetVectors {
   public:
     TetVectors(const TetsInView& tets, SetupLanes& lanes, std::size_t first)
@@ -121,8 +123,8 @@ class TetVectors {
         }
         const Double least_divisor =
             doubtful_sign * (reach * reach * (tet_.perspective() ? reach : 1));
-        // The points are rounded relative to their distance `reach`, and so are their edges. The
-        // normals of slivers are small differences of products of edges.
+        // The rounding errors of points, and so of edges, are a share of their distance `reach`. In
+        // slivers, normals are small differences of products of edges, and suffer most.
         const Double least_across = doubtful_sign * (reach * (size * size));
         DoubleMask good = nearest_ > tets_.near_depth;
         FacePlanes planes;
@@ -148,15 +150,15 @@ class TetVectors {
                      tolerance = float_tolerance * tet_.depth_range;
         put(lanes_.farthest, tet_.inverted(farthest_) - tet_.center_depth + tolerance);
         good = good & (float_rounding <= tolerance);
-        // Rounding alone may make segments if its error in depth is not small, or if the horizon
-        // (depth 0) is near.
+        // Outside the tet, rounding alone may make segments if its error in depth is not small, or
+        // if the horizon (depth 0) is near.
         DoubleMask bounded = 100 * float_rounding > tolerance;
         if (tet_.perspective()) bounded = bounded | (16 * steepest > abs(tet_.center_depth));
         put(lanes_.bounded, zero_unless(bounded, Double(1)));
         return good & ((fronts_ > 0) & (fronts_ < 4));
     }
 
-    // Finds the scalar's gradient; returns true if it is a number.
+    // Finds the scalar's gradient; returns true if it is finite.
     DoubleMask find_gradient() {
         gradient_ = gradient_of(TetSlopes<Double>(seen_), values_);
         least_ = min(min(values_[0], values_[1]), min(values_[2], values_[3]));
@@ -365,9 +367,8 @@ std::array<std::size_t, 4> sorted_corners(const Tet& tet) {
     return corners;
 }
 
-// The order of a view does not follow the mesh's, so the corners of the next tets, and the tets
-// after these, are prefetched while this one's are in use. It is inlined because GCC 12 drops calls
-// of a function that only prefetches, in which it sees no effect.
+// Prefetches the corners of the next tets, and the tets after these, which lie scattered in memory.
+// Inlined because GCC 12 drops calls of a function that only prefetches.
 LAMINA_INLINE void prefetch(const TetsInView& tets, std::span<const TetPart> next) {
     constexpr std::size_t most = TetSetup::most_parts;
     const auto all = tets.mesh.tets();
@@ -381,7 +382,7 @@ LAMINA_INLINE void prefetch(const TetsInView& tets, std::span<const TetPart> nex
         __builtin_prefetch(&all[static_cast<std::size_t>(next[i].tet)]);
 }
 
-// Lanes without a cell fragment repeat the last one.
+// Fills all lanes; those without a cell fragment repeat the last one.
 void load(const TetsInView& tets, std::span<const TetPart> parts, bool lit, SetupLanes& lanes) {
     const auto all = tets.mesh.tets();
     for (std::size_t lane = 0; lane < TetSetup::most_parts; ++lane) {

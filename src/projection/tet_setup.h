@@ -7,28 +7,27 @@
 
 namespace lamina {
 
-// Results of TetProjector, computed on vectors of several cell fragments if nothing is doubtful:
-// the eye is well outside all faces and the tet lies beyond the near plane. All others are left to
-// the projector.
+// Results of a fast form of TetProjector, which works on vectors of several cell fragments. It
+// handles only clear cases: the eye is well away from the planes of all faces, and the tet lies
+// beyond the near plane. The others, `doubtful`, are left to TetProjector.
 struct TetSetup {
     static constexpr std::size_t most_parts = 8;  // in one call
+    // invisible: no pixel centre is covered; doubtful: left to TetProjector.
     enum class Outcome : std::uint8_t { invisible, done, doubtful };
 
     std::array<PartArea, most_parts> areas;  // areas of the whole tets, rows from the top
     std::array<Outcome, most_parts> outcomes;
 };
 
-// Sets up at most `most_parts` cell fragments: either all are whole tets or none is. Records and
-// areas are defined if the outcome is `done`; the others are overwritten, too. `records`: one for
-// each cell fragment; `lit`, too, or null if there are no gradients. `next`: cell fragments that
-// will follow, which are prefetched.
+// Sets up at most `most_parts` cell fragments: all whole tets, or none. Records and areas are
+// arbitrary unless the outcome is `done`. `records`, and `lit` unless null (nothing is lit), have
+// an element for each cell fragment. `next`: cell fragments that will follow, to be prefetched.
 void set_up_tets(const TetsInView& tets, std::span<const TetPart> parts,
                  std::span<const TetPart> next, SilhouetteRecord* records, GradientRecord* lit,
                  TetSetup& result);
 
-// Input and output of the vectors; each row has one number a cell fragment. Corners are
-// in ascending order of their point numbers, so that the two tets of a face compute the same
-// numbers.
+// Input and output of the vectors, each row with one number a cell fragment. Corners ascend by
+// point number, so that both tets of a face compute the same numbers.
 struct SetupLanes {
     struct alignas(64) Row : std::array<double, TetSetup::most_parts> {};
     struct alignas(32) FloatRow : std::array<float, TetSetup::most_parts> {};
@@ -38,7 +37,7 @@ struct SetupLanes {
     std::array<Row, 4> x, y, z, value;  // in
     Row piece_from, piece_to;           // scalars at the ends of its piece
     std::array<Row, 4> at_from, at_to;  // colour and extinction at these
-    // At each corner, component by component; for lit ones alone.
+    // The gradient at each corner, component by component; for lit ones alone.
     std::array<std::array<Row, 4>, 3> gradient;
     Row good, visible, bounded;  // out: 1 or 0
     Row farthest;                // PartArea::farthest
@@ -55,8 +54,8 @@ struct SetupLanes {
     std::array<Group, 3> lit;  // the components of GradientRecord
 };
 
-// Share of the product of its vectors' largest components below which the sign of a determinant is
-// doubtful: 450 half ulps, for some 20 roundings.
+// The sign of a determinant is doubtful below this share of the product of its vectors' largest
+// components: 450 half ulps, for some 20 roundings.
 inline constexpr double doubtful_sign = 1e-13;
 
 inline constexpr double float_epsilon = std::numeric_limits<float>::epsilon();

@@ -66,8 +66,7 @@ LAMINA_INLINE auto largest_of(const Point& a) {
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// Gradients of linear functions in a tet from their values at its corners: a numerator
-// over this determinant, which is six times the tet's volume.
+// Gradients of linear functions in a tet: a numerator over this determinant, six times its volume.
 template <typename Number>
 struct TetSlopes {
     using Point = PointOf<Number>;
@@ -90,6 +89,7 @@ struct TetSlopes {
     Number determinant;
 };
 
+// Planes, scalars and bounds of tets relative to a center, in one view.
 template <typename Number>
 class TetView {
   public:
@@ -100,7 +100,7 @@ class TetView {
         : view_(view), perspective_(view.projection == Projection::perspective) {}
 
     LAMINA_INLINE bool perspective() const { return perspective_; }
-    // Returns the depth of a z, or the z of a depth.
+    // Returns the depth (tet_record.h) of a z; or the z of a depth, by the same formula.
     LAMINA_INLINE Number inverted(Number value) const { return perspective_ ? -1 / value : value; }
 
     // The corners' bounds in window coordinates and along z.
@@ -146,13 +146,12 @@ class TetView {
     struct DepthPlane {
         Number depth, per_column, per_row;
     };
-    // Returns the number by which a plane with this normal and offset is divided. It is 0 if the
-    // eye is in the plane (perspective) or the plane is seen edge-on.
+    // Returns the divisor of plane() for this normal and offset. It is 0 if the eye is in the plane
+    // (perspective) or the plane is seen edge-on (orthographic).
     LAMINA_INLINE Number divisor(const Point& normal, Number offset) const {
         return perspective_ ? offset : Number(normal.z);
     }
-    // Returns the plane normal.P = offset. `divisor`: as above, or a replacement for a divisor near
-    // 0.
+    // Returns the plane normal.P = offset. `divisor`: divisor(), or a replacement for one near 0.
     LAMINA_INLINE DepthPlane plane(const Point& normal, Number offset, Number divisor) const {
         const Number per_pixel = -view_.pixel / divisor;
         const Number per_column = normal.x * per_pixel, per_row = normal.y * per_pixel;
@@ -160,15 +159,16 @@ class TetView {
         return {at_middle + column_ * per_column + row_ * per_row - center_depth, per_column,
                 per_row};
     }
-    // Returns a bound on the sizes whose rounding affects a depth on the plane within the bounds.
+    // Returns a bound on the sizes of the terms whose rounding affects a depth on the plane, for
+    // pixels within the corners' bounds.
     LAMINA_INLINE Number size_of(const DepthPlane& plane) const {
         return abs(plane.depth) + columns_ * abs(plane.per_column) + rows_ * abs(plane.per_row);
     }
 
-    // The level of a scalar: gradient.P = above_eye, the level minus the scalar at the eye. If the
-    // level lies above the eye's, it is a front to larger scalars. If it passes through the eye it
-    // is seen edge-on: all three numbers are huge, and only the side of the edge on which a pixel
-    // lies counts.
+    // The plane on which the scalar has a given level: gradient.P = above_eye, the level minus the
+    // scalar at the eye. If this is above 0, the plane is the front of the region of larger
+    // scalars. If the plane passes through the eye it is seen edge-on: all three numbers are huge,
+    // and only their signs count, that is, on which side of the edge a pixel lies.
     struct Level {
         DepthPlane plane;
         Mask front;
@@ -185,8 +185,8 @@ class TetView {
                 positive};
     }
 
-    // Returns the point from which shaders measure depths; its z is that of the record's
-    // center_depth. The record's center_z is rounded, by much of a small tet far away.
+    // Returns the point from which fragments measure depths, whose z belongs to center_depth
+    // exactly. center_z is rounded, by much compared with a small tet far away.
     LAMINA_INLINE Point center() const {
         const Number x = column_ * view_.pixel, y = row_ * view_.pixel;
         if (!perspective_) return {x, y, center_z};

@@ -45,7 +45,7 @@ VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
     firsts_.reserve(tets.size() / block + 2);
 }
 
-// The tets are visited in the mesh's own order, in which corners lie near one another in memory.
+// Visits the tets in the mesh's own order, in which corners lie near one another in memory.
 void VisibleParts::look_from(const Eye& eye) {
     if (!cut_) return;
     parallel_for(static_cast<std::int64_t>(spans_.size()), block, [&](std::int64_t index) {
@@ -60,8 +60,8 @@ std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order,
     return list_tets(order);
 }
 
-// The number of cell fragments of a tet does not depend on the eye, so each task knows the place of
-// its first one.
+// Lists the cell fragments in two passes: the first counts those of each block of tets, so that in
+// the second each task knows the place of its first one.
 std::span<const TetPart> VisibleParts::list_tets(std::span<const std::int32_t> order) {
     const std::size_t blocks = (order.size() + block - 1) / block;
     const auto tets_of = [&](std::size_t number) {
@@ -102,10 +102,10 @@ DrawOrder<TetPart> VisibleParts::sorted(VisibilityOrder& order, const View& view
     return {parts_, limited_};
 }
 
-// Translates the runs of tets into runs of their cell fragments.
+// Translates the limited ranges of the list of tets into ranges of the list of cell fragments.
 void VisibleParts::limit(const DrawOrder<std::int32_t>& order) {
     limited_.clear();
-    std::size_t place = 0, parts = 0;  // number of cell fragments before that place
+    std::size_t place = 0, parts = 0;  // of a tet in the order; cell fragments before it
     const auto go_to = [&](std::size_t end) {
         while (place < end) parts += parts_of(order.items[place++]);
         return parts;
@@ -121,7 +121,7 @@ void VisibleParts::limit(const DrawOrder<std::int32_t>& order) {
 }
 
 void VisibleParts::scatter() {
-    // They are sorted first, so that the order does not depend on the eye.
+    // Sorted by tet and piece first, so that the random order does not depend on the eye.
     std::ranges::sort(parts_, {},
                       [](const TetPart& part) { return std::pair(part.tet, part.piece); });
     SplitMix64 random(1);
@@ -142,10 +142,11 @@ std::size_t VisibleParts::parts_of(std::int32_t tet) const {
                : static_cast<std::size_t>(parts_in(spans_[static_cast<std::size_t>(tet)].span));
 }
 
-// Along every ray through a tet the scalar changes monotonically, away from the value that the
-// tet's linear field has at the eye (at infinity: below or above all scalars). So the cell fragment
-// nearest to that value hides all others. Those above it hide those farther above, those below it
-// those farther below, and no ray meets both.
+// Returns the piece of the transfer function that is nearest to the scalar's value at the eye,
+// extrapolated linearly from the tet (at infinity: below or above all scalars). Along every ray
+// through a tet the scalar changes monotonically, away from this value. So this piece's cell
+// fragment hides all others; cell fragments above it hide the ones farther above, cell fragments
+// below it the ones farther below, and no ray meets both sides.
 std::int32_t VisibleParts::nearest_piece(std::size_t index, const Eye& eye) const {
     const TetPieces::Span& span = spans_[index].span;
     const Tet& tet = mesh_.tets()[index];

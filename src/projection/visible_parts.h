@@ -19,9 +19,8 @@ namespace lamina {
 // Lists the cell fragments of a mesh that are drawn, farthest first.
 class VisibleParts {
   public:
-    // `cut`: tets are cut into cell fragments at the transfer function's points; otherwise they are
-    // drawn whole. `draw_transparent`: cell fragments that show nothing are listed, too. All
-    // arguments must outlive it.
+    // `cut`: tets are cut into cell fragments at the transfer function's points, or else drawn
+    // whole. `draw_transparent`: lists invisible ones, too. All arguments must outlive it.
     VisibleParts(const TetMesh& mesh, std::span<const double> scalar, const TetPieces& pieces,
                  bool cut, bool draw_transparent);
 
@@ -29,16 +28,17 @@ class VisibleParts {
     // next call, which takes no memory. Parallel.
     std::span<const TetPart> list(std::span<const std::int32_t> order, const Eye& eye);
     // Sorts the tets for this view, then lists their cell fragments. `scattered` (equal in every
-    // call): in a random order, equal for every view, so that cell fragments of one region lie in
-    // different leaves of a tree; the first list stays valid. `solve_rings`: each pixel has an
-    // order of its own if it needs one (VisibilityOrder::sort_pixels).
+    // call): lists them in a random order instead, equal for every view, so that cell fragments of
+    // one region lie in different leaves of a tree; the first list then serves all calls.
+    // `solve_rings`: pixels that need an order of their own get one (VisibilityOrder::sort_pixels).
     DrawOrder<TetPart> sorted(VisibilityOrder& order, const View& view, bool scattered,
                               bool solve_rings);
-    // Returns the number of cell fragments; lists are longer if tets are listed for several parts
-    // of the picture.
+    // Returns the number of cell fragments. Lists are longer if tets are listed more than once, for
+    // different areas of the picture (DrawOrder::limited).
     std::int64_t count() const { return count_; }
 
   private:
+    // The pieces of the transfer function between a tet's least and largest scalar.
     struct TetSpan {
         TetPieces::Span span;
         std::int32_t nearest;  // the piece that is nearest to the scalar extrapolated to the eye
@@ -51,7 +51,7 @@ class VisibleParts {
     std::int64_t parts_in(const TetPieces::Span& span) const;
     std::size_t parts_of(std::int32_t tet) const;
     std::int32_t nearest_piece(std::size_t index, const Eye& eye) const;
-    // Writes from `next` on; returns the place for the next tet's cell fragments.
+    // Writes the tet's cell fragments from `next` on; returns the place for those of the next tet.
     TetPart* list_parts(std::int32_t tet, TetPart* next) const;
 
     const TetMesh& mesh_;
@@ -61,14 +61,14 @@ class VisibleParts {
     std::vector<TetSpan> spans_;  // for each tet; empty if all are drawn whole
     std::int64_t count_ = 0;
     std::vector<TetPart> parts_;
-    // Number of the first cell fragment of each block of tets, and the end.
+    // Index in parts_ of the first cell fragment of each block of tets, and the end.
     std::vector<std::size_t> firsts_;
     std::vector<LimitedRun> limited_;  // of the last list
     bool is_scattered_ = false;
 };
 
-// Returns the cell fragments of a tree's leaf. The tree's samples, of which the first is the
-// nearest, are VisibleParts::count(); a longer list is shared out in proportion.
+// Returns the cell fragments of a tree's leaf. A tree has `samples` samples, that is,
+// VisibleParts::count(), the nearest first; a longer list is shared out in proportion.
 DrawOrder<TetPart> parts_of_leaf(const DrawOrder<TetPart>& parts, const SampleSpan& leaf,
                                  std::int64_t samples);
 

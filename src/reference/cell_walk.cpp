@@ -13,13 +13,14 @@ namespace reference {
 
 constexpr auto block_edge = static_cast<double>(VisibleCells::edge);
 
-// Returns the bits at places of words, 64 a word.
+// Returns the bits of these numbers, in an array of words of 64 bits.
 LAMINA_INLINE DoubleMask bits_at(const std::uint64_t* words, Long place) {
     const Word64 bits = bits_as<Word64>(place);  // shifts of unsigned numbers are quicker
     const Word64 word = gather(words, bits_as<Long>(shift_right<6>(bits)));
     return (shift_right(word, bits & 63u) & 1u) == 1u;
 }
 
+// One axis of CellLanes, for as many lanes as a vector has.
 class AxisLanes {
   public:
     LAMINA_INLINE AxisLanes(const CellLanes::Axis& axis, std::size_t i)
@@ -44,21 +45,21 @@ class AxisLanes {
     LAMINA_INLINE Double crossing() const { return crossing_; }
     LAMINA_INLINE Double block() const { return block_; }
     LAMINA_INLINE Double leaving() const { return leaving_; }
-    // The cell's place in its block, 0 to edge - 1.
+    // Returns the cell's place in its block along this axis, 0 to edge - 1.
     LAMINA_INLINE Double place_in_block() const { return cell_ - first_cell(); }
-    // Returns the distance to the next cell if the upper neighbour lies `above` places away.
+    // Returns a step's change of a bit number; `above`: how much the upper neighbour's is higher.
     LAMINA_INLINE Long stride(std::int64_t above) const {
         return select(falls_, Long(-above), above);
     }
 
-    // Returns the lanes that leave their block.
+    // Steps to the next cell in some lanes. Returns those of them that leave their block.
     LAMINA_INLINE DoubleMask next_cell(DoubleMask lanes) {
         cell_ = select(lanes, cell_ + step_, cell_);
         crossing_ = select(lanes, next_crossing(), crossing_);
         return lanes & (cell_ == next_block_cell_);
     }
 
-    // Lanes that have left their block enter that of their cell.
+    // Finds the block of the cell, in lanes that have left their block.
     LAMINA_INLINE void begin_blocks() {
         block_ = block_of(cell_);
         leaving_ = next_leaving();
@@ -68,14 +69,14 @@ class AxisLanes {
         leaving_ = select(lanes, next_leaving(), leaving_);
     }
 
-    // Moves some lanes from their cell to the one of the chord at `from`, in their block.
+    // Sets some lanes' cells to the chord's at the parameter `from`, which is in their block.
     LAMINA_INLINE void find_cell(DoubleMask lanes, Double from) {
         const Double first = first_cell(), last = first + (block_edge - 1);
         const Double lo = max(first, select(falls_, last_cell_, cell_));
         const Double hi = min(last, select(falls_, cell_, last_cell_));
         const Double nearest = select(falls_, hi, lo);
-        // A rounded place may lie in the cell before the right one, which pass_cells() steps over,
-        // but not in a later one: cells are told apart by crossings, as CellWalk does.
+        // The rounded place may be a cell early (pass_cells() steps over it) but must not be late:
+        // cells are told apart by crossings, as in CellWalk.
         const Double place = floor(fma(from, direction_, entry_));
         Double cell = clamp(place, lo, hi);
         while (true) {
@@ -115,7 +116,7 @@ class AxisLanes {
     Double leaving_ = 0;  // parameter at which the chord leaves the block along this axis
 };
 
-// The lanes that go on along x, y and z: those whose crossing there is the least of the three.
+// Which lanes step along x, y and z: along the axis of the least of the three crossings.
 struct AxisMasks {
     DoubleMask x, y, z;
 
@@ -167,12 +168,12 @@ class ChordWalk {
     }
 
   private:
-    // If fewer are in blocks, it is quicker to find blocks for the others first.
+    // Tells whether enough lanes are in blocks; if not, finding blocks for the others is quicker.
     LAMINA_INLINE bool most_are_in_blocks() const {
         return 4 * count_of(in_block_) > count_of(walking_);
     }
 
-    // Moves lanes that are in no block over hidden blocks to the next.
+    // Moves lanes that are in no visible block over invisible blocks to the next visible one.
     LAMINA_INLINE void find_blocks() {
         DoubleMask outside = without(walking_, in_block_);
         if (none_of(outside)) return;
@@ -202,7 +203,7 @@ class ChordWalk {
         place_ = select(found, place_of_cell(), place_);
     }
 
-    // Appends cells and goes on to the next ones. Returns the lanes whose batches are complete.
+    // Appends the cells of lanes in blocks and steps on. Returns the lanes with complete batches.
     LAMINA_INLINE LaneSet pass_cells(Long stride_x, Long stride_y, Long stride_z) {
         const Double least = min(x_.crossing(), min(y_.crossing(), z_.crossing()));
         const Double to = min(least, length_);
@@ -260,7 +261,7 @@ class ChordWalk {
     AxisLanes x_, y_, z_;
     Double from_, length_;
     DoubleMask walking_, in_block_;
-    Long place_;  // the cell's, in VisibleCells::cells()
+    Long place_;  // number of the cell's bit in VisibleCells::cells()
 };
 
 }  // namespace reference

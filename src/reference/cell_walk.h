@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cells along a chord, front to back (Amanatides and Woo 1987; docs/numerics.md, section 9.4):
-//
 //   cell = the cell in which the chord begins; from = 0
 //   crossing[a] = the parameter at which the chord leaves the cell along axis a               (9.7)
 //   loop:
@@ -8,9 +7,8 @@
 //       visit (cell, from, to) if from < to
 //       end if to is the chord's length
 //       from = to; step to the next cell along the axis of the least crossing
-//
-// Every crossing is computed from its own plane, so errors do not accumulate. If the visible cells
-// are known, a packet of chords goes side by side and crosses blocks of invisible cells likewise.
+// Every crossing is computed from its own plane, so errors do not accumulate. If VisibleCells are
+// known, several chords walk side by side, and cross blocks of invisible cells by the same loop.
 #pragma once
 
 #include "lamina/volume.h"
@@ -20,10 +18,10 @@
 
 namespace lamina {
 
-// The cell in which a chord begins along an axis, and the last one.
+// The start of a chord along one axis: the first cell, and the grid's last one in its direction.
 struct AxisStart {
     double cell, last_cell;
-    double inverse;  // 1 / direction, but finite, so that it gives 0 on the plane itself
+    double inverse;  // 1 / direction, but finite, so that 0 * inverse is 0
 
     // `lowest` and `highest` bound the grid's box.
     AxisStart(double lowest, double highest, double entry, double direction) {
@@ -36,7 +34,7 @@ struct AxisStart {
     }
 };
 
-// The outer cells reach to the end of the box: all lengths add up to the chord.
+// Walks a single chord. Outer cells extend to the box's end, so lengths add up to the chord's.
 class CellWalk {
   public:
     CellWalk(const Grid& grid, const Chord& chord) : chord_(chord) {
@@ -66,7 +64,7 @@ class CellWalk {
     }
 
   private:
-    // Visits a cell that the chord leaves along an axis.
+    // Visits the current cell, left along `axis`, and steps to the next. Returns false at the end.
     template <int axis, typename Visit>
     bool cross(const Visit& visit, double& from) {
         const bool last = !(crossing_[axis] < chord_.length_z);
@@ -87,37 +85,39 @@ class CellWalk {
 
     const Chord& chord_;
     CellIndex cell_;
-    CellIndex final_;  // the last cell in the ray's direction
+    CellIndex final_;  // the last cell of the grid in the chord's direction
     CellIndex step_;   // -1 or 1
-    // The distance of the plane through which the chord leaves a cell from the cell's number.
+    // Added to a cell's number, gives the plane through which the chord leaves the cell: 0 or 1.
     CellIndex ahead_;
     std::array<double, 3> crossing_;
     std::array<double, 3> inverse_;  // of the direction
 };
 
-// Chords side by side. Each passes the cells of CellWalk that may be visible.
+// Chords side by side, one a lane. Each passes the cells of CellWalk that may be visible.
 struct CellLanes {
     static constexpr std::size_t width = longest_vector;
-    // Numbers of cells (below 2^53) are doubles, quicker than 64-bit integers.
+    // Numbers of cells (below 2^53) are doubles, which are quicker than 64-bit integers.
     struct Axis {
         LaneRow entry, direction;
         LaneRow cell, last_cell, inverse;  // AxisStart
-        // The chord leaves the cell here along this axis, in lanes that are in a block.
+        // The parameter at which the chord leaves the cell along this axis, in lanes of in_block.
         LaneRow crossing;
     };
 
     std::array<Axis, 3> axes;
-    LaneRow from, length;  // parameters at which the chord enters the cell, and ends
+    LaneRow from, length;  // the chord's parameter where it enters the cell, and its length
+    // Lanes whose chord has not ended.
     LaneSet walking = 0;
-    LaneSet in_block = 0;  // those whose cell is in a block that may be visible
+    LaneSet in_block = 0;  // lanes whose cell is in a block that may be visible
 
     void stop(std::size_t lane) { walking &= ~lane_bit(lane); }
 };
 
-// Lets a lane walk along a chord of length > 0.
+// Starts a lane at the front of a chord of length > 0.
 void enter_cells(CellLanes& lanes, std::size_t lane, const GridAxes& grid, const Chord& chord);
 
-// Appends cells to the batches until one is complete or a chord has ended. Returns those lanes.
+// Walks all lanes and appends visible cells to each lane's batch, until a batch is complete or a
+// chord has ended. Returns the lanes for which one of these happened.
 LaneSet walk_cells(CellLanes& lanes, const VisibleCells& visible,
                    const std::array<CellBatch*, CellLanes::width>& batches);
 

@@ -29,13 +29,13 @@ struct CornerLanes {
     LAMINA_INLINE Double most() const {
         return max(max(max(v[0], v[1]), max(v[2], v[3])), max(max(v[4], v[5]), max(v[6], v[7])));
     }
-    // The sum of eight finite samples, which are floats at most, is finite.
+    // Tells which cells have finite corners: eight finite floats have a finite sum in double.
     LAMINA_INLINE DoubleMask finite() const {
         return is_finite(v[0] + v[1] + (v[2] + v[3]) + (v[4] + v[5] + (v[6] + v[7])));
     }
 };
 
-// start + t * step, 0 <= t <= 1, in the cells' coordinates.
+// The chord's paths through a vector of cells: start + t * step, 0 <= t <= 1, in cell coordinates.
 struct PathLanes {
     Double start[3], step[3], along;
 
@@ -74,7 +74,7 @@ LAMINA_INLINE Cubics field_along(const CornerLanes& corners, const PathLanes& pa
 
 }  // namespace reference
 
-// LAMINA_EXPORT takes functions of this namespace alone.
+// Outside of `reference`, because LAMINA_EXPORT takes only functions of this namespace.
 inline void make_segments_of(const CellBatch& cells, const Chord& chord,
                              const IntervalColumns& intervals, SegmentBatch& segments) {
     using namespace reference;
@@ -106,10 +106,10 @@ LAMINA_SIMD_END
 namespace lamina {
 namespace {
 
-// Number of ranges of visible values above which they are taken as one from the first to the last.
+// Number of ranges of visible values above which one range, first to last, replaces them.
 constexpr std::size_t most_ranges = 8;
 
-// A range of values in the type of the samples, no smaller than the one it is made of.
+// A range of values, converted to the type of the samples; it is never smaller than the original.
 template <typename Sample>
 class SampleRange {
   public:
@@ -129,9 +129,10 @@ class SampleRange {
         }
     }
 
-    // Tells whether all samples are on one side. A cell may meet a range without a sample inside.
+    // Tells whether no value of the type is in the range or on both sides of it: no cell meets it.
     bool out_of_reach() const { return out_of_reach_; }
-    // Bit 0: not below the range, bit 1: not above it.
+    // Returns bit 0 if the value is not below the range, and bit 1 if it is not above it. A cell
+    // may meet the range if both bits occur among its corners.
     std::uint8_t sides(Sample value) const {
         return static_cast<std::uint8_t>((value >= lo_ ? 1 : 0) | (value <= hi_ ? 2 : 0));
     }
@@ -141,7 +142,7 @@ class SampleRange {
     bool out_of_reach_;
 };
 
-// The rows of samples at the corners of a line of blocks along x; the border repeats.
+// The samples of a line of blocks along x, row by row; the border sample repeats.
 template <typename Sample>
 class SampleRows {
   public:
@@ -153,7 +154,7 @@ class SampleRows {
         sides_.resize(static_cast<std::size_t>((edge + 1) * (edge + 1) * (width_ + 1)));
     }
 
-    // Sets the bits of cells that may have a value of the range. NaN sets none.
+    // Sets the bits of cells that may have a value of the range. Corners that are NaN do not count.
     void mark(const SampleRange<Sample>& range, std::uint8_t* rows) {
         for (std::int64_t z = 0; z <= edge; ++z) {
             for (std::int64_t y = 0; y <= edge; ++y) find_sides(range, y, z);
@@ -175,7 +176,7 @@ class SampleRows {
         for (std::int64_t x = 0; x < width_; ++x) sides[x] |= others[x];
     }
 
-    // Sets the sides of each pair of samples along x, of which the first is the border's twice.
+    // Sets the sides of each pair of samples along a row; the first is the border sample twice.
     void find_sides(const SampleRange<Sample>& range, std::int64_t y, std::int64_t z) {
         const std::int64_t row = std::clamp<std::int64_t>(y_ + y, 0, size_[1] - 1);
         const std::int64_t slice = std::clamp<std::int64_t>(z_ + z, 0, size_[2] - 1);
@@ -189,12 +190,12 @@ class SampleRows {
 
     void mark_row(const std::uint8_t* sides, std::uint8_t* row) const {
         for (std::int64_t x = 0; x < width_; x += edge, row += edge * edge) {
-            std::uint64_t eight;  // the lowest byte is of the first
+            std::uint64_t eight;  // the lowest byte belongs to the first cell
             static_assert(std::endian::native == std::endian::little && edge == sizeof eight);
             std::memcpy(&eight, sides + x, sizeof eight);
             const std::uint64_t both = eight & eight >> 1 & 0x0101010101010101;
-            *row |=
-                static_cast<std::uint8_t>(both * 0x0102040810204080 >> 56);  // a bit of each byte
+            *row |= static_cast<std::uint8_t>(both * 0x0102040810204080 >>
+                                              56);  // packs the lowest bits of all bytes
         }
     }
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells of a volume along a ray, and the field in them, some cells at a time:
-//
+// The cells of a volume along a ray, and the field in them, a batch of cells at a time:
 //   for each cell that the ray crosses from `from` to `to`:
 //       v = the samples at its eight corners
 //       if one of them is not finite, or no interval of the transfer function that their range
 //           touches has extinction: the cell is invisible
-//       otherwise it has a segment: the length, the range of v, and the cubic s(t) along it   (9.1)
-//
-// Lit segments have the gradient, too, whose components are such cubics (docs/numerics.md, section
-// 10.2).
+//       otherwise it has a segment: its length, the range of v, and the cubic s(t) along it (9.1)
+// Segments that are lit also have the gradient, whose components are such cubics. Numbers in
+// brackets are equations of docs/numerics.md; gradients are in section 10.2.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -22,14 +20,15 @@
 
 namespace lamina {
 
-// Cell i of an axis lies between samples i and i+1; -1 and size-1 are half voxels of `cell` axes.
+// Numbers of a cell along the three axes. Cell i of an axis lies between samples i and i + 1. On
+// `cell` axes, -1 and size - 1 are the half voxels at the ends.
 using CellIndex = std::array<std::int64_t, 3>;
 
 struct CellBatch {
     static constexpr std::size_t capacity = SegmentBatch::capacity;
 
     alignas(64) std::int64_t cell[3][capacity];
-    alignas(64) double from[capacity];  // parameters of the chord
+    alignas(64) double from[capacity];  // where the chord enters the cell
     alignas(64) double to[capacity];
     std::size_t count = 0;
     std::size_t wanted = capacity;  // number of cells with which the batch is complete
@@ -46,8 +45,8 @@ struct CellBatch {
     }
 };
 
-// Sets the segments to those of the chord inside the cells that may be visible. Cells with a NaN or
-// infinite corner are transparent. CellCorners::along() computes a single one.
+// Sets `segments` to the chord's parts in cells that may be visible; cells with NaN or infinite
+// corners are transparent. CellCorners::along() does this for a single cell.
 void make_segments(const CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
                    SegmentBatch& segments);
 
@@ -56,7 +55,7 @@ struct CellCorners {
     std::array<double, 8> v;
 
     // Returns the field along from + t * step, 0 <= t <= 1, in the cell's coordinates (0..1), from
-    // differences of corners: constant cells stay exactly constant, linear ones linear.
+    // differences of corners: constant cells stay exactly constant, and linear ones linear.
     Cubic along(const glm::dvec3& from, const glm::dvec3& step) const {
         const double x = v[1] - v[0], y = v[2] - v[0], z = v[4] - v[0];
         const double xy = (v[3] - v[2]) - x, xz = (v[5] - v[4]) - x, yz = (v[6] - v[4]) - y;
@@ -75,7 +74,7 @@ struct CellCorners {
     }
 };
 
-// Access to the cells of a volume, behind a pointer or SamplesInFiles. The border value repeats.
+// Reads cells' corners from memory (a pointer) or disk (SamplesInFiles); the border sample repeats.
 template <typename Samples>
 class CellSamples {
   public:
@@ -144,7 +143,7 @@ class CellSamples {
     std::int64_t row_, slice_;
 };
 
-// The gradient (docs/numerics.md, section 10), trilinear, in scalar units per world unit.
+// The trilinear gradient (docs/numerics.md, section 10), in scalar units per world unit.
 template <typename Samples>
 class GradientSamples {
   public:
@@ -155,7 +154,7 @@ class GradientSamples {
             axes_[axis] = grid.step[axis] / glm::dot(grid.step[axis], grid.step[axis]);
     }
 
-    // Returns it along from + t * step, 0 <= t <= 1, in the cell's coordinates (0..1).
+    // Returns the gradient along from + t * step, 0 <= t <= 1, in the cell's coordinates (0..1).
     GradientAlong along(const CellIndex& cell, const glm::dvec3& from,
                         const glm::dvec3& step) const {
         std::array<CellCorners, 3> corners;
@@ -182,7 +181,7 @@ class GradientSamples {
         return gradient;
     }
 
-    // Returns the difference per step, from the neighbours that are numbers; 0 if none is.
+    // Returns the scalar's difference per grid step from finite neighbours; 0 if none is.
     double difference(std::int64_t offset, std::int64_t index, std::size_t axis) const {
         const auto value = [&](std::int64_t steps) {
             return static_cast<double>(samples_[offset + steps * stride_[axis]]);
@@ -200,8 +199,9 @@ class GradientSamples {
     std::array<glm::dvec3, 3> axes_;
 };
 
-// The cells of a volume in memory that may be visible, and the blocks of edge^3 cells that have
-// one. Block n begins at cell n * edge - 1. It must not use MinMaxBricks, which it judges.
+// Two sets of bits for a volume in memory: which cells may be visible, and which blocks of edge^3
+// cells contain such a cell. Block n of an axis begins at cell n * edge - 1. It does not use
+// MinMaxBricks, because the reference is there to check these.
 class VisibleCells {
   public:
     static constexpr std::int64_t edge = 8;
@@ -213,10 +213,10 @@ class VisibleCells {
     bool empty() const { return cells_.empty(); }
 
     const std::array<std::int64_t, 3>& count() const { return count_; }
-    // A bit for each block, 1 if it has such a cell: x fastest, in lines of line_bits().
+    // Returns a bit for each block: 1 if it has visible cells. x is fastest, padded to line_bits().
     const std::uint64_t* blocks() const { return blocks_.data(); }
     std::int64_t line_bits() const { return line_words_ * 64; }
-    // A bit for each cell, block by block (x fastest), x fastest in a block.
+    // Returns a bit for each cell, block by block (x fastest), and x fastest inside a block.
     const std::uint64_t* cells() const { return cells_.data(); }
 
   private:

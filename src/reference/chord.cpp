@@ -22,7 +22,7 @@ struct RaySpans {
     DoubleDoubles from, to;
 };
 
-// Axes of most grids are along the world's.
+// Returns the dot product. It skips zeros of b: the axes of most grids are along the world's.
 LAMINA_INLINE DoubleDoubles dot(const DoubleDoubles (&a)[3], const glm::dvec3& b) {
     DoubleDoubles sum = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -40,13 +40,13 @@ LAMINA_INLINE DoubleDoubles project(const DoubleDoubles (&vector)[3], const Grid
            DoubleDoubles(axis.unscale);
 }
 
-// Returns the z at which a coordinate meets two planes.
+// Returns the z at which a coordinate is `first` and `second`.
 LAMINA_INLINE RaySpans meet(const Coordinates& rays, double first, double second) {
     const DoubleDoubles to_first = DoubleDoubles(first) - rays.position;
     const DoubleDoubles to_second = DoubleDoubles(second) - rays.position;
     const DoubleDoubles inverse = DoubleDoubles(1.0) / rays.slope;
     const RaySpans met{to_first * inverse, to_second * inverse};
-    // A subnormal inverse has lost its low part.
+    // If the inverse is subnormal, its low part is lost: divide by the slope instead.
     const DoubleMask whole = inverse.finite() & (abs(inverse.hi) >= 1e-290);
     const DoubleMask slopes = rays.slope.hi != 0;
     if (all_of(whole | !slopes)) return met;
@@ -73,7 +73,7 @@ class RayLanes {
             valid_ = axis == 0 ? finite : valid_ & finite;
             steepest = max(steepest, abs(along.slope.hi));
         }
-        // A slope that moves the ray by less than 1e-30 voxels in the box might overflow.
+        // Takes slopes of less than 1e-30 voxels in the box as 0, because they might overflow.
         for (Coordinates& along : along_) {
             const DoubleMask none = abs(along.slope.hi) < 1e-40 * steepest;
             along.slope = select(none, DoubleDoubles(0.0), along.slope);
@@ -152,7 +152,7 @@ class RayLanes {
     }
 
   private:
-    // Lanes behind the last ray repeat it.
+    // Returns one number of each ray. Lanes behind the last ray repeat it.
     template <typename Of>
     LAMINA_INLINE Double row(const Of& of) const {
         alignas(64) double values[longest_vector];
@@ -193,7 +193,7 @@ GridAxes::Axis scaled_axis(const glm::dvec3& step) {
     const double largest = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)});
     int exponent = 0;
     std::frexp(largest, &exponent);
-    --exponent;  // to [1, 2): an offset of one subnormal number from a face must survive
+    --exponent;  // to [1, 2): even a subnormal distance from a face must not vanish
     GridAxes::Axis axis;
     DoubleDouble square;
     for (int i = 0; i < 3; ++i) {
@@ -222,7 +222,7 @@ void clip_to_box(const GridAxes& grid, std::span<const View::Ray> rays,
 
 void clip_span(std::span<const HalfSpace> clip, const View::Ray& ray, RaySpan& span) {
     for (const HalfSpace& half : clip) {
-        DoubleDouble distance, slope;  // of the ray's origin, and its change with z
+        DoubleDouble distance, slope;  // of the ray's origin from the plane, and its change with z
         for (int axis = 0; axis < 3; ++axis) {
             const DoubleDouble normal{half.normal[axis], 0};
             distance = distance + normal * exact_sum(ray.origin[axis], -half.point[axis]);

@@ -9,13 +9,13 @@
 namespace lamina {
 namespace {
 
-// Share of the tolerance that early termination may cost.
+// Share of the tolerance that may be lost because rays end early.
 constexpr double termination_share = 1e-3;
 
 // Number of pieces that are integrated together, so that vectors are full.
 constexpr std::size_t pieces_together = 32;
 
-// Optical depth in front of hidden pieces: exp(-x) of it is 0, so they add nothing.
+// Optical depth that is set in front of hidden pieces: exp(-1e4) is 0, so they add nothing.
 constexpr double hidden_depth = 1e4;
 
 GradientAlong restricted(const GradientAlong& gradient, double from, double to) {
@@ -25,11 +25,11 @@ GradientAlong restricted(const GradientAlong& gradient, double from, double to) 
     return inside;
 }
 
-// Transmittance below which light, times the brightest colour, is lost in rounding.
+// Transmittance, times the brightest colour, below which light is lost in rounding.
 constexpr double rounded_transmittance = 1e-17;
-// The relative error of a piece's colour and opacity (weigh_pieces()), and of its interpolations.
+// Relative error of a piece's colour and opacity (weigh_pieces()), and of its interpolation.
 constexpr double piece_error = 1e-13;
-// Number of segments that are summed first: they may hide the others.
+// Number of segments that are summed first: few, because they may hide the others.
 constexpr std::size_t first_together = 8;
 
 }  // namespace
@@ -49,8 +49,8 @@ double CompositedRay::alpha() const {
     return opacity_from_depth(depth_.value());
 }
 
-// Shares of either kind (length, opacity) add up to at most 1, so their errors add up to half of
-// the tolerance, and those of light to half of that.
+// Allows tolerance / 4 for errors by length and for those by opacity (shares of each kind add up to
+// at most 1), so half of the tolerance for colour. add_light() allows the other half for light.
 RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance)
     : transfer_(transfer), tolerance_(tolerance), error_per_opacity_(tolerance / 4) {
     batch_.error_of_opacity = error_per_opacity_;
@@ -70,7 +70,7 @@ void RayIntegrator::add(const SegmentBatch& segments, const GradientOf& gradient
     std::int64_t lit_segment = -1;
     GradientAlong gradient;
     append_pieces(segments, transfer_, error_per_length_, batch_);
-    // A local sum: a member would be written to memory with every piece.
+    // A local variable: a member would be written to memory with every piece.
     CompensatedSum depth = depth_;
     for (std::size_t piece = first; piece < batch_.count; ++piece) {
         const double before = depth.value();
@@ -192,7 +192,7 @@ void SegmentSum::add_colors() {
         sum += transmittance * pieces_.opacity[i] * color;
         if (intervals_.columns().color_span[interval] > 0)
             sum += transmittance * pieces_.change[i] * change;
-        // If an end is off, this much depth moves from one side of it to the other.
+        // If an end of a piece is off, this much optical depth moves to the neighbouring piece.
         const double length = waiting_.length[pieces_.segment[i]];
         const double moved = std::min(1.0, 2 * place_error_ * pieces_.depth[i] / length);
         error += transmittance * (piece_error * pieces_.opacity[i] + moved);
@@ -201,7 +201,7 @@ void SegmentSum::add_colors() {
     error_ += brightest_ * error;
 }
 
-// The unlit segment stays in closed form: light is added to it.
+// Adds the unlit segment in closed form, and to it the integral of the light.
 void SegmentSum::add_lit(double front, double back, const GradientAlong& gradient, double length,
                          double slack) {
     const auto [lo, hi] = std::minmax(front, back);
@@ -219,7 +219,7 @@ void SegmentSum::add_lit(double front, double back, const GradientAlong& gradien
     add(front, back, length, slack);
 }
 
-// Returns the change of the result if a nearly constant scalar were elsewhere in [lo, hi].
+// Returns a bound on the result's change if a nearly constant scalar were elsewhere in [lo, hi].
 double SegmentSum::side_error(double lo, double hi, double length) const {
     const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
     const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);

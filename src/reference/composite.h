@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Segments of a ray, composited front to back in double precision (docs/numerics.md, section 1):
-//
+// Composites the segments of a ray front to back in double precision (docs/numerics.md, section 1):
 //   depth = 0; color = 0
 //   for each piece of the segments (cut.h), while exp(-depth) is not lost:
 //       color += exp(-depth) * (opacity * colour at x = 0 + integral * change of the colour) (9.3)
 //       if it is lit: light += exp(-depth) * the light on it (integrate.h)
 //       depth += the piece's optical depth
 //   alpha = 1 - exp(-depth)
-//
-// Errors of integrals, of places of ends, and of everything left out, are summed up beside the
-// colours. RayIntegrator has cubic scalars (cells), SegmentSum linear ones (tets).
+// Errors of integrals, of segments' ends and of all that is left out are summed up beside the
+// colours. RayIntegrator takes segments with cubic scalars (cells), SegmentSum linear ones (tets).
 #pragma once
 
 #include <functional>
@@ -24,12 +22,13 @@ namespace lamina {
 
 class CompositedRay {
   public:
-    // Tells whether everything that follows is hidden.
+    // Tells whether the transmittance is so small that everything behind is hidden.
     bool opaque() const { return depth_.value() >= depth_limit_; }
     double alpha() const;
 
   protected:
-    // Light from behind `least_transmittance`, times the brightest colour, may be lost.
+    // Begins a new ray. Everything is left out where the transmittance times the brightest colour
+    // is below `least_transmittance`, which bounds the error.
     void begin(const TransferIntervals& transfer, const RayLights* lights,
                double least_transmittance);
     double hidden() const { return opaque() ? brightest_ * std::exp(-depth_.value()) : 0; }
@@ -39,10 +38,10 @@ class CompositedRay {
     CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits
     glm::dvec3 color_{0};
     double error_ = 0;
-    double depth_limit_ = 0;  // depth behind which everything is hidden
+    double depth_limit_ = 0;  // optical depth behind which everything may be left out
 };
 
-// Composites cubic segments: optical depth exactly, colour to a tolerance.
+// Composites segments with cubic scalars: optical depth exactly, colour to a tolerance.
 class RayIntegrator : public CompositedRay {
   public:
     // Returns the gradient along a segment of a batch, from its front to its back in world space.
@@ -54,7 +53,7 @@ class RayIntegrator : public CompositedRay {
     // `ray_length` > 0: world length of all segments, or infinite. `lights` must outlive the ray.
     void begin(double ray_length, const RayLights* lights = nullptr);
 
-    // Adds segments; hidden ones may be among them. Those with `gradient_of` are lit.
+    // Adds segments, front to back, even to an opaque ray. If `gradient_of` is given, they are lit.
     void add(const SegmentBatch& segments, const GradientOf& gradient_of = {});
 
     glm::dvec3 color();  // associated
@@ -62,7 +61,7 @@ class RayIntegrator : public CompositedRay {
     double error_estimate();  // of the worst channel, from quadrature and early termination
     std::int64_t pieces() const { return pieces_; }
 
-    // Shares of light in color(), perhaps negative, and in error_estimate().
+    // The share of lighting in color(), perhaps negative, and in error_estimate().
     const glm::dvec3& light() const { return light_; }
     double light_error() const { return light_error_ + hidden(); }
 
@@ -77,23 +76,24 @@ class RayIntegrator : public CompositedRay {
     glm::dvec3 light_{0};
     double light_error_ = 0;
     std::int64_t pieces_ = 0;
-    PieceBatch batch_;  // the last pieces, which are not in color_ and error_
+    PieceBatch batch_;  // pieces that are not in color_ and error_ yet
 };
 
+// Composites segments with linear scalars, in closed form; light to a tolerance.
 class SegmentSum : public CompositedRay {
   public:
-    // `place_error`: bound on the error of every end, in world units. The functions are the same
-    // and must outlive the sum. `tolerance`: largest error of the light of a ray.
+    // `place_error`: bound, in world units, on where segments end. `intervals`: of
+    // `transfer_function`; both must outlive the sum. `tolerance`: largest error of a ray's light.
     SegmentSum(const TransferFunction& transfer_function, const TransferIntervals& intervals,
                double place_error, double tolerance = 1);
 
     void begin(const RayLights* lights = nullptr);
 
-    // Adds a segment: the scalar is linear from `front` to `back`, with errors up to `slack`, over
-    // `length` > 0 world units. The caller leaves out those that are not visible.
+    // Adds a segment on which the scalar is linear from `front` to `back`, both with errors up to
+    // `slack`, over `length` > 0 world units. The caller leaves out segments that are not visible.
     void add(double front, double back, double length, double slack) {
         ++segments_;
-        // The rounding of a nearly constant scalar may choose the side of a step.
+        // A nearly constant scalar may be on the wrong side of a step by rounding.
         if (slack > 0 && std::abs(back - front) <= slack) {
             side_errors_[waiting_.count] =
                 side_error(std::min(front, back) - slack, std::max(front, back) + slack, length);
@@ -124,9 +124,10 @@ class SegmentSum : public CompositedRay {
     const TransferIntervals& intervals_;
     double place_error_;
     RayIntegrator light_;                             // integrates one segment at a time
-    LinearSegments waiting_;                          // segments that are not in the results
-    double side_errors_[LinearSegments::capacity]{};  // theirs, if nothing is in front
-    bool has_side_errors_ = false;                    // one of them is not 0
+    LinearSegments waiting_;                          // segments that are not in the results yet
+    double side_errors_[LinearSegments::capacity]{};  // by a wrong side of a step, unhidden
+    bool has_side_errors_ = false;                    // one of side_errors_ is not 0
+    // Number of waiting segments that finish() takes together: doubles along a ray.
     std::size_t together_ = 0;
     LinearPieces pieces_;
     std::int64_t segments_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of cubics (cut.h), and of values and the intervals that they lie in.
+// SIMD versions of cut.h's functions on cubics, one a lane, and searches for a value's interval.
 #if defined(LAMINA_REFERENCE_CUT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_REFERENCE_CUT_INL_H_
 #undef LAMINA_REFERENCE_CUT_INL_H_
@@ -28,7 +28,7 @@ struct Cubics {
     LAMINA_INLINE DoubleMask constant() const { return (c[1] == 0) & ((c[2] == 0) & (c[3] == 0)); }
 };
 
-// The places at which cubics turn, 0 < first < second < 1; 1 in lanes in which they do not.
+// The t at which cubics turn, 0 < first < second < 1; 1 for each that does not exist.
 struct Turns {
     Double first, second;
 };
@@ -43,7 +43,7 @@ LAMINA_INLINE Turns turns_of(const Cubics& cubics) {
     const DoubleMask real = discriminant > 0;
     const Double root = sqrt(zero_unless(real, discriminant));
     const Double q = -(b + copy_sign(root, b));
-    // A root is infinite, or no number, if there is no second power: not kept.
+    // If the derivative has no second power, a root is infinite or NaN, and not kept.
     const auto inside = [&](Double at) LAMINA_LAMBDA {
         const DoubleMask kept = real & ((at > 0) & (at < 1));
         return select(kept, at, 1);
@@ -101,8 +101,8 @@ LAMINA_INLINE Cubics restricted(const Cubics& cubics, Double from, Double to, Do
     return inside;
 }
 
-// Counts those of `count` ascending values for which is_passed(value) holds: the first ones. Behind
-// them lies padding, at least up to a power of two.
+// Counts the leading values, of `count` ascending ones, for which is_passed(value) holds. The array
+// must be padded with infinity, at least to a power of two.
 template <typename Passed>
 LAMINA_INLINE Long count_first(const double* values, std::size_t count, const Passed& is_passed) {
     // Up to this count comparing each value is quicker than a binary search.
@@ -119,9 +119,11 @@ LAMINA_INLINE Long count_first(const double* values, std::size_t count, const Pa
         const Double last = gather(values, next - 1);
         passed = select(is_passed(last), next, passed);
     }
-    return min(passed, static_cast<std::int64_t>(count));  // an infinite value passes padding, too
+    // If the searched value is infinite, it passes the padding, too.
+    return min(passed, static_cast<std::int64_t>(count));
 }
 
+// Finds the interval of a value, and looks up its properties, in vectors.
 class IntervalSearch {
   public:
     LAMINA_INLINE explicit IntervalSearch(const IntervalColumns& columns)
@@ -144,18 +146,17 @@ class IntervalSearch {
     LAMINA_INLINE Long beyond(Long interval, DoubleMask rises) const {
         return select(rises, interval + 1, interval - 1);
     }
-    // Returns the interval for values at and above each value.
+    // Returns the interval that holds each value and what lies just above it.
     LAMINA_INLINE Long above(Double value) const {
         return count_passed([&](Double knot) LAMINA_LAMBDA { return knot <= value; });
     }
 
-    // Returns the interval for values at and above each value in lanes in which the scalar rises
-    // from there; in others the one for values at and below.
+    // Returns the interval into which the scalar goes: above the value if it rises, else below.
     LAMINA_INLINE Long ahead(Double value, DoubleMask rises) const {
         return count_passed([&](Double knot) LAMINA_LAMBDA { return passed(knot, value, rises); });
     }
 
-    // Does the same from an interval on that does not lie above it.
+    // Does what ahead() does, searching up from `interval`, which is not above the result.
     LAMINA_INLINE Long onwards(Long interval, Double value, DoubleMask rises) const {
         while (true) {
             const DoubleMask further = passed(upper(interval), value, rises);
@@ -165,7 +166,7 @@ class IntervalSearch {
     }
 
   private:
-    // A column that fits into a vector is looked up there, which is quicker than a gather.
+    // Looks up a column that fits into a vector by a permutation, which is quicker than a gather.
     LAMINA_INLINE Double look_up(const double* column, Long interval) const {
         if (in_a_vector_) return permute(load_unaligned<Double>(column), interval);
         return gather(column, interval);
@@ -185,7 +186,7 @@ class IntervalSearch {
     bool in_a_vector_;
 };
 
-// Finds ranges of values that may be visible: TransferIntervals::visible() of vectors.
+// Vectors' form of TransferIntervals::visible(): finds whether ranges of values may be visible.
 class VisibleRanges {
   public:
     LAMINA_INLINE explicit VisibleRanges(const IntervalColumns& columns)

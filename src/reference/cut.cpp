@@ -13,6 +13,7 @@
 LAMINA_SIMD_BEGIN
 namespace reference {
 
+// Cuts a vector of segments, step by step. Returns the number of steps.
 template <typename Segments, typename Steps>
 LAMINA_INLINE std::size_t take_steps(Segments& segments, Steps& steps) {
     std::size_t count = 0;
@@ -23,7 +24,7 @@ LAMINA_INLINE std::size_t take_steps(Segments& segments, Steps& steps) {
     return count;
 }
 
-// store(i, step, lane) stores what a piece has beside the common columns.
+// Appends the kept pieces, lane by lane; store(i, step, lane) stores what PieceColumns lacks.
 template <typename Pieces, typename Store>
 LAMINA_INLINE void append_steps(std::size_t count, std::size_t first_segment, Pieces& pieces,
                                 const Store& store) {
@@ -56,7 +57,7 @@ class SegmentLanes {
           at_(0) {
         for (std::size_t power = 0; power < 4; ++power)
             scalar_.c[power] = given(segments.scalar[power] + first);
-        // A constant may be a step's knot: there the value itself decides the side.
+        // A constant scalar may be the knot of a step, where the value itself decides the side.
         lowest_ = search_.above(lo_);
         const DoubleMask whole = (hi_ <= search_.upper(lowest_)) & !scalar_.constant();
         const Turns turns = turns_of(scalar_);
@@ -91,7 +92,7 @@ class SegmentLanes {
     }
 
   private:
-    // Lanes behind the last segment are 0.
+    // Loads numbers of the segments. Lanes behind the last segment are 0.
     LAMINA_INLINE Double given(const double* from) const {
         return load_masked<Double>(active_, from);
     }
@@ -104,7 +105,7 @@ class SegmentLanes {
         interval_ = search_.onwards(lowest_, value_, rises_);
     }
 
-    // Segments that have not turned find the same direction and interval again.
+    // Aims at the next turn in lanes that have turned; in others direction and interval remain.
     LAMINA_INLINE void pass_turn(DoubleMask turned) {
         turn_ = select(turned, next_turn_, turn_);
         next_turn_ = select(turned, 1, next_turn_);
@@ -125,13 +126,14 @@ class SegmentLanes {
     DoubleMask active_;
     Double lo_, hi_;
     Cubics scalar_;
-    Double at_, value_;                     // present place, and the scalar there
+    Double at_, value_;                     // current t, and the scalar there
     Double turn_, next_turn_, turn_value_;  // the next two turns, or 1, and the scalar at the first
-    DoubleMask rises_;                      // on the way to the turn
-    Long lowest_, interval_;                // those of lo_, and of the piece that is next
+    DoubleMask rises_;                      // lanes in which the scalar rises towards the turn
+    Long lowest_, interval_;                // intervals: of lo_, and of the next piece
 };
 
-// Extinction is computed from the nearer knot: few digits are lost at a steep end.
+// Sets position, extinction, depth and allowed errors of a vector of pieces. Extinction is computed
+// from the nearer knot, so that few digits are lost where it is steep.
 LAMINA_INLINE void set_optics(const SegmentBatch& segments, const IntervalColumns& columns,
                               double error_per_length, std::size_t i, PieceBatch& pieces) {
     const IntervalSearch search(columns);
@@ -171,9 +173,9 @@ LAMINA_INLINE void set_optics(const SegmentBatch& segments, const IntervalColumn
     store_unaligned(search.of(columns.color_span, interval), pieces.color_span.data() + i);
 }
 
-// Limit of the optical depths of pieces, so that sums of them stay finite.
+// Limits the optical depths of pieces, so that sums of them stay finite.
 constexpr double largest_depth = 1e300;
-// Limit of scalars: differences of larger ones might overflow.
+// Limits scalars: differences of larger ones might overflow.
 constexpr double largest_scalar = std::numeric_limits<double>::max() / 4;
 
 class LinearLanes {
@@ -194,7 +196,7 @@ class LinearLanes {
     LAMINA_INLINE void advance(LinearStep& step) {
         const Double knot = search_.knot_ahead(interval_, rises_);
         const Double end = select(rises_, min(knot, back_), max(knot, back_));
-        // Both differences are of given doubles: the share is accurate.
+        // Both differences are of doubles that are given exactly, so the share is accurate.
         const Double share = (end - value_) / (back_ - front_);
         const DoubleMask has_length = constant_ | (end != value_);
         const DoubleMask kept = active_ & search_.shows(interval_) & has_length;
@@ -215,12 +217,12 @@ class LinearLanes {
 
     IntervalSearch search_;
     DoubleMask active_;
-    Double front_, back_, value_;  // scalars at the ends, and at the present place
+    Double front_, back_, value_;  // scalars at the ends, and at the current place
     DoubleMask rises_, constant_;
     Long interval_;
 };
 
-// Appends a single step: most vectors of segments have no more.
+// Appends the pieces of a single step: most vectors of segments have no more.
 LAMINA_INLINE void append_step(const LinearStep& step, std::size_t first_segment,
                                LinearPieces& pieces) {
     const KeptLanes kept(mask_of_bits<DoubleMask>(step.kept));
@@ -234,6 +236,7 @@ LAMINA_INLINE void append_step(const LinearStep& step, std::size_t first_segment
     pieces.count += kept.count();
 }
 
+// Positions in an interval: 0..1 from its lower knot, and from its upper one.
 struct PlaceLanes {
     Double from_lo, from_hi;
 
@@ -339,7 +342,7 @@ CubicTurns turns_of(const Cubic& cubic) {
 double solve_monotone(const Cubic& cubic, double value, double from, double to) {
     Cubic shifted = cubic;
     shifted.c[0] -= value;
-    double below = from, above = to;  // there the shifted cubic is negative, and positive
+    double below = from, above = to;  // where the shifted cubic is negative, and where positive
     const double at_from = shifted(from), at_to = shifted(to);
     if (at_from > at_to) std::swap(below, above);
     double t = from + (to - from) * (at_from / (at_from - at_to));  // as if it were straight

@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Segments of a ray are cut at the knots of the transfer function into pieces, on each of which
+// Cuts the segments of a ray at the knots of the transfer function into pieces, on each of which
 // extinction and colour are linear functions of the scalar s (docs/numerics.md, section 9.3):
-//
 //   t = 0; interval = the one into which s goes from s(0)
 //   while t < 1:
-//       turn = the next place at which s turns, or 1
+//       turn = the next t at which s turns, or 1
 //       knot = the end of the interval that s reaches on its way to s(turn)
 //       to   = the t at which s is the knot, if that is before the turn; otherwise the turn
 //       if the interval has extinction and t < to: append the piece t .. to
 //       t = to; interval = the one behind the knot, if s crosses it
-//
-// Cells have a cubic s, tets a linear one. Vectors have a segment in each lane.
-//
-// A scalar along a ray in a cell is a cubic (docs/numerics.md, section 9.1). This finds the places
-// at which it turns, and those at which it has a value:
-//
+// Cells have a cubic s (docs/numerics.md, section 9.1), tets a linear one. Vectors have a segment
+// in each lane. The t at which a cubic turns, or has a value:
 //   turns: the roots of the derivative inside (0, 1), in the form that does not cancel
-//
 //   solve(value, from, to), between two turns:
 //       t = the place in from .. to as if the cubic were straight
-//       loop: keep the bracket's end whose sign is that of f = cubic(t) - value at t
+//       loop: f = cubic(t) - value; t replaces the end of the bracket at which f has the same sign
 //           next = t - f / slope, by Newton; the bracket's middle if that is outside or too slow
 //           end if the error of the step, bend / slope * step^2 / 2, is below a rounding of t
 #pragma once
@@ -43,24 +37,23 @@ struct Cubic {
 
 using GradientAlong = std::array<Cubic, 3>;
 
-// t[0] = 0 < ... < t[count] = 1: the cubic is monotone between two of them.
+// The turns of a cubic: it is monotone between two neighbours of t[0] = 0 < ... < t[count] = 1.
 struct CubicTurns {
     std::array<double, 4> t{0, 1, 1, 1};
     int count = 1;
 };
 CubicTurns turns_of(const Cubic& cubic);
 
-// Largest number of steps of Newton's method, and the share of t to which it finds t.
+// Largest number of steps of Newton's method, and the relative precision to which it finds t.
 inline constexpr int most_newton_steps = 200;
 inline constexpr double root_precision = 0.5 * std::numeric_limits<double>::epsilon();
 
 // Returns the t in [from, to] at which the monotone cubic equals `value`, to full precision.
 double solve_monotone(const Cubic& cubic, double value, double from, double to);
 
-// Returns the cubic between `from` and `to` on [0, 1], from `start` exactly to about `end`.
+// Returns a cubic's part from..to on [0, 1]: exactly `start` at 0 and about `end` at 1.
 Cubic restricted(const Cubic& cubic, double from, double to, double start, double end);
 
-// Consecutive segments of a ray with cubic scalars.
 struct SegmentBatch {
     static constexpr std::size_t capacity = 32;
 
@@ -68,7 +61,7 @@ struct SegmentBatch {
     alignas(64) double lo[capacity];         // the scalar stays inside [lo, hi] up to rounding
     alignas(64) double hi[capacity];
     alignas(64) double length[capacity];  // > 0, in world units
-    // in the CellBatch of make_segments()
+    // Index of the cell in the CellBatch that make_segments() got.
     alignas(64) std::int64_t cell[capacity];
     std::size_t count = 0;
 
@@ -81,9 +74,10 @@ struct SegmentBatch {
     }
 };
 
-// Extinction and colour are linear functions of x(t); t goes from 0 (towards the eye) to 1.
+// A piece of a cubic segment: extinction and colour are linear functions of x(t), the place in the
+// interval; t goes from 0 (towards the eye) to 1.
 struct EmissionPiece {
-    Cubic position;    // 0 <= x <= 1 up to rounding
+    Cubic position;    // x(t), in 0..1 up to rounding
     Cubic extinction;  // extinction times the length of the piece, >= 0 up to rounding
 
     // Returns the optical depth from the front to t (9.2).
@@ -93,7 +87,7 @@ struct EmissionPiece {
     }
 };
 
-// A piece of each segment (PieceColumns), in the lanes `kept`.
+// A step of the loop: a piece in each `kept` lane. Fields: PieceColumns, PieceBatch, LinearPieces.
 struct CutStep {
     alignas(64) std::int64_t interval[longest_vector];
     alignas(64) double start[longest_vector];
@@ -111,16 +105,16 @@ struct LinearStep : CutStep {
 struct PieceColumns {
     using Column = std::vector<double>;
 
-    std::vector<std::int64_t> segment, interval;  // numbers
+    std::vector<std::int64_t> segment, interval;  // of each piece: indices
     Column start, end;                            // the scalar at the front and at the back
     Column depth;                                 // optical depth of the piece, >= 0
-    Column before;                                // depth in front of it, set by the caller
+    Column before;                                // optical depth in front of it, set by the caller
     Column transmittance, opacity;                // results: exp(-before), 1 - exp(-depth)
 
     std::size_t count = 0;
 
   protected:
-    // Has room for a vector more: vectors read and write beyond the last piece.
+    // Makes the arrays hold `pieces` and a vector more, as vectors go beyond the last piece.
     void make_room(std::size_t pieces, std::initializer_list<Column*> others) {
         if (pieces + longest_vector <= start.size()) return;
         const std::size_t room = std::max(2 * start.size(), pieces + longest_vector);
@@ -135,8 +129,9 @@ struct PieceColumns {
 struct PieceBatch : PieceColumns {
     Column from, to;                    // parameters of the segment, 0 <= from < to <= 1
     Column position[4], extinction[4];  // EmissionPiece, coefficient by coefficient
-    Column color_span;                  // largest change of a colour
-    // Errors allowed to a channel: by a piece's length, and to all by their visible opacity.
+    Column color_span;                  // largest change of a colour component
+    // Errors allowed in a channel: error_of_length for each piece, by its length, and
+    // error_of_opacity times the visible opacity for all.
     Column error_of_length;
     double error_of_opacity = 0;
     Column value, error;  // results: EmissionIntegral
@@ -181,10 +176,10 @@ struct LinearSegments {
 };
 
 struct LinearPieces : PieceColumns {
-    Column share;                   // of the segment's length
+    Column share;                   // the piece's length as a share of the segment's
     Column start_place, end_place;  // in the interval, 0 at its lower knot, 1 at its upper one
-    Column p, q;                    // extinction * length there
-    // beside `opacity`, the weight of the lower knot's colour: that of its change
+    Column p, q;                    // extinction * length at start and end
+    // Weight of the colour's change in the interval; `opacity` is that of the lower knot's colour.
     Column change;
 
     std::vector<LinearStep> steps;  // memory of append_linear_pieces()

@@ -17,14 +17,14 @@
 LAMINA_SIMD_BEGIN
 namespace reference {
 
-// Largest depth up to which so many terms of Taylor's series of (exp(-depth) - 1) / depth are
-// enough: the remainder is below depth^(terms + 1) / (terms + 2)! = 7e-18, 1e-16 and 5e-16.
+// Largest depth for which `terms` terms of Taylor's series of (exp(-depth) - 1) / depth are enough:
+// the remainder is below depth^(terms + 1) / (terms + 2)! = 7e-18, 1e-16 and 5e-16.
 template <std::size_t terms>
 inline constexpr double series_limit = terms == 6   ? 0.016
                                        : terms == 8 ? 0.09
                                                     : 0.25;
 
-// (exp(-depth) - 1) / depth.
+// Returns (exp(-depth) - 1) / depth for depths up to series_limit<terms>.
 template <std::size_t terms>
 LAMINA_INLINE Double short_expm1_share(Double depth) {
     static_assert(terms == 6 || terms == 8 || terms == 10, "series_limit");
@@ -56,7 +56,7 @@ struct ShortDepth {
 constexpr std::size_t most_terms = 10;
 constexpr double short_depth = series_limit<most_terms>;
 
-// Short in some lanes. A lane's result does not depend on the others.
+// Depths that are up to short_depth in some lanes. A lane's result does not depend on the others.
 struct MixedDepth {
     DoubleMask is_short;
 
@@ -76,7 +76,7 @@ LAMINA_INLINE Cubics load_cubics(const PieceBatch::Column (&from)[4], std::size_
     return cubics;
 }
 
-// Sums of the rules so far: of w = extinction exp(-depth), and of x w.
+// A rule's sums so far: of w = extinction exp(-depth), and of x w.
 struct RuleSum {
     Double w, xw;
 
@@ -118,7 +118,7 @@ class PieceLanes {
     }
 
     Depth depth_;
-    Cubics position_, extinction_, mean_depth_;  // mean_depth_ t is the depth up to t
+    Cubics position_, extinction_, mean_depth_;  // mean_depth_(t) * t is the depth up to t
 };
 
 LAMINA_INLINE Double difference(const RuleSum& fine, const RuleSum& coarse, Double opacity) {
@@ -162,7 +162,7 @@ LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const
         done = error <= enough;
     }
     done = done & (depth < resolvable_depth);
-    // x is somewhere in [0, 1], so any of its values is within `opacity` of the integral.
+    // If opacity is negligible: with any x in [0, 1] the result is off by at most `opacity`.
     const DoubleMask faint = opacity <= negligible_opacity * allowed;
     value = select(faint, pieces.middle() * opacity, value);
     error = select(faint, opacity, error);
@@ -187,7 +187,8 @@ struct WeightLanes {
     Double front, back;
 };
 
-// The sums of optics/segment_integral.cpp, which gives the reasons for their form.
+// Computes the weights of both ends by the rule of quadrature_weights() in
+// optics/segment_integral.cpp, which gives the reasons for the form of the sums.
 template <typename Depth>
 LAMINA_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Double p, Double q,
                                           const Depth& kind) {
@@ -270,7 +271,7 @@ LAMINA_SIMD_END
 namespace lamina {
 namespace {
 
-// Sums, over a pair of nodes or over those of a rule, of w and of f w.
+// Sums of w and of f w, over a pair of nodes or over all nodes of a rule.
 template <typename Value>
 struct WeightedSum {
     double w = 0;
@@ -278,12 +279,12 @@ struct WeightedSum {
 };
 
 struct QuantityRange {
-    double bound;  // of |f|, and of |f| of any component
+    double bound;  // of |f|; if f is a vector, of each component's |f|
     bool smooth;   // no dip and no peak of f fits between the nodes of a rule
 };
 
-// The integral of w is known in closed form, which shows if a rule misses a boundary layer.
-//
+// Integrates f w over a piece, for a quantity f, by nested rules and bisection. The integral of w
+// is known in closed form, which shows whether a rule misses a boundary layer. A Quantity has:
 //   Value at(t)                                  f
 //   QuantityRange over(from, to)
 //   bool is_faint(opacity, allowed, bound)       any value of f will do for the interval's
@@ -295,7 +296,7 @@ class NestedIntegral {
   public:
     using Value = typename Quantity::Value;
 
-    // `most_intervals`: all intervals beyond these get any value.
+    // `most_intervals`: limits those examined. Further ones are taken with any value of f.
     NestedIntegral(const EmissionPiece& piece, const Quantity& quantity, double error_per_t,
                    double error_per_opacity, int most_intervals)
         : piece_(piece),
@@ -304,7 +305,7 @@ class NestedIntegral {
           error_per_opacity_(error_per_opacity),
           budget_(most_intervals) {}
 
-    // Adds the integral over an interval, with the depths in front of its ends.
+    // Adds the integral over from..to. depth_from, depth_to: the optical depths in front of these.
     void add(double from, double to, double depth_from, double depth_to) {
         const double in_front = std::exp(-depth_from);
         const double opacity = in_front * -std::expm1(depth_from - depth_to);
@@ -387,7 +388,7 @@ class NestedIntegral {
     Integral<Value> result_;
 };
 
-// Any x in [0, 1] is within an interval's opacity of the integral.
+// The quantity x. With any x in [0, 1] the result is off by at most an interval's opacity.
 struct PiecePosition {
     using Value = double;
     const EmissionPiece& piece;
@@ -426,7 +427,7 @@ struct GradientBall {
     double radius;
 };
 
-// The ball holds the four Bernstein coefficients, in whose convex hull a polynomial stays.
+// Returns a ball around the four Bernstein coefficients, in whose convex hull the gradient stays.
 GradientBall ball_of(const GradientAlong& gradient, double from, double to) {
     const double h = to - from;
     const glm::dvec3 start = value_at(gradient, from), end = value_at(gradient, to);
@@ -441,11 +442,12 @@ GradientBall ball_of(const GradientAlong& gradient, double from, double to) {
                               glm::distance(third, center), glm::distance(end, center)})};
 }
 
-// Largest distance of gradients from the middle one, as a share of their length: the effect's
-// singularities are then at least half an interval away.
+// Largest distance of gradients on an interval from the middle one, as a share of the middle one's
+// length, for rules to be used: the effect's singularities are then at least half an interval away.
 constexpr double most_growth = 0.5;
-// Width of a highlight's peak, in units of 1 / sqrt(power), the angle at which it falls to
-// exp(-1/2). Three nodes on six of these units have one within 1.2 units of any peak.
+// Largest turn of the gradient on half an interval, in units of 1 / sqrt(power), the angle at which
+// a highlight falls to exp(-1/2). Of three nodes on an interval of six such units, one is within
+// 1.2 units of any peak.
 constexpr double peak_widths = 3;
 
 class LightEffect {
@@ -483,7 +485,7 @@ class LightEffect {
         return {largest_effect_ * lights_.weight(steepness + ball.radius),
                 ball.radius <= most_turn_ * steepness};
     }
-    // The effect is between -bound and bound, and so is its value in the middle.
+    // The effect is between -bound and bound everywhere, so also in the middle.
     bool is_faint(double opacity, double allowed, double bound) const {
         return 2 * bound * opacity <= allowed;
     }

@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visible colour of a ray's pieces. On a piece of a cubic segment the position x(t) in the
-// interval and the extinction e(t) are cubics, and D(t), the integral of e, is the optical depth
-// (docs/numerics.md, section 9.2). The change of the colour is weighted by the integral of x e
-// exp(-D):
-//
+// Integrates the visible colour of the pieces of a ray. On a piece of a cubic segment, the position
+// x(t) in the transfer function's interval and the extinction e(t) are cubics, and D(t), the
+// integral of e, is the optical depth (docs/numerics.md, section 9.2). The change of the colour is
+// weighted by the integral of x e exp(-D):
 //   integral(from, to):
 //       opacity = exp(-D(from)) - exp(-D(to)), which is the integral of e exp(-D)
 //       if the opacity is negligible beside the error that is allowed: x(middle) opacity
-//       Patterson's rules of 3, 7 and 15 nodes of x e exp(-D), and of e exp(-D) to see their error
-//       if two that follow each other differ by no more than is allowed: the finer one
+//       apply Patterson's rules of 3, 7 and 15 nodes to x e exp(-D), and to e exp(-D), whose exact
+//           integral shows a rule's error
+//       if two successive rules differ by no more than is allowed: the finer one
 //       otherwise integral(from, middle) + integral(middle, to)
-//
 // Pieces of linear segments have closed forms (optics/segment_integral.h).
 //
-// The colour that light adds to a piece (docs/numerics.md, section 10.3):
-//
-//   kinks = the roots of g.l and g.h, for the gradient g and each light's l and h
+// The colour that light adds to a piece (docs/numerics.md, section 10.3), for the gradient g and
+// each light's direction l and halfway vector h:
+//   kinks = the roots of g.l and g.h
 //   for each interval of the piece between two kinks:
-//       ball = one that g stays in, around its value in the middle
-//       if the largest effect of light in the ball (10.2) is below the allowed error:
-//           its value in the middle
-//       else if g grows and turns by little in the ball:
-//           Patterson's rules (integrate.h), as soon as two that follow each other agree
+//       ball = a ball around g in the middle that contains g on the interval
+//       if the largest effect of light for gradients in the ball (10.2) is below the allowed error:
+//           the effect in the middle
+//       else if g changes its length and its direction by little in the ball:
+//           Patterson's rules, as soon as two successive ones agree
 //       else halve the interval
-//
-// The effect's dips and peaks are narrow if the gradient is small and turns quickly.
+// The effect has narrow dips and peaks if the gradient is small and turns quickly.
 #pragma once
 
 #include "optics/ray_lights.h"
@@ -33,9 +31,8 @@
 namespace lamina {
 namespace patterson {
 
-// Patterson's nested extensions of the 3-point Gauss-Legendre rule (Patterson 1968, Math. Comp. 22,
-// 847-856), exact to degree 5, 11 and 23: entry 0 is the centre, entry i > 0 the pair 1/2 +-
-// node[i] of [0, 1].
+// Patterson's nested extensions of the 3-point Gauss-Legendre rule (1968, Math. Comp. 22, 847-856),
+// exact to degree 5, 11 and 23: entry 0 is the centre, i > 0 the pair 1/2 +- node[i] of [0, 1].
 inline constexpr double node[8] = {0,
                                    0.3872983346207416885,
                                    0.2171218746734012790,
@@ -53,29 +50,29 @@ inline constexpr double weight15[8] = {
 
 }  // namespace patterson
 
-// Share of its allowed error below which any colour of a piece will do.
+// Opacity of a piece, as a share of its allowed error, below which any colour of the piece will do.
 inline constexpr double negligible_opacity = 1.0 / 1024;
-// Depth that 15 nodes resolve. Deeper pieces are bisected, which is cheaper.
+// Optical depth that 15 nodes resolve. Deeper pieces are bisected at once, which is cheaper.
 inline constexpr double resolvable_depth = 8;
-// Rounding of a rule's sums, relative to the optical depth.
+// Rounding error of a rule's sums, relative to the optical depth.
 inline constexpr double emission_rounding = 1e-15;
 
-// The integral of a quantity f(t), weighted by w = extinction exp(-depth), over [0, 1].
+// The integral of a quantity f(t), weighted by extinction * exp(-depth), over 0 <= t <= 1.
 template <typename Value>
 struct Integral {
     Value value{0};
-    double error = 0;  // estimate of |error|, of the worst component; the true one is smaller
+    double error = 0;  // estimate of the worst component's error; the true error is smaller
 };
 using EmissionIntegral = Integral<double>;
 
-// The integral of x extinction exp(-depth) over [0, 1], to an error of `error_per_t` times length
-// plus `error_per_opacity` times the share of 1 - exp(-depth(1)) of each interval.
+// Returns the integral of x * extinction * exp(-depth) over [0, 1]. The error allowed on each
+// interval is `error_per_t` times its length plus `error_per_opacity` times its visible opacity.
 EmissionIntegral integrate_emission(const EmissionPiece& piece, double error_per_t,
                                     double error_per_opacity);
 
 void integrate_emission(PieceBatch& batch);
 
-// The relative error of each weight is some 1e-13 (optics/segment_integral.h).
+// Sets the weights of the pieces' colours, in vectors, to some 1e-13 (optics/segment_integral.h).
 void weigh_pieces(LinearPieces& pieces);
 
 // A piece with a gradient, whose colour is linear in x.
@@ -87,7 +84,7 @@ struct LitPiece {
 
 using LightIntegral = Integral<glm::dvec3>;
 
-// The integral of RayLights::Effect::on(colour) extinction exp(-depth) over [0, 1].
+// As integrate_emission(), for RayLights::Effect::on(colour) * extinction * exp(-depth) on [0, 1].
 LightIntegral integrate_light(const LitPiece& piece, const RayLights& lights, double error_per_t,
                               double error_per_opacity);
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rays of a mesh's picture:
-//
-//   for each ray of a tile, a packet of them side by side:
+//   for each ray of a tile, several of them side by side:
 //       entries = the open faces by which the ray enters the mesh, front to back (tiles.h)
 //       for each entry, while anything behind can be visible:
-//           for each tet from there on (mesh_walk.h):
+//           for each tet from the entry on, until the ray leaves the mesh (mesh_walk.h):
 //               cut its segment to the visible part (mesh_walk.h)
 //               composite it, if it may be visible (composite.h)
-//
-// On a ray on which the mesh overlaps itself tets are listed by the places of their entries.
+// On rays on which the mesh overlaps itself, tets are composited in the order of entry.
 #include "reference/tracer.h"
 
 #include "mesh/tet_mesh.h"
@@ -20,8 +18,8 @@
 namespace lamina {
 namespace {
 
-// Ends of segments are accurate to this many epsilons of the largest distance and coordinate on the
-// ray (mesh/ray_walk.h: 8 for a corner's place, as much for weights and parameter).
+// Error of the ends of segments, in epsilons of the largest distance and coordinate on the ray: 8
+// for a corner's place (mesh/ray_walk.h), and as much for weights and parameter.
 constexpr double place_epsilons = 16;
 
 class MeshTile {
@@ -72,7 +70,7 @@ class MeshTile {
   private:
     struct MeshRay {
         glm::ivec2 pixel{0};
-        std::size_t entered = 0;  // number of entries that are done
+        std::size_t entered = 0;  // number of entries of the ray that have been entered
         std::optional<RayLights> lights;
         SegmentSum sum;
     };
@@ -107,7 +105,7 @@ class MeshTile {
         }
     }
 
-    // Enters the mesh once more, or ends the ray.
+    // Enters the mesh at the ray's next entry, or ends the ray.
     void go_on(std::size_t lane) {
         MeshRay& ray = rays_[lane];
         const RayWalk& line = walk_.ray(lane);
@@ -139,7 +137,7 @@ class MeshTile {
         }
     }
 
-    // Adds the visible part of segment(), which is in that tet.
+    // Adds a segment: `seen`, its visible part; segment() returns all of it, in the tet `tet`.
     template <typename Segment>
     void add(std::size_t lane, std::int32_t tet, const SeenSegment& seen, double length,
              double slack, const Segment& segment) {
@@ -151,7 +149,7 @@ class MeshTile {
         ray.sum.add_lit(seen.front, seen.back, gradient, length, slack);
     }
 
-    // Returns the gradient between two parameters of the ray, which is linear.
+    // Returns the gradient, which is linear, between two parameters of the ray.
     GradientAlong gradient_along(const TetSegment& segment, double from, double to) const {
         const glm::dvec3 in = gradient_at(segment.in), out = gradient_at(segment.out);
         const double length = segment.out.at - segment.in.at;
@@ -181,12 +179,13 @@ class MeshTile {
     TraceTotals totals_;
 };
 
+// Returns a distance from the eye that no point of the mesh exceeds.
 double reach_of(const TetMesh& mesh, const View& view) {
     const glm::dvec3 lo = mesh.bounds().min - view.eye, hi = mesh.bounds().max - view.eye;
     return glm::length(glm::max(glm::abs(lo), glm::abs(hi)));
 }
 
-// Marks tets with a value that is not finite; empty if there are none.
+// Returns a mark for each tet with a value that is not finite; empty if there are none.
 std::vector<char> tets_without_value(const TetMesh& mesh, std::span<const double> scalar) {
     if (std::all_of(scalar.begin(), scalar.end(), [](double s) { return std::isfinite(s); }))
         return {};

@@ -13,7 +13,7 @@
 LAMINA_SIMD_BEGIN
 namespace reference {
 
-// As RayWalk::step() (mesh/ray_walk.cpp), rounded in the same way.
+// RayWalk::step() (mesh/ray_walk.cpp) for a vector of lines, with the same rounding.
 class WalkStep {
   public:
     WalkStep(WalkLanes& lanes, std::size_t first) : lanes_(lanes), first_(first) {}
@@ -21,7 +21,8 @@ class WalkStep {
     LAMINA_INLINE void run() {
         const Seen top = see_top();
         const Double to_top[3] = {area_to(0, top), area_to(1, top), area_to(2, top)};
-        // Leaves between the corners whose edges to the top change from negative to positive.
+        // left[i]: lanes in which corner i is not in the face of exit. The line leaves between the
+        // corners whose edges to the top change from negative to positive.
         const DoubleMask left[3] = {changes(to_top[1], to_top[2]), changes(to_top[2], to_top[0]),
                                     changes(to_top[0], to_top[1])};
         settled_ = settled_ & (left[0] | (left[1] | left[2]));
@@ -65,7 +66,8 @@ class WalkStep {
                 RayWalk::place_error * distance};
     }
 
-    // Twice the area of the line and an edge to the top. Unsure lanes are not settled.
+    // Returns twice the area of the triangle of the line and the edge from a corner to the top.
+    // Lanes in which rounding leaves its sign unknown become unsettled.
     LAMINA_INLINE Double area_to(std::size_t corner, const Seen& top) {
         const WalkLanes::Corner& row = lanes_.front[corner];
         const Double x = get(row.x), y = get(row.y), reach = get(row.reach);
@@ -89,7 +91,7 @@ class WalkStep {
         store(max(max(a, b), max(c, top)), lanes_.most.data() + first_);
     }
 
-    // Replaces the corner that a line leaves behind by the tet's fourth one.
+    // Replaces the corner that is not in the face of exit by the tet's fourth one.
     LAMINA_INLINE void replace(std::size_t corner, DoubleMask left, const Seen& top) const {
         const DoubleMask replaced = settled_ & left;
         WalkLanes::Corner& row = lanes_.front[corner];
@@ -125,11 +127,11 @@ class WalkStep {
 
     WalkLanes& lanes_;
     std::size_t first_;
-    // None without fused multiplication: areas are then less accurate than those of RayWalk.
+    // Lanes that floats decide; none without fused multiply-add, as areas are less accurate.
     DoubleMask settled_ = DoubleMask(fuses);
 };
 
-// Cuts a vector of segments as seen_segment() does. Returns a bit for each lane that is visible.
+// Cuts a vector of segments as seen_segment() does. Returns the lanes that may be visible.
 LAMINA_INLINE LaneSet find_seen_from(const WalkLanes& walk, const VisibleRanges& visible,
                                      std::size_t lane, SeenLanes& seen) {
     const auto get = [&](const WalkLanes::Row& row)
@@ -160,7 +162,7 @@ LAMINA_INLINE LaneSet find_seen_from(const WalkLanes& walk, const VisibleRanges&
 
 }  // namespace reference
 
-// Lanes in which floats do not decide the face keep their values.
+// Steps all lines. Lanes in which floats do not decide the face keep their state.
 inline void step_lanes_of(WalkLanes& lanes) {
     using namespace reference;
     for (std::size_t first = 0; first < WalkLanes::width; first += Double::lanes)
@@ -253,7 +255,7 @@ std::int32_t PacketWalk::tet_behind(std::size_t lane) const {
     return mesh_.neighbors()[number][face];
 }
 
-// Each tet is passed at most once. The limit ends walks in meshes that are not valid.
+// Moves a line into a tet, or stops it. The limit (each tet once) ends walks in invalid meshes.
 void PacketWalk::move(std::size_t lane, std::int32_t tet) {
     if (tet == TetMesh::no_neighbor || ++steps_[lane] > mesh_.tets().size()) return stop(lane);
     tets_[lane] = tet;
@@ -268,7 +270,7 @@ void PacketWalk::move(std::size_t lane, std::int32_t tet) {
     lanes_.top_point[lane] = top;
 }
 
-// Takes a step that vectors of floats did not decide.
+// Takes the step of one line, exactly, if floats did not decide it.
 std::int32_t PacketWalk::step_alone(std::size_t lane) {
     const auto [least, most] = range_in(values_, mesh_.tets()[tets_[lane]]);
     lanes_.least[lane] = least;

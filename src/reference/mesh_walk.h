@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines through a mesh, side by side, from tet to tet:
-//
+// Follows lines through a mesh from tet to tet, one in each lane of a vector:
 //   front = the corners of the face by which the line enters, and the areas of the triangles that
 //           the line makes with its edges, seen along the line
 //   while there is a tet behind the face:
 //       top = the tet's corner that is not in front; in = the crossing by which the line entered
-//       area_to[i] = the triangle of the line and the edge from front[i] to the top
+//       area_to[i] = the area of the triangle of the line and the edge from front[i] to the top
 //       the line leaves by the top and the two corners between which area_to turns from - to +
 //       replace the third corner in front by the top; out = the crossing of this face
-//
-// Lanes in which floats do not decide the sign of an area take RayWalk::step(), which is exact.
-//
+// Lanes in which floats do not decide the sign of an area take RayWalk::step(), which is exact. Of
+// the segments between two crossings those are drawn that may be visible:
 //   for each segment (enter, leave) of the ray in a tet, in which the scalar is linear:
 //       cut it to the range that the clip keeps, and interpolate the scalar at its new ends
 //       it is visible if an interval of the transfer function that its scalars touch has extinction
@@ -23,7 +21,7 @@
 
 namespace lamina {
 
-// A number a line in each row (LineFrame, RayFront, FaceCrossing).
+// The state of all lines, one a column. Names as in LineFrame, RayFront and FaceCrossing.
 struct WalkLanes {
     static constexpr std::size_t width = longest_vector;
     using Row = LaneRow;
@@ -42,27 +40,27 @@ struct WalkLanes {
 
     std::array<Row, 3> origin, direction, across_x, across_y;
     Row direction_square;
-    // These describe the corner of the tet that is not in front.
+    // The corner of the tet that is not in front: its place, value and index.
     std::array<Row, 3> top;
     Row top_value;
     Numbers top_point;
 
     std::array<Corner, 3> front;
     std::array<Row, 3> areas;
-    std::array<Crossing, 2> crossings;  // of the tet that is passed: in() and out()
-    std::size_t entry = 0;              // number of in(): out() becomes in()
+    std::array<Crossing, 2> crossings;  // in() and out(): where the line enters and leaves the tet
+    std::size_t entry = 0;  // index of in() in `crossings`; toggled, so that out() becomes in()
     Crossing& in() { return crossings[entry]; }
     Crossing& out() { return crossings[1 - entry]; }
     const Crossing& in() const { return crossings[entry]; }
     const Crossing& out() const { return crossings[1 - entry]; }
     Row least, most;  // values at the tet's corners
 
-    Numbers left_behind;  // the point of the face of entry that is not in the face of exit
+    Numbers left_behind;  // the corner of the entered face that is not in the face of exit
     Numbers settled;      // not 0: the step is done; 0: floats do not decide it
 };
 
 // Walks lines side by side, so that one waits for memory while others are computed. Each passes the
-// tets of RayWalk::follow(), with the same crossings. Each thread needs its own object.
+// same tets, with the same crossings, as RayWalk::follow(). Each thread needs its own object.
 class PacketWalk {
   public:
     static constexpr std::size_t width = WalkLanes::width;
@@ -70,15 +68,17 @@ class PacketWalk {
     // `values`: one a point, to be interpolated.
     PacketWalk(const TetMesh& mesh, const FaceTree& open_faces, std::span<const double> values);
 
-    // Returns a lane's line, to be aimed before the lane enters.
+    // Returns the line of a lane. The caller aims it before enter().
     RayWalk& ray(std::size_t lane) { return rays_[lane]; }
-    // Lets the line enter. step() moves it until it leaves or stops.
+    // Starts the line at an entry. step() moves it until it leaves the mesh or stop() is called.
     void enter(std::size_t lane, const RayWalk::Entry& entry);
     void stop(std::size_t lane) { walking_ &= ~lane_bit(lane); }
     LaneSet walking() const { return walking_; }
 
+    // Moves all walking lines through one tet.
     void step();
 
+    // Returns the tet that the last step passed.
     std::int32_t tet(std::size_t lane) const { return passed_[lane]; }
     const WalkLanes& lanes() const { return lanes_; }
     TetSegment segment(std::size_t lane) const;
@@ -95,13 +95,13 @@ class PacketWalk {
     const TetMesh& mesh_;
     std::span<const double> values_;
     std::vector<RayWalk> rays_;
-    std::array<std::int32_t, width> passed_{}, tets_{};  // by the last step, and by the next one
+    std::array<std::int32_t, width> passed_{}, tets_{};
     std::array<std::size_t, width> steps_{};
     LaneSet walking_ = 0;
     WalkLanes lanes_{};
 };
 
-// The visible part of a tet's segment, linear between both scalars; empty if !(from < to).
+// The part of a tet's segment that the clip keeps: linear scalars front..back; empty: !(from < to).
 struct SeenSegment {
     double from, to;
     double front, back;
@@ -123,7 +123,7 @@ struct SeenLanes {
     LaneSet shown = 0;          // lanes that are not empty and may be visible
 };
 
-// Returns the largest error of interpolated scalars in a tet. Constant scalars are exact.
+// Returns the largest error of scalars interpolated in a tet with values least..most; 0 if equal.
 inline constexpr double scalar_epsilons = 64;
 inline double scalar_slack(double least, double most) {
     if (least == most) return 0;
@@ -131,6 +131,7 @@ inline double scalar_slack(double least, double most) {
            std::max(std::abs(least), std::abs(most));
 }
 
+// Sets the SeenSegments of the lanes and tells which may be visible.
 void find_seen(const WalkLanes& walk, const IntervalColumns& intervals, SeenLanes& seen);
 
 }  // namespace lamina

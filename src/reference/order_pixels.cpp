@@ -7,14 +7,15 @@
 namespace lamina {
 namespace {
 
-constexpr double visible = 1e-12;  // share of the ray's way: see the header
+// Length of segments that count, as a share of the ray's length: see order_pixels.h.
+constexpr double visible = 1e-12;
 
 struct DrawnSegment {
     std::int32_t tet;
     double in, out;
 };
 
-// One order: the place at which each tet is drawn.
+// An order that is judged, with the place at which it draws each tet.
 struct Judged {
     const VisibilityOrder* order;
     std::vector<std::int32_t> places;

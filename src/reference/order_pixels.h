@@ -9,19 +9,19 @@
 
 namespace lamina {
 
-// Counts the pixels on whose rays an order has two tets in reverse.
+// Counts the pixels on whose rays a visibility order has two tets in reverse ("wrong" pixels).
 struct OrderPixels {
     std::int64_t covered = 0;  // pixels whose ray meets a tet
-    std::int64_t wrong = 0;    // covered pixels that are wrong
-    // Wrong pixels with a wrong pair that is not within one reported cycle.
+    std::int64_t wrong = 0;    // covered pixels on whose ray two tets are in reverse
+    // Wrong pixels with a reversed pair of tets that do not share a reported cycle of the order.
     std::int64_t outside_cycles = 0;
-    // Those outside cycles on whose ray the mesh overlaps itself.
+    // Pixels of outside_cycles on whose ray the mesh overlaps itself.
     std::int64_t overlapping = 0;
 };
 
-// Checks the orders' last results, for eye_of(view), against the exact list of the tets on each
-// ray. Segments count if longer than 1e-12 of the way to the mesh's end: places have errors of some
-// 1e-15. Calls `row_done` after each row, from any thread. Parallel.
+// Checks the last results of some orders, for eye_of(view), against the exact tets on each ray.
+// Segments count if longer than 1e-12 of the distance to the mesh's far end (places err by 1e-15).
+// Calls `row_done` after each row, from any thread. Parallel.
 std::vector<OrderPixels> judge_pixels(const TetMesh& mesh, const FaceTree& open_faces,
                                       const View& view,
                                       std::span<const VisibilityOrder* const> orders,

@@ -31,7 +31,8 @@ struct RayStep {
     double depth_before, depth_after;
 };
 
-// Returns the place at which depth_of(segment, from, place) reaches the depth.
+// Returns the parameter in the step at which the ray's optical depth reaches `depth`.
+// depth_of(segment, from, to) is the depth of a part of a segment.
 template <typename Segment, typename DepthOf>
 double place_of_depth(const RayStep<Segment>& step, double depth, const DepthOf& depth_of) {
     double before = step.from, after = step.to;
@@ -43,12 +44,12 @@ double place_of_depth(const RayStep<Segment>& step, double depth, const DepthOf&
     return after;
 }
 
-// Returns the optical depth at which half of the opacity of `whole` is reached.
+// Returns the optical depth with half of the opacity that a ray of depth `whole` has.
 double depth_of_half(double whole) {
     return -std::log1p(-opacity_from_depth(whole) / 2);
 }
 
-// Finds the point in the steps of a ray. value_of(segment, place) is the value of the data there.
+// Finds the point of half of the ray's opacity; value_of(segment, place) is the data's value.
 template <typename Segment, typename DepthOf, typename ValueOf>
 std::optional<SeenPoint> point_in(const std::vector<RayStep<Segment>>& steps, const View::Ray& ray,
                                   double first_z, const DepthOf& depth_of,
@@ -97,7 +98,7 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
         const glm::dvec3 corner(cell[0], cell[1], cell[2]);
         return samples.corners(cell).along(chord.place_in_cell(corner, place), glm::dvec3(0))(0);
     };
-    // The chord counts from its entry into the box.
+    // The chord's parameter is 0 where it enters the box, the ray's at the ray's origin.
     const glm::dvec3 entry = grid.to_world(chord.entry);
     const double entry_z =
         glm::dot(entry - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);

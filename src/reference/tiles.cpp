@@ -14,11 +14,11 @@
 namespace lamina {
 namespace {
 
-// Tangent from the middle of the view beyond which a point may be anywhere.
+// Tangent of the angle from the view's middle above which a point counts as seen by all pixels.
 constexpr double widest = 1e3;
 
-// A coordinate of a point, or of a line's place and direction, is off by at most some 8 epsilon of
-// the distances (1-norm) between point, eye and origin. The rest is a reserve.
+// Errors of projected points: coordinates, also of lines' places and directions, err by 8 epsilon
+// of the distances (1-norm) of point, eye, origin. The rest of 64, and 1e-6 pixels, are a reserve.
 constexpr double place_error = 64 * std::numeric_limits<double>::epsilon(), spare_pixels = 1e-6;
 constexpr double least_error = 64 * std::numeric_limits<double>::denorm_min();
 
@@ -32,7 +32,7 @@ double skew_of(const View& view) {
                      off(view.up, view.up, 1), off(view.forward, view.forward, 1)});
 }
 
-// Number of faces above which none are listed: searching the tree is then better.
+// Number of entries in all lists above which searching the tree is quicker than listing faces.
 constexpr std::size_t most_listed = 1 << 16;
 
 }  // namespace
@@ -56,7 +56,7 @@ std::vector<PictureTile> tiles_to_trace(int width, int height) {
         for (int column = 0; column < width; column += edge)
             tiles.push_back(
                 {column, row, std::min(edge, width - column), std::min(edge, height - row)});
-    // Twice the distance of the middles, squared.
+    // Returns the square of twice the distance between the middles of a tile and of the picture.
     const auto distance = [&](const PictureTile& tile) {
         const std::int64_t across = 2 * tile.column + tile.width - width;
         const std::int64_t down = 2 * tile.row + tile.height - height;
@@ -81,11 +81,11 @@ TraceResult trace_tiles(
     std::int64_t rows = 0;
     for (const PictureTile& tile : tiles) rows += tile.height;
     Progress progress("tracing", rows);
-    std::atomic<std::size_t> next{0};  // the loop's own numbers come in no order
+    std::atomic<std::size_t> next{0};  // parallel_for() gives its numbers in no order
     std::mutex telling;
     parallel_for(std::ssize(tiles), 1, [&](std::int64_t) {
         const PictureTile& tile = tiles[next++];
-        // Rows are counted, because a tile may take minutes. Empty ones are left out.
+        // Progress counts rows, because a tile may take minutes. Empty rows are counted at the end.
         std::int64_t left = tile.height;
         const TraceTotals totals = trace(tile, result.image, [&] {
             if (left == 0) return;
@@ -109,7 +109,7 @@ TileSight::TileSight(const View& view, const PictureTile& tile)
       error_(place_error + 8 * skew_of(view)),
       eye_norm_(norm1(view.eye)) {}
 
-// Points behind the eye are seen mirrored, so anything on both sides of it may be anywhere.
+// Points behind the eye are mirrored: points on both sides may be seen by all pixels.
 SeenPixels TileSight::around(std::span<const glm::dvec3> points) const {
     const SeenPixels all{{0, 0}, size_ - 1};
     const bool perspective = view_.projection == Projection::perspective;

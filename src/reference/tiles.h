@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture is traced in tiles, each by one thread, which leaves out pixels that see nothing:
-//
 //   for each tile of the picture, from its middle to its edges, on all cores:
 //       find the pixels whose lines may meet the volume's box, or for each pixel the open faces of
 //           the mesh that its line may meet
@@ -25,26 +24,23 @@ class TetMesh;
 
 struct TraceOptions {
     // Largest error of every channel, as a share of full scale (1.0); 1e-12 .. 1. For meshes it
-    // bounds the error of light: everything else is in closed form.
+    // bounds only the error of lighting: everything else is in closed form.
     double tolerance = 1e-5;
-    // Must pass check_lighting(). Throws Error without its smallest gradient.
+    // Must pass check_lighting(). check() throws Error if it has no smallest gradient.
     std::optional<Lighting> lighting = {};
-    std::vector<HalfSpace> clip = {};  // the half-spaces in all of which drawn points lie
+    std::vector<HalfSpace> clip = {};  // half-spaces; a point is drawn if all of them contain it
 
     static constexpr double smallest_tolerance = 1e-12;  // below it rounding dominates
 };
 
-// Sums over rays.
 struct TraceTotals {
-    // The largest error over all pixels and channels, as a share of full scale: of a volume without
-    // rounding (some 1e-14); of a mesh a bound on the rounding of segments and of the places where
-    // rays cross faces, and on that of light.
+    // Estimated largest error of a channel, as a share of full scale. For volumes without rounding
+    // (1e-14); for meshes it bounds rounding of segments and crossings, and the error of lighting.
     double error_estimate = 0;
-    // Number of pieces of rays with extinction that were integrated, each inside one cell and one
-    // interval of the transfer function, or of ray segments inside one tet.
+    // Number of pieces with extinction that were integrated. For volumes a piece is the part of a
+    // ray in one cell and one interval of the transfer function; for meshes, in one tet.
     std::int64_t segments = 0;
-    // Number of rays on which a mesh overlaps itself. There its tets are composited one after the
-    // other, in the order in which the ray enters them.
+    // Number of rays on which a mesh overlaps itself; tets are composited in order of entry.
     std::int64_t overlapping_rays = 0;
 
     void add(const TraceTotals& other);
@@ -57,19 +53,19 @@ void check(const TraceOptions& options);
 
 using RowDone = std::function<void()>;
 
-// Called by one thread at a time; other pixels have no meaning yet.
+// Called with each tile that is done, by one thread at a time. Pixels of other tiles are not final.
 using TileDone = std::function<void(const PictureTile&, const PreciseImage&)>;
 
-// Tiles of 32 x 32 pixels, smaller at the edges, those nearest the middle first.
+// Returns tiles of 32 x 32 pixels, smaller at edges, those nearest the picture's middle first.
 std::vector<PictureTile> tiles_to_trace(int width, int height);
 
-// Calls trace(tile, picture, row done) for each tile on all cores, in order, and then `done`.
+// Calls trace(tile, picture, row_done) for each tile in order, on all cores, and `done` after each.
 TraceResult trace_tiles(
     const View& view,
     const std::function<TraceTotals(const PictureTile&, PreciseImage&, const RowDone&)>& trace,
     const TileDone& done);
 
-// The pixels of a rectangle, row by row. Throws when the user interrupts.
+// Hands out the pixels of a rectangle, row by row. Throws when the user interrupts.
 class PixelsInTurn {
   public:
     PixelsInTurn(const glm::ivec2& first, const glm::ivec2& last, RowDone row_done)
@@ -89,29 +85,30 @@ class PixelsInTurn {
     RowDone row_done_;
 };
 
-// Some pixels of a tile, counted from its first: those from `first` to `last`.
+// A rectangle of pixels of a tile, counted from the tile's first: from `first` to `last`.
 struct SeenPixels {
     glm::ivec2 first, last;
 
     bool empty() const { return first.x > last.x || first.y > last.y; }
 };
 
+// Finds the pixels of a tile that may see some points.
 class TileSight {
   public:
     TileSight(const View& view, const PictureTile& tile);
 
-    // Returns the pixels whose lines, also behind the eye, may meet the hull of some points.
+    // Returns the pixels whose lines (rays, extended back) may meet the hull of some points.
     SeenPixels around(std::span<const glm::dvec3> points) const;
 
   private:
     const View& view_;
     glm::ivec2 size_;
-    glm::dvec2 middle_;  // the picture's, in pixels from the middle of the tile's first
-    double error_;       // bounds that of places, as a share of distances
+    glm::dvec2 middle_;  // of the picture, in pixels from the centre of the tile's first pixel
+    double error_;       // bounds the error of projected points, as a share of their distance
     double eye_norm_;
 };
 
-// The open faces that a tile's lines may meet, found once so that lines need not search the tree.
+// The open faces that a tile's lines may meet, listed once instead of searched for each pixel.
 class TileFaces {
   public:
     TileFaces(const TetMesh& mesh, const FaceTree& open_faces, const View& view)
@@ -120,7 +117,7 @@ class TileFaces {
     // Lists the faces of a tile. Returns false if there are too many to be listed.
     bool list(const PictureTile& tile);
 
-    // Returns indices into the mesh's open faces, for a pixel of the picture in that tile.
+    // Returns the faces of a pixel of the picture in the tile: indices into open_faces().
     std::span<const std::int32_t> of(const glm::ivec2& pixel) const;
 
   private:
@@ -136,8 +133,8 @@ class TileFaces {
     const View& view_;
     PictureTile tile_{};
     std::vector<ListedFace> faces_;
-    std::vector<std::int32_t> listed_;  // pixel by pixel
-    std::vector<std::size_t> begins_;   // the places of the pixels' lists; last their total length
+    std::vector<std::int32_t> listed_;  // the lists of all pixels, one after the other
+    std::vector<std::size_t> begins_;   // of each list in listed_; last listed_.size()
 };
 
 }  // namespace lamina

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference for every picture, in double precision: the viewing rays through the exact
-// trilinear field of a volume, or from tet to tet of a mesh. The field is linear inside a tet, so
-// every piece of the transfer function is integrated in closed form (docs/numerics.md, section 5).
+// The reference tracer, in double precision, that every picture is compared with. It follows
+// viewing rays through the exact trilinear field of a volume (docs/numerics.md, section 9), or from
+// tet to tet of a mesh. The field is linear inside a tet, so there every piece of the transfer
+// function is integrated in closed form (docs/numerics.md, section 5).
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -18,13 +19,13 @@
 
 namespace lamina {
 
-// Cells with a NaN or infinite corner are transparent. The result does not depend on the number of
-// cores. Throws Error for options out of range.
+// Traces a picture of a volume. Cells with a NaN or infinite corner are transparent. The result
+// does not depend on the number of cores. Throws Error for options out of range.
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
                          const View& view, const TraceOptions& options,
                          const TileDone& tile_done = {});
 
-// Some pixels of the view, given as (column, row), traced as in a whole picture.
+// Results of trace_pixels(): the colours of pixels (column, row), the same as in a whole picture.
 struct TracedPixels {
     std::vector<glm::dvec4> rgba;  // as in TraceResult::image, in the order of the pixels
     double error_estimate = 0;     // as in TraceResult
@@ -33,15 +34,15 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
                           const View& view, std::span<const glm::ivec2> pixels,
                           const TraceOptions& options);
 
-// `scalar`: one value a point; tets with one that is not finite are transparent. `open_faces`: tree
-// of the mesh's open faces. Otherwise as above.
+// Traces a picture of a mesh, otherwise as trace_volume() does. `scalar`: one value a point; tets
+// with one that is not finite are transparent. `open_faces`: the tree of the mesh's open faces.
 TraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                        std::span<const double> scalar, const TransferFunction& transfer_function,
                        const View& view, const TraceOptions& options = {},
                        const TileDone& tile_done = {});
 
-// Returns the point on the ray of (column, row) at which half of the ray's opacity is reached; none
-// if it has no opacity. Depths are those of the tracer.
+// Returns the point on the ray of the pixel (column, row) at which half of the ray's opacity is
+// reached; none if it has no opacity. The distance along the ray comes from the tracer's integrals.
 std::optional<SeenPoint> seen_point(const Scene& scene, const Volume& volume, double column,
                                     double row);
 // `open_faces`: tree of the mesh's open faces.

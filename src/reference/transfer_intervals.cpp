@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-// Extinction that is opaque over any length, and whose products with lengths stay finite.
+// Limits extinctions: this one is opaque over any length; times a length it stays finite.
 constexpr double largest_extinction = 1e200;
 
 double largest(const glm::dvec3& v) {
@@ -42,8 +42,7 @@ void TransferIntervals::add(const TransferKnot& from, const TransferKnot& to) {
     colors_.push_back(color);
     columns_.lo.push_back(from.value);
     columns_.hi.push_back(to.value);
-    // No value lies between the knots of a step. The nearest other knots are treated as if
-    // they were 1e-300 apart, so that nothing becomes infinite.
+    // A step holds no value: its inverse width never counts. Others count as >= 1e-300 wide.
     constexpr double largest_inverse = 1e300;
     columns_.inverse_width.push_back(std::min(1 / (to.value - from.value), largest_inverse));
     columns_.extinction.push_back(extinction);

@@ -8,31 +8,33 @@
 
 namespace lamina {
 
-// Field by field, for vectors. In interval i extinction is linear in x = (value - lo) *
-// inverse_width, 0 <= x <= 1; outside the knots it is constant. Columns hold a longest vector.
+// The intervals between a transfer function's knots, one array a field, for SIMD. In each,
+// extinction is linear in x = (value - lo) * inverse_width, 0 <= x <= 1; it is constant before the
+// first knot and behind the last. Arrays are at least as long as the longest vector.
 struct IntervalColumns {
-    // Interval i lies between bounds[i] and bounds[i + 1]: the knots, -infinity before them, and
-    // infinity behind them, at least as often as to make the knots and one more a power of two.
+    // Interval i lies between bounds[i] and bounds[i + 1]. The array holds -infinity, the knots,
+    // and then infinity, repeated until the knots and the infinities are at least a power of two.
     std::vector<double> bounds;
     std::size_t knot_count = 0;
     std::vector<double> lo, hi, inverse_width;
     std::vector<double> extinction, extinction_change;  // at lo, and from there to hi
     std::vector<double> extinction_end;                 // at hi
-    std::vector<double> color_span;                     // the largest change of a colour
-    std::vector<double> transparent;                    // 1 or 0
-    // The ranges of values with extinction, as in TransferIntervals::visible(): ascending, then
-    // infinity, at least as often as to make them and one more a power of two.
+    std::vector<double> color_span;   // the largest change of a colour component from lo to hi
+    std::vector<double> transparent;  // 1 or 0
+    // The ranges of values with extinction, for TransferIntervals::visible(): ascending, then
+    // infinity, repeated until the number of entries is a power of two above visible_count.
     std::vector<double> visible_lo, visible_hi;
     std::size_t visible_count = 0;
 };
 
-// The colour between two knots: color + x * change.
+// The colour in an interval: color + x * change.
 struct IntervalColor {
     glm::dvec3 color{0};
     glm::dvec3 change{0};
 };
 
-// The interval is decided once a piece of a ray, so that a step's sides have their own properties.
+// The intervals of a transfer function, with colours. The tracer chooses the interval once for each
+// piece of a ray, so both sides of a step keep their own optics.
 class TransferIntervals {
   public:
     explicit TransferIntervals(const TransferFunction& transfer_function);
@@ -49,7 +51,7 @@ class TransferIntervals {
         const auto range = std::lower_bound(highs.begin(), end, lo);
         return range != end && lows[range - highs.begin()] <= hi;
     }
-    double brightest() const { return brightest_; }  // largest colour component of all
+    double brightest() const { return brightest_; }  // largest component of any colour
 
   private:
     void add(const TransferKnot& from, const TransferKnot& to);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rays of a volume's picture:
-//
 //   for each ray of a tile:
 //       chord = the part of the ray in the box and in the clip (chord.h)
 //       for each cell along the chord (cell_walk.h), a batch of cells at a time:
 //           fetch the samples, and make segments of the visible cells (cells.h)
 //           composite the segments (composite.h); end if everything behind is hidden
-//
-// If the visible cells are known, a packet of rays walks side by side. A lane whose ray ends takes
-// the tile's next ray.
+// If VisibleCells are known, rays walk side by side, one a lane; as one ends, the next begins.
 #include "reference/tracer.h"
 
 #include "base/client.h"
@@ -43,7 +40,7 @@ struct TracedVolume {
           transfer(intervals),
           visible(visible_cells),
           options(how) {
-        // Spare for axes that are not quite orthogonal (by 1e-5, volume_files/grid_check.cpp).
+        // A margin for axes that are not quite orthogonal (by 1e-5, volume_files/grid_check.cpp).
         const double spare =
             1e-4 * glm::distance(grid.to_world(axes.lowest), grid.to_world(axes.highest));
         glm::dvec3 steps;
@@ -54,7 +51,7 @@ struct TracedVolume {
 
     const Grid& grid;
     GridAxes axes;
-    std::array<glm::dvec3, 8> corners;  // around the box, in the world
+    std::array<glm::dvec3, 8> corners;  // of a box around the volume, in world space
     CellSamples<Samples> samples;
     GradientSamples<Samples> gradients;
     const TransferIntervals& transfer;
@@ -62,14 +59,14 @@ struct TracedVolume {
     const TraceOptions& options;
 };
 
-// One ray, whose first cells are few, because they may hide the others. It is used again.
+// Traces one ray at a time. The first batch of cells is small, because these may hide the others.
 template <typename Samples>
 class VolumeRay {
   public:
     explicit VolumeRay(const TracedVolume<Samples>& traced)
         : traced_(traced), integrator_(traced.transfer, traced.options.tolerance) {}
 
-    // Begins a ray with its chord, which is not empty.
+    // Begins a ray; its chord must not be empty.
     void begin(const View::Ray& ray, const Chord& chord) {
         chord_ = chord;
         lights_.reset();
@@ -78,10 +75,10 @@ class VolumeRay {
         cells_.wanted = first_together;
     }
 
-    // The caller adds cells, front to back, and calls integrate() as soon as they are complete().
+    // Returns the batch to which the caller adds cells in order. When complete(): integrate().
     CellBatch& cells() { return cells_; }
 
-    // Returns whether anything behind may be visible.
+    // Composites the cells of the batch. Returns whether anything behind them may be visible.
     bool integrate() {
         traced_.samples.fetch(cells_);
         make_segments(cells_, chord_, traced_.transfer.columns(), segments_);
@@ -183,7 +180,7 @@ class VolumeTile {
         }
     }
 
-    // Begins the next ray that meets the box, if there is one.
+    // Begins the next ray that meets the box in a lane, if there is such a ray.
     void begin(std::size_t lane) {
         while (clip_next()) {
             const std::size_t next = begun_++;
@@ -195,7 +192,7 @@ class VolumeTile {
         }
     }
 
-    // Clips the next rays if all that are clipped have begun. Returns whether one has not.
+    // Clips the next rays if all clipped ones have begun. Returns whether one has not begun.
     bool clip_next() {
         if (begun_ < clipped_count_) return true;
         begun_ = clipped_count_ = 0;
@@ -209,7 +206,7 @@ class VolumeTile {
         return clipped_count_ > 0;
     }
 
-    // Goes on after a lane's cells are complete or its chord has ended.
+    // Integrates a lane's complete cells; ends its ray if hidden or at the chord's end.
     void go_on(std::size_t lane) {
         const bool walks = (lanes_.walking & lane_bit(lane)) != 0;
         if (walks && rays_[lane].integrate()) return;
@@ -232,7 +229,7 @@ class VolumeTile {
     std::array<CellBatch*, width> batches_{};
     std::vector<VolumeRay<Samples>> rays_;  // one a lane
     std::array<glm::ivec2, width> pixel_of_{};
-    // The next rays, some of which have begun.
+    // Rays that are clipped; the first begun_ of them have begun.
     std::array<glm::ivec2, width> clipped_pixels_{};
     std::array<View::Ray, width> clipped_{};
     std::array<Chord, width> chords_;
@@ -240,8 +237,8 @@ class VolumeTile {
     TraceTotals totals_;
 };
 
-// Tells whether reading every sample for visible cells is worth it: if rays meet as many cells. One
-// through a cube meets about as many as an edge has.
+// Tells whether VisibleCells are worth reading every sample: if the rays meet as many cells as
+// there are samples. A ray through a cube meets about as many cells as an edge has.
 bool worth_visible_cells(const Volume& volume, const View& view) {
     const std::int64_t pixels = std::int64_t{view.width} * view.height;
     const std::int64_t cells_a_ray = std::ranges::min(volume.grid().size);

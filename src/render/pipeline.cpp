@@ -22,8 +22,8 @@
 namespace lamina {
 namespace {
 
-// Returns the context for a volume that stays in its files: the engine `cpu` alone. Throws Error if
-// OpenGL is chosen.
+// Returns the context for a volume that does not fit the memory and is read from its files while it
+// is drawn: the cpu engine. Throws Error if OpenGL is chosen.
 ContextChoice context_for_files(const Auto<ContextChoice>& choice) {
     if (choice.value_or(ContextChoice::cpu) != ContextChoice::cpu) {
         fail(
@@ -102,7 +102,8 @@ Choices Pipeline::chosen() {
         if (has_open_colormap(scene)) close_colormap(scene, data_.range(scene));
         if (!leaves_something_open(scene) && !wishes.transfer_function() && !wishes.camera())
             return {std::move(scene), {}};
-        // A mesh that is made from the volume leaves the choices to the volume.
+        // If the mesh is made from the volume, transfer function and camera are chosen for the
+        // volume.
         const std::unique_ptr<Field> field =
             data_.makes_mesh(scene) ? std::make_unique<VolumeField>(*data_.volume(scene))
                                     : data_.field(scene);
@@ -137,7 +138,8 @@ void Pipeline::load() {
 
 // --- changes
 
-// A mesh that is made from a volume depends on the transfer function.
+// A mesh that is made from a volume depends on the transfer function: parts that show nothing are
+// coarse.
 bool Pipeline::changes_mesh(const Scene& next) const {
     const bool made = data_.makes_mesh(scene_), makes = data_.makes_mesh(next);
     return made != makes || (makes && (mesh_settings(next) != mesh_settings(scene_) ||
@@ -156,7 +158,8 @@ void Pipeline::take(Choices next) {
 
 void Pipeline::set_scene(Scene scene) {
     asked_ = std::move(scene);
-    // The mesh may be one that an earlier scene made from the volume; choices need that of a file.
+    // If an earlier scene's mesh was made from the volume and this scene's is a file, the file must
+    // be read before chosen() looks at it.
     const bool reads_mesh = data_.makes_mesh(scene_) && !data_.makes_mesh(asked_);
     if (reads_mesh) {
         if (scene_.method == Method::project) drop_frames();
@@ -214,7 +217,8 @@ void Pipeline::set_clip(const Clip& clip) {
 
 // --- frames
 
-// The engine depends on the data if these do not fit the memory.
+// A volume that does not fit the memory limit needs the cpu engine, so it is loaded before the
+// context is chosen.
 const Capabilities& Pipeline::capabilities() {
     assert(!options_.make_frames);
     if (options_.capabilities) return *options_.capabilities;
@@ -294,7 +298,8 @@ void Pipeline::draw_frame() {
     in_context([&] { drawing.draw(); });
 }
 
-// OpenGL counts fragments by a query, which costs time.
+// Draws a frame and counts its fragments if asked. With OpenGL this takes a query, which costs
+// time.
 void Pipeline::draw_counted() {
     counted_fragments_.reset();
     if (!options_.count_fragments || options_.make_frames || capabilities().cpu)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// The way from a scene to its picture: data, choices, plan, renderer or tracer, statistics and
-// warnings. Everything that draws is a client of it.
+// Draws a scene from start to end: reads data, chooses what is automatic, plans, renders or traces,
+// and collects statistics and warnings. All front ends draw through Pipeline.
 
 #include <cstdint>
 #include <functional>
@@ -31,14 +31,14 @@ struct TracedPicture {
     // estimates it.
     double error_estimate = 0;
     std::int64_t segments = 0;          // of rays, with extinction
-    std::int64_t overlapping_rays = 0;  // that meet tets of a mesh that overlap
+    std::int64_t overlapping_rays = 0;  // rays that meet overlapping tets of a mesh
 };
 
-// Returns the scene as one to be traced: its volume or its mesh.
+// Returns the scene with method trace, for its volume or its mesh.
 Scene as_trace(Scene scene, TraceOf of);
 
-// Traces the data that the scene draws, whatever its method, to its trace_tolerance. Nothing in the
-// scene's transfer function and camera may be automatic.
+// Traces the data that the scene draws, whatever the scene's method, to its tolerance
+// (trace_tolerance). Transfer function and camera must not be automatic.
 TracedPicture trace_picture(const Scene& scene, SceneData& data, const TileDone& tile_done = {});
 
 // Traces with the plain twin of the tracer (plain/plain_tracer.h), which counts no overlapping rays
@@ -47,34 +47,34 @@ TracedPicture plainly_traced_picture(const Scene& scene, SceneData& data);
 
 struct PipelineOptions;
 
-// Makes frames of a scene's data.
+// Makes the object that draws the frames of a scene and its data.
 using FramesMaker = std::function<std::unique_ptr<Frames>(const Scene& scene, SceneData& data,
                                                           const PipelineOptions& options)>;
 
 struct PipelineOptions {
     Auto<ContextChoice> context = {};
-    // Replaces `context` by the caller's own, which has these capabilities: it is current whenever
-    // the pipeline is called and when it ends, and outlives it.
+    // Replaces `context` by the caller's OpenGL context, which has these capabilities. It must be
+    // current whenever a member is called, and in the destructor.
     std::optional<Capabilities> capabilities = {};
     OmissionSwitch omissions = {};
     Wishes wishes = {};
-    // Choices may take longer if they make every frame quicker. Otherwise the time to the first
-    // picture counts.
+    // Allows choices to take longer if that makes every frame faster. Otherwise the time to the
+    // first picture counts.
     bool many_frames = false;
-    bool count_fragments = false;  // with OpenGL, which takes a query
+    bool count_fragments = false;  // with OpenGL this costs a query
     // Traces with the plain twin of the reference tracer, which does not report its tiles.
     bool trace_plainly = false;
-    // The part of a picture that this pipeline draws, if several draw it together with the engine
-    // `cpu`.
+    // The share of the work of a picture that this pipeline does, if several draw one picture
+    // together with the cpu engine.
     PictureShare share = {};
     FramesMaker make_frames = {};  // replaces this process's own renderers
-    // Cache of the plans' pre-integration tables. Pipelines that share it build a table once.
+    // Cache of pre-integration tables. Pipelines that share it compute each table once.
     std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
 };
 
-// Draws a scene from its first picture to its last. Each step is done when it is first needed, and
-// again when a change makes it necessary (render/scene_renderer.h). Warnings go to the client that
-// the thread works for (base/client.h). Calls may throw Error.
+// Draws a scene again and again while it changes. Each step is done when it is first needed, and
+// again when a change makes it necessary (see SceneRenderer). Warnings go to the client that the
+// thread works for (base/client.h). Members may throw Error.
 class Pipeline {
   public:
     explicit Pipeline(Scene scene, SceneData data = {}, PipelineOptions options = {});
@@ -90,12 +90,12 @@ class Pipeline {
     const Scene& scene();
     // Returns sentences that say what was chosen; none if nothing was automatic.
     const std::vector<std::string>& reasons();
-    const Scene& resolved_scene();  // with nothing open that the method needs
+    const Scene& resolved_scene();  // with every "auto" that the method uses replaced
     SceneData& data() { return data_; }
     std::unique_ptr<Field> field() { return data_.field(scene()); }
 
-    // Takes another scene of the same data: files that it names are not read, except for a mesh in
-    // place of one that was made from the volume.
+    // Replaces the scene by another one of the same data. Its files are not read, with one
+    // exception: a mesh file, if the mesh was made from the volume before.
     void set_scene(Scene scene);
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
@@ -106,17 +106,17 @@ class Pipeline {
     void set_clip(const Clip& clip);
 
     const Plan& plan();
-    std::string explanation();  // the plan for people, below what was chosen
+    std::string explanation();  // the plan as text, after the sentences of reasons()
     void warn_of_plan();        // warns about the plan and the data
 
     void set_up();
-    // Draws a frame with the scene's method, to be timed.
+    // Draws a frame with the scene's method, without reading it, so that it can be timed.
     void draw_frame();
     // Draws a picture, and warns about data, plan and picture.
     void draw(Image& picture);
     // Draws a picture without warnings about it.
     void draw_quietly(Image& picture);
-    void read(Image& picture);  // the last frame or traced picture
+    void read(Image& picture);  // gets the last frame or traced picture
     void warn_of(const Image& picture);
     // Traces the scene's data, whatever its method.
     const TracedPicture& trace(const TileDone& tile_done = {});
@@ -151,13 +151,13 @@ class Pipeline {
 
     Scene asked_, scene_;
     std::vector<std::string> reasons_;  // of scene_
-    Warnings choice_warnings_;          // said while the scene was chosen
+    Warnings choice_warnings_;          // warnings of choosing the scene
     bool chosen_ = false;               // scene_ is the choice for asked_
     SceneData data_;
     PipelineOptions options_;
     std::optional<DrawContext> context_;
     std::unique_ptr<Frames> frames_;
-    SceneRenderer* own_ = nullptr;  // frames_, if they are this process's own
+    SceneRenderer* own_ = nullptr;  // frames_ as SceneRenderer; null if make_frames made them
     std::optional<TracePlan> trace_plan_;
     std::optional<TracedPicture> traced_;
     std::map<std::string, double> stages_ms_;

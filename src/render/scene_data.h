@@ -19,9 +19,9 @@
 
 namespace lamina {
 
-// The volume and the mesh that a scene draws. Each is read, generated or made from the volume when
-// it is first asked for, and then kept for all scenes, whatever files they name. Copies share what
-// is there. Throws Error if data cannot be had.
+// Loads and keeps the volume and the mesh that a scene draws. Each is read, generated or made from
+// the volume when it is first asked for, and then serves all scenes, whatever files they name.
+// Copies share what was loaded by then. Members throw Error if data cannot be read or made.
 class SceneData {
   public:
     SceneData() = default;
@@ -31,7 +31,7 @@ class SceneData {
         : volume_(std::move(volume)), volume_given_(true) {}
     explicit SceneData(std::shared_ptr<const SceneMesh> mesh)
         : mesh_(std::move(mesh)), mesh_given_(true) {}
-    // `report`: that of a mesh that was made from a volume before.
+    // `report`: the accuracy of the mesh, if it was made from a volume before.
     SceneData(const Scene& scene, MeshData mesh, const std::optional<MeshReport>& report = {});
     // Takes a mesh that was made from the volume as the scene says; the volume may be null.
     SceneData(std::shared_ptr<const VolumeData> volume, std::shared_ptr<const SceneMesh> made)
@@ -41,15 +41,15 @@ class SceneData {
     const std::shared_ptr<const SceneMesh>& mesh(const Scene& scene);
     // Returns the tree of the mesh's open faces, for the reference tracer.
     const FaceTree& open_faces(const Scene& scene);
-    // Returns the scene's data as choices and warnings see them; they must outlive the field.
+    // Returns a view of the scene's data for choices and warnings. The data must outlive it.
     std::unique_ptr<Field> field(const Scene& scene);
 
-    // Returns the range of the finite values that a colour map is stretched over: those of the
-    // volume if there is one, so that the pictures of volume and mesh have the same colours.
+    // Returns the range of finite values over which a colour map is stretched: that of the volume
+    // if there is one, so that pictures of the volume and of its mesh have the same colours.
     const ValueRange& range(const Scene& scene);
 
-    // Keeps a volume that a mesh is made from, for further meshes. Otherwise it is read into memory
-    // for the mesh alone.
+    // Keeps the volume that a mesh is made from, so that more meshes can be made. Otherwise the
+    // volume is dropped after the first.
     void keep_volume() { keeps_volume_ = true; }
 
     // Tells whether the mesh that the scene draws is made from its volume, and so follows its
@@ -62,7 +62,7 @@ class SceneData {
     // Returns the warnings of reading, measuring or making the data that the scene draws.
     Warnings warnings(const Scene& scene) const;
 
-    // Adds the times of loading and the counts of the data that the scene draws.
+    // Adds the times of loading, and the counts of the data, for the data that the scene draws.
     void add_to(const Scene& scene, FrameStatistics& statistics);
 
   private:

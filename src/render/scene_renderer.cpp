@@ -68,24 +68,24 @@ void Frames::set_clip(const Clip& clip) {
     set_scene(std::move(changed));
 }
 
-// Measures, plans and makes renderers for a SceneRenderer. Slicing and projection implement it,
-// each in its own way, and keep the renderer that they made last. Between calls the scene changes
-// only in what the renderer was told to change.
+// Measures, plans and makes renderers for a SceneRenderer; slicing and projection have one each. A
+// Drawing keeps the renderer that it made last. Between two calls the scene may change only in the
+// ways that SceneRenderer announces by measuring again.
 class Drawing {
   public:
     virtual ~Drawing() = default;
 
     virtual const char* activity() const = 0;  // for progress: "slicing"
 
-    // Measures the facts that depend on the data and the transfer function. measure_view() must
-    // follow.
+    // Measures the facts that depend on data and transfer function. measure_view() must be called
+    // next.
     virtual void measure_data(const Scene& scene) = 0;
     // Measures the facts that depend on the view. `planned`: the plan of an earlier view, or null
     // for the first view. Facts that this plan has settled for all views are not measured again.
     virtual void measure_view(const Scene& scene, const Plan* planned) = 0;
 
-    // Draws trial pictures if an automatic choice needs them. `many_frames`: also if they may make
-    // later frames quicker.
+    // Draws trial pictures if an automatic choice needs them; with `many_frames` also if they may
+    // find settings that make later frames faster.
     virtual void make_trials(const Scene& /*scene*/, const Capabilities& /*capabilities*/,
                              bool /*many_frames*/) {}
     // `for_people`: the plan also says how much work each omission saves.
@@ -95,15 +95,14 @@ class Drawing {
     virtual Resolved resolve(Scene scene, const Plan& plan) const = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
 
-    // Returns sentences for people about the data, the plan and, once a frame is drawn, about the
-    // frame.
+    // Returns warnings about the data, the plan and, once a frame is drawn, about the frame.
     virtual Warnings warnings(const Resolved& resolved, const Plan& plan) = 0;
 
     // Adds the results of the last frame; the renderer must exist.
     virtual void add_to(FrameStatistics& /*statistics*/) const {}
 
-    // For renderers that draw one picture together, once a view is measured: the parts of the
-    // volume that they draw; and their numbers, nearer ones first.
+    // For several renderers of one picture, once a view is measured: shares() returns the box that
+    // each draws, and front_to_back() their numbers, the nearest first.
     virtual std::vector<IndexBox> shares() const { return {}; }
     virtual std::vector<int> front_to_back(const Scene& /*scene*/) const { return {0}; }
 
@@ -129,7 +128,7 @@ class SliceDrawing : public Drawing {
         shares_.reset();
     }
 
-    // The scene of a later view has its table already, so no rays are needed to choose one.
+    // If the scene of a later view has its table already, no rays are needed to choose one.
     void measure_view(const Scene& scene, const Plan* planned) override {
         lamina::measure_view(scene, facts_);
         if (planned != nullptr && scene.slice.table.is_given()) {
@@ -138,14 +137,15 @@ class SliceDrawing : public Drawing {
         } else {
             measure_rays(scene, data_->volume, facts_);
         }
-        // Shares stay when the view changes, so that their data stay, too.
+        // Shares stay when the view changes, so that each renderer keeps its part of the data.
         if (share_.count > 1 && !shares_)
             shares_.emplace(scene, facts_, data_->bricks, !data_->volume.in_memory(), share_.count);
     }
 
     void make_trials(const Scene& scene, const Capabilities& capabilities,
                      bool many_frames) override {
-        // Trial pictures of a volume in its files read more than faster frames would save.
+        // Trial pictures of a volume that stays in its files cost more reading than faster frames
+        // save.
         many_frames = many_frames && data_->volume.in_memory();
         trials_ = try_samples(scene, data_->volume, data_->bricks, facts_, capabilities,
                               many_frames, *tables_);
@@ -159,8 +159,9 @@ class SliceDrawing : public Drawing {
         };
         Plan plan = plan_with(omissions);
         if (!shares_) return plan;
-        // Slabs are tested for being constant several at a time, from the first one that a renderer
-        // draws on. So the result would depend on the share, and on who draws a slab.
+        // Constant slabs are looked for several at a time, counted from the first slab that a
+        // renderer draws. With shares the result would depend on who draws a slab, so this is
+        // switched off.
         if (plan.slice.constant_regions && !plan.slice.integrates_cells()) {
             OmissionSwitch fewer = omissions;
             fewer.kept.insert("constant_regions");
@@ -265,9 +266,9 @@ class ProjectDrawing : public Drawing {
         facts_.overlapping_tets = *overlapping_tets_;
     }
 
-    // Trial rays choose between a table whose nodes lie on the transfer function's points and
-    // integration that is right everywhere. If the plan has another source, later views have
-    // nothing to choose.
+    // Trial rays choose between a table whose nodes lie on the transfer function's points, and
+    // integration that is right everywhere. If an earlier plan did not choose the table, there is
+    // nothing left to choose, and later views measure no rays.
     void measure_view(const Scene& scene, const Plan* planned) override {
         lamina::measure_view(scene, *mesh_, facts_);
         const bool settled = planned != nullptr && !planned->project.nothing_visible &&
@@ -285,8 +286,8 @@ class ProjectDrawing : public Drawing {
         return make_plan(scene, facts_, capabilities, omissions, tables_);
     }
 
-    // If the order is automatic and there is a tree, the order stays automatic, because leaves of a
-    // tree come from all over the mesh.
+    // If the order is automatic and there is a tree, the order stays automatic: leaves of a tree
+    // take tets from all over the mesh.
     Resolved resolve(Scene scene, const Plan& plan) const override {
         const ProjectPlan& project = plan.project;
         ProjectSettings& settings = scene.project;
@@ -348,7 +349,7 @@ class ProjectDrawing : public Drawing {
     }
 
     std::shared_ptr<const SceneMesh> whole_;
-    std::shared_ptr<const SceneMesh> mesh_;  // mesh that the clip leaves; whole_ if that is nothing
+    std::shared_ptr<const SceneMesh> mesh_;  // after clipping; whole_ if nothing is cut away
     std::shared_ptr<TableCache> tables_;
     Clip clip_;
     bool lit_ = false;
@@ -404,7 +405,7 @@ void SceneRenderer::set_size(int width, int height) {
     renderer_fits_ = false;
 }
 
-// A table belongs to one transfer function, so it is chosen again.
+// A pre-integration table belongs to one transfer function, so another table is chosen.
 void SceneRenderer::set_transfer_function(const TransferFunction& transfer_function) {
     change([&](Scene& scene) { scene.transfer_function = transfer_function; });
     if (resolved_) resolved_->change([&](Scene& scene) { scene.slice.table = asked_.slice.table; });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Draws one scene and its data, from the first picture to the last: all pictures but those of the
-// reference tracers are drawn by a SceneRenderer.
+// Draws one scene and its data from the first picture to the last. A SceneRenderer draws all
+// pictures but those of the reference tracers.
 
 #include <map>
 #include <memory>
@@ -23,25 +23,25 @@
 
 namespace lamina {
 
-// The part of a volume that one of several renderers draws, which draw one picture together.
+// The share of a volume that one renderer draws, if several draw one picture together.
 struct PictureShare {
     int number = 0;  // 0 .. count - 1
     int count = 1;
 };
 
-// Names the automatic keys that the scene's method needs. Tables are left out: they are chosen with
-// each view. So is the order of tets below a tree: its leaves take tets from all over the mesh,
-// which no word for an order says.
+// Returns the keys that are automatic and that the scene's method needs. Tables are not among them:
+// they are chosen with each view. Nor is the order of tets if the scene has a tree: leaves take
+// tets from all over the mesh, an order that no value of the key describes.
 std::vector<std::string> open_keys(const Scene& scene);
 
-// A scene in which everything that its method needs was chosen: it has no open_keys(). Only a
-// Drawing makes one from a plan. Later views are planned, and pictures drawn, from it.
+// A scene in which everything that its method needs is chosen: open_keys() is empty. Only a Drawing
+// makes one, from a plan. Later views are planned and drawn from it.
 class Resolved {
   public:
     explicit Resolved(Scene scene);
 
     const Scene& scene() const { return scene_; }
-    // Calls change_scene(scene), which must leave nothing open.
+    // Calls change_scene(scene), which must make nothing automatic.
     template <typename Change>
     void change(const Change& change_scene) {
         change_scene(scene_);
@@ -61,7 +61,7 @@ class Frames {
     // Replaces the scene by another one with the same data and method.
     virtual void set_scene(Scene scene) = 0;
     virtual void set_camera(const Camera& camera) = 0;
-    // These may keep more than set_scene() does.
+    // By default these call set_scene(); derived classes may keep more.
     virtual void set_size(int width, int height);
     virtual void set_transfer_function(const TransferFunction& transfer_function);
     virtual void set_clip(const Clip& clip);
@@ -69,8 +69,7 @@ class Frames {
     virtual const Resolved& resolved() = 0;  // with the choices in place of "auto"
     virtual const Plan& plan() = 0;
     virtual std::string explanation() = 0;
-    // Returns sentences for people about the data, the plan and, once a frame was drawn, about the
-    // frame.
+    // Returns warnings about the data, the plan and, once a frame is drawn, about the frame.
     virtual Warnings warnings() = 0;
 
     // Makes what a frame needs. draw() calls it if necessary.
@@ -78,10 +77,10 @@ class Frames {
     // Draws a frame, which is complete on return. Throws Interrupted once a stop is requested; the
     // next frame is then drawn from the start.
     virtual void draw(std::stop_token stop = {}) = 0;
-    // Returns the last frame: associated, linear, before the background. It takes no memory if
-    // `picture` has the frame's size.
+    // Copies the last frame to `picture`: associated colours, before the background. Allocates
+    // nothing if `picture` has the frame's size.
     virtual void read(Image& picture) const = 0;
-    // Adds times and counts of plan, set-up and last frame.
+    // Adds times and counts of the plan, the set-up and the last frame.
     virtual void add_to(FrameStatistics& statistics) = 0;
 };
 
@@ -101,16 +100,16 @@ class Drawing;
 //                       mesh is cut again
 //   settings, choose_again()   as clip, and everything automatic is tried and chosen again
 //
-// Automatic values are chosen for the first picture and kept: resolved() has them written out. (A
-// table grows if a view has longer segments than it knows.) A picture is, bit for bit on the engine
-// `cpu`, that of a new renderer with that scene.
+// Automatic values are chosen for the first picture and kept: resolved() has them. (A table grows
+// if a view has longer segments than the table covers.) A picture is equal to that of a new
+// renderer with the resolved scene, bit for bit on the cpu engine.
 class SceneRenderer : public Frames {
   public:
-    // `capabilities`: of the engine `cpu`, or of an OpenGL context that is current whenever the
-    // renderer is called and when it ends (DrawContext::make_current()), and outlives it. Renderers
-    // of several contexts may draw at the same time, each in a thread of its own. `share`: for
-    // several renderers of one picture, on the engine `cpu`; all must be told of the same changes.
-    // `tables`: several renderers may share them.
+    // `capabilities`: those of the cpu engine, or of an OpenGL context, which must be current (see
+    // DrawContext::make_current()) in every call and in the destructor. Renderers of different
+    // contexts may draw at the same time in different threads. `share`: set if several renderers
+    // draw one picture, with the cpu engine; all of them must get the same changes. `tables`: may
+    // be shared by renderers.
     SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volume,
                   const Capabilities& capabilities, OmissionSwitch omissions = {},
                   const PictureShare& share = {},
@@ -128,19 +127,19 @@ class SceneRenderer : public Frames {
     void set_clip(const Clip& clip) override;
     void set_scene(Scene scene) override;
     void choose_again();
-    // Lets choices take longer from now on if they make every frame quicker. Otherwise the time to
-    // the first picture counts.
+    // Allows choices to take longer from now on if that makes every frame faster. Otherwise the
+    // time to the first picture counts.
     void expect_many_frames();
 
-    // Return the scene as asked for, with "auto"; and with the choices in its place.
+    // Return the scene as it was given, with its "auto"; and with the choices in place of "auto".
     const Scene& scene() const override { return asked_; }
     const Resolved& resolved() override;
     // Throws Error if the data cannot be drawn as the scene asks, or the context cannot do it.
     const Plan& plan() override;
     std::string explanation() override;
     Warnings warnings() override;
-    // For renderers that share a picture: the parts of the volume that they draw, in its index
-    // space; and their numbers, nearer ones first.
+    // For several renderers of one picture: shares() returns the box of the volume, in index space,
+    // that each draws, and front_to_back() their numbers, the nearest first.
     std::vector<IndexBox> shares();
     std::vector<int> front_to_back();
     const Capabilities& capabilities() const { return capabilities_; }
@@ -160,7 +159,7 @@ class SceneRenderer : public Frames {
     // The last duration of each stage in milliseconds: "facts", "trials", "plan", "set_up".
     const std::map<std::string, double>& stages_ms() const { return stages_ms_; }
 
-    // How often each stage was done, for tests.
+    // Numbers of times that each stage was done, for tests.
     struct Counts {
         int data = 0, views = 0, trials = 0, plans = 0, renderers = 0;
         friend bool operator==(const Counts&, const Counts&) = default;
@@ -180,7 +179,7 @@ class SceneRenderer : public Frames {
     bool data_measured_ = false, view_measured_ = false, planned_ = false;
     bool many_frames_ = false;
     std::optional<Plan> plan_;
-    bool renderer_fits_ = false;  // renderer_ has the scene's transfer function and size
+    bool renderer_fits_ = false;  // the renderer matches transfer function, size and clip
     std::map<std::string, double> stages_ms_;
     Counts counts_;
 };

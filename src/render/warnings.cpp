@@ -72,10 +72,10 @@ std::string why_not_kept(const SlicePlan& plan, double wanted, double error) {
                        name_of(plan.target), error);
 }
 
-// Half a code of 8 bits: lower opacities are invisible.
+// Opacities below half a code of 8 bits are invisible.
 constexpr float least_opacity = .5F / 255;
-// Pixels at least this bright are stored as the last of the 256 codes of a PNG: 254.5 / 255 as a
-// display value, and the light that sRGB encodes by it.
+// A pixel at least this bright is stored as code 255 of a PNG: 254.5 / 255 as a display value, or
+// in linear light the sRGB decoding of that value, .9956.
 constexpr float full_display = 254.5F / 255, full_light = .9956F;
 
 std::string name_of_scene(const Scene& scene) {
@@ -87,8 +87,8 @@ std::string range_text(const ValueRange& range) {
     return number_text(range.lo, fineness, 6) + " to " + number_text(range.hi, fineness, 6);
 }
 
-// Returns the values that the transfer function shows, from the first to the last, constant beyond
-// its points.
+// Returns the values that the transfer function shows, as text. Beyond its first and last point it
+// is constant.
 std::string shown_values(const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();
     std::size_t first = 0, last = knots.size();
@@ -160,7 +160,7 @@ std::string why_nothing_shows(const Scene& scene, const Field& field, float larg
                           "the clip keeps";
 }
 
-// Warns if the data lie beyond all values between which colours change: they all get one colour.
+// Warns if the data lie beyond all values between which colours change, so that all get one colour.
 void warn_of_colors(const Scene& scene, const ValueRange& range) {
     const auto knots = scene.transfer_function->knots();
     std::size_t first = 0, last = knots.size() - 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Warnings about data, plan and picture that every front end shows to people, word for word.
+// Warnings about data, plan and picture that every front end shows in these words.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace lamina {
 
 using Warnings = std::vector<std::string>;
 
-// Warns of samples and cells that are not drawn, or drawn otherwise than the file has them.
+// Warns of samples and cells that are not drawn, or are drawn otherwise than the file says.
 Warnings data_warnings(const VolumeData& data);
 Warnings data_warnings(const Scene& scene, const SceneMesh& mesh);
 
@@ -38,7 +38,7 @@ Warnings trace_warnings(std::int64_t overlapping_rays);
 // Gives each warning to the client (base/client.h).
 void warn_of_all(const Warnings& all);
 
-// Calls work(), and keeps its warnings in `said`.
+// Returns work(), and keeps copies of its warnings in `said`.
 template <typename Work>
 auto keep_warnings(Warnings& said, const Work& work) {
     said.clear();
@@ -53,13 +53,13 @@ auto keep_warnings(Warnings& said, const Work& work) {
     return work();
 }
 
-// Warns if a picture of the scene shows nothing, and says why; if more than half of it is
-// saturated; and if a colour map's range lies outside that of the data. Nothing in the scene may be
-// automatic; the field is that of its data.
+// Warns if the picture shows nothing, with the reason; if more than half of the pixels that show
+// something are saturated; and if the colours change only outside the data's range. Nothing in the
+// scene may be automatic; `field` is that of its data.
 void warn_of_picture(const Scene& scene, const Field& field, const Image& picture);
 
-// Returns the number of points of the transfer function with a component of the colour above 1,
-// which the target clamps.
+// Returns the number of points of the transfer function whose colour has a component above 1, which
+// a fixed-point target clamps; 0 for other targets.
 std::int64_t clamped_colors(const Scene& scene);
 
 }  // namespace lamina

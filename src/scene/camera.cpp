@@ -13,7 +13,7 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
-// Returns the unit vector, or zero, of v, scaled first: cameras may be tiny or huge.
+// Returns v with length 1, or zero. Cameras may be tiny or huge: scaling first avoids overflow.
 glm::dvec3 direction_of(const glm::dvec3& v) {
     const double scale = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return scale > 0 ? glm::normalize(v / scale) : glm::dvec3(0);
@@ -26,7 +26,7 @@ View::View(const Camera& camera, int width_pixels, int height_pixels)
     forward = direction_of(camera.center - camera.eye);
     if (forward == glm::dvec3(0)) fail("camera: eye and center are the same point");
     const glm::dvec3 side = glm::cross(forward, direction_of(camera.up));
-    // Below 1e-9 the direction of up would come from the rounding of eye, center and up.
+    // Below 1e-9 rounding of eye, center and up would decide where the picture's up points.
     if (glm::length(side) < 1e-9) fail("camera.up: is zero or parallel to the view direction");
     right = glm::normalize(side);
     up = glm::cross(right, forward);

@@ -19,19 +19,19 @@ namespace lamina {
 // the distance from the eye's plane, so the forward component of the direction is 1.
 struct View {
     View(const Camera& camera, int width_pixels,
-         int height_pixels);  // throws Error when the camera is singular
+         int height_pixels);  // throws Error if the camera is singular
 
     struct Ray {
         glm::dvec3 origin, direction;  // |direction| >= 1: world length per unit of z
     };
-    Ray ray(double column, double row) const;  // pixel (i, j): ray(i, j); fractions allowed
+    Ray ray(double column, double row) const;  // pixel (i, j): ray(i, j); fractions are allowed
 
     double x(double column) const { return (column + 0.5 - 0.5 * width) * pixel; }
     double y(double row) const { return (0.5 * height - (row + 0.5)) * pixel; }
 
     Projection projection;
     int width, height;
-    double pixel;  // edge of a pixel: at z = 1 (perspective), in world units (orthographic)
+    double pixel;  // edge of a pixel: at z = 1 (perspective) or in world units (orthographic)
     glm::dvec3 eye, right, up, forward;  // orthonormal
 };
 
@@ -43,7 +43,8 @@ inline Eye eye_of(const View& view) {
 // Degrees by which the camera turns between timed frames (--frames; studies: docs/study.md).
 inline constexpr double degrees_per_frame = 0.1;
 
-// Returns the view with axes of length `unit`: from points of the world to units of eye space.
+// Returns the view with axes of length `unit`, so that products of world points with them are
+// eye-space coordinates in that unit (world_unit()).
 inline View seeing_in_units(View view, double unit) {
     for (glm::dvec3* const axis : {&view.right, &view.up, &view.forward}) *axis *= unit;
     if (view.projection == Projection::orthographic) view.pixel *= unit;
@@ -82,13 +83,13 @@ inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Pixels by which the ray perturbation moves rays that run along faces. More would change pictures
-// of thin opaque tets: the optical depth 1e4 of a needle by .03 / 255. Less is lost along z: there
-// it is 3e-12 pixels, and two floats side by side hold 3.5e-15 of a pixel's number.
+// Pixels by which ray_perturbation() moves rays off faces. More would change pictures of thin
+// opaque tets (this changes a needle of optical depth 1e4 by .03 / 255); less is lost in rounding:
+// along the world's z it is 3e-12 pixels; two floats resolve 3.5e-15 of a pixel's number.
 inline constexpr double tie_pixels = 3e-8;
 
-// Returns the perturbation along right, up and forward. It goes where the tracer moves rays on
-// edges and corners (mesh/ray_walk.cpp): along the world's x, y and z, each far less than the last.
+// Returns the perturbation of rays along right, up, forward, directed as in the reference tracer
+// (mesh/ray_walk.cpp): along the world's x, far less along y, far less again along z.
 inline glm::dvec3 ray_perturbation(const View& view) {
     const glm::dvec3 direction(1, 1e-2, 1e-4);
     const bool perspective = view.projection == Projection::perspective;
@@ -96,7 +97,7 @@ inline glm::dvec3 ray_perturbation(const View& view) {
                                    perspective ? glm::dot(view.forward, direction) : 0);
 }
 
-// A rectangle of pixels, rows from the top; empty if a last number is below its first.
+// A rectangle of pixels, rows from the top, first to last (included). Empty if last < first.
 struct PixelArea {
     std::int32_t first_column, last_column, first_row, last_row;
 
@@ -105,7 +106,7 @@ struct PixelArea {
         if (empty()) return 0;
         return std::int64_t{last_column - first_column + 1} * (last_row - first_row + 1);
     }
-    // Becomes the smallest rectangle around itself and another one; empty ones do not count.
+    // Grows to the smallest rectangle that holds both; empty ones do not count.
     void add(const PixelArea& other) {
         if (other.empty()) return;
         if (empty()) *this = other;
@@ -122,17 +123,17 @@ inline PixelArea common_pixels(const PixelArea& a, const PixelArea& b) {
             std::max(a.first_row, b.first_row), std::min(a.last_row, b.last_row)};
 }
 
-// Lengths are measured in a unit in which the scene has about size 1, because worlds may be atoms
-// or galaxies, and float32 overflows at the square of 1e20. It is a power of two: a world twice as
-// large, with half the extinction, gives the same picture bit for bit.
+// Renderers measure lengths in a unit in which the scene has about size 1, because worlds may be
+// atoms or galaxies, and float32 overflows at the square of 1e20. The unit is a power of two: a
+// world twice as large, with half the extinction, gives the same picture bit for bit.
 
-// Returns the factor to these units, by which `diagonal` becomes 1 to 2; 1 if it is 0.
+// Returns the factor from world units that makes `diagonal` 1 to 2; 1 if `diagonal` is 0.
 double world_unit(double diagonal);
 double box_diagonal(const Grid& grid);
 
 Grid in_units(Grid grid, double unit);
 View in_units(View view, double unit);
-// Converts extinctions, which are per length.
+// Converts the extinctions, which are per unit of length.
 TransferFunction in_units(const TransferFunction& transfer_function, double unit);
 
 }  // namespace lamina

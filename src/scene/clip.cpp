@@ -20,20 +20,20 @@
 namespace lamina {
 namespace {
 
-// Distances up to which a corner lies on a plane, as a share of the mesh's diagonal and in
-// roundings of coordinates. Renderers place faces to 9e-6 of an edge (docs/numerics.md, section 6).
+// A corner counts as on a plane up to a share of the mesh's diagonal plus one of the coordinates,
+// for their rounding. Renderers place faces to 9e-6 of an edge (docs/numerics.md, section 6).
 constexpr double near_of_diagonal = 1e-10, near_of_coordinates = 0x1p-46;
 
-// Corners 0, 1, 2 and 3, 4, 5 are triangles with the edges 0-3, 1-4, 2-5 between them; corner 3
-// lies where 0, 1, 2 are seen counter-clockwise.
+// Numbers of the corners of a prism: triangles 0, 1, 2 and 3, 4, 5, joined by the edges 0-3, 1-4,
+// 2-5. Seen from corner 3, the corners 0, 1, 2 go counter-clockwise.
 using Prism = std::array<std::int32_t, 6>;
 
-// Cuts a mesh by one plane after the other.
+// Cuts a mesh by one half-space after the other.
 struct MeshCutter {
     MeshData& mesh;
     double diagonal;
-    std::vector<double> distances = {};  // distance of each point from the plane; 0: on it
-    // Numbers of cut points, by those of both ends.
+    std::vector<double> distances = {};  // of the points from the plane: > 0 inside, 0 on it
+    // Numbers of the points at which edges are cut; the key holds the numbers of an edge's ends.
     std::unordered_map<std::uint64_t, std::int32_t> cut_points = {};
 
     void cut(const HalfSpace& half) {
@@ -85,7 +85,7 @@ struct MeshCutter {
         }
     }
 
-    // Returns an even permutation of the corners with those inside first.
+    // Returns the corners, those inside first, in an even permutation: orientation stays.
     Tet inside_first(Tet tet) const {
         const auto outside = [&](std::int32_t corner) { return !(distance(corner) > 0); };
         bool odd = false;
@@ -96,7 +96,7 @@ struct MeshCutter {
                 odd = !odd;
             }
         }
-        // Two corners on the same side may change places.
+        // Swapping two corners on the same side makes an odd permutation even.
         if (odd && outside(tet[0]) == outside(tet[1]))
             std::swap(tet[0], tet[1]);
         else if (odd)
@@ -104,7 +104,7 @@ struct MeshCutter {
         return tet;
     }
 
-    // Returns the point, one for all tets at the edge, at which an edge leaves the half-space.
+    // Returns the point at which an edge leaves the half-space. All tets at the edge share it.
     std::int32_t cut_point(std::int32_t inside, std::int32_t outside) {
         if (distance(outside) == 0) return outside;
         const auto [a, b] = std::minmax(inside, outside);
@@ -118,7 +118,7 @@ struct MeshCutter {
         return found->second;
     }
 
-    // Interpolates linearly; two equal values give exactly the same value.
+    // Appends the value between those of points a and b. Equal values give exactly that value.
     template <typename Value>
     static void append_between(std::vector<Value>& values, std::int32_t a, std::int32_t b,
                                double share) {
@@ -126,8 +126,9 @@ struct MeshCutter {
         values.push_back(first + share * (values[static_cast<std::size_t>(b)] - first));
     }
 
-    // Adds a prism as tets. Each side is cut from its corner of the least number: neighbours agree
-    // (Dompierre et al. 1999). Tets that have a corner twice, on the plane, are left out.
+    // Adds a prism as tets. Each quadrilateral side is split by the diagonal from its corner of the
+    // least number, so that neighbours agree (Dompierre et al. 1999). Tets with the same corner
+    // twice, which happens on the plane, are left out.
     void add_prism(const Prism& prism) {
         const auto least =
             static_cast<std::size_t>(std::ranges::min_element(prism) - prism.begin());
@@ -196,7 +197,7 @@ bool keeps_all(std::span<const HalfSpace> clip, const TetMesh::Bounds& box) {
     });
 }
 
-// Adds the gradients as three scalars behind the scene's.
+// Appends the gradients' components as three scalars after the scene's, to be cut like it.
 void add_gradients(const std::vector<glm::dvec3>& gradients, MeshData& mesh) {
     for (int axis = 0; axis < 3; ++axis) {
         MeshScalar& component = mesh.point_scalars.emplace_back();
@@ -218,7 +219,7 @@ bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Checks clips that programs make: those of scene files were checked when they were read.
+// Checks a clip that a program made. (Those of scene files were checked when they were read.)
 void check(const Clip& clip) {
     for (const ClipPlane& plane : clip.planes) {
         const glm::dvec3& n = plane.normal;

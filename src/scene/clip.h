@@ -19,18 +19,18 @@ struct HalfSpace {
     glm::dvec3 point, normal;
 };
 
-// Returns the half-spaces whose common part a clip keeps: of the planes, then six of the box.
-// Normals are scaled by powers of two, exactly. Throws Error if one is zero or a number is none.
+// Returns the half-spaces that a clip keeps: of the planes, then the box's six, their normals
+// scaled by powers of two, without rounding. Throws Error for zero normals, NaN and infinity.
 std::vector<HalfSpace> half_spaces(const Clip& clip);
 
-// Returns the part of a mesh without cell scalars that lies in all half-spaces. A tet that a plane
-// crosses becomes up to three of its orientation, so that a conforming mesh stays one; scalars are
-// interpolated linearly. Corners nearer to a plane than 1e-10 of the mesh's diagonal, or roundings
-// of large coordinates, lie on it. Points that no tet uses are dropped.
+// Returns the part of a mesh (without cell scalars) in all half-spaces. A tet that a plane crosses
+// becomes up to three of the same orientation; conforming meshes stay so, scalars are interpolated
+// linearly. Corners within 1e-10 of the mesh's diagonal, or the rounding of large coordinates,
+// count as on the plane. Unused points are dropped.
 MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip);
 
-// Cuts a scene's mesh: returns the mesh itself if nothing is cut away, null if nothing is left.
-// `lit`: the gradients before the cut are kept, interpolated linearly as in the tets.
+// Cuts a scene's mesh; returns it unchanged if nothing is cut away, null if nothing is left. `lit`:
+// keeps the gradients before the cut (gradients_before_clip), linear at new points.
 std::shared_ptr<const SceneMesh> clipped_mesh(const std::shared_ptr<const SceneMesh>& mesh,
                                               const Clip& clip, bool lit, const std::string& name);
 

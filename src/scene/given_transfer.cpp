@@ -12,7 +12,7 @@
 namespace lamina {
 namespace {
 
-// Widens the range of data of one value, so that the value lies in the middle of the map.
+// Widens a range of one value, which then gets the map's middle; an empty range becomes 0..1.
 ValueRange widened(const ValueRange& range) {
     if (range.empty()) return {0, 1};
     if (range.lo < range.hi) return range;
@@ -37,7 +37,7 @@ std::vector<TransferKnot> knots_of(const GivenTransfer& given,
                : linear_in_extinction(points, given.unit_length);
 }
 
-// Takes the map's colours, with the given points for extinction or with the map's own opacities.
+// Combines the map's colours with the points' extinctions or, without points, its opacities.
 TransferFunction colored_by_map(const GivenTransfer& given, const ValueRange& data) {
     Colormap map = *given.map;
     if (given.colormap_range.is_given() || given.open()) {
@@ -104,7 +104,7 @@ std::filesystem::path colormap_file_of(const Scene& scene) {
     return scene.given_transfer ? scene.given_transfer->colormap_file() : std::filesystem::path();
 }
 
-// A function that was put in place of the given one has nothing to report.
+// Reports nothing if another function was put in place of the given one.
 std::optional<std::string> opaque_ramp(const Scene& scene) {
     if (!scene.given_transfer || scene.given_transfer->map) return std::nullopt;
     std::optional<std::string> found = opaque_ramp(*scene.given_transfer);

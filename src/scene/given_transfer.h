@@ -16,6 +16,9 @@
 
 namespace lamina {
 
+// Function between two points (docs/scene.md, "Transfer function"). linear: opacity is linear if
+// both points give opacity, else extinction is. extinction: extinction is linear. nearest: each
+// value has what the nearest point has.
 enum class PointInterpolation { linear, extinction, nearest };
 const char* name_of(PointInterpolation interpolation);
 
@@ -24,18 +27,18 @@ struct GivenTransfer {
     double unit_length = 1;  // world units that opacities refer to, > 0
     PointInterpolation interpolation = PointInterpolation::linear;
     std::vector<GivenPoint> points;   // empty: the colour map's own opacities
-    std::string colormap;             // name of a shipped map, or path; empty: none
-    std::optional<Colormap> map;      // with its own values; none without a colour map
-    Auto<ValueRange> colormap_range;  // scalars that the map is stretched to
+    std::string colormap;             // name of a shipped map, or path of a file; empty: none
+    std::optional<Colormap> map;      // the colour map as read, at its own values
+    Auto<ValueRange> colormap_range;  // range that the map is stretched over
     std::string place;                // file and key, for messages: "scene.json: transfer_function"
 
     // Tells whether the map is stretched over the range of the data.
     bool open() const { return map && colormap_range.is_automatic() && !map->own_range; }
-    // The file that the map is read from; empty if there is none.
+    // Returns the file that the map is read from; empty if there is none.
     std::filesystem::path colormap_file() const;
 };
 
-// Something is wrong with `key` of a given transfer function; the text has no place.
+// A mistake in key `which` of a given transfer function. The message names no file and key.
 class GivenTransferError : public Error {
   public:
     GivenTransferError(std::string which, const std::string& text)
@@ -43,11 +46,11 @@ class GivenTransferError : public Error {
     std::string key;
 };
 
-// Differences of scalars beyond this are not finite (lamina/transfer_function.h).
+// Largest |scalar| of a map's range: differences stay finite (lamina/transfer_function.h).
 inline constexpr double largest_map_value = 1e300;
 
-// Makes the function. `data`: the range that an open map is stretched over; a single value lies in
-// its middle. Throws GivenTransferError if points and map make no function.
+// Makes the transfer function. `data`: the range that an open map is stretched over; a single value
+// gets the middle of the map. Throws GivenTransferError if points and map make no function.
 TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRange& data = {});
 
 // Tells whether the scene's transfer function is chosen from the data.
@@ -57,10 +60,11 @@ bool has_open_colormap(const Scene& scene);
 // Stretches an open colour map over data of this range. Throws Error, which names file and key.
 void close_colormap(Scene& scene, const ValueRange& data);
 
-// The file of the scene's colour map; empty if there is none.
+// Returns the file of the scene's colour map; empty if there is none.
 std::filesystem::path colormap_file_of(const Scene& scene);
 
-// Says which opacity of 1 an optical depth replaced, if extinction rises to it in proportion.
+// Returns a warning if a point has opacity 1, for which a finite optical depth was taken, and
+// extinction rises linearly to it; else nothing.
 std::optional<std::string> opaque_ramp(const Scene& scene);
 std::optional<std::string> opaque_ramp(const GivenTransfer& given);
 

@@ -25,6 +25,7 @@ std::string vector_text(const glm::dvec3& v) {
     return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
 
+// Collects the first mistake of a lighting.
 class Check {
   public:
     void number(const char* key, double found, double lo, double hi) {
@@ -74,7 +75,7 @@ std::string list_names(const MeshData& data) {
     return names.empty() ? "none" : names;
 }
 
-// Tells whether a scalar has this name, or the name and ".magnitude" if it is a vector's length.
+// Tells whether a scalar has this name; a vector's length also has it with ".magnitude" added.
 bool is_called(const MeshScalar& scalar, const std::vector<MeshScalar>& all,
                const std::string& name) {
     if (scalar.name == name) return true;
@@ -82,7 +83,7 @@ bool is_called(const MeshScalar& scalar, const std::vector<MeshScalar>& all,
            std::ranges::count(all, scalar.name + ".x", &MeshScalar::name) > 0;
 }
 
-// Takes the scalar out of the data and drops all others.
+// Takes the scene's scalar out and drops all others. `averaged`: true if it comes from cells.
 MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
     const std::string file = name_of_mesh(scene);
     const auto find = [&](std::vector<MeshScalar>& scalars) {
@@ -113,7 +114,7 @@ MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
 
 }  // namespace
 
-// The words of scene files and messages.
+// The functions name_of() return the words of scene files and messages.
 const char* name_of(Method method) {
     return word_of(method, {"slice", "project", "trace"});
 }

@@ -17,18 +17,19 @@ namespace lamina {
 // Largest coordinate of lights, in world units: squares of distances far beyond it would overflow.
 inline constexpr double largest_scene_coordinate = 1e100;
 
-// A part of a lighting that cannot be drawn.
+// A mistake in a lighting, because of which it cannot be drawn.
 struct LightingMistake {
     std::string key;      // "power", "lights.2.direction"
     std::string message;  // "found 0, expected ..."
 };
 std::optional<LightingMistake> mistake_in(const Lighting& lighting);
 
-// Throws Error for the scene's lighting, if it has any that cannot be drawn.
+// Throws Error if the scene has a lighting that cannot be drawn.
 void check_lighting(const Scene& scene);
 
-// Tells whether colours are means, of points of a tet or of the ends of a segment. Means mix
-// colours whatever their extinction, and only the vertices of a fan carry interpolated values.
+// Tells whether a colouring averages colours of a tet's corners or a segment's ends, even those of
+// extinction 0. It then needs triangles that fan out from a vertex (ProjectGeometry::triangles),
+// because only their vertices carry interpolated values.
 inline bool mixes_colors(Coloring coloring) {
     switch (coloring) {
         case Coloring::preintegrated:
@@ -41,17 +42,16 @@ inline bool mixes_colors(Coloring coloring) {
     unreachable_enum();
 }
 
-// Opens the volume that a scene names, as load_volume() loads it; it stays in its files if it does
-// not fit the memory limit (volume_files/volume_opening.h). Throws Error.
+// As load_volume(), but a volume beyond the memory limit stays in its files. Throws Error.
 Volume open_volume(const Scene& scene);
 
 // The mesh that a scene draws, and the one scalar of it that is drawn.
 struct SceneMesh {
     TetMesh mesh;
-    MeshScalar scalar;      // one value a point
+    MeshScalar scalar;      // one value for each point
     bool averaged = false;  // the file has the scalar at cells; it was averaged to points
     std::optional<MeshReport> report;  // only for a mesh made from the scene's volume
-    // Gradients at the points before the mesh was clipped, per world unit; only of a lit mesh.
+    // Gradients at the points, per world unit, before the clip; empty unless a lit mesh was cut.
     std::vector<glm::dvec3> gradients_before_clip = {};
 };
 
@@ -61,10 +61,10 @@ std::vector<glm::dvec3> gradients_of(const SceneMesh& mesh);
 // Returns how a mesh is made from the scene's volume: as the scene says, or by default.
 MeshSettings mesh_settings(const Scene& scene);
 
-// Returns the mesh's name for messages: its file, or the key of the scene that says how to make it.
+// Returns the mesh's name for messages: its file or, if made from the volume, scene file and key.
 std::string name_of_mesh(const Scene& scene);
 
-// Reads the scene's mesh or makes it from its volume. Throws Error, also for want of the scalar.
+// Reads or makes the scene's mesh. Throws Error, also if the mesh lacks the scalar.
 SceneMesh load_mesh(const Scene& scene);
 
 // Make the scene's mesh from data in memory: a mesh, or a volume from which one is made.

@@ -16,8 +16,8 @@ const auto has_key = [](const char* key) {
     return [key](const nlohmann::json& value) { return value.is_object() && value.contains(key); };
 };
 
-// A path alone, in place of an object: all but objects are read as paths, or refused as such.
-// `File`: VolumeFile or MeshFile, which needs no other keys if it is like File{path}.
+// A source that is only a path (all values but objects). `File`: VolumeFile or MeshFile, written in
+// this form if all else in it is as by default.
 template <typename File, typename Source>
 Alternative<Scene> path_alternative(Source Scene::*source) {
     const Form<std::filesystem::path> form = path_form();
@@ -35,7 +35,7 @@ Alternative<Scene> path_alternative(Source Scene::*source) {
             form.schema};
 }
 
-// An object with the keys of one kind of source. Its reader is told of "path", too, for messages.
+// A source that is an object; object.has("path") makes "path" a known key for suggestions.
 template <typename Kind, typename Source>
 Alternative<Scene> object_alternative(Source Scene::*source,
                                       const std::function<bool(const nlohmann::json&)>& reads,
@@ -53,7 +53,8 @@ Alternative<Scene> object_alternative(Source Scene::*source,
 }
 
 void generator_keys(KeyTable<GeneratorRequest>& keys) {
-    std::vector<std::pair<const char*, SampleType>> types;  // generated_grid() knows no others
+    // The types that generated_grid() can make.
+    std::vector<std::pair<const char*, SampleType>> types;
     for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32})
         types.emplace_back(name_of(type), type);
     Form<std::string> name = text_form();
@@ -88,7 +89,7 @@ void raw_keys(KeyTable<RawLayout>& keys) {
              words_form<bool>({{"little", false}, {"big", true}}));
 }
 
-// The keys of a raw file, which stand beside the others: each of them needs the size and the type.
+// Adds the keys of a raw file (RawLayout): if one is given, size and type must be, too.
 void add_raw_keys(KeyTable<VolumeRequest>& keys) {
     const auto any_given = [](JsonReader& reader) {
         bool any = false;

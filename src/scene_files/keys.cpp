@@ -23,7 +23,7 @@ KeyJson three(KeyJson items) {
 constexpr std::size_t most_of_path = 100;  // bytes of a path that a message shows
 const nlohmann::json empty_object = nlohmann::json::object();
 
-// Returns the value as it stands in the file, shortened if it is long.
+// Returns the value as JSON text, shortened if it is long.
 std::string shown(const nlohmann::json& value) {
     return shortened(json_text(value));
 }
@@ -192,7 +192,7 @@ double JsonReader::number(const std::string& key) {
 std::int64_t JsonReader::whole(const std::string& key, std::int64_t lo, std::int64_t hi) {
     const std::string expected = fmt::format("a whole number from {} to {}", lo, hi);
     if (!has(key) || !object_[key].is_number()) reject(key, expected);
-    const double found = object_[key].get<double>();  // 8.0 and 8e0 are whole, too
+    const double found = object_[key].get<double>();  // 8.0 and 8e0 are whole numbers, too
     if (!(found >= static_cast<double>(lo) && found <= static_cast<double>(hi)) ||
         found != std::floor(found)) {
         reject(key, expected);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of JSON objects, from one table a struct (docs/architecture.md, "Keys"), and the forms of
-// their values: the reader, the writer and the schema come from them.
+// Tables of the keys of JSON objects, one table for each struct (docs/architecture.md, "Keys"), and
+// the forms of the keys' values. Reader, writer and schema of a struct are made from its table.
 #pragma once
 
 #include <fmt/format.h>
@@ -32,16 +32,16 @@ class KeyError : public Error {
     std::string key;
 };
 
-// A key for which no reader asked.
+// A key that no reader asked for: it is unknown.
 class UnknownKeyError : public KeyError {
   public:
     using KeyError::KeyError;
 };
 
-// Settings that the meaning of values depends on, beside their own text.
+// Context on which the meaning of a value depends, beside its own text.
 struct JsonContext {
-    ImageColorSpace color_space = ImageColorSpace::linear;  // the space of colours
-    bool volume_given = false, mesh_given = false;  // data in memory, which no key needs to name
+    ImageColorSpace color_space = ImageColorSpace::linear;  // colours are numbers in this space
+    bool volume_given = false, mesh_given = false;          // data in memory; no key names them
 };
 
 // Reads one JSON object key by key; close() rejects keys that nobody asked for and suggests the
@@ -52,13 +52,12 @@ class JsonReader {
     JsonReader(const nlohmann::json& object, const std::filesystem::path& file,
                std::string path = "", const JsonContext& given_context = {});
 
-    JsonContext context;  // readers of inner objects begin with the same one
+    JsonContext context;  // readers of inner objects begin with a copy
 
     bool has(const std::string& key);
-    JsonReader object(const std::string& key);  // an empty object when absent
+    JsonReader object(const std::string& key);  // an empty object if the key is absent
     std::vector<JsonReader> objects(const std::string& key);
-    // Throws KeyError if the key is missing.
-    const nlohmann::json& value(const std::string& key);
+    const nlohmann::json& value(const std::string& key);  // throws KeyError if it is missing
 
     double number(const std::string& key);
     std::int64_t whole(const std::string& key, std::int64_t lo, std::int64_t hi);
@@ -104,28 +103,28 @@ glm::dvec3 read_color(JsonReader& reader, const std::string& key);
 
 using KeyJson = nlohmann::ordered_json;
 
-// The form of a value of type T under a key.
+// The form of a value of type T under a key: how it is read, written and described in the schema.
 template <typename T>
 struct Form {
-    // Reads a key that is there, or must be: throws KeyError otherwise.
+    // Reads the key. Throws KeyError if the key is missing or its value is bad.
     std::function<T(JsonReader& reader, const std::string& key)> read;
-    std::function<KeyJson(const T& value)> write;  // null: the key is left out
+    std::function<KeyJson(const T& value)> write;  // returns null to leave the key out
     KeyJson schema;
 };
 
-// A key and the members of Struct that it sets.
+// A key, and how it sets members of Struct.
 template <typename Struct>
 struct Key {
-    std::string name;  // empty: a check at this place
+    std::string name;  // empty: no key, but a check of what was read before
     KeyJson schema;    // with description and default
     bool required = false;
     std::function<void(JsonReader& reader, Struct& object)> read;
     std::function<void(const Struct& object, KeyJson& json)> write;
-    // Reads the key although it may be missing, which is a mistake then.
+    // Reads a key that must be given: throws KeyError if it is missing.
     std::function<void(JsonReader& reader, Struct& object)> read_required = {};
 };
 
-// One of several forms that a key may have, told apart by the value.
+// One of several forms of a key. `reads`, `writes`: tell whether a value or an object has it.
 template <typename Struct>
 struct Alternative {
     std::function<bool(const nlohmann::json& value)> reads;
@@ -135,8 +134,7 @@ struct Alternative {
     KeyJson schema;
 };
 
-// The keys of a struct, in the order in which they are read and written. A member whose
-// key is left out keeps its initial value, which is the key's default.
+// The keys of a struct in their order. If a key is left out, its member keeps its initial value.
 template <typename Struct>
 class KeyTable {
   public:
@@ -184,7 +182,8 @@ class KeyTable {
         return add(std::move(added));
     }
 
-    // Adds an object, which may be left out, though its rules are checked, and is always written.
+    // Adds a key whose value is an object with the keys of `table`. The object may be left out;
+    // then the rules of its table are checked all the same. It is always written.
     template <typename Access, typename Part>
     KeyTable& object(const std::string& name, const Access& access,
                      const KeyTable<Part>& (*table)(), const std::string& description = "") {
@@ -197,7 +196,7 @@ class KeyTable {
                         json[name] = table().json(std::invoke(access, object));
                     }});
     }
-    // Adds an object whose keys are this struct's own.
+    // Adds a key whose value is an object whose keys set members of this struct itself.
     KeyTable& object(const std::string& name, const KeyTable& (*table)(),
                      const std::string& description = "") {
         return object(
@@ -211,7 +210,7 @@ class KeyTable {
 
     Key<Struct>& last() { return keys_.back(); }
 
-    // Demands the key that was added last. (The next two functions change its default.)
+    // Change the key added last: require it, set its default in the schema, or remove the default.
     KeyTable& required() {
         Key<Struct>& last = keys_.back();
         last.required = true;
@@ -229,12 +228,12 @@ class KeyTable {
         return *this;
     }
 
-    // Checks what was read so far: rules between keys.
+    // Adds a rule between keys, which is checked when the keys added before it have been read.
     KeyTable& check(std::function<void(JsonReader& reader, Struct& object)> rule) {
         return add({"", {}, false, std::move(rule), [](const Struct&, KeyJson&) {}});
     }
 
-    // Adds the keys of a member that stand in the object itself.
+    // Adds the keys of a member that are written into the object itself, not into an inner one.
     template <typename Access, typename Part>
     KeyTable& part(const Access& access, const KeyTable<Part>& keys) {
         for (const Key<Part>& each : keys.keys()) {
@@ -249,7 +248,7 @@ class KeyTable {
         return *this;
     }
 
-    // Adds keys to the schema beside those of the properties.
+    // Adds an entry to the schema of the object, beside "properties".
     KeyTable& also(const std::string& name, KeyJson schema) {
         more_.emplace_back(name, std::move(schema));
         return *this;
@@ -290,7 +289,7 @@ class KeyTable {
         all.update(schema);
         return all;
     }
-    // Tells whether a default is a whole value: objects and lists have those of their own keys.
+    // Tells whether a value goes into the schema as a default. Objects do not: their keys do.
     static bool is_default(const KeyJson& value) {
         return !value.is_null() && !value.is_object() && !(value.is_array() && value.empty());
     }
@@ -299,7 +298,8 @@ class KeyTable {
     std::vector<std::pair<std::string, KeyJson>> more_;
 };
 
-// Returns the table to which `add` adds its keys at the first use: a void add(KeyTable<Struct>&).
+// table_of<add>() returns the table that the function void add(KeyTable<Struct>&) fills at the
+// first use. struct_of() is declared only to find Struct.
 template <typename Struct>
 Struct struct_of(void (*add)(KeyTable<Struct>&));
 template <auto add>
@@ -312,7 +312,7 @@ const KeyTable<decltype(struct_of(add))>& table_of() {
     return table;
 }
 
-// The form of a struct: an object with the keys of a table.
+// The form of a struct: an object with the keys of `table`.
 template <typename Struct>
 Form<Struct> object_form(const KeyTable<Struct>& (*table)()) {
     return {[table](JsonReader& reader, const std::string& key) {
@@ -325,18 +325,18 @@ Form<Struct> object_form(const KeyTable<Struct>& (*table)()) {
 }
 
 Form<bool> flag_form();
-Form<std::string> text_form();            // empty: left out
-Form<std::filesystem::path> path_form();  // relative to the file; empty: left out
+Form<std::string> text_form();            // an empty text is left out when it is written
+Form<std::filesystem::path> path_form();  // relative to the file; an empty path is left out
 Form<glm::dvec3> vector_form();           // three finite numbers
 Form<glm::dvec3> color_form();            // in the reader's colour space
 Form<std::array<std::int64_t, 3>> sizes_form(std::int64_t most, const std::string& expected);
 
-// The parts of the schema that several keys share ("$defs").
+// Parts of the schema that several keys share ("$defs"), and a reference to one of them.
 KeyJson vector_schema();
 KeyJson color_schema();
 KeyJson reference_to(const std::string& definition);
 
-// A form whose values must pass `is_good`, or messages say what is expected.
+// Adds a check: values must pass `is_good`; `expected` completes the message if they do not.
 template <typename T, typename Check>
 Form<T> checked(Form<T> form, const Check& is_good, const std::string& expected) {
     form.read = [read = form.read, is_good, expected](JsonReader& reader, const std::string& key) {
@@ -356,7 +356,7 @@ struct Limits {
                !(up_to && !(number <= *up_to)) && !(below && !(number < *below));
     }
 };
-// A number within limits, with what messages expect; without it a rule of the table checks it.
+// The form of a number. `expected` completes messages; if empty, a rule of the table checks it.
 Form<double> number_form(const Limits& limits = {}, const std::string& expected = "");
 
 template <typename Whole>
@@ -369,7 +369,7 @@ Form<Whole> whole_form(std::int64_t least, std::int64_t most) {
 }
 Form<std::uint32_t> seed_form();
 
-// One of these words. The first one must be the default.
+// The form of a value that is one of these words. The first word must be the default.
 template <typename Value>
 Form<Value> words_form(const std::vector<std::pair<const char*, Value>>& words) {
     KeyJson listed = KeyJson::array();
@@ -389,7 +389,7 @@ Form<Enum> words_form() {
     return words_form<Enum>(enum_words<Enum>());
 }
 
-// A value that may be left out.
+// The form of a value that may be left out.
 template <typename T>
 Form<std::optional<T>> optional_form(const Form<T>& form) {
     return {[read = form.read](JsonReader& reader, const std::string& key) {
@@ -401,7 +401,8 @@ Form<std::optional<T>> optional_form(const Form<T>& form) {
             form.schema};
 }
 
-// A value of JSON's type `type`, or a word in its place. `expected`: for values of neither kind.
+// The form of a value or `word`, which stands for no value. `is_type`: tells by its JSON type
+// whether a value may be read by `form`. `expected` completes the message for other values.
 template <typename T>
 Form<std::optional<T>> word_or_form(const std::string& word, const Form<T>& form,
                                     bool (nlohmann::json::*is_type)() const noexcept,
@@ -418,7 +419,7 @@ Form<std::optional<T>> word_or_form(const std::string& word, const Form<T>& form
             {{"oneOf", KeyJson::array({{{"const", word}}, form.schema})}}};
 }
 
-// A form in which "auto" stands for no value.
+// Turns a form in which "auto" stands for no value into one of Auto<T>.
 template <typename T>
 Form<Auto<T>> automatic_if_none(const Form<std::optional<T>>& form) {
     return {[read = form.read](JsonReader& reader, const std::string& key) {
@@ -430,13 +431,13 @@ Form<Auto<T>> automatic_if_none(const Form<std::optional<T>>& form) {
             },
             form.schema};
 }
-// "auto", or a value of JSON's type `type`.
+// The form of "auto" or a value; arguments as in word_or_form().
 template <typename T>
 Form<Auto<T>> automatic_form(const Form<T>& form, bool (nlohmann::json::*is_type)() const noexcept,
                              const std::string& expected) {
     return automatic_if_none(word_or_form("auto", form, is_type, expected));
 }
-// "auto", or one of an enum's words. `initial`: the key's default.
+// The form of "auto" or one of an enum's words. `initial`: the default of the key.
 template <typename Enum>
 Form<Auto<Enum>> automatic_words_form(const Auto<Enum>& initial) {
     std::vector<std::pair<const char*, std::optional<Enum>>> words;
@@ -445,8 +446,8 @@ Form<Auto<Enum>> automatic_words_form(const Auto<Enum>& initial) {
     return automatic_if_none(words_form<std::optional<Enum>>(words));
 }
 
-// A list of objects with the keys of a table. `what`: plural, for messages about more than `most`;
-// without it a rule of the table checks the count. `extra`: of the schema.
+// The form of a list of objects with the keys of `table`. `what`: their name for messages about
+// more than `most`; if empty, a rule of the table checks. `extra`: more schema entries.
 template <typename Struct>
 Form<std::vector<Struct>> list_form(const KeyTable<Struct>& (*table)(), std::size_t most,
                                     const std::string& what, const KeyJson& extra) {

@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-// Reads a list [root, ..., leaf], or a text from the command line: 32x32, 4^5, 1024.
+// Reads the factors of a compositing tree: [root, ..., leaf], 1024, "32x32", "4^5" or "1024".
 std::vector<int> read_factors(JsonReader& reader, const std::string& key) {
     const std::string expected = fmt::format(
         "1 to {} bifurcation factors from 1 to {}, root first, as in [32, 32] or \"32x32\"",
@@ -90,7 +90,7 @@ void slice_table_keys(KeyTable<SliceTableSettings>& keys) {
              number_form({.from = 0}, "a length of 0 or more"), "Longest segment, world units.");
 }
 
-// Leaves out a table that the plan chooses.
+// The form of a pre-integration table. An automatic one is left out when written.
 template <typename Table>
 Form<Auto<Table>> table_form(const KeyTable<Table>& (*table)()) {
     auto form = automatic_form(object_form(table), &nlohmann::json::is_object,
@@ -133,7 +133,7 @@ void project_table_keys(KeyTable<TableSettings>& keys) {
     keys.key("construction", &TableSettings::construction, words_form<TableConstruction>());
 }
 
-// Rejects colourings that interpolate between the vertices of a fan with one polygon around a tet.
+// Rejects "silhouette" (one polygon for a tet) for colourings that interpolate in triangles.
 void check_geometry(JsonReader& reader, const ProjectSettings& project) {
     if (project.geometry != ProjectGeometry::silhouette) return;
     if (project.interpolation == Interpolation::linear)
@@ -172,7 +172,7 @@ void trace_keys(KeyTable<Scene>& keys) {
             reader.reject("of", "\"volume\": the scene has no mesh");
         }
     });
-    // Below 1e-12 the tracer's own rounding would be larger than the tolerance.
+    // 1e-12: the tracer's own rounding exceeds smaller tolerances.
     keys.key("tolerance", &Scene::trace_tolerance,
              number_form({.from = 1e-12, .up_to = 1}, "a number from 1e-12 to 1"),
              "Error bound, of full scale.");

@@ -8,9 +8,9 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t columns = 160;  // width of the schema's text
+constexpr std::size_t columns = 160;  // width of a line of the schema's text, in characters
 
-// Reads the colour space ahead of its turn: the colours before it depend on it.
+// Reads image.color_space before all other keys, because the meaning of colours depends on it.
 void read_color_space(JsonReader& reader, Scene& /*scene*/) {
     reader.context.color_space =
         reader.object("image").choice("color_space", enum_words<ImageColorSpace>());
@@ -42,7 +42,7 @@ std::string flat_json(const KeyJson& json) {
     return json.is_object() ? fmt::format("{{{}}}", text) : fmt::format("[{}]", text);
 }
 
-// Writes values that fit a line into one line.
+// Appends JSON; what fits goes on one line. `used`: characters before the value, beside its indent.
 void write_folded(const KeyJson& json, std::size_t depth, std::size_t used, std::string& text) {
     const std::string flat = flat_json(json);
     if (!json.is_structured() || json.empty() || depth * 2 + used + flat.size() <= columns) {

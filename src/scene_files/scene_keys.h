@@ -9,37 +9,36 @@
 
 namespace lamina {
 
-// All keys of scene files (docs/scene.md).
+// Adds all keys of scene files (docs/scene.md).
 void scene_keys(KeyTable<Scene>& keys);
 
-// The JSON schema of scene files, as docs/scene.schema.json has it.
+// Returns the JSON schema of scene files, the text of docs/scene.schema.json.
 std::string scene_schema_text();
 
-// Adds the keys of how the data are seen: "camera", "clip", "lighting", "image" (view_keys.cpp).
+// Adds the keys of the view: "camera", "clip", "lighting", "image" (view_keys.cpp).
 void add_view_keys(KeyTable<Scene>& scene);
 void camera_keys(KeyTable<Camera>& keys);
 
-// The keys of "render": how the picture is made (render_keys.cpp), read after those of the data.
+// Adds the keys of "render" (render_keys.cpp), which are read after those of the data.
 void render_keys(KeyTable<Scene>& keys);
-KeyJson tree_schema();  // a compositing tree's ("$defs/tree")
+KeyJson tree_schema();  // schema of a compositing tree ("$defs/tree")
 
 // Adds the keys that say what is drawn: "volume", "mesh", "scalar" and "nan".
 void add_data_keys(KeyTable<Scene>& scene);
 
-// Tells whether the scene has a volume (a mesh), named by a key or given.
+// Tell whether the scene has a volume (a mesh), named by a key or given in memory.
 bool has_volume(const JsonReader& reader, const Scene& scene);
 bool has_mesh(const JsonReader& reader, const Scene& scene);
 
-// The keys of a volume's object beside `path`, also those of a raw file.
+// Adds the keys that an object "volume" may have beside "path", also those of a raw file.
 void volume_selection_keys(KeyTable<VolumeRequest>& keys);
 
-// The scene's "volume": the path alone if nothing is selected.
+// Returns the value of the key "volume": only the path if nothing is selected.
 KeyJson volume_selection_json(const std::string& path, const VolumeRequest& selection);
 
-// The keys of "transfer_function" of scene files and of `lamina integrate` (docs/scene.md).
+// Adds the keys of "transfer_function", for scenes and `lamina integrate` (docs/scene.md).
 void transfer_keys(KeyTable<GivenTransfer>& keys);
 
-// Adds "transfer_function" to the scene's keys.
 void add_transfer_function(KeyTable<Scene>& scene);
 
 // A segment that `lamina integrate` integrates.

@@ -23,7 +23,7 @@ FileKind kind_of_file(const std::filesystem::path& file, const std::filesystem::
     if (is_mesh_file(file)) return FileKind::mesh;
     const std::string beginning = file_beginning(file, 64);
     const std::size_t first = beginning.find_first_not_of(" \t\r\n");
-    // Files that cannot be read count as scenes: the scene's reader names what is wrong with them.
+    // A file that cannot be read counts as a scene, whose reader says what is wrong.
     const bool scene = file.extension() == ".json" || beginning.empty() ||
                        (first != std::string::npos && beginning[first] == '{');
     if (scene) return FileKind::scene;
@@ -68,7 +68,7 @@ nlohmann::ordered_json scene_json(const Scene& scene) {
 namespace {
 
 std::vector<std::string> parts_of(const std::string& key) {
-    // The parts of a key make nested objects, which are held to the depth limit of files.
+    // Each part between dots makes an inner object, so the depth limit of JSON files holds.
     const auto count = static_cast<std::size_t>(std::ranges::count(key, '.')) + 1;
     if (count > most_json_depth) {
         throw UsageError(fmt::format("--set {}: found {} parts between dots, expected at most {}",

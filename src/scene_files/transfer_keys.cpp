@@ -70,7 +70,7 @@ KeyTable<GivenPoint> made_point_keys(bool colored) {
     return keys;
 }
 
-// Keys of a point. Points beside a colour map have no colours.
+// Returns the keys of a point; beside a colour map, points have no colour of their own.
 const KeyTable<GivenPoint>& point_keys(bool colored) {
     static const KeyTable<GivenPoint> with = made_point_keys(true),
                                       without = made_point_keys(false);
@@ -111,7 +111,7 @@ ValueRange read_range(JsonReader& reader) {
     return {range[0].get<double>(), range[1].get<double>()};
 }
 
-// Stands for the name or the file of a colour map.
+// Returns the key "colormap": the name of a shipped map or, for other texts, the path of a file.
 std::string colormap_source(JsonReader& reader) {
     const std::string text = reader.text("colormap");
     return is_colormap_name(text) ? text : reader.path_of("colormap").string();
@@ -204,7 +204,7 @@ double read_scalar(JsonReader& reader, const std::string& key) {
     return scalar;
 }
 
-// A given transfer function, and what it means: none if its colour map is open.
+// A transfer function as given, and the function it means: none while its colour map is open.
 struct ReadTransfer {
     GivenTransfer given;
     std::optional<TransferFunction> function;
@@ -241,7 +241,7 @@ void add_transfer_function(KeyTable<Scene>& scene) {
                                     chooses_transfer_function,
                                     [](const Scene&) { return KeyJson("auto"); },
                                     {{"const", "auto"}}};
-    // The range of an open colour map is known with the data.
+    // The function of an open colour map can only be made when the range of the data is known.
     const auto read = [](JsonReader& reader, const std::string& key, Scene& into) {
         ReadTransfer found = read_transfer_function(reader.object(key));
         into.given_transfer = std::make_shared<const GivenTransfer>(std::move(found.given));

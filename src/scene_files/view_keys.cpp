@@ -23,7 +23,7 @@ void check_camera(JsonReader& reader, const Camera& camera) {
         reader.reject("height", "at most 1e100 world units");
 }
 
-// Adds the camera, which is automatic if it is left out.
+// Adds the key "camera". A camera that is left out is automatic.
 void add_camera(KeyTable<Scene>& scene) {
     scene.check([](JsonReader&, Scene& read) { read.camera = automatic; });
     scene

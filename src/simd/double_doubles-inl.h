@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of DoubleDouble: the same numbers, rounded in the same way.
+// Vector form of DoubleDouble (the sum of two doubles, some 32 digits), rounded in the same way.
 #if defined(LAMINA_SIMD_DOUBLE_DOUBLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SIMD_DOUBLE_DOUBLES_INL_H_
 #undef LAMINA_SIMD_DOUBLE_DOUBLES_INL_H_
@@ -12,7 +12,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// Tells whether fma() and its kin round once.
+// True if the instruction set computes fma() with one rounding.
 inline constexpr bool fuses = HWY_NATIVE_FMA != 0;
 
 struct DoubleDoubles {

@@ -5,11 +5,12 @@
 //   #define LAMINA_TARGET_FILE "its path from src/"
 //   #include "simd/foreach_target.h"
 //
-// and includes headers of vectors (-inl.h) behind that. Its functions of vectors stand between
-// LAMINA_SIMD_BEGIN and LAMINA_SIMD_END, in a namespace for each instruction set, and what calls
-// them behind `#if LAMINA_ONCE`: LAMINA_EXPORT(f) makes a table of f's versions, and
-// LAMINA_DISPATCH(f)(...) calls the one for this machine, or that restrict_instructions() leaves.
-// No `#pragma once`: Highway's headers see to what is included again.
+// and then includes headers of vector code (-inl.h). Its vector functions stand between
+// LAMINA_SIMD_BEGIN and LAMINA_SIMD_END, in a namespace for each instruction set. The functions
+// that call them stand behind `#if LAMINA_ONCE`: LAMINA_EXPORT(f) makes a table of f's versions,
+// and LAMINA_DISPATCH(f)(...) calls the best version that this machine can run and
+// restrict_instructions() allows. There is no `#pragma once`, because Highway includes the file
+// again for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE LAMINA_TARGET_FILE
 #include <hwy/foreach_target.h>

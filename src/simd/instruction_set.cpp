@@ -12,10 +12,11 @@
 namespace lamina {
 namespace {
 
-std::int64_t left_out = 0;  // by restrict_instructions()
+std::int64_t left_out = 0;  // targets that restrict_instructions() excludes
 
-// Highway is asked once, because SupportedTargets() makes calls go to the machine's best target,
-// whatever was left out, until they are dispatched anew.
+// Returns the instruction sets of this machine, as bits of Highway's targets. Highway is asked
+// once, because SupportedTargets() makes LAMINA_DISPATCH choose the machine's best target again,
+// even if restrict_instructions() excluded it; DeInit() makes it choose anew.
 std::int64_t of_machine() {
     static const std::int64_t targets = [] {
         const std::int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
@@ -25,7 +26,7 @@ std::int64_t of_machine() {
     return targets;
 }
 
-// The better one of two of Highway's targets has the lower bit.
+// Returns the set bits one by one, the best target first: it has the lowest bit.
 std::vector<std::int64_t> listed(std::int64_t all) {
     std::vector<std::int64_t> targets;
     for (std::int64_t left = all; left != 0; left &= left - 1) targets.push_back(left & -left);

@@ -11,7 +11,7 @@ namespace lamina {
 // A set of lanes of a vector or of a packet of rays: a bit each, the first lane lowest.
 using LaneSet = std::uint32_t;
 
-// Largest number of doubles in a vector of any instruction set: AVX-512. Bits of lanes fill a byte.
+// Largest number of doubles in a vector (8: AVX-512), so that a set of their lanes fits a byte.
 inline constexpr std::size_t longest_vector = 8;
 
 constexpr LaneSet lane_bit(std::size_t lane) {
@@ -21,14 +21,16 @@ constexpr LaneSet lane_bit(std::size_t lane) {
 // A number for each lane of a packet of rays.
 struct alignas(64) LaneRow : std::array<double, longest_vector> {};
 
+// Calls visit(lane) for each lane of a set, in order.
 template <typename Visit>
 void for_each_lane(LaneSet lanes, const Visit& visit) {
     for (LaneSet left = lanes; left != 0; left &= left - 1)
         visit(static_cast<std::size_t>(std::countr_zero(left)));
 }
 
-// For each set of eight lanes its members, a byte each, the first lowest. (Highway 1.0.3 copies
-// its own such tables to the stack at every Compress() of vectors of doubles, or of eight floats.)
+// For each set of eight lanes: the numbers of its members in order, one in each byte, the first in
+// the lowest. (Highway 1.0.3 copies its own table of this kind to the stack at every Compress() of
+// doubles, or of eight floats.)
 inline constexpr std::array<std::uint64_t, 256> members_of = [] {
     std::array<std::uint64_t, 256> table{};
     for (unsigned set = 0; set < 256; ++set) {
@@ -39,7 +41,7 @@ inline constexpr std::array<std::uint64_t, 256> members_of = [] {
     return table;
 }();
 
-// For each set of eight lanes the number of its members before each lane, a byte each.
+// For each set of eight lanes: how many members come before each lane, one number in each byte.
 inline constexpr std::array<std::uint64_t, 256> members_before = [] {
     std::array<std::uint64_t, 256> table{};
     for (unsigned set = 0; set < 256; ++set) {

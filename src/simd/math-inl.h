@@ -18,25 +18,22 @@ LAMINA_INLINE Float power_of_two(Int n) {
     return bits_as<Float>(shift_left<23>(n + 127));
 }
 
-// Returns exp(x) with a relative error of 2e-7 for |x| < 87; 1e-38 below and 2e38
-// above.
+// Returns exp(x) to a relative 2e-7 for |x| < 87; about 1e-38 for smaller x, 2e38 for larger.
 LAMINA_INLINE Float exp_of(Float x) {
     const Float inside = clamp(x, -87.3f, 88.3f);
     const Int n = nearest_int(inside * 1.44269504f);
     const Float whole = to_float(n);
     // log(2) is split into two numbers, the first with few digits (Cody, Waite 1980).
     const Float f = (inside - whole * 0.693359375f) - whole * -2.12194440e-4f;
-    // A polynomial of degree 6. Its last five terms interpolate (exp(f) - 1 - f) / f^2 at
-    // Chebyshev's nodes, to 1e-8.
+    // The last five terms interpolate (exp(f) - 1 - f) / f^2 at Chebyshev's nodes, to 1e-8.
     constexpr float series[] = {1.0f,          1.0f,           0.5f,          0.166665768f,
                                 0.0416665544f, 8.36320297e-3f, 1.39262135e-3f};
-    // Applied in two steps, because 2^n itself may not be a normal number.
+    // 2^n is applied in two factors, because it may itself not be a normal number.
     const Int half = shift_right<1>(n);
     return polynomial(f, series) * power_of_two(half) * power_of_two(n - half);
 }
 
-// Returns log(x) for x >= 1e-37, with a relative error of 2e-7, except near 1, where the absolute
-// error is 6e-8.
+// Returns log(x) for x >= 1e-37, to a relative 2e-7 or, near 1, an absolute 6e-8.
 LAMINA_INLINE Float log_of(Float x) {
     // x = 2^n m with sqrt(1/2) <= m < sqrt(2); log(m) = 2 artanh((m - 1) / (m + 1)).
     const Int bits = bits_as<Int>(x);
@@ -49,7 +46,7 @@ LAMINA_INLINE Float log_of(Float x) {
     return whole * 0.693359375f + (log_m + whole * -2.12194440e-4f);
 }
 
-// Accurate to the last few digits of double precision.
+// Return exp(x) and exp(x) - 1, accurate to the last few digits of double precision.
 LAMINA_INLINE Double exp(Double x) {
     return hn::Exp(Double::Tag(), x.v);
 }

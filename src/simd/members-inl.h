@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lanes of vectors stored side by side: lanes that are left when others have ended are packed anew.
+// Packs some lanes of vectors, the members of a set, side by side in memory, and puts them back.
+// Loops use this to fill vectors anew with the lanes that still have work.
 #if defined(LAMINA_SIMD_MEMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SIMD_MEMBERS_INL_H_
 #undef LAMINA_SIMD_MEMBERS_INL_H_
@@ -21,8 +22,8 @@ LAMINA_INLINE void for_each_lane(LaneSet set, const Body& body) {
     for (; set != 0; set &= set - 1) body(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-// Returns the members of a set in its first lanes. Up to eight lanes this is hn::Compress() with
-// the table of simd/lane_set.h, which gives the reason.
+// Moves the members of a set to the first lanes, in order. For vectors of up to eight lanes it
+// replaces hn::Compress(); members_of in simd/lane_set.h gives the reason.
 LAMINA_INLINE Float members_first(Float v, FloatMask members) {
     if constexpr (Float::lanes > 8) {
         return hn::Compress(v.v, members.m);
@@ -33,7 +34,7 @@ LAMINA_INLINE Float members_first(Float v, FloatMask members) {
     }
 }
 
-// Stores the members of a vector one after the other from `to` on. It writes a whole vector.
+// Stores a vector's members from `to` on; overwrites the rest of a vector's length behind them.
 LAMINA_INLINE void store_members(Float v, FloatMask members, float* to) {
     store_unaligned(members_first(v, members), to);
 }
@@ -41,13 +42,14 @@ LAMINA_INLINE void store_members(Int v, FloatMask members, std::int32_t* to) {
     store_unaligned(bits_as<Int>(members_first(bits_as<Float>(v), members)), to);
 }
 
-// A set of lanes, and the places at which its members are stored. Lanes outside the set have any
-// place.
+// A set of lanes, and for each member the place at which store_members() stores it, counted from
+// the first. The places of other lanes have no meaning.
 struct StoredLanes {
     LaneSet set;
     std::uint8_t places[most_lanes];
 };
 
+// Returns a set of lanes with the places of its members.
 LAMINA_INLINE StoredLanes stored_lanes(FloatMask members) {
     StoredLanes lanes{bits_of(members), {}};
     const LaneSet first = lanes.set & 255;
@@ -59,16 +61,16 @@ LAMINA_INLINE StoredLanes stored_lanes(FloatMask members) {
     return lanes;
 }
 
-// Returns to their lanes the members that store_members() stored; the others become 0.
+// Loads the members that store_members() stored, each into its own lane; the other lanes become 0.
 LAMINA_INLINE Float load_members(const float* from, const StoredLanes& lanes) {
     const Float moved = permute(load_unaligned<Float>(from), load_bytes(lanes.places));
     return zero_unless(mask_of_bits<FloatMask>(lanes.set), moved);
 }
 
-// Tells whether members are packed and unpacked at once.
+// True if the instruction set packs and unpacks members with one instruction.
 inline constexpr bool packs_quickly = HWY_TARGET <= HWY_AVX3;
 
-// As load_members(), from a set of lanes alone.
+// Does what load_members() does, for a set of lanes without places.
 LAMINA_INLINE Float expand_members(LaneSet set, const float* from) {
 #if HWY_TARGET <= HWY_AVX3
     return hn::Vec<Float::Tag>{_mm512_maskz_expandloadu_ps(static_cast<__mmask16>(set), from)};
@@ -77,7 +79,7 @@ LAMINA_INLINE Float expand_members(LaneSet set, const float* from) {
 #endif
 }
 
-// As store_members(), for several vectors of doubles with the same members.
+// Stores the same members (`kept`) of several vectors of doubles, as store_members() does.
 class KeptLanes {
   public:
     LAMINA_INLINE explicit KeptLanes(DoubleMask kept)
@@ -103,9 +105,8 @@ class KeptLanes {
     std::size_t count_;
 };
 
-// Rows that vectors hold side by side, in memory as columns. `Row`: a struct of Floats and Ints
-// alone, each of which has a column. Lane i of the vectors that load(first) returns is row first +
-// i.
+// A table of rows, stored column by column. `Row`: a struct of nothing but Floats and Ints, each of
+// which has a column. The vectors that load(first) returns hold row first + i in lane i.
 template <class Row, std::size_t capacity>
 class Columns {
     static_assert(std::is_trivially_copyable_v<Row> && sizeof(Row) % sizeof(Float) == 0);
@@ -123,8 +124,7 @@ class Columns {
         return row;
     }
 
-    // Stores the members of a vector of rows one after the other from row `to` on. It writes whole
-    // vectors.
+    // Stores the members of a vector of rows from row `to` on; overwrites up to a vector's length.
     LAMINA_INLINE void store_members(const Row& row, FloatMask members, std::size_t to) {
 #pragma GCC unroll 64
         for (std::size_t i = 0; i < count; ++i) {

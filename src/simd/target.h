@@ -20,5 +20,5 @@
 #define LAMINA_ONCE HWY_ONCE
 #define LAMINA_EXPORT(function) HWY_EXPORT(function)
 #define LAMINA_DISPATCH(function) HWY_DYNAMIC_DISPATCH(function)
-// Calls the version for the least instruction set, in files that are compiled for no other.
+// Calls the version for the baseline instruction set, in files that are compiled for no other.
 #define LAMINA_LEAST(function) HWY_STATIC_DISPATCH(function)

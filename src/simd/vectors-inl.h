@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vocabulary of code that computes with vectors: numbers of several lanes that are written like
-// numbers. Float, Int and Word have a lane for each pixel of a block, or of a part of it; Double
-// and Long have half as many lanes, of twice the size, and Float64 is two Doubles: as many lanes as
-// Float. A scalar stands for all lanes: `0.5f * a`. Every operation is rounded by itself, so that
-// all instruction sets compute the same numbers; fma() alone is fused if the instruction set can.
+// Types and functions of code that computes with SIMD vectors, written like code for single
+// numbers. Float, Int and Word have one lane for each pixel of a block of pixels, or of some of its
+// rows. Double and Long have half as many lanes, of twice the size. Float64 is two Doubles, with as
+// many lanes as Float. A scalar stands for all lanes: `0.5f * a`. Every operation is rounded by
+// itself, so that all instruction sets compute the same numbers; only fma(), fms() and fnma() are
+// fused, if the instruction set can.
 #if defined(LAMINA_SIMD_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SIMD_VECTORS_INL_H_
 #undef LAMINA_SIMD_VECTORS_INL_H_
@@ -28,7 +29,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Largest number of lanes of a Float. HWY_MAX_BYTES allows no more on any instruction set.
 inline constexpr std::size_t most_lanes = 16;
 
-// True or false in each lane of vectors whose lanes have the size of `Tag`'s.
+// A truth value in each lane, for vectors whose lanes have the size of `Tag`'s.
 template <class Tag>
 struct MaskOf {
     hn::Mask<Tag> m;
@@ -71,7 +72,7 @@ LAMINA_INLINE Mask mask_of_bits(std::uint32_t bits) {
     return hn::LoadMaskBits(typename TagOfMask<Mask>::Type(), bytes);
 }
 
-// Returns the first `count` lanes; all if there are fewer.
+// Returns the mask of the first `count` lanes, or of all if there are fewer.
 template <class Mask>
 LAMINA_INLINE Mask first_lanes(std::size_t count) {
     return hn::FirstN(typename TagOfMask<Mask>::Type(), count);
@@ -81,7 +82,7 @@ template <class D>
 struct Vector {
     using Tag = D;
     using Scalar = hn::TFromD<D>;
-    // Numbers of either kind have one kind of mask.
+    // Floats and integers of one size have the same kind of mask.
     using MaskTag = hn::Rebind<std::conditional_t<sizeof(Scalar) == 8, double, float>, D>;
     using Mask = MaskOf<MaskTag>;
     static constexpr std::size_t lanes = hn::MaxLanes(D());
@@ -124,14 +125,14 @@ struct Vector {
     friend LAMINA_INLINE Vector floor(Vector a) { return hn::Floor(a.v); }
     friend LAMINA_INLINE Vector ceil(Vector a) { return hn::Ceil(a.v); }
     friend LAMINA_INLINE Vector trunc(Vector a) { return hn::Trunc(a.v); }
-    // Returns the nearest whole number, the even one of two.
+    // Returns the nearest whole number; of two, the even one.
     friend LAMINA_INLINE Vector round(Vector a) { return hn::Round(a.v); }
     friend LAMINA_INLINE Vector copy_sign(Vector a, Vector sign) {
         return hn::CopySign(a.v, sign.v);
     }
     friend LAMINA_INLINE Mask is_finite(Vector a) { return mask(hn::IsFinite(a.v)); }
 
-    // a * b + c, a * b - c and c - a * b, rounded once if the instruction set can, and else twice.
+    // Return a * b + c, a * b - c and c - a * b, rounded once if possible, else twice.
     friend LAMINA_INLINE Vector fma(Vector a, Vector b, Vector c) {
         return hn::MulAdd(a.v, b.v, c.v);
     }
@@ -172,12 +173,12 @@ template <class V>
 LAMINA_INLINE V load_unaligned(const typename V::Scalar* from) {
     return hn::LoadU(typename V::Tag(), from);
 }
-// Lanes outside `mask` are 0, and their memory is not read.
+// Loads the lanes of `mask`. The others become 0, and their memory is not read.
 template <class V>
 LAMINA_INLINE V load_masked(typename V::Mask mask, const typename V::Scalar* from) {
     return hn::MaskedLoad(mask.m, typename V::Tag(), from);
 }
-// Loads four vectors whose numbers lie side by side, four and four.
+// Loads vectors that are interleaved in memory: a, b, c, d of lane 0, then of lane 1, and so on.
 template <class V>
 LAMINA_INLINE void load_interleaved(const typename V::Scalar* from, V& a, V& b, V& c, V& d) {
     hn::LoadInterleaved4(typename V::Tag(), from, a.v, b.v, c.v, d.v);
@@ -186,7 +187,7 @@ template <class V>
 LAMINA_INLINE void load_interleaved(const typename V::Scalar* from, V& a, V& b) {
     hn::LoadInterleaved2(typename V::Tag(), from, a.v, b.v);
 }
-// first, first + 1, first + 2 ...
+// Returns first, first + 1, first + 2 ...
 template <class V>
 LAMINA_INLINE V iota(typename V::Scalar first) {
     return hn::Iota(typename V::Tag(), first);
@@ -215,7 +216,7 @@ template <int bits, class V>
 LAMINA_INLINE V shift_right(V a) {
     return hn::ShiftRight<bits>(a.v);
 }
-// Shifts each lane by the number in that lane of `bits`.
+// Shifts each lane of `a` by the number in the same lane of `bits`.
 template <class V>
 LAMINA_INLINE V shift_right(V a, V bits) {
     return hn::Shr(a.v, bits.v);
@@ -244,7 +245,7 @@ using Long = Vector<hn::RebindToSigned<Double::Tag>>;
 using Word64 = Vector<hn::RebindToUnsigned<Double::Tag>>;
 using DoubleMask = Double::Mask;
 
-// Four floats, and eight if vectors are long enough, whatever the length of the others.
+// Vectors of fixed length: four floats; and eight, if the instruction set has vectors that long.
 using Float4 = Vector<hn::FixedTag<float, 4>>;
 using Int4 = Vector<hn::RebindToSigned<Float4::Tag>>;
 using Float8 = Vector<hn::CappedTag<float, 8>>;
@@ -260,14 +261,14 @@ LAMINA_INLINE Float4 upper_half(V a) {
     return hn::UpperHalf(Float4::Tag(), a.v);
 }
 
-// Conversions. Those to whole numbers round towards zero.
+// Convert lane by lane; to_int() and to_long() round towards zero.
 LAMINA_INLINE Float to_float(Int a) {
     return hn::ConvertTo(Float::Tag(), a.v);
 }
 LAMINA_INLINE Int to_int(Float a) {
     return hn::ConvertTo(Int::Tag(), a.v);
 }
-// Returns the nearest whole number, the even one of two.
+// Returns the nearest whole number; of two, the even one.
 LAMINA_INLINE Int nearest_int(Float a) {
     return hn::NearestInt(a.v);
 }
@@ -290,7 +291,7 @@ LAMINA_INLINE void store_as_int_bits(Double whole, float* to) {
     const hn::Rebind<std::int32_t, Double::Tag> ints;
     hn::Store(hn::BitCast(floats, hn::DemoteTo(ints, whole.v)), floats, to);
 }
-// Loads whole numbers of a byte, or of two, each.
+// Load whole numbers that have one byte, or two, in memory.
 LAMINA_INLINE Int load_bytes(const std::uint8_t* from) {
     return hn::PromoteTo(Int::Tag(), hn::LoadU(hn::Rebind<std::uint8_t, Int::Tag>(), from));
 }
@@ -326,13 +327,13 @@ LAMINA_INLINE Long minus_one_in(DoubleMask mask) {
     return hn::VecFromMask(Long::Tag(), hn::RebindMask(Long::Tag(), mask.m));
 }
 
-// Returns in each lane the lane of `a` that `place` names.
+// Returns in each lane the lane of `a` whose number is in that lane of `place`.
 template <class D, class I>
 LAMINA_INLINE Vector<D> permute(Vector<D> a, Vector<I> place) {
     return hn::TableLookupLanes(a.v, hn::IndicesFromVec(D(), place.v));
 }
 
-// Rows of four become columns: lane i of row j becomes lane j of row i.
+// Transposes 4 x 4 numbers: lane i of row j becomes lane j of row i.
 LAMINA_INLINE void transpose(Float4 (&rows)[4]) {
     const Float4::Tag d;
     const auto low02 = hn::InterleaveLower(d, rows[0].v, rows[2].v);
@@ -375,7 +376,7 @@ struct Float64 {
     LAMINA_INLINE explicit Float64(Int a)
         : low(hn::PromoteTo(Double::Tag(), hn::LowerHalf(hn::Half<Int::Tag>(), a.v))),
           high(hn::PromoteTo(Double::Tag(), hn::UpperHalf(hn::Half<Int::Tag>(), a.v))) {}
-    // Converts exactly, by way of signed numbers, for which there is an instruction.
+    // Converts exactly by way of signed numbers, because only these have an instruction.
     LAMINA_INLINE explicit Float64(Word a)
         : Float64(Float64(bits_as<Int>(a ^ Word(0x80000000u))) + Float64(0x1p31)) {}
 
@@ -441,7 +442,7 @@ LAMINA_INLINE Int to_int(const Float64& whole) {
 LAMINA_INLINE Float64 load_float64(const double* from) {
     return {load<Double>(from), load<Double>(from + Double::lanes)};
 }
-// Returns the mask of the same lanes of a Float.
+// Returns the mask for Float with the same lanes set.
 LAMINA_INLINE FloatMask to_float_mask(const Float64Mask& a) {
     return to_float(zero_unless(a, Float64(1.0))) > Float(0);
 }
@@ -449,7 +450,7 @@ LAMINA_INLINE FloatMask to_float_mask(FloatMask a) {
     return a;
 }
 
-// The words of vectors for one double, for templates over the number type.
+// Overloads of the vector functions for one double, for templates over the number type.
 LAMINA_INLINE double min(double a, double b) {
     return std::min(a, b);
 }

@@ -35,7 +35,7 @@ class SlabBlender {
         }
     }
 
-    // `pixels`: of the group's packets; opacity_only: their alpha.
+    // Composites the slabs onto the packets of a group; if opacity_only, onto their alpha alone.
     void composite(const TileGrid::Tile& area, std::size_t group, Pixels* pixels) {
         for (const CpuBrickView& brick : slabs_.bricks) {
             rays_.set_pixels(slabs_.rays, brick, area, group);
@@ -78,7 +78,7 @@ class SlabBlender {
         composite_block(pixel);
     }
 
-    // Works on a copy, which stays in registers.
+    // Composites the wanted slabs of a block. The copy of the pixel stays in registers.
     void composite_block(Pixels& pixel) const {
         Pixels there = pixel;
         if (as_codes_) {
@@ -96,6 +96,7 @@ class SlabBlender {
         pixel = there;
     }
 
+    // Calls body(slab) for the wanted slabs of the block in the plan's order.
     template <class Body>
     LAMINA_INLINE void for_each_slab(const Body& body) const {
         if (behind_) {
@@ -122,7 +123,7 @@ class SlabBlender {
                 color_of(slab, 2) * opacity, opacity};
     }
 
-    // A form of blend() (tiles/target_pixels-inl.h) for this target, without its questions.
+    // Does what blend() (tiles/target_pixels-inl.h) does for float32 targets, without its branches.
     template <bool behind>
     LAMINA_INLINE void blend_float(int slab, Pixels& there) const {
         const Fragment source = fragment(slab, opacity_of(slab));
@@ -142,6 +143,7 @@ class SlabBlender {
         blend_opacity(target_, opacity_from_depth(depth), there.alpha);
     }
 
+    // Composites a slab whose opacity is rounded to a code, as render.emulate or dithering asks.
     void blend_code(int slab, Pixels& there) const {
         const Float alpha = code_of_alpha(slab);
         if (plan_.emulation && opacity_only_) {
@@ -165,6 +167,7 @@ class SlabBlender {
         }
     }
 
+    // Returns the code of a slab's opacity: dithered, or rounded as render.emulate says.
     Float code_of_alpha(int slab) const {
         const Float64 opacity =
             opacity_from_depth(load_float64(block_.precise_depths + at(slab)) * depth_scale_);
@@ -181,6 +184,7 @@ class SlabBlender {
         return alpha_code(target_, opacity, random);
     }
 
+    // Returns the code of a slab's colour: dithered, or the nearest.
     Float code_of_color(int slab, std::size_t channel) const {
         const Float color = color_of(slab, channel);
         if (!plan_.dither || !plan_.dither->color) return color_code(target_, color);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rays of some packets through one brick, integrated cell by cell without slabs
+// Integrates the rays of some packets through one brick cell by cell, without slabs
 // (docs/numerics.md, section 9; numbers in brackets are equations there).
 //
 //   repeat until the rays end:
@@ -12,9 +12,8 @@
 //           else: cut it                                                    cpu_cut-inl.h
 //       composite each ray's segments front to back
 //
-// To draw something else of cells (their largest scalar, say), replace integrate(), which sets what
-// a segment adds; RaySum with put_behind() and add_segments(), which add it to the ray; and the
-// definition of empty and constant in CellMap.
+// To draw something else of each cell, replace integrate(); RaySum, put_behind() and
+// add_segments(), which add up its results; and what CellMap counts as empty and as constant.
 #if defined(LAMINA_SLICING_CPU_CELLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_CELLS_INL_H_
 #undef LAMINA_SLICING_CPU_CELLS_INL_H_
@@ -31,7 +30,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// Associated colour, opacity and optical depth of a part of each ray.
+// Associated colour, opacity and optical depth that a part of each ray adds up to.
 struct RaySum {
     Float color[3];
     Float opacity, depth;
@@ -49,16 +48,16 @@ LAMINA_INLINE void put_behind(const RaySum& next, RaySum& sum) {
     sum.depth += next.depth;
 }
 
+// Integrates up to most_packets packets side by side: begin(), then next() until done().
 template <bool lit>
 class CellIntegrator {
   public:
     static constexpr std::size_t most_packets = CellSegments::most_packets;
 
-    // `colored`: colours are needed, too.
+    // `colored`: colours are needed, and not optical depths alone.
     CellIntegrator(const CpuSlabs& slabs, bool colored) : slabs_(slabs), colored_(colored) {}
 
-    // Begins at the front of slab `slab`, or where the rays enter the drawn box, and ends where
-    // they leave it. `packets`: up to most_packets of them.
+    // Begins packets of rays at the front of a slab, or where they enter the drawn box behind it.
     void begin(const CpuBrickView& view, const PacketRays* packets, std::size_t count, int slab) {
         view_ = &view;
         packets_ = count;
@@ -67,7 +66,7 @@ class CellIntegrator {
             walks_[i].begin(*slabs_.cells, view, packets[i], spans_[i], slabs_.light);
         }
     }
-    // Ends at the front of slab `slab`, which lies behind everything that was integrated.
+    // Ends rays at the front of slab `slab`, which must not lie in front of what was integrated.
     void set_end(int slab) {
         for (std::size_t i = 0; i < packets_; ++i)
             walks_[i].set_end(boundary(slabs_.rays, spans_[i], slab));
@@ -133,7 +132,7 @@ class CellIntegrator {
 
     void set_cubics() {
         const CpuBrick& brick = view_->brick;
-        // Samples have no neighbour along x; those of pages always have one.
+        // True if samples have no neighbour along x. In pages they always have one.
         const bool flat = brick.last_sample[0] == 0 && brick.pages == nullptr;
         with_layout(brick.layout, [&](auto of_samples) LAMINA_LAMBDA {
             constexpr CpuLayout layout = decltype(of_samples)::value;
@@ -141,8 +140,7 @@ class CellIntegrator {
         });
     }
 
-    // Fetches pairs of neighbours along x one by one, which is faster than gathers, some vectors of
-    // segments at a time.
+    // Fetches pairs of neighbours along x one by one, some vectors at a time: faster than gathers.
     template <CpuLayout layout>
     void set_cubics_of(const CpuBrick& brick) {
         PairOf<layout> pairs[4][fetched_together];
@@ -155,6 +153,7 @@ class CellIntegrator {
         }
     }
 
+    // Sets the cubics of all segments of a brick whose samples have no neighbour along x.
     template <CpuLayout layout>
     void set_cubics_by_gathers(const CpuBrick& brick) {
         for_each_vector([&](std::size_t i) LAMINA_LAMBDA {
@@ -166,7 +165,8 @@ class CellIntegrator {
 
     LAMINA_INLINE void set_cubic(const CpuBrick& brick, const Corners& corners, std::size_t i) {
         const auto [place, change] = segments_.ways_from(i);
-        // Floats are normalised, with an offset of 0. The scale is a power of two (exact_range()).
+        // The cubic is computed from codes minus `base` and then scaled; scale is a power of two
+        // (exact_range()), so that is exact. Floats are normalised already: scale 1, offset 0.
         const Float base(-brick.offset / brick.scale);
         CubicLanes cubic = cubic_along(corners, base, place, change);
         for (Float& c : cubic.c) c *= brick.scale;
@@ -185,8 +185,8 @@ class CellIntegrator {
         store(zero_unless(finite, load<Float>(segments_.length + i)), segments_.length + i);
     }
 
-    // Integrates every segment by one rule. Those that leave their interval, are too deep or have
-    // light that bends too much are `hard`: they are cut instead.
+    // Integrates segments by one rule. Those that leave their interval of the transfer function,
+    // are too deep, or whose light bends too much are `hard`: they are cut into pieces instead.
     template <Lookup kind, bool curved>
     void integrate(const CpuTransfer& transfer) {
         cut_.clear();
@@ -223,8 +223,8 @@ class CellIntegrator {
             cut_.template run<kind, curved>(transfer, slabs_.light, colored_, segments_);
     }
 
-    // Lights the colours of visible segments, makes those `hard` whose light bends too much, and
-    // sets the gradient and the longest piece for the cut.
+    // Lights the colours of visible segments. Adds to `hard` the segments whose light bends too
+    // much, and sets the gradient and the length of the first piece, with which they are cut.
     template <bool curved>
     LAMINA_INLINE void add_light_to(const IntervalLanes<curved>& interval,
                                     const PieceOptics<curved>& piece, Float depth, std::size_t i,
@@ -247,6 +247,7 @@ class CellIntegrator {
         segment.longest = longest_piece(light, bend);
     }
 
+    // Sets opacity and colour of segments by one rule; 0 if they are invisible.
     template <bool curved>
     LAMINA_INLINE void set_colors(const IntervalLanes<curved>& interval,
                                   const PieceOptics<curved>& piece, Float depth, std::size_t i) {
@@ -303,7 +304,7 @@ class CellIntegrator {
         return cubic;
     }
 
-    // Returns the lanes that hold a segment, of the vector from segment i on.
+    // Returns the lanes of the vector from segment i on that hold a segment.
     LAMINA_INLINE FloatMask members_from(std::size_t i) const {
         return first_lanes<FloatMask>(segments_.count - i);
     }
@@ -323,7 +324,6 @@ class CellIntegrator {
     std::int64_t count_ = 0;
 };
 
-// The integrator of a picture: lit, or not.
 using AnyCellIntegrator = std::variant<CellIntegrator<false>, CellIntegrator<true>>;
 
 LAMINA_INLINE AnyCellIntegrator cell_integrator(const CpuSlabs& slabs, bool colored) {
@@ -332,7 +332,7 @@ LAMINA_INLINE AnyCellIntegrator cell_integrator(const CpuSlabs& slabs, bool colo
     return AnyCellIntegrator(std::in_place_type<CellIntegrator<false>>, slabs, colored);
 }
 
-// Sets optical depths and colours of the slabs of a block that are wanted.
+// Sets depths and colours of a block's wanted slabs. Returns the number of segments, one a cell.
 template <bool lit>
 std::int64_t set_exact_segments(const CpuBrickView& brick, const PacketRays& packet, bool colored,
                                 CellIntegrator<lit>& cells, SlabBlock& block) {

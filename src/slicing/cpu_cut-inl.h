@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Segments that cross points of the transfer function, or that are too deep for one rule, cut into
-// pieces (docs/numerics.md, section 9.3; numbers in brackets are equations there). A knot is a
-// point of the transfer function; it ends an interval.
+// Cuts segments into pieces if they cross points of the transfer function or are too deep for one
+// rule, and composites the pieces (docs/numerics.md, section 9.3; numbers in brackets are equations
+// there). A knot is a point of the transfer function; it ends an interval.
 //
 //   t = 0, in the interval on the side to which the scalar s (9.1) goes
 //   while t < 1 and something behind can be visible:
@@ -13,8 +13,8 @@
 //       composite the piece's colour (9.3) and opacity behind those before
 //       t = t_to; behind the knot in the next interval
 //
-// Vectors have a segment in each lane. Segments have different numbers of pieces, so each round
-// takes one piece of all of them, and packs those that go on anew.
+// Each lane holds a segment. As numbers of pieces differ, each round composites one piece of every
+// segment, and packs the segments that have more pieces into full vectors.
 #if defined(LAMINA_SLICING_CPU_CUT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_CUT_INL_H_
 #undef LAMINA_SLICING_CPU_CUT_INL_H_
@@ -26,14 +26,14 @@
 
 LAMINA_SIMD_BEGIN
 
-// A vector of segments to cut.
+// A vector of segments to cut: scalar (9.1), world length, and number in CellSegments.
 struct CutSegment {
     CubicLanes scalar;
     Float length;
-    Int place;  // in CellSegments
+    Int place;
 };
 struct LitCutSegment : CutSegment {
-    Float longest;  // largest extent of a piece; a first guess, which composite_lit() corrects
+    Float longest;  // largest extent of a piece, 0 .. 1; add_piece() adapts it
     GradientLanes gradient;
 };
 
@@ -50,7 +50,7 @@ class CutSegments {
         count_ += count_of(members);
     }
 
-    // Sets colour, opacity and depth of the segments that were added. `light`: for lit ones alone.
+    // Sets colour, opacity and depth of the added segments in `all`. `light`: for lit ones alone.
     template <Lookup kind, bool curved>
     void run(const CpuTransfer& transfer, const CpuLight* light, bool colored, CellSegments& all) {
         light_ = light;
@@ -61,13 +61,12 @@ class CutSegments {
   private:
     // Transmittance behind which nothing is visible.
     static constexpr float least_transmittance = 1e-9f;
-    // Extent, a difference of t, at which a piece has one colour, whatever its depth.
+    // Extent (in t) below which pieces are not shortened: they have one colour, however deep.
     static constexpr float shortest = 1e-6f;
-    // Number of vectors that are computed side by side, to hide the latency of their chains of
-    // operations.
+    // Vectors that are computed side by side, to hide the latency of chains of operations.
     static constexpr std::size_t vectors = 2;
 
-    // The place that a segment has reached, and the composite of its pieces up to there.
+    // How far a segment is done: t, the scalar and interval there, the composite in front of it.
     struct Progress {
         Float turns[2];  // the t at which the scalar turns
         Float t, s;
@@ -79,8 +78,8 @@ class CutSegments {
         Progress done;
     };
 
-    // The part of a segment up to the next turn of its scalar; if the scalar `crosses` the knot in
-    // this part, the segment leaves the interval there.
+    // The part of a segment from its present place to the next turn of its scalar, at t_end. If the
+    // scalar `crosses` the knot before that, the segment leaves the interval at `root`.
     template <bool curved>
     struct Stretch {
         IntervalLanes<curved> interval;
@@ -114,7 +113,7 @@ class CutSegments {
         }
     }
 
-    // Zeroes the lanes outside `members`, so that they hold numbers and places.
+    // Loads segments; lanes outside `members` become 0, so that they hold valid numbers and places.
     LAMINA_INLINE Segment load(std::size_t from, FloatMask members) const {
         Segment segment = segments_.load(from);
         for (Float& c : segment.scalar.c) c = zero_unless(members, c);
@@ -123,7 +122,7 @@ class CutSegments {
         return segment;
     }
 
-    // Begins at the front. On a knot a segment begins in the interval to which its scalar goes.
+    // Returns the beginning, t = 0. A scalar on a knot is in the interval to which it goes.
     template <Lookup kind>
     static LAMINA_INLINE Progress begin(const CpuTransfer& transfer, const Segment& segment) {
         const Turns turns = turns_of(segment.scalar);
@@ -148,8 +147,7 @@ class CutSegments {
         return done;
     }
 
-    // Packs the `members` for the next round, behind those that were kept before: it overwrites
-    // only what has been loaded.
+    // Stores `members` for the next round behind the others; overwrites only what was loaded.
     LAMINA_INLINE void keep(const Lanes& lanes, FloatMask members) {
         if (none_of(members)) return;
         progress_.store_members(lanes.done, members, count_);
@@ -171,11 +169,11 @@ class CutSegments {
         });
     }
 
-    // Adds a piece to each segment; `ended` gets the lanes that are done.
+    // Composites the next piece of each segment. Sets `ended` to the lanes whose segment is done.
     template <Lookup kind, bool curved>
     LAMINA_INLINE void add_pieces(const CpuTransfer& transfer, bool colored, std::size_t used,
                                   Lanes (&lanes)[vectors], FloatMask (&ended)[vectors]) {
-        // Most roots are found in two steps of the third order; asking earlier costs more.
+        // Two steps (of third order) find most roots; to ask after each step would cost more.
         constexpr int usual_steps = 2, most_steps = 30;
         static_assert(vectors == 2);
         Stretch<curved> stretches[vectors];
@@ -211,8 +209,7 @@ class CutSegments {
         return next;
     }
 
-    // Returns the lanes that are done. `extent`: that of the piece, whose world length is this
-    // share of the segment's.
+    // Composites a piece of each segment and moves behind it. Returns the lanes that are done.
     template <bool curved>
     LAMINA_INLINE FloatMask add_piece(bool colored, const Stretch<curved>& stretch,
                                       Lanes& lanes) const {
@@ -235,12 +232,12 @@ class CutSegments {
         } else if constexpr (lit) {
             const FloatMask again = composite_lit(stretch.interval, piece, extent, lanes);
             segment.longest = select(again, 0.5f * extent, max(segment.longest, 2 * extent));
-            // Nothing was added for these lanes: the next round tries shorter pieces.
+            // Nothing was added in lanes `again`: the next round tries a piece half as long.
             whole = without(whole, again);
             extent = zero_unless(!again, extent);
         }
 
-        // At least one float (2^-24) further, so that every round makes progress.
+        // t grows by at least 2^-24, the spacing of floats below 1: every round makes progress.
         const Float shortened = max(done.t + extent, done.t + 6e-8f);
         done.t = select(whole, t_to, shortened);
         done.s = select(whole, s_to, segment.scalar.at(done.t));
@@ -249,8 +246,8 @@ class CutSegments {
         return (done.t >= 1) | (done.transmittance < least_transmittance);
     }
 
-    // Returns the place in the interval along the piece of `extent`: the scalar there, a cubic of 0
-    // .. 1, rescaled. c[1] makes it end at `s_to` exactly, so that pieces meet on the knot.
+    // Returns the share of the interval along a piece as a cubic of 0 .. 1, with c[1] such that the
+    // scalar ends exactly at `s_to`, and pieces meet on the knot.
     template <bool curved>
     static LAMINA_INLINE CubicLanes share_of_piece(const IntervalLanes<curved>& interval,
                                                    const Lanes& lanes, Float extent, Float s_to) {
@@ -264,7 +261,7 @@ class CutSegments {
         return interval.share_along(piece);
     }
 
-    // Shortens pieces that are too deep, from their backs. Returns the lanes that stay whole.
+    // Moves the backs of too deep pieces forward. Returns the lanes that were not shortened.
     template <bool curved>
     static LAMINA_INLINE FloatMask shorten(const IntervalLanes<curved>& interval, Float length,
                                            PieceOptics<curved>& piece, Float& extent) {
@@ -274,8 +271,8 @@ class CutSegments {
             const FloatMask deep = (depth > largest_piece_depth) & (extent > shortest);
             if (none_of(deep)) return whole;
             whole = without(whole, deep);
-            // If depth grows with the power p = 1 .. 2 of the extent, this factor leaves at least a
-            // depth of .7; it may have to be applied again.
+            // If depth grows with the power 1 to 2 of the extent, the root leaves a depth of .7 or
+            // more; but at least half of the extent is cut off. This may have to be repeated.
             const Float least = shortest / max(extent, shortest);
             Float factor = min(sqrt(0.7f / max(depth, 1e-3f)), 0.5f);
             factor = select(deep, max(factor, min(least, 0.5f)), 1);
@@ -289,8 +286,7 @@ class CutSegments {
         }
     }
 
-    // Returns Q of (9.4). A piece of the least extent may still be too deep for the rule, but its
-    // colour hardly changes.
+    // Returns Q of (9.4). Pieces of extent `shortest` may be too deep, but hardly change colour.
     template <bool curved>
     static LAMINA_INLINE Float seen_of(const PieceOptics<curved>& piece, Float depth,
                                        Float opacity) {
@@ -307,7 +303,7 @@ class CutSegments {
         const Float transmittance = done.transmittance, weight = transmittance * opacity;
         done.depth += depth;
         done.transmittance = transmittance - weight;
-        // Summed by itself, so that pieces of small opacity keep their digits.
+        // Opacity is summed, and is not 1 - transmittance: faint pieces keep their digits.
         done.opacity += weight;
         if (!colored) return;
         const Float seen = transmittance * seen_of(piece, depth, opacity);
@@ -315,8 +311,7 @@ class CutSegments {
             done.color[channel] += interval.color(channel, weight, seen);
     }
 
-    // Composites lit pieces. Returns those that are left out, because their light bends too much
-    // for one rule.
+    // Composites lit pieces, except in lanes whose light bends too much; these it returns.
     template <bool curved>
     LAMINA_INLINE FloatMask composite_lit(const IntervalLanes<curved>& interval,
                                           const PieceOptics<curved>& piece, Float extent,
@@ -345,7 +340,7 @@ class CutSegments {
     const CpuLight* light_ = nullptr;
     std::size_t count_ = 0;
     Columns<Segment, CellSegments::capacity> segments_;
-    Columns<Progress, CellSegments::capacity> progress_;  // from the second round on
+    Columns<Progress, CellSegments::capacity> progress_;  // set from the second round on
 };
 
 LAMINA_SIMD_END

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The samples at the corners of cells, and scalars interpolated between them.
+// Fetches the samples at the corners of cells, and interpolates scalars between them.
 //
 //   for each cell (x, y, z):
 //       index = its lowest corner in memory, or its page and the place in that        cell_index()
@@ -20,6 +20,7 @@
 
 LAMINA_SIMD_BEGIN
 
+// Returns a cell's index in pages: the number of its page, and its place there (CpuPages).
 LAMINA_INLINE Int page_index(const CpuPages& pages, Int x, Int y, Int z) {
     constexpr int bits = CpuPages::place_bits;
     const Int within(CpuPages::places);
@@ -40,8 +41,7 @@ LAMINA_INLINE Int cell_index(const CpuBrick& brick, Int x, Int y, Int z) {
     return x + (y * brick.row + z * brick.slice);
 }
 
-// Calls visit(i, begin of the page, place in it) for cells 0 .. count - 1, with their pages in
-// memory.
+// Calls visit(i, page's first byte, place in it) for `count` cells, after reading their pages.
 template <class Visit>
 LAMINA_INLINE void visit_pages(const CpuPages& pages, const std::int32_t* indices,
                                std::size_t count, const Visit& visit) {
@@ -54,7 +54,8 @@ LAMINA_INLINE void visit_pages(const CpuPages& pages, const std::int32_t* indice
     }
 }
 
-// Copies the four pairs of a cell, which begins at `from`; `row` and `slice` in bytes.
+// Copies the four pairs of neighbours along x of the cell whose lowest corner is at `from`, to
+// pairs[0 .. 3][i]. `row` and `slice`: bytes to the next y and z.
 template <class Pair, std::size_t size>
 LAMINA_INLINE void copy_pairs(const std::byte* from, std::size_t row, std::size_t slice,
                               std::size_t i, Pair (&pairs)[4][size]) {
@@ -64,7 +65,7 @@ LAMINA_INLINE void copy_pairs(const std::byte* from, std::size_t row, std::size_
     std::memcpy(&pairs[3][i], from + slice + row, sizeof(Pair));
 }
 
-// Fetches the four pairs of neighbours along x of each cell from pages, as fetch_pairs() does.
+// Does what fetch_pairs() does, from pages.
 template <class Pair, std::size_t size>
 inline LAMINA_NOINLINE void fetch_paged_pairs(const CpuPages& pages, const std::int32_t* indices,
                                               std::size_t count, Pair (&pairs)[4][size]) {
@@ -81,8 +82,7 @@ struct Points {
     Float at[3];
 };
 
-// The samples at the corners of a cell, at its lower and its upper x. In each array the order is
-// (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1).
+// Samples at a cell's corners, by lower and upper x: at (y, z), (y+1, z), (y, z+1), (y+1, z+1).
 struct Corners {
     Float lower[4], upper[4];
 };
@@ -95,7 +95,7 @@ LAMINA_INLINE Float to_float(Word v) {
     return to_float(bits_as<Int>(v));
 }
 
-// Fetches the corners by gathers; it also works if samples have no neighbour along x.
+// Fetches the corners of cells by gathers; samples may have no neighbour along x.
 template <CpuLayout layout>
 LAMINA_INLINE Corners fetch_corners(const CpuBrick& brick, Int index) {
     Corners corners;
@@ -108,8 +108,8 @@ LAMINA_INLINE Corners fetch_corners(const CpuBrick& brick, Int index) {
             corners.upper[i] = gather(from + next, index);
         }
     } else {
-        // A word of 32 bits holds a sample and the next one along x. Words that would reach beyond
-        // the memory's end are read a little earlier and shifted.
+        // A word of 32 bits holds a sample and the next one along x. If a word would reach beyond
+        // the end of memory, an earlier one is read and shifted.
         constexpr int size = layout == CpuLayout::bytes ? 1 : 2;
         const auto* const words = static_cast<const std::uint32_t*>(brick.samples);
         for (int i = 0; i < 4; ++i) {
@@ -137,7 +137,6 @@ using PairOf = std::conditional_t<
     layout == CpuLayout::bytes, std::uint16_t,
     std::conditional_t<layout == CpuLayout::words, std::uint32_t, std::uint64_t>>;
 
-// Calls body(std::integral_constant<CpuLayout, ...>).
 template <class Body>
 LAMINA_INLINE void with_layout(CpuLayout layout, const Body& body) {
     switch (layout) {
@@ -151,8 +150,8 @@ LAMINA_INLINE void with_layout(CpuLayout layout, const Body& body) {
     unreachable_enum();
 }
 
-// Fetches the four pairs of each cell, in the order of Corners, one by one: that is faster than
-// gathers of the instruction set. The volume must have a second sample along x.
+// Fetches the four pairs of neighbours along x of each cell, in the order of Corners, one by one,
+// which is faster than gather instructions. The volume must have at least two samples along x.
 template <class Pair, std::size_t size>
 inline LAMINA_NOINLINE void fetch_pairs(const CpuBrick& brick, const std::int32_t* indices,
                                         std::size_t count, Pair (&pairs)[4][size]) {
@@ -166,7 +165,7 @@ inline LAMINA_NOINLINE void fetch_pairs(const CpuBrick& brick, const std::int32_
     }
 }
 
-// Returns the corners of a vector of cells from the i-th on.
+// Returns the corners of the cells from the i-th on, one in each lane.
 template <CpuLayout layout, class Pair, std::size_t size>
 LAMINA_INLINE Corners unpack_pairs(const CpuBrick& brick, const Pair (&pairs)[4][size],
                                    std::size_t i) {
@@ -194,17 +193,19 @@ LAMINA_INLINE Float hardware_weight(Float share) {
     return round(share * 256.0f) * (1.0f / 256);
 }
 
+// Interpolates trilinearly; x, y, z in 0 .. 1.
 LAMINA_INLINE Float interpolate(const Corners& corners, Float x, Float y, Float z) {
     Float along_x[4];
     for (int i = 0; i < 4; ++i) along_x[i] = mix(corners.lower[i], corners.upper[i], x);
     return mix(mix(along_x[0], along_x[1], y), mix(along_x[2], along_x[3], y), z);
 }
 
-// Ways in which a loop treats its points. inside: they are known to lie between the first and the
-// last sample. anywhere: they are clamped. exact: samples are converted to the values that textures
-// return before they are interpolated, so that the scalars equal those of the shaders bit for bit.
+// How points are treated. inside: known to lie between the first and the last sample. anywhere:
+// clamped to these. exact: clamped, and codes become the values that textures return before they
+// are interpolated, so that scalars equal the shaders' bit for bit.
 enum class PointKind { inside, anywhere, exact };
 
+// The cells that hold points, and the points' places in them, 0 .. 1.
 struct Cell {
     Int index;  // index of its lowest corner
     Float share[3];
@@ -230,6 +231,7 @@ LAMINA_INLINE Cell cell_at(const CpuBrick& brick, const Points& points) {
     return cell;
 }
 
+// Returns normalised scalars at the places `share` of cells.
 template <CpuLayout layout, PointKind kind>
 LAMINA_INLINE Float scalar_in(const CpuBrick& brick, Corners corners, const Float* share) {
     float scale = brick.scale;
@@ -245,8 +247,8 @@ LAMINA_INLINE Float scalar_in(const CpuBrick& brick, Corners corners, const Floa
     return raw * scale + brick.offset;
 }
 
-// Only one pixel in each row and column is fetched ahead; the samples of its neighbours mostly lie
-// beside its own.
+// Prefetches the samples of cells for one pixel in each row and column, because those of its
+// neighbours mostly lie beside them. `samples`: of `bytes` bytes each.
 template <std::size_t bytes>
 LAMINA_INLINE void prefetch_cells(const CpuBrick& brick, const void* samples,
                                   const std::int32_t* indices) {
@@ -260,7 +262,8 @@ LAMINA_INLINE void prefetch_cells(const CpuBrick& brick, const void* samples,
     }
 }
 
-// Samples in three stages of half a block: find cells, fetch their samples, interpolate.
+// Does what sample_points() does in three stages, each for half a block of slabs: find cells, fetch
+// their samples, interpolate.
 template <CpuLayout layout, PointKind kind, class PointAt>
 LAMINA_INLINE void sample_in_stages(const CpuBrick& brick, bool hardware, int first, int end,
                                     const PointAt& point_at, float* scalars) {
@@ -297,7 +300,7 @@ LAMINA_INLINE void sample_in_stages(const CpuBrick& brick, bool hardware, int fi
     }
 }
 
-// Samples a brick whose samples have no neighbour along x.
+// Does what sample_points() does, for a brick whose samples have no neighbour along x.
 template <CpuLayout layout, PointKind kind, class PointAt>
 LAMINA_INLINE void sample_by_gathers(const CpuBrick& brick, bool hardware, int first, int end,
                                      const PointAt& point_at, float* scalars) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of segments (docs/numerics.md, section 10.4; numbers in brackets are equations there).
+// Adds light to segments (docs/numerics.md, section 10.4; numbers in brackets are equations there).
 //
 //   g(t) = the gradient along the segment, a cubic on each axis, of the corners' gradients (9.1)
 //   at the three nodes of Gauss' rule: the change of colour and the highlight there (10.2)
@@ -18,12 +18,11 @@
 
 LAMINA_SIMD_BEGIN
 
-// Four words a lane for each of a cell's four rows along x, in the order of Corners: two of the
-// lower of two neighbours, two of the upper.
+// The gradients at the corners of cells: for each of a cell's four rows along x, in the order of
+// Corners, four words a lane, two for the gradient at the lower x and two for that at the upper x.
 using GradientRows = std::uint32_t[4][4 * most_lanes];
 
-// Fetches gradients of cells in pages, whose samples have a neighbour along x, as fetch_gradients()
-// does.
+// Does what fetch_gradients() does, from pages, whose samples always have a neighbour along x.
 inline LAMINA_NOINLINE void fetch_paged_gradients(const CpuPages& pages, const std::int32_t* index,
                                                   std::uint32_t lanes, GradientRows& rows) {
     constexpr std::size_t steps[4] = {0, BrickCache::row, BrickCache::slice,
@@ -42,9 +41,8 @@ inline LAMINA_NOINLINE void fetch_paged_gradients(const CpuPages& pages, const s
     });
 }
 
-// Loads pairs one by one, which is faster than gathers, for a set of lanes; the others keep their
-// values. `index`: of each cell's lowest corner. A sample without a neighbour along x is its own
-// neighbour.
+// Fetches the gradients at cells' corners for a set of lanes; others keep their values. Copying
+// pairs is faster than gathers. A sample without a neighbour along x is its own neighbour.
 inline LAMINA_NOINLINE void fetch_gradients(const CpuBrick& brick, const std::int32_t* index,
                                             std::uint32_t lanes, GradientRows& rows) {
     const std::size_t steps[4] = {0, static_cast<std::size_t>(brick.row),
@@ -67,15 +65,15 @@ inline LAMINA_NOINLINE void fetch_gradients(const CpuBrick& brick, const std::in
     });
 }
 
-// Stored gradients (slicing/gradient_map.h): x below y, and z below the exponent.
+// The two words of a StoredGradient (slicing/gradient_map.h), each of two 16-bit numbers: x in the
+// low half and y in the high one; z in the low half and the exponent in the high one.
 struct GradientWords {
     Int xy, z;
     LAMINA_INLINE Int exponent() const { return shift_right<16>(z); }
 };
 
-// Exponent of the unit 2^(largest - unit_octaves) that the gradients of a cell's corners, `lower`
-// and `upper` on x, share; `largest` is their largest exponent. So the largest component is 2^46 up
-// to 2^47, and squares of gradients 1e31 times as small are numbers, too.
+// Gradients at a cell's corners get a common unit, 2^(largest exponent - unit_octaves). So their
+// largest component is 2^46 to 2^47, and squares of gradients 1e31 times as small fit a float.
 constexpr int unit_octaves = 32;
 
 // Returns 2^(exponent - 127), or 0 if that is too small.
@@ -83,8 +81,8 @@ LAMINA_INLINE Float power_of_biased(Int exponent) {
     return bits_as<Float>(shift_left<23>(max(exponent, 0)));
 }
 
-// Returns the square of the smallest gradient, in the unit of gradients with this largest exponent.
-// It is limited to the numbers that float32 can square: outside, all or nothing is lit.
+// Returns the square of Lighting::smallest_gradient in the unit that belongs to `largest`, limited
+// to numbers that float32 can square: beyond these, everything or nothing is lit.
 LAMINA_INLINE Float smallest_square_of(const CpuLight& light, Int largest) {
     constexpr int most = 62;
     const Int exponent = light.smallest.exponent + unit_octaves - largest;
@@ -93,12 +91,12 @@ LAMINA_INLINE Float smallest_square_of(const CpuLight& light, Int largest) {
     return smallest * smallest;
 }
 
-// `unit` plus the exponent of a sample is the biased exponent of the scale that takes its 16-bit
-// components to the cell's unit.
+// Converts the gradients at one corner of each cell to the cell's unit. `unit` + a gradient's
+// exponent is the biased exponent of the factor.
 LAMINA_INLINE void set_corner(const GradientWords& words, Int unit, std::size_t row, bool upper,
                               Corners (&corners)[3]) {
     const Float scale = power_of_biased(words.exponent() + unit);
-    // 2^16 times each component.
+    // Each component times 2^16: its 16 bits are moved to the upper half of a word.
     const Float components[3] = {to_float(shift_left<16>(words.xy)),
                                  to_float(without(words.xy, Int(0xffff))),
                                  to_float(shift_left<16>(words.z))};
@@ -108,7 +106,7 @@ LAMINA_INLINE void set_corner(const GradientWords& words, Int unit, std::size_t 
     }
 }
 
-// Sets the gradients at the corners of cells. Returns the largest exponent.
+// Sets the gradients at corners, by axis, in each cell's unit. Returns the largest exponent.
 LAMINA_INLINE Int unpack_gradients(const GradientRows& rows, Corners (&corners)[3]) {
     GradientWords lower[4], upper[4];
     Int largest(StoredGradient::no_exponent);
@@ -131,8 +129,8 @@ LAMINA_INLINE Int unpack_gradients(const GradientRows& rows, Corners (&corners)[
 LAMINA_INLINE void take_upper(std::size_t axis, FloatMask lanes, Corners& corners) {
     const auto take = [&](Float& lower, Float upper)
                           LAMINA_LAMBDA { lower = select(lanes, upper, lower); };
-    const std::size_t rows[2][4] = {{0, 2, 1, 3},
-                                    {0, 1, 2, 3}};  // of y and z: two lower, two upper
+    // For y and for z: the two lower corners, then the two upper ones.
+    const std::size_t rows[2][4] = {{0, 2, 1, 3}, {0, 1, 2, 3}};
     for (std::size_t i = 0; axis == 0 && i < 4; ++i) take(corners.lower[i], corners.upper[i]);
     for (std::size_t i = 0; axis > 0 && i < 2; ++i) {
         const std::size_t lower = rows[axis - 1][i], upper = rows[axis - 1][i + 2];
@@ -141,8 +139,8 @@ LAMINA_INLINE void take_upper(std::size_t axis, FloatMask lanes, Corners& corner
     }
 }
 
-// If rays run beyond the last samples (`cell` axes), or along a face, only the upper corners count:
-// the lower ones may be too long to be subtracted again.
+// Drops the lower corners where rays run beyond the last samples (`cell` axes) or along a face:
+// only the upper ones count there, and adding and subtracting long ones would lose all digits.
 LAMINA_INLINE void leave_out_lower(const Float (&place)[3], const Float (&change)[3],
                                    Corners (&corners)[3]) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -152,7 +150,7 @@ LAMINA_INLINE void leave_out_lower(const Float (&place)[3], const Float (&change
     }
 }
 
-// The gradient at a point of a cell, and the square of the smallest gradient in the same unit.
+// The gradient at a point of a cell, and the square of Lighting::smallest_gradient in its unit.
 struct PointGradient {
     Float along[3];
     Float smallest_square;
@@ -172,16 +170,16 @@ LAMINA_INLINE PointGradient gradient_at(const CpuBrick& brick, const CpuLight& l
     return gradient;
 }
 
-// The gradient along a segment, the square of the smallest gradient in the same unit, and the
-// direction to the eye; along the grid's axes.
+// The gradient along a segment, the square of Lighting::smallest_gradient in the same unit, and the
+// direction to the eye, all along the grid's axes.
 struct GradientLanes {
     CubicLanes along[3];
     Float smallest_square;
     Float to_eye[3];
 };
 
-// Sets the gradients of the `members` of a vector of segments from segment i on. Those of the
-// others are undefined. `rows`: kept from vector to vector.
+// Returns the gradients along the `members` of the segments from i on; other lanes are undefined.
+// `rows`: memory to work in, whose lanes outside `members` must have been set once.
 LAMINA_INLINE GradientLanes set_gradients(const CpuBrick& brick, FloatMask members, std::size_t i,
                                           const CpuLight& light, const CellSegments& segments,
                                           GradientRows& rows) {
@@ -199,8 +197,8 @@ LAMINA_INLINE GradientLanes set_gradients(const CpuBrick& brick, FloatMask membe
     return lanes;
 }
 
-// Returns a bound on the light that the nodes of a piece of `extent` from `at` on miss, as a bend.
-// `middle_gradient`: the gradient at the middle one.
+// Returns, as a bend, a bound on highlights and changes of light between the nodes of Gauss' rule
+// on the piece of `extent` from `at` on. `middle_gradient`: at the middle node.
 LAMINA_INLINE Float hidden_bend(const CpuLight& light, const GradientLanes& gradient,
                                 const Float (&middle_gradient)[3], Float at, Float extent) {
     const Float half = 0.5f * extent, middle = at + half;
@@ -216,7 +214,7 @@ LAMINA_INLINE Float hidden_bend(const CpuLight& light, const GradientLanes& grad
     return hidden_effect(light, square, reach, gradient.smallest_square);
 }
 
-// Returns the component of the gradient along a direction.
+// Returns the scalar product of the gradient and a direction, along a segment.
 LAMINA_INLINE CubicLanes component_along(const GradientLanes& gradient,
                                          const Float (&direction)[3]) {
     CubicLanes component;
@@ -227,10 +225,10 @@ LAMINA_INLINE CubicLanes component_along(const GradientLanes& gradient,
     return component;
 }
 
-// Returns a bound on the error of the three nodes at kinks, where the gradient is perpendicular to
-// a light, as a bend: a kink in the middle costs .045 of that. A kink at k of the piece's length
-// from an end, up to .5, costs up to .113 of the cosine at that end: k of it if k < .113, which no
-// node sees, and less beyond.
+// Returns a bound on the error of the rule with three nodes at kinks, expressed as a bend. A kink
+// is where the gradient is perpendicular to a light. In the middle of a piece it costs .045 of the
+// bend. At k of the piece's length from an end, k up to .5, it costs up to .113 of the cosine at
+// that end: k of the cosine if k < .113, which no node sees, and less beyond.
 LAMINA_INLINE Float hidden_kinks(const CpuLight& light, const GradientLanes& gradient, Float at,
                                  Float extent) {
     const Float ends[2] = {at, at + extent};
@@ -262,7 +260,7 @@ LAMINA_INLINE Float hidden_kinks(const CpuLight& light, const GradientLanes& gra
     return missed * light.diffuse * most;
 }
 
-// A piece of a segment, or all of it: of `extent` from `at` on.
+// The piece of a segment from t = at to at + extent, or all of it.
 template <bool curved>
 struct LitPiece {
     const PieceOptics<curved>& piece;
@@ -270,7 +268,8 @@ struct LitPiece {
     Float at, extent, depth, opacity;
 };
 
-// Adds light to the piece's colour by Gauss' rule with three nodes. Returns its bend.
+// Adds light to the piece's colour by Gauss' rule with three nodes. Returns how much the light
+// bends from node to node, or more if the rule may miss something: what bends() judges.
 template <std::size_t channels, bool curved>
 LAMINA_INLINE Float add_light_of(const CpuLight& light, const GradientLanes& gradient,
                                  const LitPiece<curved>& lit, Float (&color)[3]) {

@@ -13,12 +13,13 @@
 
 LAMINA_SIMD_BEGIN
 
-// Associated colour and optical depth of a part of a ray.
+// Associated colour and optical depth of a node of the tree, for a vector of rays.
 struct NodeSum {
     Float color[3];
     Float depth;
 };
 
+// Computes the pictures of a tree whose nodes are floats, group of packets by group.
 class Marcher {
   public:
     Marcher(const CpuSlabs& slabs, const TreeShape& shape, const TileGrid::Tile& area)
@@ -29,7 +30,7 @@ class Marcher {
           area_(area),
           cells_(cell_integrator(slabs, !plan_.single_color)) {}
 
-    // Computes the root of the tree for each packet, before it is written.
+    // Computes the root of the tree for each packet of a group, not yet rounded to the target.
     void evaluate(std::size_t group, NodeSum* sums) {
         group_ = group;
         if (slabs_.bricks.size() == 1)
@@ -70,7 +71,8 @@ class Marcher {
             sum.color[channel] += weight * image.color[channel];
     }
 
-    // Returns a child as its node reads it: colour not associated, rounded to the image's format.
+    // Returns what a node reads of its child's image: optical depth and colour, not associated,
+    // rounded to the image's format.
     NodeSum stored(const NodeSum& child, int samples) const {
         const TreePlan& tree = *plan_.tree;
         const float share = static_cast<float>(samples) / static_cast<float>(shape_.samples());
@@ -107,14 +109,14 @@ class Marcher {
         return native_code(largest, value) / largest;
     }
 
-    // Sums of thousands of small terms: of a block in float, which loses nothing because opacity
-    // begins at 0, of blocks in double.
+    // The composite of a leaf's slabs, a sum of thousands of small terms. Within a block it is
+    // summed in float, which loses nothing because opacity begins at 0; blocks are added in double.
     struct LeafSum {
         Float64 color[3], depth, transmittance;
     };
 
-    // Marches all slabs of a leaf. Blocks begin at its first slab, whatever part of them is wanted:
-    // pictures must not depend on that.
+    // Composites all slabs of a leaf. Blocks are counted from its first slab, whichever slabs are
+    // wanted, so that pictures do not depend on which ones are.
     void march(const SampleSpan& leaf, NodeSum* sums) {
         LeafSum leaves[group_packets];
         for (LeafSum& sum : leaves) sum = {{0, 0, 0}, 0, 1};
@@ -150,8 +152,8 @@ class Marcher {
         }
     }
 
-    // Marches the leaf's part of each ray, cell by cell. A ray that became opaque ends with the
-    // cells that are integrated together.
+    // Composites a leaf cell by cell. A ray that has become opaque ends only after the cells that
+    // were integrated in the same call of CellIntegrator::next().
     template <bool lit>
     void march_cells(const CpuBrickView& brick, const SampleSpan& leaf, CellIntegrator<lit>& cells,
                      LeafSum* leaves) {
@@ -175,6 +177,7 @@ class Marcher {
         segments_ += cells.segments() - before;
     }
 
+    // Sets the wanted slabs of a block; runs of slabs in constant regions become one slab each.
     void set_block(const CpuBrickView& brick, std::size_t packet, int number) {
         const PacketRays& rays = rays_.packets[packet];
         const BlockMask constant = rays_.constant(slabs_, number, block_.wanted);
@@ -188,8 +191,8 @@ class Marcher {
         });
     }
 
-    // Undoes what a block added to rays that were opaque before: each pixel ends by itself,
-    // independent of its neighbours. Returns whether all are opaque now.
+    // Undoes what a block added to rays that were opaque before it, so that each pixel ends by
+    // itself, independent of its neighbours. Returns whether all rays are opaque now.
     LAMINA_INLINE bool end_rays(const LeafSum& before, LeafSum& leaf) const {
         const double opaque = plan_.opaque_depth;
         const Float64Mask ended = before.depth >= opaque;

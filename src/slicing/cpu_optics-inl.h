@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar s along a segment, a cubic, and emission and absorption of a piece of it in one
-// interval of the transfer function (docs/numerics.md, section 9; numbers in brackets are equations
-// there).
+// Computes the scalar s along a segment, a cubic, and emission and absorption of a piece in one
+// interval of the transfer function (docs/numerics.md, section 9; equations in brackets).
 //
 //   c0 .. c3 = the cubic's coefficients, from the corners, the entry and the way in the cell (9.1)
 //   range    = least and largest of its four Bernstein coefficients                       (9.5)
@@ -28,7 +27,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// c[0] + t (c[1] + t (c[2] + t c[3])), 0 <= t <= 1.
+// A cubic polynomial of t, 0 <= t <= 1: c[0] + c[1] t + c[2] t^2 + c[3] t^3.
 struct CubicLanes {
     Float c[4];
 
@@ -39,8 +38,8 @@ struct CubicLanes {
     }
 };
 
-// Returns the trilinear field of a cell minus `base`, along place + t * change. It is computed from
-// differences of corners, so that a constant cell is exactly constant.
+// Returns the trilinear field of a cell, minus `base`, at place + t * change, as a cubic of t. It
+// is computed from differences of corners, so that a constant cell gives an exact constant.
 LAMINA_INLINE CubicLanes cubic_along(const Corners& corners, Float base, const Float (&place)[3],
                                      const Float (&change)[3]) {
     const Float v0 = corners.lower[0], v1 = corners.upper[0], v2 = corners.lower[1],
@@ -51,7 +50,7 @@ LAMINA_INLINE CubicLanes cubic_along(const Corners& corners, Float base, const F
     const Float xyz = ((v7 - v6) - (v5 - v4)) - xy;
     const auto& [u, v, w] = place;
     const auto& [du, dv, dw] = change;
-    // Second derivatives at the entry.
+    // Mixed second derivatives (xy, xz, yz) at the entry.
     const Float xy_there = xy + w * xyz, xz_there = xz + v * xyz, yz_there = yz + u * xyz;
     CubicLanes field;
     field.c[0] = (v0 - base) + u * (x + v * xy_there) + v * (y + w * yz) + w * (z + u * xz);
@@ -66,7 +65,7 @@ struct RangeLanes {
     Float lo, hi;
 };
 
-// Returns bounds on the cubic: its Bernstein coefficients.
+// Returns bounds on the cubic: its least and largest Bernstein coefficient.
 LAMINA_INLINE RangeLanes range_of(const CubicLanes& cubic) {
     const Float third = Float(1 / 3.0f);
     const Float one = cubic.c[0] + third * cubic.c[1];
@@ -94,13 +93,12 @@ LAMINA_INLINE Turns turns_of(const CubicLanes& cubic) {
     return {min(one, other), max(one, other)};
 }
 
-// Finds the place at which a cubic, monotone between two places, has a value: roots of parabolas
-// that touch the cubic (Euler's method) in a bracket. It converges with the third order, also near
-// places where the cubic turns.
+// Finds where a cubic, monotone between two places, has a given value, by roots of parabolas that
+// touch it (Euler's method), kept in a bracket. Converges with third order, also near turns.
 struct RootLanes {
     Float t;
 
-    // The cubic is `at_from` and `at_to` at its two places. Lanes outside `wanted` get any place.
+    // Begins between `from` and `to`, where the cubic is at_from and at_to, in the lanes `wanted`.
     LAMINA_INLINE void begin(Float value, Float from, Float to, Float at_from, Float at_to,
                              FloatMask wanted) {
         value_ = value;
@@ -115,14 +113,14 @@ struct RootLanes {
     LAMINA_INLINE bool found() const { return none_of(active_); }
 
     LAMINA_INLINE void refine(const CubicLanes& cubic) {
-        // The next step would be of the order of this one to the third power.
+        // A step below this is the last: the next one would be of the order of its third power.
         const Float small = Float(3e-3f);
         const Float rest = cubic.at(t) - value_;
         const FloatMask before = !((rest < 0) ^ rising_);
         low_ = select(before, t, low_);
         high_ = select(before, high_, t);
         const Float slope = cubic.slope(t), bend = cubic.c[2] + 3 * cubic.c[3] * t;
-        // The root of the parabola through this place, with the sign of the slope.
+        // The root of the touching parabola at which it rises or falls as the cubic does.
         const Float square = max(slope * slope - 4 * rest * bend, 0);
         const Float root = sqrt(square);
         const Float divisor = select(rising_, slope + root, slope - root);
@@ -139,7 +137,7 @@ struct RootLanes {
     FloatMask rising_, active_;
 };
 
-// The bends of an interval (CpuTransfer::bend).
+// The bends of an interval's extinction (CpuTransfer::bend); none if it is straight.
 template <bool curved>
 struct IntervalBend {};
 template <>
@@ -147,8 +145,8 @@ struct IntervalBend<true> {
     Float bend[2];
 };
 
-// One interval of the transfer function for each lane. Colour is linear in the share, which is 0 at
-// the left end and 1 at the right. Extinction is linear, too, or a curve.
+// An interval of the transfer function in each lane. Colour is linear in the share, the place in
+// the interval from 0 at its left end to 1 at its right. Extinction is linear, too, or curved.
 template <bool curved>
 struct IntervalLanes : IntervalBend<curved> {
     Float left_end, right_end;  // the right end of the last interval lies beyond all scalars
@@ -166,7 +164,7 @@ struct IntervalLanes : IntervalBend<curved> {
     }
 };
 
-// Records are fetched one by one and transposed, which is faster than a gather for each number.
+// Looks up intervals. Copying and transposing records is faster than a gather for each number.
 template <bool curved>
 LAMINA_INLINE IntervalLanes<curved> fetched_intervals(const CpuTransfer& transfer, Int number) {
     constexpr std::size_t groups = curved ? 4 : 3, size = 4;
@@ -210,11 +208,12 @@ LAMINA_INLINE IntervalLanes<curved> interval_lanes(const CpuTransfer& transfer, 
     return lanes;
 }
 
-// A piece: its place in the interval along it, and its extinction times its length.
+// Emission and absorption along a piece: the share of the interval as a cubic, and extinction times
+// the piece's length.
 template <bool curved>
 struct PieceOptics;
 
-// A straight interval: extinction at share 0, and its change to share 1.
+// In a straight interval: extinction at share 0, and its change up to share 1.
 template <>
 struct PieceOptics<false> {
     CubicLanes share;
@@ -227,9 +226,8 @@ struct PieceOptics<false> {
           extinction(interval.left[3] * length),
           change(interval.change[3] * length) {}
 
-    // Returns the depth, exactly: the place is a cubic that stays in 0 .. 1 if the extinction
-    // changes. The clamp guards against samples far outside the range, next to which it is less
-    // exact.
+    // Returns the optical depth, exactly: if extinction changes, the share is a cubic in 0 .. 1.
+    // The clamp is for samples far outside the range, beside which the cubic is less exact.
     LAMINA_INLINE Float depth() const {
         const Float mean = clamp01(share.mean());
         return max(extinction + change * mean, 0);
@@ -239,14 +237,14 @@ struct PieceOptics<false> {
         return {{extinction + change * share.c[0], change * ((1 / 2.0f) * share.c[1]),
                  change * ((1 / 3.0f) * share.c[2]), change * ((1 / 4.0f) * share.c[3])}};
     }
-    // Returns the extinction at t, at which the place is `there`.
+    // Returns the extinction at t, where the share is `there`.
     LAMINA_INLINE Float extinction_at(Float, Float there) const {
         return max(extinction + change * there, 0);
     }
 };
 
-// A curved interval. The extinction is the cubic that has its values at four nodes of Gauss' rule,
-// so that the optical depth is right if the extinction along the piece is a polynomial of degree 7.
+// In a curved interval: extinction is a cubic through its values at four nodes of Gauss' rule, so
+// that the optical depth is exact if the extinction along the piece is a polynomial of degree 7.
 template <>
 struct PieceOptics<true> {
     CubicLanes share;
@@ -275,7 +273,7 @@ struct PieceOptics<true> {
     LAMINA_INLINE Float extinction_at(Float t, Float) const { return max(extinction.at(t), 0); }
 
   private:
-    // Coefficients of the cubic that is 1 at one node of GaussRule<4> and 0 at the others.
+    // Column i: the cubic, constant first, that is 1 at node i of GaussRule<4>, 0 at the others.
     static constexpr float through_nodes[4][4] = {
         {1.52678813f, -0.813632449f, 0.40076152f, -0.113917196f},
         {-8.54602361f, 13.8071669f, -7.41707042f, 2.1559271f},
@@ -283,9 +281,8 @@ struct PieceOptics<true> {
         {-7.42054007f, 18.7954494f, -18.7954494f, 7.42054007f}};
 };
 
-// Returns Q of (9.4) by Gauss' rule: the place in the interval, weighted by emission and
-// transmittance. `opacity`: that of `depth`, which is at most largest_piece_depth. Only the place's
-// slope is left for the rule, so a constant place is exact.
+// Returns Q of (9.4) by Gauss' rule: the share, weighted by emission and transmittance. Only its
+// slope is integrated, so a constant share is exact. `opacity`: of `depth` <= largest_piece_depth.
 template <std::size_t points, bool curved>
 LAMINA_INLINE Float seen_share(const PieceOptics<curved>& piece, Float depth, Float opacity) {
     using Rule = GaussRule<points>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewing rays of a vector of pixels in double precision, as in shaders/slicing/ray.glsl.
+// Computes viewing rays of a vector of pixels in double precision, as shaders/slicing/ray.glsl.
 //
 //   origin, direction = of each pixel, along the axes of the brick's samples; direction a depth
 //   enter, leave      = the depths at which the ray meets the planes of clips, then the box
@@ -21,11 +21,12 @@ struct DepthSpan {
     Float64 enter, leave;
 };
 
+// The rays of a vector of pixels through one brick.
 struct PacketRays {
     Float64 origin[3], direction[3];
     Float64 length_per_depth;  // world units
-    DepthSpan box, drawn;      // boxes of the brick, for pixels of the image
-    DepthSpan share;           // of the middles of segments to draw, if the brick has a share
+    DepthSpan box, drawn;      // in the brick's boxes; empty for pixels outside the image
+    DepthSpan share;           // in the brick's share, if it has one
     Float64 enter, leave;      // enter = leave if the ray misses the box or the slabs
     Float direction_float[3], length_float;
     int first_slab, end_slab;  // slabs that may be visible; first >= end if there are none
@@ -42,23 +43,23 @@ LAMINA_INLINE void set_eye(const CpuLight& light, const PacketRays& rays, Float 
 // Directions, in voxels per depth, below which a ray runs along a plane and never crosses it.
 constexpr double least_direction = 1e-20;
 
-// Returns a direction to divide by: `along` in place of those that are too small.
+// Returns a direction that can be divided by: `along` replaces those that are too small.
 LAMINA_INLINE Float64 crossing_direction(Float64 direction, Float64 along = least_direction) {
     return select(abs(direction) < least_direction, along, direction);
 }
 
-// Returns the depth of the boundary in front of a slab, clamped to a span.
+// Returns the depth of a slab's front, clamped to a span.
 LAMINA_INLINE Float64 boundary(const CpuRays& frame, const DepthSpan& span, int slab) {
     return clamp(Float64(slab * frame.slab_thickness), span.enter, span.leave);
 }
 
-// Clips to a box. A ray that runs in the box's first face is inside; one in its last face is inside
-// if that is `last_face` (CpuBrickView).
+// Clips `span` to a box. A ray that runs in the first face (smallest coordinate) on an axis is
+// inside the box; a ray in the last face is inside if that face is `last_face` (CpuBrickView).
 LAMINA_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box,
                                const glm::dvec3& last_face, DepthSpan& span) {
     for (int axis = 0; axis < 3; ++axis) {
         const Float64 origin = rays.origin[axis];
-        // A ray in a face stays inside if it is taken to leave the face into the box.
+        // A ray in a face is taken to leave it slowly, into the box if the face counts as inside.
         const Float64 along =
             select(origin == last_face[axis], Float64(-least_direction), least_direction);
         const Float64 inverse = 1.0 / crossing_direction(rays.direction[axis], along);
@@ -70,7 +71,8 @@ LAMINA_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box,
 }
 
 LAMINA_INLINE void clip_to_plane(const PacketRays& rays, const IndexPlane& plane, DepthSpan& span) {
-    Float64 distance = plane.offset, slope = 0;  // of the origin; its change with depth
+    // The distance of the origin from the plane, and its change with depth.
+    Float64 distance = plane.offset, slope = 0;
     for (int axis = 0; axis < 3; ++axis) {
         distance += plane.normal[axis] * rays.origin[axis];
         slope += plane.normal[axis] * rays.direction[axis];
@@ -115,7 +117,7 @@ LAMINA_INLINE PacketRays packet_rays(const CpuRays& frame, const CpuBrickView& b
     if (brick.share) {
         rays.share = {-1e30, 1e30};
         clip_to_box(rays, *brick.share, no_last_face, rays.share);
-        // Segments with their middles in the share reach half a slab beyond it.
+        // Segments whose middle is in the share may reach half a slab beyond it.
         const double half = 0.5 * frame.slab_thickness;
         rays.drawn = {max(rays.drawn.enter, rays.share.enter - half),
                       min(rays.drawn.leave, rays.share.leave + half)};
@@ -123,8 +125,7 @@ LAMINA_INLINE PacketRays packet_rays(const CpuRays& frame, const CpuBrickView& b
     return rays;
 }
 
-// Clips the rays to slabs first .. end - 1. Slabs that lie wholly outside the drawn box are not
-// needed.
+// Clips rays to slabs first .. end - 1; first_slab and end_slab: those that touch the drawn box.
 LAMINA_INLINE void set_span(const CpuRays& frame, int first, int end, PacketRays& rays) {
     const Float64 front = first * frame.slab_thickness, back = end * frame.slab_thickness;
     const DepthSpan seen{max(front, rays.drawn.enter), min(back, rays.drawn.leave)};
@@ -143,14 +144,13 @@ LAMINA_INLINE void set_span(const CpuRays& frame, int first, int end, PacketRays
     rays.end_slab = std::min(end, static_cast<int>(farthest / frame.slab_thickness) + 2);
 }
 
-// Blocks of pixels, 2 x 2 of them, that go through the volume together, so that their samples stay
-// in the cache.
+// A group is 2 x 2 blocks of pixels, marched together so that shared samples stay in the cache.
 constexpr std::size_t group_blocks = 4;
 constexpr std::size_t block_packets = most_lanes / Float::lanes;
 constexpr std::size_t group_packets = group_blocks * block_packets;
 constexpr std::size_t tile_groups = TileGrid::pixels / (group_blocks * most_lanes);
 
-// Returns the place in a tile of the first pixel of a packet of a group.
+// Returns the place in a tile (TileGrid::place()) of the first pixel of a packet of a group.
 constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
     constexpr std::size_t edge = 2 * TileGrid::block, per_row = TileGrid::edge / edge;
     const std::size_t pixel = packet * Float::lanes;
@@ -166,9 +166,8 @@ constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
 struct GroupRays {
     PacketRays packets[group_packets];
     CpuBounds bounds;
-    // Sets of slabs, counted from `origin`: those that may be visible, and those in which something
-    // is not constant. Finding these sets block by block would make them smaller, but would take
-    // longer than it saves.
+    // Sets of slabs, counted from `origin`: those that may be visible, and those that are not all
+    // constant. Bounds for the group: sets for each block would cost more than they save.
     SlabMask shown, varied;
     int origin, first_slab, end_slab;  // slabs of all packets together
 
@@ -183,7 +182,7 @@ struct GroupRays {
         }
     }
 
-    // Finds the sets for slabs first .. end - 1.
+    // Clips the rays to slabs first .. end - 1 and finds the sets of slabs.
     LAMINA_INLINE void set_slabs(const CpuSlabs& slabs, int first, int end) {
         origin = first;
         first_slab = end;
@@ -215,8 +214,7 @@ struct GroupRays {
         return all & shown.block(number);
     }
 
-    // Returns those of the `wanted` slabs that are constant, which a packet crosses in one step
-    // together with their neighbours.
+    // Returns the `wanted` slabs that lie in constant regions; consecutive ones are one step.
     BlockMask constant(const CpuSlabs& slabs, int number, BlockMask wanted) const {
         return slabs.constant == nullptr ? 0 : wanted & ~varied.block(number);
     }

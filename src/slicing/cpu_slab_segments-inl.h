@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The segments of a block of slabs along the rays of a vector of pixels: colour and optical depth,
-// as in shaders/slicing/segment.glsl. Each stage is done for the whole block, so that many slabs
-// are computed at a time. Codes of n bits need optical depths in double precision, computed like
-// the shaders', so that the codes are the same: SlabBlock::precise_depths.
+// Computes colour and optical depth of the segments of a block of slabs along the rays of a vector
+// of pixels, as shaders/slicing/segment.glsl does. Each stage is done for all slabs, so that many
+// are computed at a time. Targets with codes of n bits need optical depths in double precision
+// (SlabBlock::precise_depths), in the order of the shaders' operations, so that codes are the same.
 #if defined(LAMINA_SLICING_CPU_SLAB_SEGMENTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_SLAB_SEGMENTS_INL_H_
 #undef LAMINA_SLICING_CPU_SLAB_SEGMENTS_INL_H_
@@ -16,22 +16,22 @@
 
 LAMINA_SIMD_BEGIN
 
-// The values of a block, one vector for each slab. Slab i of a block is slab first_slab + i of the
-// view. The slabs that are `wanted` are computed run by run; a run is from .. end - 1.
+// The values of a block, a vector for each slab. Slab i is slab first_slab + i of the view. Only
+// `wanted` slabs are computed, run by run; from .. end - 1 is the present run of consecutive ones.
 struct SlabBlock {
     static constexpr std::size_t size = block_slabs * most_lanes;
-    // At the boundaries of slabs, for pre-integration.
-    alignas(64) float edge_scalars[size + most_lanes];
-    alignas(64) float scalars[size];    // in the middles of slabs
-    alignas(64) float lengths[size];    // world units
-    alignas(64) float depths[size];     // optical depths
-    alignas(64) float colors[3][size];  // not used if the plan has a single colour
-    // Front parts of light (optics/segment_integral.h) per opacity: of colours, of opacity.
+    alignas(64) float edge_scalars[size + most_lanes];  // at the boundaries of slabs
+    alignas(64) float scalars[size];                    // in the middles of slabs
+    alignas(64) float lengths[size];                    // world units
+    alignas(64) float depths[size];                     // optical depths
+    alignas(64) float colors[3][size];                  // not used if the plan has a single colour
+    // Front parts (optics/segment_integral.h) of a segment's colour and opacity, divided by its
+    // opacity, with which the light at the segment's front counts.
     alignas(64) float front_colors[3][size];
     alignas(64) float front_shares[size];
-    alignas(64) float edges[size + most_lanes];  // depths of boundaries from the block's front on
-    alignas(64) float middles[size];
-    // Optical depths for codes, which are computed in double precision.
+    alignas(64) float edges[size + most_lanes];  // depths of boundaries, from the block's front on
+    alignas(64) float middles[size];             // depths of the slabs' middles
+    // Optical depths for codes; before the extinction is known, lengths.
     alignas(64) double precise_depths[size];
     int first_slab, from, end;
     BlockMask wanted;
@@ -41,7 +41,7 @@ constexpr std::size_t at(int slab) {
     return static_cast<std::size_t>(slab) * most_lanes;
 }
 
-// Calls visit(i, effect of light at point_at(i)) for i = first .. end - 1, in stages of a few.
+// Calls visit(i, effect of light at point_at(i)) for i = first .. end - 1, a few points at a time.
 template <std::size_t channels, PointKind kind, class PointAt, class Visit>
 LAMINA_INLINE void visit_light(const CpuLight& light, const CpuBrick& brick,
                                const Float (&to_eye)[3], int first, int end,
@@ -76,6 +76,7 @@ LAMINA_INLINE void light_middle(const EffectLanes<channels>& effect, int slab, S
     }
 }
 
+// Lights a slab by the effects of light at both ends, taken as linear between them.
 template <std::size_t channels>
 LAMINA_INLINE void light_ends(const EffectLanes<channels>& front, const EffectLanes<channels>& back,
                               int slab, SlabBlock& block) {
@@ -93,9 +94,8 @@ LAMINA_INLINE void light_ends(const EffectLanes<channels>& front, const EffectLa
     }
 }
 
-// Lights the run's visible slabs, those with `shows(i)`, in their middles, or at both ends and
-// linear between them (docs/numerics.md, section 10). `middle(i)` and `edge(i)` are the points in
-// the middle of a slab and in front of it.
+// Lights slabs of the present run if shows(i), at middle(i) or, if the plan pre-integrates, at both
+// ends (docs/numerics.md, section 10). edge(i): the point on a slab's front.
 template <std::size_t channels, PointKind kind, class Middle, class Edge, class Shows>
 LAMINA_INLINE void light_slabs(const CpuSlabs& slabs, const CpuBrick& brick, const PacketRays& rays,
                                const Middle& middle, const Edge& edge, const Shows& shows,
@@ -138,7 +138,7 @@ LAMINA_INLINE void light_run(const CpuSlabs& slabs, const CpuBrick& brick, const
     light_slabs<3, kind>(slabs, brick, rays, middle, edge, shows, block);
 }
 
-// The normalised scalars of a segment. If one of them is NaN, scalars and length are 0.
+// Normalised scalars of a segment, and its length; all 0 if one is NaN and NaN is transparent.
 struct RunScalars {
     Float front, middle, back, length;
 };
@@ -154,8 +154,7 @@ LAMINA_INLINE RunScalars run_scalars(const SlabBlock& block, int i, bool nan_tra
     return run;
 }
 
-// Makes the scalar linear along the segment: both ends are moved so that its mean is the mean of
-// the parabola through the three scalars.
+// Makes the scalar linear: moves both ends to keep the mean of the parabola through all three.
 LAMINA_INLINE void straighten(RunScalars& run) {
     const Float mean = 0.5f * (run.front + run.back);
     const Float bend = 2.0f / 3.0f * (run.middle - mean);
@@ -163,8 +162,8 @@ LAMINA_INLINE void straighten(RunScalars& run) {
     run.back = clamp01(run.back + bend);
 }
 
-// Integrates in closed form if the transfer function is one linear piece, as
-// shaders/slicing/segment.glsl does.
+// Integrates a segment in closed form, for transfer functions of one linear piece, as
+// integrate_linear_run() of shaders/slicing/segment.glsl does.
 LAMINA_INLINE RunSum integrate_linear(const CpuTransfer& transfer, bool colored,
                                       const RunScalars& run) {
     constexpr Lookup one = Lookup::one;
@@ -199,9 +198,8 @@ LAMINA_INLINE void store_run(const LitSum& run, bool colored, int slab, SlabBloc
     store(run.front_share, block.front_shares + at(slab));
 }
 
-// Integrates by the table, in stages of a few slabs, so that many entries are looked up at a time.
-// A segment is invisible if the transfer function shows nothing between the least and the largest
-// of its three scalars.
+// Integrates the present run by the table, a few slabs at a time, so that many entries are looked
+// up together. A segment is invisible if nothing shows between its least and its largest scalar.
 template <Lookup kind, bool lit>
 LAMINA_INLINE void integrate_by_table(const CpuTransfer& transfer, bool colored,
                                       bool nan_transparent, SlabBlock& block) {
@@ -251,7 +249,7 @@ LAMINA_INLINE void integrate_by_table(const CpuTransfer& transfer, bool colored,
     }
 }
 
-// Integrates the whole block. Lit plans have tables.
+// Integrates the slabs of the present run, pre-integrated. Lit plans always have a table.
 template <Lookup kind>
 LAMINA_INLINE void integrate_runs(const CpuTransfer& transfer, bool colored, const SlicePlan& plan,
                                   SlabBlock& block) {
@@ -266,7 +264,7 @@ LAMINA_INLINE void integrate_runs(const CpuTransfer& transfer, bool colored, con
     }
 }
 
-// Rays with depths relative to the front of a block.
+// Rays whose depths count from the front of a block.
 struct BlockRays {
     Float base[3];
     Float enter, leave;
@@ -282,7 +280,7 @@ LAMINA_INLINE BlockRays block_rays(const CpuRays& frame, const PacketRays& rays,
     return block;
 }
 
-// Returns the depth of the boundary in front of slab i, clamped to the box.
+// Return the depth of the boundary in front of a slab, clamped to the rays' part in the box.
 LAMINA_INLINE Float boundary(const CpuRays& frame, const BlockRays& rays, int i) {
     return clamp(frame.edges[static_cast<std::size_t>(i)], rays.enter, rays.leave);
 }
@@ -303,7 +301,7 @@ LAMINA_INLINE Points point_at(const PacketRays& rays, const Float64& depth) {
     return point;
 }
 
-// Tells whether all rays are, throughout the block's slabs, inside the box and between samples.
+// Tells whether rays stay in the box and between the first and last samples in the present run.
 LAMINA_INLINE bool is_inside(const CpuRays& frame, const CpuBrick& brick, const SlabBlock& block,
                              const BlockRays& rays, const PacketRays& packet) {
     const Float front(frame.edges[static_cast<std::size_t>(block.from)]);
@@ -317,7 +315,8 @@ LAMINA_INLINE bool is_inside(const CpuRays& frame, const CpuBrick& brick, const 
     return all_of(inside);
 }
 
-// Sets lengths and, if rays leave the box or the slabs, depths. Returns the number of segments.
+// Sets lengths and, if rays are not `inside` throughout (is_inside()), the depths of boundaries and
+// middles. Returns the number of segments that have a length.
 LAMINA_INLINE std::int64_t set_lengths(const CpuRays& frame, const BlockRays& rays,
                                        Float length_per_depth, bool inside, SlabBlock& block) {
     if (inside) {
@@ -343,8 +342,7 @@ LAMINA_INLINE std::int64_t set_lengths(const CpuRays& frame, const BlockRays& ra
     return segments;
 }
 
-// Writes world lengths to precise_depths, and rounded ones to lengths. Returns the number of
-// segments that have a length.
+// Sets precise_depths to world lengths, `lengths` to them rounded. Returns how many are not 0.
 LAMINA_INLINE std::int64_t set_precise_lengths(const CpuRays& frame, const PacketRays& rays,
                                                SlabBlock& block) {
     std::int64_t segments = 0;
@@ -361,8 +359,8 @@ LAMINA_INLINE std::int64_t set_precise_lengths(const CpuRays& frame, const Packe
     return segments;
 }
 
-// Leaves out segments whose middles lie in the share of another renderer. All renderers compute the
-// same middles and the same crossings of the planes between shares, so each segment is drawn once.
+// Drops segments whose middles lie in another renderer's share: their length becomes 0. Renderers
+// compute the same middles and crossings of shares' planes, so each segment is drawn once.
 LAMINA_INLINE void keep_share(const CpuRays& frame, const PacketRays& packet, bool inside,
                               SlabBlock& block) {
     const double front = block.first_slab * frame.slab_thickness;
@@ -376,8 +374,7 @@ LAMINA_INLINE void keep_share(const CpuRays& frame, const PacketRays& packet, bo
     }
 }
 
-// Calls use(kind of points, middle, edge): middle(i) is the point in the middle of slab i, edge(i)
-// the one in front of it.
+// Calls use(kind of points, middle, edge): middle(i) is the middle of slab i, edge(i) its front.
 template <class Use>
 LAMINA_INLINE void with_points(const CpuRays& frame, const BlockRays& rays,
                                const PacketRays& packet, bool inside, const SlabBlock& block,
@@ -412,7 +409,7 @@ LAMINA_INLINE void with_precise_points(const CpuRays& frame, const PacketRays& r
     use(std::integral_constant<PointKind, PointKind::exact>(), middle, edge);
 }
 
-// Sets the optical depth of a slab; precise_depths hold its length before.
+// Set a slab's optical depth. In double precision, precise_depths holds the length before.
 LAMINA_INLINE void set_depth(Float extinction, int slab, SlabBlock& block) {
     store(extinction * load<Float>(block.lengths + at(slab)), block.depths + at(slab));
 }
@@ -421,7 +418,7 @@ LAMINA_INLINE void set_depth(const Float64& extinction, int slab, SlabBlock& blo
     store(extinction * load_float64(depth), depth);
 }
 
-// Takes over optical depths that were computed in float.
+// Copy optical depths that were computed in float to precise_depths.
 LAMINA_INLINE void set_precise_depths(int first, int end, SlabBlock& block) {
     for (int i = first; i < end; ++i)
         store(Float64(load<Float>(block.depths + at(i))), block.precise_depths + at(i));
@@ -431,6 +428,7 @@ inline void set_precise_depths(SlabBlock& block) {
                  [&](int first, int end) LAMINA_LAMBDA { set_precise_depths(first, end, block); });
 }
 
+// Sets optical depths and colours from the scalars in the middles of slabs: post-classification.
 template <bool precise, Lookup kind>
 LAMINA_INLINE void classify(const CpuTransfer& transfer, bool colored, bool nan_transparent,
                             SlabBlock& block) {
@@ -456,6 +454,7 @@ LAMINA_INLINE void classify(const CpuTransfer& transfer, bool colored, bool nan_
     }
 }
 
+// Sets optical depths and colours if the transfer function is constant over the volume.
 template <class Number>
 LAMINA_INLINE void set_constant(const CpuSlabs& slabs, Number extinction, SlabBlock& block) {
     for (int i = block.from; i < block.end; ++i) {
@@ -465,8 +464,7 @@ LAMINA_INLINE void set_constant(const CpuSlabs& slabs, Number extinction, SlabBl
     }
 }
 
-// Sets optical depths and colours of slabs from .. end - 1. Returns the number of segments that
-// have a length.
+// Sets depths and colours of the present run. Returns the number of segments with a length.
 template <bool precise>
 std::int64_t set_run(const CpuSlabs& slabs, const CpuBrickView& view, const PacketRays& packet,
                      bool colored, SlabBlock& block) {
@@ -526,8 +524,8 @@ std::int64_t set_run(const CpuSlabs& slabs, const CpuBrickView& view, const Pack
     return segments;
 }
 
-// Handles a run of slabs in a constant region: its first slab gets the optical depth of all, and
-// the others are no longer wanted.
+// Handles slabs first .. end - 1, which lie in a region of one colour and extinction: the first
+// slab gets the optical depth of all, and the others are no longer wanted.
 LAMINA_INLINE void set_constant_run(const CpuSlabs& slabs, const OpticalProperties& optics,
                                     const PacketRays& packet, bool colored, int first, int end,
                                     SlabBlock& block) {
@@ -540,8 +538,7 @@ LAMINA_INLINE void set_constant_run(const CpuSlabs& slabs, const OpticalProperti
         store(Float(static_cast<float>(optics.color[channel])), block.colors[channel] + at(first));
 }
 
-// Sets optical depths and colours of the slabs that are wanted. Returns the number of segments that
-// have a length.
+// Sets optical depths and colours of wanted slabs. Returns the number of segments with a length.
 template <bool precise>
 std::int64_t set_segments(const CpuSlabs& slabs, const CpuBrickView& brick,
                           const PacketRays& packet, bool colored, SlabBlock& block) {

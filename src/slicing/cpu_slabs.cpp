@@ -12,14 +12,13 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// Returns the depth at which a point that moves along an axis leaves the interval between two
-// places.
+// Returns the depth at which a point at `place` + depth * `change` on an axis leaves min .. max.
 double depth_of_exit(double place, double change, double min, double max) {
     if (change > 0) return (max - place) / change;
     return change < 0 ? (min - place) / change : never;
 }
 
-// Returns the number of slabs before `end` that lie wholly in front of a depth.
+// Returns the number of slabs that lie wholly in front of a depth, limited to first .. end.
 int slabs_before(double depth, double thickness, int first, int end) {
     return static_cast<int>(std::clamp(std::floor(depth / thickness), static_cast<double>(first),
                                        static_cast<double>(end)));
@@ -52,9 +51,9 @@ CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* vari
     return map;
 }
 
-// Points of one depth are linear in column and row: all lie within the reach of the corners. From
-// pixel to pixel either origins and directions change by constant steps, or directions not at all:
-// so reach is linear, too.
+// At one depth points are linear in column and row, so all lie within the distance of the corners
+// from the middle ray. From pixel to pixel origins change by a constant step, and so do directions
+// unless rays are parallel; so this distance is linear in depth.
 CpuBounds::CpuBounds(const CpuRays& rays, const CpuBrickView& brick, int column, int row,
                      int edge) {
     const double half = 0.5 * (edge - 1);
@@ -66,7 +65,7 @@ CpuBounds::CpuBounds(const CpuRays& rays, const CpuBrickView& brick, int column,
     reach_change_ = half * (glm::abs(rays.direction_column) + glm::abs(rays.direction_row));
 }
 
-// Along a ray points are linear in depth: all lie between those at the front and at the back.
+// Points of a ray are linear in depth: all lie in the box around the ends at front and back.
 bool CpuBounds::shows(const OccupiedBricks& bricks, const CpuRays& rays, int first, int end) const {
     const double front = first * rays.slab_thickness;
     const double back = end * rays.slab_thickness;

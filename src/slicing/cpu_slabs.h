@@ -14,67 +14,65 @@
 
 namespace lamina {
 
-// The way in which rays that walk from cell to cell pass the bricks of a volume (MinMaxBricks).
-// Kind 0: cell by cell. Kind r from 1 to 63: the cube of 2 r - 1 bricks around this one shows
-// nothing, and rays cross it in one step. Kind constant + r: the cube has one colour and one
+// How far a ray may leap in each min/max brick (MinMaxBricks). Kind 0: it goes cell by cell. Kind
+// r, 1 to 63: bricks whose numbers differ from its own by less than r on every axis show nothing:
+// the ray crosses this cube in one step. Kind constant + r: the cube has one colour and one
 // extinction.
 struct CellMap {
     static constexpr int constant = 128, farthest = OccupiedBricks::farthest;
 
     std::array<std::int64_t, 3> count{};  // bricks along each axis
-    // One byte a brick, x fastest. Empty if all bricks are of kind 0. They may be the distances of
-    // OccupiedBricks themselves, which nothing changes once they are measured.
+    // Kinds of bricks, x fastest; empty if all are 0. May share memory of OccupiedBricks::distance.
     SparseBytes kinds;
 };
 
-// `occupied`, `varied` (ConstantBricks): of the same bricks; null if they are not used.
+// `occupied`, `varied` (of ConstantBricks): null if empty or constant bricks are not used.
 CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* varied);
 
-// Number of slabs in a block. The coordinates of a block are floats relative to its front.
+// Slabs of a block, as many as BlockMask has bits. Coordinates in it are floats from its front on.
 inline constexpr int block_slabs = 32;
 
-// The viewing rays: the uniforms of shaders/slicing/ray.glsl. Points are in the index space of a
-// brick, and depth counts from the nearest slab's front.
+// The viewing rays of all pixels, as the uniforms of shaders/slicing/ray.glsl describe them. Points
+// are in the index space of a brick, and depth counts from the front of the nearest slab.
 struct CpuRays {
     glm::dvec3 origin_column{0}, origin_row{0};  // change per pixel to the right and downwards
     glm::dvec3 direction_middle{0}, direction_column{0}, direction_row{0};
-    double middle_column = 0, middle_row = 0;  // of the image, in pixels
-    double pixel_size = 0;                     // at depth 1; 0 if rays are parallel
+    double middle_column = 0, middle_row = 0;  // middle of the image, in pixels
+    double pixel_size = 0;                     // width at depth 1; 0 if rays are parallel
     double slab_thickness = 0;
-    int tested_slabs = 1;  // number of slabs that are tested together for being visible
-    // Depths of the boundaries of a block's slabs and of the middles between them, from the block's
-    // front on.
+    int tested_slabs = 1;  // slabs whose visibility is tested together
+    // Depths of a block's boundaries and of its slabs' middles, counted from its front.
     std::array<float, block_slabs + 1> edges{};
     std::array<float, block_slabs> middles{};
 };
 
+// A brick of the plan as one view sees it.
 struct CpuBrickView {
     CpuBrick brick;
-    glm::dvec3 origin_middle{0};          // origin of the ray through the image's middle
+    glm::dvec3 origin_middle{0};          // of the ray through the image's middle
     IndexBox box, drawn;                  // in the brick's index space
     glm::dvec3 last_face = no_last_face;  // of `box` (slicing/slab_geometry.h)
     std::vector<IndexPlane> clip;
     glm::dvec3 first{0};  // the volume's sample at the brick's origin
     double margin = 0;    // largest error of a point in float, in voxels
-    // The box that holds the middles of the segments to draw, if slabs are drawn whole
-    // (SlicePlan::share).
+    // If slabs are not clipped to SlicePlan::share: only segments with middles in here are drawn.
     std::optional<IndexBox> share;
 };
 
-// Everything that the segments of slabs depend on.
+// Everything that the tiles of a frame depend on.
 struct CpuSlabs {
     const SlicePlan* plan = nullptr;
     const CpuTransfer* transfer = nullptr;     // null if no scalar is fetched
     const OccupiedBricks* occupied = nullptr;  // null if all slabs are evaluated
     const ConstantBricks* constant = nullptr;  // null if constant bricks are not used
-    // In place of both if rays are integrated cell by cell; otherwise null.
+    // Replaces `occupied` and `constant` if rays are integrated cell by cell; otherwise null.
     const CellMap* cells = nullptr;
     const CpuLight* light = nullptr;  // null if nothing is lit
     CpuRays rays;
     std::vector<CpuBrickView> bricks;  // visible bricks, in the plan's order
     std::array<float, 3> single_color{};
     double constant_extinction = 0;
-    // Ranks of dithering, by slab modulo period.
+    // Ranks of dithering along depth (compositing/codes.h), by slab modulo period.
     std::vector<std::uint32_t> alpha_ranks, color_ranks;
 };
 
@@ -88,8 +86,7 @@ inline BlockMask block_mask(int first, int end) {
     return ~BlockMask{0} >> (block_slabs - (end - first)) << first;
 }
 
-// Calls body(first, end) for each run of bits; the first function begins with the lowest run, the
-// second with the highest.
+// Calls body(first, end) for the runs of consecutive bits first .. end - 1, from the lowest on.
 template <class Body>
 LAMINA_INLINE void for_each_run(BlockMask mask, const Body& body) {
     while (mask != 0) {
@@ -100,6 +97,7 @@ LAMINA_INLINE void for_each_run(BlockMask mask, const Body& body) {
     }
 }
 
+// Calls body(first, end) for the same runs, from the highest to the lowest.
 template <class Body>
 LAMINA_INLINE void for_each_run_backwards(BlockMask mask, const Body& body) {
     while (mask != 0) {
@@ -129,19 +127,20 @@ class SlabMask {
     BlockMask block(int number) const { return blocks_[static_cast<std::size_t>(number)]; }
 
   private:
-    // Only the blocks that were cleared are defined.
+    // Only blocks that clear() has set have a value.
     std::array<BlockMask, max_slabs / block_slabs> blocks_;
 };
 
-// Bounds on the rays of a square of pixels: on each axis they run between two straight lines.
+// Bounds on the rays of a square of pixels: on each axis all of them lie, at every depth, within a
+// distance of the middle ray that is linear in depth. They find slabs that no ray needs.
 class CpuBounds {
   public:
     CpuBounds() = default;
     // `column`, `row`: the first of edge x edge pixels.
     CpuBounds(const CpuRays& rays, const CpuBrickView& brick, int column, int row, int edge);
 
-    // Calls found(first, end) for runs of slabs among first .. end - 1, nearest first. In slabs
-    // outside these runs no ray comes near an occupied brick.
+    // Calls found(first, end) for the runs of consecutive slabs among first .. end - 1 in which a
+    // ray may come near an occupied brick, nearest first.
     template <class Found>
     void for_each_shown(const OccupiedBricks& bricks, const CpuRays& rays, int first, int end,
                         const Found& found) const {
@@ -156,30 +155,30 @@ class CpuBounds {
     glm::dvec3 middle_at(double depth) const { return middle_ + depth * middle_change_; }
 
   private:
+    // Slabs up to `end` - 1, and whether they may be visible.
     struct Stretch {
-        int end;  // slab
+        int end;
         bool shown;
     };
+    // Returns the longest run of slabs from `first` on that one test decides.
     Stretch next_stretch(const OccupiedBricks& bricks, const CpuRays& rays, int first,
                          int end) const;
+    // Tells whether a ray may come near an occupied brick in slabs first .. end - 1.
     bool shows(const OccupiedBricks& bricks, const CpuRays& rays, int first, int end) const;
 
-    // The middle ray in the volume's index space, as a linear function of depth from the nearest
-    // slab's front on.
+    // The middle ray in index space, linear in depth, which counts from the nearest slab's front.
     glm::dvec3 middle_{0}, middle_change_{0};
     // Largest distance from the middle ray, including the error of points.
     glm::dvec3 reach_{0}, reach_change_{0};
 };
 
-// Replaces a tile by the picture of a tree whose nodes are computed in float (docs/numerics.md,
-// section 4). If the root is a leaf, slabs are composited one after the other in registers. Each
-// vector of pixels goes through the whole tree by itself, nearest slab first. Returns the number of
-// segments that were evaluated.
+// Sets a tile to the picture of a compositing tree with nodes in float (docs/numerics.md, section
+// 4). Each vector of pixels goes through the tree by itself, nearest slab first; if the root is a
+// leaf, in registers. Returns the number of segments that were evaluated.
 std::int64_t march_tile(const CpuSlabs& slabs, const TreeShape& shape, const TileGrid::Tile& area,
                         TilePixels& pixels);
 
-// Composites all slabs onto a tile one after the other, in the plan's order. Returns the number of
-// segments that were evaluated, as does the next function.
+// Composites all slabs onto a tile in the plan's order. Returns the number of segments.
 std::int64_t blend_tile(const CpuSlabs& slabs, const TargetBlend& blend, const TileGrid::Tile& area,
                         TilePixels& pixels);
 

@@ -19,20 +19,21 @@
 namespace lamina {
 namespace {
 
-// Bytes kept free for pictures and their results once the volume is drawn.
+// Bytes of the memory limit that pages leave free, for pictures and their results.
 constexpr std::uint64_t kept_free = 50'000'000;
 
 constexpr std::size_t page_samples = static_cast<std::size_t>(BrickCache::sample_count);
 
-// Returns the offset of the gradients, which begin on a boundary of words of 8 bytes.
+// Returns the offset in a page of its gradients, which follow the samples, aligned to 8 bytes.
 std::size_t gradients_after(std::size_t sample_bytes) {
     return (page_samples * sample_bytes + 7) / 8 * 8;
 }
 
-// The bricks on one axis that touch a share, or a page.
+// A range of min/max bricks on one axis: first .. end - 1.
 struct BrickSpan {
     std::int64_t first, end;
 };
+// Returns the min/max bricks on an axis that touch the share; all if there is none.
 BrickSpan bricks_of(const std::optional<IndexBox>& share, int axis,
                     const OccupiedBricks& occupied) {
     const std::int64_t count = occupied.count[static_cast<std::size_t>(axis)];
@@ -45,13 +46,13 @@ BrickSpan bricks_of(const std::optional<IndexBox>& share, int axis,
             std::min(brick_at(share->max[axis]) + 1, count)};
 }
 
-// Returns for each page on one axis its bricks among those of `span`; none if first = end.
+// Returns for each page on an axis the bricks of `span` that touch it; first = end = 0 if none.
 std::vector<BrickSpan> bricks_of_pages(const BrickSpan& span, std::int64_t first_sample,
                                        std::int64_t pages) {
     std::vector<BrickSpan> bricks(static_cast<std::size_t>(pages), {0, 0});
     for (std::int64_t brick = span.first; brick < span.end; ++brick) {
         const std::int64_t begin = brick * MinMaxBricks::edge - first_sample;
-        // The outermost bricks also stand for everything beyond the samples.
+        // The outermost bricks also stand for the volume beyond its first and last sample.
         const std::int64_t from = brick == 0 ? 0 : begin / BrickCache::edge;
         const std::int64_t to = (begin + MinMaxBricks::edge) / BrickCache::edge;
         for (auto page = std::min(from, pages - 1); page <= std::min(to, pages - 1); ++page) {
@@ -63,8 +64,8 @@ std::vector<BrickSpan> bricks_of_pages(const BrickSpan& span, std::int64_t first
     return bricks;
 }
 
-// Returns how far a point lies outside each of a view's five planes: behind the eye, and beside the
-// picture's edges by a pixel and more. Below 0: inside.
+// Returns how far a point lies outside each of five planes that bound the view: that of the eye,
+// and the four sides of the picture, widened by a pixel. Negative: inside.
 std::array<double, 5> outside_of(const View& view, const glm::dvec3& point) {
     const glm::dvec3 way = point - view.eye;
     const double depth = glm::dot(way, view.forward);
@@ -113,7 +114,7 @@ CpuVolume::CpuVolume(const Volume& volume, const ValueRange& range, const SliceP
     if (!volume.in_memory()) page();
 }
 
-// Normalises as OpenGL reads codes: code / largest, int16 from 0 on.
+// Sets what normalises codes: as in OpenGL, code / largest; int16 is shifted to begin at 0.
 void CpuVolume::normalise(const ValueRange& range, CpuBrick& brick) const {
     if (brick.layout == CpuLayout::floats) return;
     const double largest = volume_.type() == SampleType::uint8 ? 255 : 65535;
@@ -133,7 +134,7 @@ void CpuVolume::copy_brick(const TextureBrick& part, CpuBrick& brick) {
     const std::int64_t words = (bytes + 3) / 4;
     auto* const copy = static_cast<std::uint32_t*>(
         copies_.emplace_back(filled_memory(4 * static_cast<std::size_t>(words))).get());
-    copy[words - 1] = 0;  // rows may end before it does
+    copy[words - 1] = 0;  // the samples may not fill the last word
     copied_bytes_ += 4 * words;
     brick.samples = copy;
     brick.last_word = static_cast<std::int32_t>(
@@ -186,8 +187,7 @@ void CpuVolume::page() {
     }
 }
 
-// Floats are normalised, and gradients lie behind the samples, so the store's own bricks cannot be
-// used.
+// Makes a cache of own pages: the store's hold neither normalised floats nor gradients.
 void CpuVolume::make_own_pages() {
     BrickCache& of_store = volume_.store().bricks();
     of_store.clear();
@@ -205,7 +205,7 @@ void CpuVolume::make_own_pages() {
     cache_ = own_cache_.get();
 }
 
-// Pages may take the memory that the limit leaves.
+// Lets the cache's pages take the memory that the limit leaves.
 void CpuVolume::share_memory(BrickCache& cache) const {
     const std::uint64_t left = memory_left() + cache.resident_bytes();
     const std::uint64_t kept = kept_free + volume_.store().source().memory();
@@ -242,7 +242,7 @@ CpuPages CpuVolume::pages_of(const TextureBrick& part) const {
     return pages;
 }
 
-// The pages of a row along x are one box.
+// Announces neighbouring pages of a row along x as one box.
 void CpuVolume::will_read(std::span<const std::uint32_t> pages) const {
     told_.resize(cache_->brick_count());
     std::vector<std::uint32_t> news;
@@ -336,7 +336,7 @@ std::vector<std::uint32_t> pages_seen(const std::vector<std::uint32_t>& pages,
         std::array<double, 5> least;
         least.fill(1);
         for (int corner = 0; corner < 8; ++corner) {
-            // One sample more on each side covers everything beyond the volume's samples.
+            // A margin of one sample covers the volume beyond its first and last sample.
             const glm::dvec3 step{corner & 1, corner >> 1 & 1, corner >> 2};
             const glm::dvec3 at = begin - 1.0 + step * double(BrickCache::edge + 2);
             const auto outside = outside_of(view, grid.to_world(at));

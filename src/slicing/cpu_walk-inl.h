@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells along the rays of a packet, front to back (Amanatides and Woo 1987; docs/numerics.md,
-// section 9.4; the number in brackets is an equation there).
+// Finds the cells along the rays of a packet, front to back (Amanatides and Woo 1987;
+// docs/numerics.md, section 9.4; the number in brackets is an equation there).
 //
 //   cell = the one in which the ray enters the box
 //   while depth < end:
@@ -11,10 +11,10 @@
 //       cell[a] = the one behind plane[a] on each axis whose plane is met at `to`
 //       depth = to
 //
-// Every crossing is computed from the plane itself, so errors do not add up. Depths are floats from
-// a beginning in double precision, which is renewed every few cells. Lit rays are walked in double
-// precision throughout: cutting light that bends changes the picture by more than a rounding, and
-// so must not depend on the beginning of the walk.
+// Every crossing is computed from the plane itself, so errors do not add up. Depths are floats that
+// count from a starting point in double precision, which is renewed every few cells. Lit rays are
+// walked in double precision throughout: where light bends, segments are cut, and a different cut
+// changes the picture by more than a rounding. So the cut must not depend on where the walk began.
 #if defined(LAMINA_SLICING_CPU_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_WALK_INL_H_
 #undef LAMINA_SLICING_CPU_WALK_INL_H_
@@ -29,16 +29,15 @@
 
 LAMINA_SIMD_BEGIN
 
-// The places at which rays enter cells, from 0 to 1, and their ways in the cells.
+// The places at which rays enter cells, 0 to 1, and the changes of place up to where they leave.
 struct CellWays {
     Float place[3], change[3];
 };
 
 // The segments of some steps of the rays of a few packets, and the results for them. In each step a
-// ray crosses one cell, or several that show nothing or are constant.
+// ray crosses one cell, or a cube of bricks that show nothing or are constant.
 struct CellSegments {
-    // Number of packets that are computed side by side, to hide the latency of their chains of
-    // operations.
+    // Packets that are computed side by side, to hide the latency of chains of operations.
     static constexpr std::size_t most_packets = 2;
     static constexpr int most_steps = 32;
     static constexpr std::size_t capacity = (most_steps * most_packets + 1) * most_lanes;
@@ -46,11 +45,10 @@ struct CellSegments {
     alignas(64) float place[3][capacity];  // CellWays
     alignas(64) float change[3][capacity];
     alignas(64) float length[capacity];        // world units
-    alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner
-    // The normalised scalar from entry to exit (9.1).
+    alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner (cell_index())
+    // The normalised scalar from entry (t = 0) to exit (t = 1), coefficients of a cubic (9.1).
     alignas(64) float cubic[4][capacity];
-    // The direction to the eye, for lit segments alone.
-    alignas(64) float to_eye[3][capacity];
+    alignas(64) float to_eye[3][capacity];  // direction to the eye, for lit segments
     // Associated colour, opacity and optical depth that the segment adds to its ray.
     alignas(64) float color[3][capacity];
     alignas(64) float opacity[capacity];
@@ -75,8 +73,8 @@ class CellWalk {
   public:
     using Depth = std::conditional_t<lit, Float64, Float>;
 
-    // Begins the rays between the depths of `span`, inside the box of a brick. `light`: for lit
-    // rays alone.
+    // Begins the walk of rays between the depths of `span`, which lie inside the brick's box.
+    // `light`: for lit rays alone.
     void begin(const CellMap& map, const CpuBrickView& view, const PacketRays& rays,
                const DepthSpan& span, const CpuLight* light) {
         map_ = map.kinds.empty() ? nullptr : &map;
@@ -97,7 +95,7 @@ class CellWalk {
         if constexpr (lit) set_eye(*light, rays, to_eye_);
     }
 
-    // Sets the end of the walk, not in front of the present depth.
+    // Sets the depth at which the walk ends, at or behind the present one.
     void set_end(const Float64& depth) { end_ = depth; }
 
     // Ends the rays whose value in `depths` is at least `limit`, until set_end() is called.
@@ -107,8 +105,8 @@ class CellWalk {
 
     bool done() const { return none_of(depth_ < end_); }
 
-    // Steps are taken between begin_steps() and end_steps(), relative to the rays' places at the
-    // first. A ray's steps do not depend on the rays beside it.
+    // Steps are taken between begin_steps() and end_steps(), in floats relative to where the rays
+    // are at begin_steps(). A ray's steps do not depend on the rays beside it.
     LAMINA_INLINE void begin_steps() {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Float64 there = rays_->origin[static_cast<int>(axis)] + depth_ * direction_[axis];
@@ -159,16 +157,15 @@ class CellWalk {
     }
 
   private:
-    // The lanes that cross a cube of bricks in one step, those whose cube shows nothing, and the
-    // bricks that the cube has on each side. A constant cube is a segment of one scalar.
+    // Rays that cross a cube of bricks in one step; a constant cube is one segment of one scalar.
     struct Leaps {
-        bool some;
-        FloatMask lanes;  // over bricks
-        FloatMask empty;  // over bricks that show nothing
-        Int reach;
+        bool some;        // if any ray leaps
+        FloatMask lanes;  // rays that leap
+        FloatMask empty;  // rays whose cube shows nothing
+        Int reach;  // bricks number - reach + 1 .. number + reach - 1 on each axis are the cube
     };
 
-    // Converts numbers to the precision of steps.
+    // Convert to the precision of steps, and from it to float.
     static LAMINA_INLINE Depth in_steps(const Float64& v) {
         if constexpr (lit)
             return v;
@@ -182,8 +179,7 @@ class CellWalk {
             return v;
     }
 
-    // Returns the cell in which the rays begin. On a plane between two cells a ray belongs to the
-    // cell that it enters.
+    // Returns the cell in which rays begin: on a plane between cells, the one that they enter.
     LAMINA_INLINE Int first_cell(int axis) const {
         const Float64 direction = direction_[static_cast<std::size_t>(axis)];
         const Float64 place = rays_->origin[axis] + depth_ * direction;
@@ -197,8 +193,7 @@ class CellWalk {
         return cell_[axis] + to_int(passed_[axis]);
     }
 
-    // Reads the map: 0 for a cell by itself, else the reach of the cube; a higher bit says that it
-    // is constant. Codes are stored with the bits of the background inverted (SparseBytes).
+    // Reads kinds of bricks (CellMap). SparseBytes stores codes with background bits inverted.
     LAMINA_INLINE Leaps leaps_here(const Int (&bricks)[3]) const {
         const auto row = static_cast<std::int32_t>(map_->count[0]);
         const auto slice = static_cast<std::int32_t>(map_->count[0] * map_->count[1]);
@@ -217,8 +212,8 @@ class CellWalk {
         return clamp(shift_right<2>(cell + first_[axis]), 0, last);
     }
 
-    // Returns the plane at which a leap ends on one axis, counted from the steps' first cell. Cubes
-    // at the volume's border go on beyond it.
+    // Returns the plane at which a leap ends on one axis, counted from cell_. Cubes that reach the
+    // volume's border go on two bricks beyond it, because the volume's box may.
     LAMINA_INLINE Float leap_plane(std::size_t axis, Int brick, Int reach) const {
         const auto count = static_cast<std::int32_t>(map_->count[axis]);
         const Int beyond(2);
@@ -230,8 +225,7 @@ class CellWalk {
         return to_float(side - (cell_[axis] + first_[axis]));
     }
 
-    // Returns the depth at which the next step ends, from the beginning of the steps, and sets the
-    // planes that it reaches.
+    // Returns where the next step ends, from begin_steps() on; sets the rays that reach each plane.
     LAMINA_INLINE Depth end_of_step(const Float (&planes)[3], FloatMask (&passes)[3]) const {
         Depth crossings[3];
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -243,6 +237,7 @@ class CellWalk {
         return to;
     }
 
+    // Stores the segments of a step. Returns the rays that have one.
     LAMINA_INLINE StoredLanes keep(const Int (&cells)[3], const Leaps& leaps, Float thickness,
                                    CellSegments& segments) const {
         const FloatMask shown = without(thickness > 0, leaps.empty);
@@ -271,7 +266,7 @@ class CellWalk {
         return lanes;
     }
 
-    // Segments beside each other mostly lie in the same cache lines.
+    // Prefetches samples of one segment in a few: neighbours' mostly share its cache lines.
     LAMINA_INLINE void prefetch(const CellSegments& segments, std::size_t from) const {
         const CpuBrick& brick = view_->brick;
         if (brick.pages != nullptr) return;
@@ -287,15 +282,14 @@ class CellWalk {
         }
     }
 
-    // Returns the rays' places from `corner` on, which is counted from the steps' first cell. It
-    // computes in double precision: after leaps the depth is large, and floats would move the rays
-    // by 2e-6 of a cell and more, which is visible on rays that graze a surface.
+    // Returns places relative to `corner`, counted from cell_. In doubles: after leaps depth is
+    // large, and floats would move rays by 2e-6 of a cell, visible where they graze a surface.
     LAMINA_INLINE Float place_in_cell(std::size_t axis, Int corner) const {
         const Float64 place = start_[axis] + Float64(at_) * direction_[axis];
         return to_float(place - Float64(corner));
     }
 
-    // Returns the cell, counted from the steps' first, in which a ray is after a step.
+    // Returns the cell, counted from cell_, in which a ray is at depth `to`.
     LAMINA_INLINE Float cell_after(std::size_t axis, const Depth& to) const {
         if constexpr (lit)
             return to_float(floor(place_[axis] + to * direction_[axis]));
@@ -303,8 +297,8 @@ class CellWalk {
             return floor(place_[axis] + to * slope_[axis]);
     }
 
-    // Enters the next cell on one axis. After a leap that is the cell at the ray's new place; it
-    // lies in the cube that was crossed, or behind the plane at which the ray leaves it.
+    // Enters the next cell on one axis: after a leap the one at the ray's new place, limited to the
+    // cube, or behind the plane if the ray leaves the cube on this axis.
     LAMINA_INLINE void advance(std::size_t axis, const Leaps& leaps, Float plane, FloatMask passes,
                                const Depth& to) {
         const FloatMask forward = forward_[axis];
@@ -329,11 +323,11 @@ class CellWalk {
     Depth inverse_[3];
     FloatMask forward_[3];  // towards larger indices
     Float to_eye_[3];       // for lit walks alone
-    // At the beginning of the steps: the cell, and the place in it.
+    // At begin_steps(): the rays' cell, and the place in it.
     Int cell_[3];
     Float64 start_[3];
     Depth place_[3];  // start_ in the precision of steps
-    // Since the beginning of the steps: cells passed, as whole numbers, and the depth.
+    // Since begin_steps(): cells passed (whole numbers), and depth.
     Float passed_[3];
     Depth at_, steps_end_;
 };

@@ -17,11 +17,10 @@ namespace {
 
 constexpr int children_unit = 5, children_alpha_unit = 6, sum_unit = 7;
 
-// Bytes below which the images of all levels stay, in bands if necessary.
+// Limit in bytes on all images; if the full height takes more, the picture is drawn in bands.
 constexpr std::int64_t image_budget = std::int64_t{1} << 28;
 
-// Tells whether an alpha code of 16 bits beside colours of 8 needs a texture of its own. Other
-// formats hold both.
+// Tells whether an alpha code of 16 bits beside colours of 8 bits needs a texture of its own.
 bool has_alpha_apart(const SlicePlan& plan) {
     return plan.target == Target::fixed8 && plan.tree->alpha_bits == 16;
 }
@@ -36,6 +35,7 @@ std::int64_t bytes_per_layer_texel(const SlicePlan& plan) {
     return info_of(color_format(plan)).bytes_per_texel + apart;
 }
 
+// Sets the definitions of shaders/slicing/node_output.glsl.
 void set_node(gl::Defines& defines, const SlicePlan& plan, NodePlace place) {
     defines.set("NODE_CODE", static_cast<int>(plan.tree->code));
     if (place == NodePlace::root) defines.set("ROOT", 1);
@@ -74,7 +74,7 @@ GlShaderTree::GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
       height_(height) {
     std::int64_t layers = 0;
     int most_layers = 0;
-    SampleSpan node = shape_.root();  // the largest of its level
+    SampleSpan node = shape_.root();  // the largest node of its level
     std::vector<int> level_layers;
     for (int level = 0; !shape_.is_marched(level, node); ++level) {
         level_layers.push_back(std::min(shape_.factor(level), node.count));
@@ -237,7 +237,7 @@ void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int layer) {
     gl::Program& program = *leaf_;
     const float share = static_cast<float>(leaf.count) / static_cast<float>(shape_.samples());
     program.set("leaf_slabs", static_cast<float>(leaf.count));
-    // A band has rows of its own in everything but the target.
+    // Only the target has rows for all bands; other images have those of one band.
     const bool whole_rows = level == 0 && !sum_;
     const int first_row = whole_rows ? 0 : band_.first_row;
     program.set("image_middle",

@@ -11,24 +11,24 @@
 
 namespace lamina {
 
-// The place of the node whose output a program of the tree writes: an inner node or the root.
+// The node whose result a program of the tree writes: an inner one or the root.
 enum class NodePlace { inner, root };
+// Return the definitions that specialise slicing/leaf.frag and slicing/node.frag for a plan.
+// `segments`: those of segment_defines().
 gl::Defines leaf_defines(const SlicePlan& plan, gl::Defines segments, NodePlace place);
 gl::Defines node_defines(const SlicePlan& plan, NodePlace place);
 
-// A compositing tree whose nodes are computed in programs, in float and with colour
-// (docs/numerics.md, section 4). Leaves march their slabs; inner nodes read their children from
-// layers of array textures. The picture is made in bands of rows, one whole tree after the other,
-// so that the images of a level need only the size of a band.
+// Draws a compositing tree whose nodes shaders compute in float, with colour (docs/numerics.md,
+// section 4). Leaves march their slabs; inner nodes read their children from layers of array
+// textures. The picture is made in bands of rows, a complete tree each, so that images are small.
 class GlShaderTree {
   public:
     // `source` and `plan` must outlive the tree. Throws Error if a level's images do not fit.
     GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
                  const Capabilities& capabilities, int width, int height);
 
-    int step_count() const { return bands() * leaf_count_; }  // steps of the progress
-    // Must be called after source and plan have changed in what belongs to one view alone. It makes
-    // other programs if the plan needs them.
+    int step_count() const { return bands() * leaf_count_; }  // steps that draw() reports
+    // Must be called after source and plan have changed in what belongs to one view alone.
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
     // Replaces the target by the picture. Ctrl-C ends it between leaves.
@@ -40,10 +40,11 @@ class GlShaderTree {
         gl::Texture color;
         std::optional<gl::Texture> alpha;
     };
-    // Some rows of the target; row 0 is at the bottom, as in OpenGL.
+    // A band of rows of the target; row 0 is at the bottom, as in OpenGL.
     struct Band {
         int first_row, rows;
     };
+    // The triangles of a leaf in one brick.
     struct LeafDraw {
         std::size_t brick;
         std::size_t first_vertex, end_vertex;
@@ -51,6 +52,7 @@ class GlShaderTree {
 
     int count_leaves(int level, const SampleSpan& node) const;
     int bands() const { return (height_ + band_rows_ - 1) / band_rows_; }
+    // Chooses the rows of a band: few enough for image_budget and for the plan's batches.
     void choose_bands(const Capabilities& capabilities, std::int64_t layers, int most_layers);
     NodePlace leaf_place() const { return images_.empty() ? NodePlace::root : NodePlace::inner; }
     void make_programs();
@@ -60,7 +62,7 @@ class GlShaderTree {
     void evaluate(int level, const SampleSpan& node, int layer);
     void draw_leaf(const SampleSpan& leaf, int level, int layer);
     void march(gl::Program& program, std::size_t leaf);
-    // Binds the output of a node of a level and clears it. The root's picture is cleared only once.
+    // Binds a node's output, and clears it unless it is the target, which draw()'s caller cleared.
     void bind_output(int level, int layer);
 
     const GlSlabSource& source_;
@@ -69,8 +71,8 @@ class GlShaderTree {
     int width_, height_, band_rows_ = 0, leaf_count_ = 0;
     gl::Defines defines_;  // of the leaves' program
     std::optional<gl::Program> leaf_, node_, root_node_, encode_;
-    std::vector<LevelImages> images_;     // images of the children of inner nodes, by level
-    std::optional<gl::Framebuffer> sum_;  // result of a leaf that spans several bricks
+    std::vector<LevelImages> images_;     // by level of the node whose children they hold
+    std::optional<gl::Framebuffer> sum_;  // sum of a leaf over several bricks
     gl::LayerFramebuffer layer_;
     gl::VertexArray vertex_array_, no_attributes_;
     gl::Buffer vertices_;

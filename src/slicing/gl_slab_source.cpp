@@ -34,8 +34,7 @@ gl::TexelBox layer_of(const TextureBrick& brick, std::int64_t z) {
         1};
 }
 
-// Uploads the brick layer by layer after converting each sample; the layer is the only copy in
-// memory.
+// Converts and uploads a brick layer by layer; only one layer is copied in memory at a time.
 template <typename Texel, typename Sample, typename Convert>
 void upload_converted(const Grid& grid, const TextureBrick& brick, const Sample* samples,
                       const Convert& convert, gl::Texture& texture, Progress& progress) {
@@ -53,7 +52,7 @@ void upload_converted(const Grid& grid, const TextureBrick& brick, const Sample*
     }
 }
 
-// Uploads the samples as they lie in memory.
+// Uploads samples from where they lie in memory, without a copy.
 template <typename Texel>
 void upload_in_place(const Grid& grid, const TextureBrick& brick, const Texel* samples,
                      gl::Texture& texture, Progress& progress) {
@@ -88,7 +87,7 @@ void upload_brick(const Volume& volume, const ValueRange& range, bool as_float,
     });
 }
 
-// Uploads layer by layer, as above.
+// Computes and uploads the gradients of a brick layer by layer.
 gl::Texture upload_gradients(const Volume& volume, const TextureBrick& brick, Progress& progress) {
     const auto row_size = static_cast<std::size_t>(brick.size[0]);
     gl::Texture texture =
@@ -109,7 +108,8 @@ gl::Texture upload_gradients(const Volume& volume, const TextureBrick& brick, Pr
     return texture;
 }
 
-constexpr int distances_unit = 8, gradients_unit = 9;  // the units of compositing lie between
+// Texture units; those between the tables and these belong to compositing.
+constexpr int distances_unit = 8, gradients_unit = 9;
 
 gl::Texture upload_distances(const OccupiedBricks& bricks) {
     const int width = static_cast<int>(bricks.count[0]), height = static_cast<int>(bricks.count[1]);
@@ -121,7 +121,7 @@ gl::Texture upload_distances(const OccupiedBricks& bricks) {
     return texture;
 }
 
-// Returns the definition of slicing/segment.glsl, which numbers them.
+// Returns the name that slicing/segment.glsl gives to a way of sampling.
 const char* sampling_define(VolumeSampling sampling) {
     switch (sampling) {
         case VolumeSampling::none:
@@ -135,7 +135,7 @@ const char* sampling_define(VolumeSampling sampling) {
     unreachable_enum();
 }
 
-// Codes of int16 are shifted to begin at 0.
+// Returns how texels become scalars. Codes of int16 are shifted to begin at 0.
 SampleCodes sample_codes(const Volume& volume, const ValueRange& range, const SlicePlan& plan) {
     if (plan.float_texture) return {};
     const double shift = volume.type() == SampleType::int16 ? 32768 : 0;
@@ -174,7 +174,7 @@ VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, co
     }
 }
 
-// Codes are those of the volume, whatever its range.
+// Textures of codes do not depend on the range, which normalises floats only.
 bool VolumeTextures::serves(const Volume& volume, const ValueRange& range,
                             const SlicePlan& plan) const {
     return volume.shares_samples(volume_) && plan.bricks == parts_ &&
@@ -315,7 +315,7 @@ void GlSlabSource::set_view(gl::Program& program, const View& view, const Slabs&
     } else {
         program.set("slab_thickness", static_cast<float>(thickness));
     }
-    // Depth in the shader is relative to the nearest slab's front.
+    // shaders/slicing/ray.glsl counts depth from the front of the nearest slab.
     const bool perspective = view.projection == Projection::perspective;
     program.set("pixel_size", perspective ? static_cast<float>(view.pixel) : 0.0f);
     const glm::dvec3 column = facts_.grid.direction_to_index(view.pixel * view.right);
@@ -352,7 +352,7 @@ void GlSlabSource::set_brick(gl::Program& program, const View& view, const Slabs
     if (plan_.occupied_only) program.set("first_sample", glm::vec3(first));
     program.set("box_min", glm::vec3(box.min - first));
     program.set("box_max", glm::vec3(box.max - first));
-    const glm::dvec3 end(glm::vec3(box.max - first));  // as the shader has it
+    const glm::dvec3 end(glm::vec3(box.max - first));  // rounded as in shaders/slicing/ray.glsl
     program.set("last_face", glm::vec3(last_face_of(end, first, facts_.grid)));
     program.set("last_sample",
                 glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));

@@ -17,14 +17,14 @@ namespace lamina {
 // The volume as 3D textures, one for each brick of the plan; for a lit plan also its gradients.
 class VolumeTextures {
   public:
-    // Samples that are not finite become NaN. Shows progress.
+    // Uploads the volume and shows progress. Samples that are not finite become NaN.
     VolumeTextures(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
-    // Tells whether it equals what the constructor would make.
+    // Tells whether this object can be used in place of a new one made from these arguments.
     bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
 
     const std::vector<gl::Texture>& bricks() const { return bricks_; }
-    // as shaders/volume/gradient.glsl reads them; empty if the plan is not lit
+    // Returns the gradients that shaders/volume/gradient.glsl reads; empty if the plan is not lit.
     const std::vector<gl::Texture>& gradients() const { return gradients_; }
 
   private:
@@ -35,21 +35,19 @@ class VolumeTextures {
     std::vector<gl::Texture> bricks_, gradients_;
 };
 
-// Texels hold codes / largest. A scalar, with `range` as [0, 1], is (code - base) * scale. The
-// codes of floats are scalars themselves.
+// How texels become scalars. A texel is code / largest, and the scalar, normalised so that the
+// drawn range is [0, 1], is (code - base) * scale. The codes of floats are normalised scalars.
 struct SampleCodes {
     double largest = 1, base = 0, scale = 1;
 };
 
-// Returns the definitions that specialise slicing/segment.glsl. They depend on the plan and on the
-// sizes of its tables.
+// Returns the definitions that specialise slicing/segment.glsl for a plan and its tables' sizes.
 gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes);
 
-// The data that the fragments of a slab read (slicing/segment.glsl): the volume, the transfer
-// function, and the viewing rays.
+// The data that fragments of slabs read (slicing/segment.glsl): volume, transfer function, rays.
 class GlSlabSource {
   public:
-    // First free texture unit.
+    // First of the texture units, up to 7, that this object leaves to compositing.
     static constexpr int first_free_unit = GlTransferTables::first_free_unit + 1;
 
     // Uploads the volume unless `ready` can be used, and builds the tables. The transfer function
@@ -58,22 +56,21 @@ class GlSlabSource {
                  const Facts& facts, const SlicePlan& plan,
                  std::shared_ptr<const VolumeTextures> ready);
 
-    // Takes, for further frames, a plan that differs only in what belongs to one view.
+    // Replaces the plan, for further frames, by one that differs only in what belongs to one view.
     void take_plan(const SlicePlan& plan);
     gl::Defines defines() const;
 
-    // Set the uniforms of a program: bind() those that never change, set_view() those of a view,
-    // and set_brick() those of one of the plan's bricks.
+    // Set a program's uniforms: those that never change, those of a view, those of a plan's brick.
     void bind(gl::Program& program) const;
     void set_view(gl::Program& program, const View& view, const Slabs& slabs) const;
     void set_brick(gl::Program& program, const View& view, const Slabs& slabs,
                    std::size_t brick) const;
 
-    // Returns the box of a brick that is drawn in this plan, in index space.
+    // Returns the part of a brick's box that the plan draws, in index space.
     IndexBox drawn_box(std::size_t brick) const;
     const Grid& grid() const { return facts_.grid; }
     const glm::vec3& single_color() const { return single_color_; }
-    // Returns the textures; if no scalar is fetched, those of another renderer, or null.
+    // Returns the textures; if the plan fetches no scalar, the constructor's `ready`, or null.
     std::shared_ptr<const VolumeTextures> volume() const { return volume_; }
     double upload_ms() const { return upload_ms_; }
     double table_ms() const { return table_ms_; }
@@ -88,11 +85,11 @@ class GlSlabSource {
     SlicePlan plan_;
     ValueRange range_;  // scalars that become [0, 1] in shaders
     glm::vec3 single_color_{0};
-    OpticalProperties constant_;              // if no scalar is fetched
-    std::optional<GlTransferTables> tables_;  // if scalars are fetched
+    OpticalProperties constant_;              // used if no scalar is fetched
+    std::optional<GlTransferTables> tables_;  // set if scalars are fetched
     std::shared_ptr<const VolumeTextures> volume_;
     SampleCodes codes_;
-    std::optional<gl::Texture> distances_;  // of OccupiedBricks, once a plan leaps by them
+    std::optional<gl::Texture> distances_;  // of OccupiedBricks, set if a plan leaps by them
     double upload_ms_ = 0, table_ms_ = 0;
 };
 

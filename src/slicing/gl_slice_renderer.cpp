@@ -16,7 +16,7 @@ namespace lamina {
 namespace {
 
 constexpr int ranks_unit = GlSlabSource::first_free_unit;
-constexpr int ranks_width = 256;  // of shaders/slicing/slab.vert
+constexpr int ranks_width = 256;  // ranks in a row, as shaders/slicing/slab.vert reads them
 
 gl::Texture upload_ranks(const Dither& dither) {
     std::vector<float> ranks;
@@ -163,7 +163,7 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
     }
 }
 
-// Nothing was made if nothing was visible.
+// A renderer of a plan with nothing visible has no source, and can only take such plans.
 bool GlSliceRenderer::take(const Plan& plan) {
     const SlicePlan& slice = plan.slice;
     if ((!source_ && !slice.nothing_visible) || of_all_views(slice) != of_all_views(plan_))
@@ -210,7 +210,7 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     gl::check("drawing the slabs");
 }
 
-// Draws plan_.batches times an equal number of slabs, and waits for each.
+// Draws the slabs in plan_.batches equal batches, and waits for each.
 void GlSliceRenderer::draw_straight(Progress* progress) {
     const SampleSpan all{0, plan_.slabs};
     for (int batch = 0; batch < plan_.batches; ++batch) {

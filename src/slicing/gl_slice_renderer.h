@@ -11,15 +11,14 @@ namespace lamina {
 // Returns the definitions that specialise slicing/slab.frag, added to those of its segments.
 gl::Defines slab_defines(const SlicePlan& plan, gl::Defines segments);
 
-// Composites slab after slab onto a target: a whole picture, or a leaf of a tree of fixed-point
-// nodes. For a leaf it composites opacity alone, in one channel.
+// Composites slab after slab onto a target: all slabs for the picture, or those of a leaf of a tree
+// of fixed-point nodes. For a leaf it composites opacity alone, in one channel.
 class GlSlabPass : public TreeLeaves {
   public:
     // `source` and `plan` must outlive the pass.
     GlSlabPass(const GlSlabSource& source, const SlicePlan& plan, int image_height);
 
-    // Must be called after source and plan have changed in what belongs to one view alone. It makes
-    // another program if the plan needs one.
+    // Must be called after source and plan have changed in what belongs to one view alone.
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
     // Composites slabs onto the target, in the plan's order. `depth_scale`: for a leaf, the number
@@ -43,20 +42,18 @@ class GlSlabPass : public TreeLeaves {
     Slabs slabs_;
     std::vector<SlabVertex> triangles_;
     std::vector<std::size_t> bricks_;  // in drawing order
-    std::vector<std::size_t> starts_;  // slabs + 1 for each brick: see append_slab_polygons()
+    std::vector<std::size_t> starts_;  // by brick: `starts` of append_slab_polygons()
 };
 
-// Uploads vertices for the attributes 0 (position) and 1 (slab). If they do not fit, the buffer
-// grows.
+// Uploads vertices for attributes 0 (position) and 1 (slab). The buffer grows if they do not fit.
 void upload_vertices(const std::vector<SlabVertex>& triangles, gl::Buffer& buffer,
                      gl::VertexArray& vertex_array);
 
 // Draws a volume as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlSliceRenderer : public SliceRenderer {
   public:
-    // Uploads the volume, builds the tables and compiles the programs that the context lacks;
-    // errors of OpenGL are Errors. `ready`: volume() of another renderer, which is used if it has
-    // the right form.
+    // Uploads the volume, builds the tables and compiles programs; errors of OpenGL are Errors.
+    // `ready`: volume() of another renderer, which is used if it has the right form.
     GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                     const Facts& facts, const SlicePlan& plan, const Capabilities& capabilities,
                     int width, int height, std::shared_ptr<const VolumeTextures> ready = nullptr);
@@ -81,14 +78,14 @@ class GlSliceRenderer : public SliceRenderer {
     SlicePlan plan_;
     Grid grid_;
     gl::Framebuffer target_;
-    // All are empty if nothing is visible. Otherwise there are slabs, which are blended directly or
-    // are the leaves of a tree of fixed-point nodes, or there is a tree that marches the slabs.
+    // Empty if nothing is visible. Otherwise either shader_tree_ marches the slabs itself, or
+    // slabs_ are blended onto the target or are the leaves of fixed_tree_.
     std::optional<GlSlabSource> source_;
     std::optional<GlSlabPass> slabs_;
     std::optional<GlFixedTree> fixed_tree_;
     std::optional<GlShaderTree> shader_tree_;
     gl::Timeline timeline_;
-    std::shared_ptr<const VolumeTextures> kept_;  // for another renderer if this one needs none
+    std::shared_ptr<const VolumeTextures> kept_;  // for another renderer, if nothing is visible
     double geometry_ms_ = 0, draw_ms_ = 0;        // of the last frame
 };
 

@@ -13,15 +13,15 @@
 namespace lamina {
 namespace {
 
-// Lengths of gradients beyond which all or nothing is lit, whatever gradient light may ask about
-// (Lighting::least_gradient).
+// Lengths beyond which nothing or everything is lit, whatever Lighting::least_gradient asks for.
 constexpr double least_length = 1e-280, largest_length = 1e280;
 constexpr int exponent_bias = 1023, mantissa_bits = 52;  // of doubles
 
+// Computes gradients as differences of neighbouring samples.
 template <typename Sample>
 class Differences {
   public:
-    // `window`: holds the samples that are asked for and their neighbours in the volume.
+    // `window`: must hold the samples that at() is called for, and their neighbours in the volume.
     Differences(const Grid& grid, const SampleWindow<Sample>& window)
         : samples_(window.samples),
           first_(window.box.first),
@@ -31,7 +31,7 @@ class Differences {
             per_step_[axis] = 1 / glm::length(grid.step[axis]);
     }
 
-    // Returns the gradient at a sample; beyond the last samples the border's repeats.
+    // Returns the gradient at a sample along the grid's axes; beyond the volume the border's.
     std::array<double, 3> at(std::array<std::int64_t, 3> index) const {
         std::int64_t offset = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -45,7 +45,7 @@ class Differences {
     }
 
   private:
-    // The difference is one-sided next to samples that are outside or not finite.
+    // Returns the central difference; one-sided if a neighbour is missing or not finite.
     double difference(std::int64_t offset, std::int64_t index, std::size_t axis) const {
         const Sample* const here = samples_ + offset;
         const std::int64_t step = stride_[axis];
@@ -75,7 +75,7 @@ StoredGradient store_gradient(const std::array<double, 3>& gradient) {
     largest = std::min(largest, largest_length);
     const int octave =
         static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> mantissa_bits) - exponent_bias;
-    // The largest component is 2^14 up to 2^15, which int16 cannot hold.
+    // So the largest component is 2^14 to 2^15; clamped, as it may round to 2^15, beyond int16.
     const int exponent = octave - 14;
     const double scale = std::bit_cast<double>(static_cast<std::uint64_t>(exponent_bias - exponent)
                                                << mantissa_bits);

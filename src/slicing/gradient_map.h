@@ -12,10 +12,9 @@
 
 namespace lamina {
 
-// A gradient as light needs it: its direction, and its length in a range without ends, so that
-// values that mean "nothing" (1e36) take no digits of those beside them. It is component *
-// 2^exponent, in scalar units per world unit. The largest component has 15 bits: each is off by at
-// most 2^-15 of it.
+// A gradient as lighting needs it: component * 2^exponent, in scalar units per world unit. Lengths
+// have the range of double, so that sentinel values (1e36) beside a sample do not cost digits. The
+// largest component has 15 bits, so each is off by at most 2^-15 of it.
 struct StoredGradient {
     std::array<std::int16_t, 3> component{};
     std::int16_t exponent = no_exponent;
@@ -28,19 +27,18 @@ static_assert(sizeof(StoredGradient) == 8);
 
 StoredGradient store_gradient(const std::array<double, 3>& gradient);
 
-// Sets the gradients at the samples of row (y, z) of a brick (docs/numerics.md, section 10), along
-// the grid's axes, which are orthogonal: lights are turned into them. `row`: part.size[0]
-// gradients.
+// Sets the gradients at the samples of row (y, z) of a plan's brick (docs/numerics.md, section 10),
+// along the grid's orthogonal axes; lights are rotated into these. `row`: part.size[0] gradients.
 void set_gradient_row(const Volume& volume, const TextureBrick& part, std::int64_t y,
                       std::int64_t z, std::span<StoredGradient> row);
 
-// Sets the gradients of a brick of BrickCache: BrickCache::samples along each axis from `first` on,
-// from a window that holds one sample more on each side, if the volume has one.
+// Sets the gradients of a page, a brick of BrickCache: BrickCache::samples along each axis from
+// `first` on. `window` must hold one sample more on each side, if the volume has one.
 template <typename Sample>
 void set_page_gradients(const Grid& grid, const SampleWindow<Sample>& window,
                         const std::array<std::int64_t, 3>& first, StoredGradient* to);
 
-// Returns the gradients of all samples of a brick, x fastest.
+// Returns the gradients at all samples of a brick of the plan, x fastest.
 std::vector<StoredGradient> make_gradient_map(const Volume& volume, const TextureBrick& part);
 
 }  // namespace lamina

@@ -14,20 +14,20 @@
 namespace lamina {
 namespace {
 
-// Margin for the roundings of rays and boxes to float, which are far smaller.
+// Pixels that pixels_of() adds on each side, against the far smaller roundings to float.
 constexpr double box_margin_pixels = 1;
 
-// Share of the farthest corner's depth: corners nearer to the eye's plane count as behind it.
+// Share of the farthest corner's depth below which pixels_of() takes a corner as behind the eye.
 constexpr double nearest_share = 1e-6;
 
 int clamped(double place, int size) {
     return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(size)));
 }
 
-// Grid to which vertices are rounded. Rasterisers snap vertices to a grid (llvmpipe and most GPUs:
-// 1/256 pixel), which can turn a convex polygon into one whose triangles overlap, so that a pixel
-// gets its slab twice. So the corners are put on that grid here, and the convex hull of the result
-// is drawn. The polygon is a margin larger than needed; snapping takes 1/512 of a pixel of it.
+// Rasterisers (llvmpipe, most GPUs) snap vertices to a grid of 1/256 pixel, which can make the
+// triangles of a convex polygon overlap, so that a pixel gets its slab twice. So SlabCutter puts
+// corners on the grid itself, and draws the convex hull of the result. The polygon is larger than
+// needed by a margin, of which snapping takes up to 1/512 pixel.
 constexpr double grid_per_pixel = 256;
 constexpr double margin_pixels = 1.0 / 16;
 // Share of a slab's far depth: a slab that begins nearer to the eye's plane is drawn over the whole
@@ -40,7 +40,7 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Andrew's monotone chain; `points` are sorted in place.
+// Sets `hull` to the convex hull of points, by Andrew's monotone chain. Sorts `points`.
 void convex_hull(Polygon& points, Polygon& hull) {
     std::sort(points.begin(), points.end(), [](const glm::dvec2& a, const glm::dvec2& b) {
         return a.x < b.x || (a.x == b.x && a.y < b.y);
@@ -61,7 +61,7 @@ void convex_hull(Polygon& points, Polygon& hull) {
     add_chain(points.rbegin(), points.rend());
 }
 
-// Sutherland-Hodgman against one side: keeps the part with sign * coordinate >= sign * limit.
+// Clips to sign * coordinate >= sign * limit (Sutherland and Hodgman). `kept`: memory to work in.
 void clip_side(Polygon& polygon, Polygon& kept, int axis, double sign, double limit) {
     kept.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -75,6 +75,7 @@ void clip_side(Polygon& polygon, Polygon& kept, int axis, double sign, double li
     std::swap(polygon, kept);
 }
 
+// Finds the polygons that slabs of a box cover in the picture.
 class SlabCutter {
   public:
     SlabCutter(const View& view, const Grid& grid, const IndexBox& box) : view_(view) {
@@ -116,8 +117,8 @@ class SlabCutter {
     }
 
   private:
-    // Collects corners between the depths and crossings of the edges with both planes, in view
-    // coordinates.
+    // Collects the corners of the convex body between two depths: the box's corners there, and the
+    // points where its edges cross the two planes; in view coordinates.
     void collect_points(double front, double back) {
         space_.clear();
         for (const glm::dvec3& corner : corners_) {
@@ -138,7 +139,8 @@ class SlabCutter {
         points_.resize(space_.size());
     }
 
-    // Cross products of grid numbers are exact in double: the hull is strictly convex.
+    // Rounds the polygon to the grid and takes its convex hull. Cross products of grid numbers are
+    // exact in double, so the hull is strictly convex.
     void snap_to_grid() {
         points_.clear();
         for (const glm::dvec2& point : polygon_)
@@ -165,6 +167,7 @@ class SlabCutter {
     Polygon points_, polygon_;
 };
 
+// Appends a convex polygon as a fan of triangles.
 void append_fan(const Polygon& polygon, int slab, std::vector<SlabVertex>& triangles) {
     const auto vertex = [&](std::size_t corner) {
         return SlabVertex{static_cast<float>(polygon[corner].x),
@@ -194,7 +197,7 @@ IndexBox box_of(const TextureBrick& brick, const Grid& grid) {
 
 glm::dvec3 last_face_of(const glm::dvec3& end, const glm::dvec3& first, const Grid& grid) {
     const glm::dvec3 border(
-        glm::vec3(grid.index_max() - first));  // boxes are rounded to float, too
+        glm::vec3(grid.index_max() - first));  // in float, because boxes are rounded to float, too
     glm::dvec3 face = no_last_face;
     for (int axis = 0; axis < 3; ++axis) {
         if (end[axis] >= border[axis]) face[axis] = border[axis];
@@ -214,17 +217,16 @@ BrickRow row_of(const TextureBrick& brick, const Grid& grid, std::int64_t y, std
 
 void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
                           const View& view, Order order, std::vector<std::size_t>& numbers) {
-    const auto& first = bricks.front().first;  // of all
+    const auto& first = bricks.front().first;  // of all bricks
     const glm::dvec3 eye = grid.to_index(view.eye) - glm::dvec3(first[0], first[1], first[2]);
     const glm::dvec3 forward = grid.direction_to_index(view.forward);
-    // Along a ray no brick number ever goes back towards the eye's own on any axis, and each step
-    // into another brick changes one of them: so the sum over the axes of the distances in bricks
-    // orders them. For parallel rays the distance along an axis counts in the direction of the
-    // view.
+    // A ray that enters another brick moves away from the eye's by one brick on one axis, and never
+    // towards it. So bricks along a ray are ordered by the sum over the axes of the distance in
+    // bricks from the eye's; for parallel rays it counts in the direction of view.
     const auto distance_of = [&](std::size_t i) {
         double distance = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            // The first brick has the full size; all begin at multiples of its cells.
+            // The first brick is of full size, and all begin at multiples of its cells.
             const double cells =
                 std::max<double>(1, static_cast<double>(bricks.front().size[axis] - 1));
             const double number = static_cast<double>(bricks[i].first[axis] - first[axis]) / cells;
@@ -238,7 +240,7 @@ void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& g
     };
     numbers.resize(bricks.size());
     std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-    // std::stable_sort would take memory.
+    // std::stable_sort would allocate memory, so ties are broken by number.
     std::sort(numbers.begin(), numbers.end(), [&](std::size_t a, std::size_t b) {
         const double one = distance_of(a), other = distance_of(b);
         return one < other || (one == other && a < b);
@@ -255,7 +257,7 @@ PixelBox PixelBox::common(const PixelBox& other) const {
             std::max(first_row, other.first_row), std::min(end_row, other.end_row)};
 }
 
-// A convex body in front of the eye appears between its corners.
+// The picture of a box in front of the eye lies inside the rectangle around its corners' pixels.
 PixelBox pixels_of(const IndexBox& box, const Grid& grid, const View& view) {
     constexpr double far = std::numeric_limits<double>::infinity();
     glm::dvec3 ways[8];

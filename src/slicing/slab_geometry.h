@@ -18,21 +18,21 @@
 
 namespace lamina {
 
-// Returns the box of index space that a brick draws: that of its samples and, at the volume's
-// border, everything beyond them.
+// Returns the box of the volume's index space that a brick of the plan draws: that of its samples
+// and, at the volume's border, everything beyond them.
 IndexBox box_of(const TextureBrick& brick, const Grid& grid);
 
-// A place beyond all others, as a float, which shaders get.
+// A coordinate beyond all others, the largest float: it says that a box has no last face.
 inline constexpr glm::dvec3 no_last_face{double{std::numeric_limits<float>::max()}};
 
-// Returns the last face of a part of the volume on each axis, in the part's own index space, if the
-// volume ends there; else no_last_face. `end`: the part's largest coordinates. The volume's box is
-// closed: rays that run in its faces are inside, as in the reference tracer. Rays in a face between
-// two parts belong to the part that begins there.
+// Returns the last face (largest coordinate) of a brick on each axis, in its own index space, if
+// the volume ends there, else no_last_face. `end`: its largest coordinates; `first`: the sample at
+// its origin. The volume's box is closed: rays in its faces are inside, as in the reference tracer.
+// Rays in a face between two bricks belong to the one that begins there.
 glm::dvec3 last_face_of(const glm::dvec3& end, const glm::dvec3& first, const Grid& grid);
 
-// A row of a brick along x. Places begin .. end - 1 hold the volume's own samples, from number
-// `first` on. Other places repeat the nearest of these.
+// A row of a brick along x. Its samples begin .. end - 1 are samples of the volume, from number
+// `first` on; the others repeat the nearest of these.
 struct BrickRow {
     std::size_t first;
     std::int64_t begin, end;
@@ -45,12 +45,11 @@ struct BrickRow {
 };
 BrickRow row_of(const TextureBrick& brick, const Grid& grid, std::int64_t y, std::int64_t z);
 
-// Sorts the indices of `bricks` so that along every ray the bricks come in the plan's order. It
-// takes memory only if `numbers` is not yet large enough.
+// Sets `numbers` to bricks' indices, in `order` along every ray; allocates only if it is too small.
 void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
                           const View& view, Order order, std::vector<std::size_t>& numbers);
 
-// Pixels of a picture.
+// A rectangle of pixels; end_column and end_row are not part of it.
 struct PixelBox {
     int first_column = 0, end_column = 0, first_row = 0, end_row = 0;
 
@@ -65,8 +64,7 @@ struct PixelBox {
 // Returns the pixels whose rays meet a box of the grid's index space, and some around them.
 PixelBox pixels_of(const IndexBox& box, const Grid& grid, const View& view);
 
-// N slabs of equal thickness perpendicular to the view direction. Slab 0 is the nearest to the eye.
-// Depths are eye-space z.
+// Equally thick slabs perpendicular to the view direction, nearest first. Depths: eye-space z.
 struct Slabs {
     double near = 0;
     double far = 0;
@@ -84,16 +82,14 @@ struct SlabVertex {
     float slab;
 };
 
-// Appends triangles for each slab. They cover every pixel whose ray meets `box` (index space)
-// inside the slab, and each pixel centre lies in at most one triangle of a slab. They may cover a
-// little more, because the fragment's own ray decides. `starts`, if given, gets the number of
-// vertices before each slab, in drawing order, and after the last one.
+// Appends each slab's triangles, in drawing order. They cover every pixel whose ray meets `box`
+// (index space) in the slab, once each, and maybe more: the fragment's own ray decides. `starts`,
+// if given, gets the number of vertices before each slab and, last, of all.
 void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& box,
                           const Slabs& slabs, Order order, std::vector<SlabVertex>& triangles,
                           std::vector<std::size_t>* starts = nullptr);
 
-// Appends one polygon around several slabs together. Its corners carry the number of the first
-// slab.
+// Appends a polygon around several slabs; its corners carry the number of the first.
 void append_span_polygon(const View& view, const Grid& grid, const IndexBox& box,
                          const Slabs& slabs, const SampleSpan& span,
                          std::vector<SlabVertex>& triangles);

@@ -21,8 +21,8 @@
 namespace lamina {
 namespace {
 
-// The search for the fewest slabs whose picture keeps the goal, max_error minus all other errors
-// (slab_error_goal()):
+// Limits of the search for the fewest slabs whose picture keeps the goal: max_error minus all other
+// errors (slab_error_goal()). The search:
 //
 //   too few = 0, enough = none
 //   until most_trials pictures are drawn, or nothing lies between too few and enough:
@@ -35,36 +35,38 @@ namespace {
 // Large pictures are searched on first_rays rays, and from there on most_rays. If errors are not of
 // second order, fewer slabs (`fewer`) are tried at the end: they may keep the goal by chance.
 struct TrialLimits {
-    static constexpr int most_trials = 8;  // pictures of a search
+    static constexpr int most_trials = 8;  // pictures in one search
     static constexpr double most_slabs_per_voxel = 16;
-    // Largest number of slabs, at least: volumes of few voxels along the view may have kinks, too.
+    // Lower bound of the largest number: volumes of few voxels along the view may have kinks, too.
     static constexpr int fewest_most_slabs = 1024;
 
     static constexpr double aim = 0.9;  // share of the goal that is aimed at
-    // Share of the goal that ends a search: of small pictures, and of large ones, whose trials cost
-    // more than some slabs gain.
+    // A search ends when the error is at least this share of the goal: in small pictures, and in
+    // large ones, whose trials cost more time than fewer slabs save.
     static constexpr double near_aim_of_small = 0.78, near_aim_of_large = 0.6;
-    static constexpr double most_growth = 4;   // slabs of a trial over those of the last
-    static constexpr double still_left = 0.7;  // share of the error that means no help
-    // Share of the goal below which an error is no measure of the next number of slabs.
+    static constexpr double most_growth = 4;  // slabs of a trial over those of the one before
+    // If twice the slabs leave more than this share of the error, more slabs do not help.
+    static constexpr double still_left = 0.7;
+    // Errors below this share of the goal do not tell how many slabs are needed.
     static constexpr double unbelievable = 1e-3;
-    // Ratio of the error on rays to that of pictures above which the trial is doubtful: errors are
-    // not those of second order alone.
+    // If the error on traced rays is more than this ratio times that between pictures, the trial is
+    // doubtful: errors are not of second order alone.
     static constexpr double most_doubt = 1.1;
-    // Shares of the number of slabs that was found.
+    // Numbers of slabs that are tried last, as shares of the number that was found.
     static constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
 
     // Numbers of rays. Pictures of at most all_traced_rays (330 x 248) are compared with the tracer
-    // on each of them; of larger ones some_traced_rays are traced, for a fifth of the time that the
-    // pictures of a usual search take.
+    // in every pixel. Of larger ones some_traced_rays are traced, which takes a fifth of the time
+    // of a usual search's pictures.
     static constexpr double all_traced_rays = 5 << 14;
     static constexpr std::size_t some_traced_rays = 3 << 12;
     static constexpr double first_rays = 1 << 13, most_rays = 1 << 20, filter_rays = 1 << 17;
 
-    // The tracer's tolerance: this share of max_error, within limits that are worth their time.
+    // The tracer's tolerance as a share of max_error, and limits within which finer is worth it.
     static constexpr double tracer_share = 0.01, finest_tolerance = 1e-8, coarsest_tolerance = 1e-4;
 
-    // Ratio of the slabs of the finer picture to those of a trial: when it is drawn, and at least.
+    // Ratios of the finer picture's slabs to those of a trial: with which it is drawn, and down to
+    // which it is used for further trials.
     static constexpr int finer = 3;
     static constexpr double fine_enough = 2;
 };
@@ -73,8 +75,8 @@ double rays_of(const Scene& scene) {
     return static_cast<double>(scene.width) * scene.height;
 }
 
-// Pictures of different numbers of slabs, with at most `rays` rays. `last`: no search with more
-// rays follows.
+// Draws and judges pictures with different numbers of slabs and at most `rays` rays. `last`: no
+// search with more rays follows.
 class SlabTrials {
   public:
     SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
@@ -98,6 +100,7 @@ class SlabTrials {
                   .lighting = scene.lighting,
                   .clip = half_spaces(scene.clip)}) {}
 
+    // Searches from `slabs` on. Returns all trials in order.
     std::vector<SlabTrial> run(int slabs, Filter filter) {
         const double near_aim =
             all_traced_ ? TrialLimits::near_aim_of_small : TrialLimits::near_aim_of_large;
@@ -114,7 +117,7 @@ class SlabTrials {
             (kept ? enough : too_few) = slabs;
             if (kept && (trial.error >= near_aim * trial.goal || shows_too_little(trial))) break;
             if (!kept) error_of_too_few = trial.error;
-            // The error falls with the square of the number, unless there are steps.
+            // The error falls with the slabs' square, unless the transfer function has steps.
             const double next =
                 std::ceil(slabs * std::sqrt(trial.error / (TrialLimits::aim * trial.goal)));
             slabs =
@@ -123,11 +126,12 @@ class SlabTrials {
         return trials;
     }
 
-    // Tries two slabs a voxel, if more do not help.
+    // Tries two slabs a voxel: what is used if more slabs do not help.
     SlabTrial try_two_a_voxel() {
         return try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact);
     }
 
+    // Tries smaller numbers, which may keep the goal by chance, until one does.
     void try_fewer(int enough, std::vector<SlabTrial>& trials) {
         for (const double share : TrialLimits::fewer) {
             const int slabs = static_cast<int>(std::ceil(share * enough));
@@ -138,15 +142,15 @@ class SlabTrials {
 
     std::shared_ptr<const CpuVolume> ready() const { return ready_; }
 
-    // Returns the error of the weights alone.
+    // Returns the error that the texture units' 8-bit weights alone cause.
     SlabTrial try_filter(int slabs) {
         const Image exact = draw(slabs, Filter::exact, {});
         return trial_of(slabs, image_error(draw(slabs, Filter::hardware, {}), exact).all.linf);
     }
 
   private:
-    // Tells whether rays that may cross a point of the transfer function have an error near 0: it
-    // means that they met no point, not that fewer slabs are enough.
+    // Tells whether the error is near 0 although rays may cross a point of the transfer function.
+    // Then they have missed it, and the error does not mean that fewer slabs are enough.
     bool shows_too_little(const SlabTrial& trial) const {
         return facts_.knots > 0 && trial.error < TrialLimits::unbelievable * trial.goal;
     }
@@ -185,7 +189,7 @@ class SlabTrials {
         const Image picture = draw(slabs, filter, {});
         if (truth_.empty())
             truth_.trace_some(TrialLimits::some_traced_rays, picture, *fine_, points_cover());
-        // The finer picture has the share (slabs / fine_slabs_)^2 of the error, too.
+        // The finer picture itself has (slabs / fine_slabs_)^2 of the trial's error.
         const double share = static_cast<double>(slabs) / fine_slabs_;
         const double shown = image_error(picture, *fine_).all.linf / (1 - share * share);
         const double traced = truth_.error_of(picture);
@@ -229,7 +233,7 @@ class SlabTrials {
     const MinMaxBricks& bricks_;
     Facts facts_;
     TableCache& tables_;
-    std::shared_ptr<const CpuVolume> ready_;  // of the pictures before
+    std::shared_ptr<const CpuVolume> ready_;  // the volume that earlier pictures prepared
     int most_;
     bool all_traced_;
     TrialTruth truth_;
@@ -241,8 +245,8 @@ bool some_keep_goal(const std::vector<SlabTrial>& trials) {
     return std::ranges::any_of(trials, &SlabTrial::keeps_goal);
 }
 
-// Tries up to `most` slabs. A number that is right by chance on some rays may be wrong on others:
-// so fewer slabs are tried for all rays only.
+// Tries up to `most` slabs. Smaller numbers, which are right only by chance (try_fewer()), are
+// tried only if all rays are traced: on other rays they may be wrong.
 std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
                                    const MinMaxBricks& bricks, const Facts& facts, int most,
                                    TableCache& tables) {
@@ -271,7 +275,7 @@ int most_slabs(const Facts& facts) {
                       TrialLimits::fewest_most_slabs, max_slabs / TrialLimits::finer);
 }
 
-// Returns nothing if exact segments are as quick.
+// Returns trials of post-classified slabs, if quicker than exact segments within the goal.
 std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
                                    const MinMaxBricks& bricks, const Facts& facts,
                                    TableCache& tables) {
@@ -282,7 +286,7 @@ std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
     return trials;
 }
 
-// Texture units differ in their filtering of NaN.
+// Tells whether texture units' filter may be chosen; not with NaN, which they filter differently.
 bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
     return scene.slice.filter.is_automatic() && capabilities.eight_bit_filter &&
            facts.non_finite == 0 && !facts.constant;

@@ -20,12 +20,12 @@
 namespace lamina {
 namespace {
 
-// A quarter of a brick's edge: testing smaller steps would leave out little more.
+// Length in voxels of slabs whose visibility is tested together; shorter ones find little more.
 constexpr double tested_voxels = MinMaxBricks::edge / 4.0;
 
-// Returns the largest error of a point: four roundings to float32 of points that lie at most five
-// times the brick's size from its first sample, as those of a block of slabs that begins before the
-// box: 1.2e-6 of it. Cells are found by these points.
+// Returns the margin in voxels within which empty slabs are found: .01 and the largest error of a
+// point, 1.2e-6 of the brick's size, from four roundings to float32 of coordinates of at most five
+// times the size, as in a block of slabs that begins in front of the box.
 double point_margin(const TextureBrick& part) {
     const std::int64_t size = *std::ranges::max_element(part.size);
     return 0.01 + 2e-6 * static_cast<double>(size);
@@ -121,15 +121,14 @@ void CpuSliceRenderer::set_view(const View& view, const Slabs& slabs) {
         add_brick(0, view, slabs);
         return;
     }
-    // A node that a program computes marches from the front, whatever the order of slabs is.
+    // Nodes in float always march front to back, whatever the plan's order of slabs is.
     const Order order = plan_.has_tree(NodeArithmetic::shader) ? Order::front_to_back : plan_.order;
     set_visibility_order(plan_.bricks, grid_, view, order, order_);
     for (const std::size_t number : order_) add_brick(number, view, slabs);
 }
 
-// The pages that this view shows are brought from the disk in the order of the files. If they fit
-// the memory, they are read on all cores in this order, too; else pages are read when rays come to
-// them.
+// Reads pages that this view shows from disk in the files' order. If all fit the memory they are
+// loaded now, on all cores; else they are announced, and read when a ray needs them.
 void CpuSliceRenderer::load_pages(const View& view) const {
     if (!volume_ || volume_->pages() == nullptr) return;
     const BrickCache& cache = *volume_->pages();
@@ -175,7 +174,7 @@ void CpuSliceRenderer::add_brick(std::size_t number, const View& view, const Sla
     for (const IndexPlane& plane : plan_.clip) brick.clip.push_back(plane.seen_from(first));
     brick.first = first;
     brick.margin = point_margin(part);
-    // Shaders get the box in float.
+    // The box is rounded to float, as shaders/slicing/ray.glsl gets it.
     brick.box = {glm::dvec3(glm::vec3(box.min - first)), glm::dvec3(glm::vec3(box.max - first))};
     brick.drawn.min -= first;
     brick.drawn.max -= first;
@@ -186,8 +185,8 @@ void CpuSliceRenderer::add_brick(std::size_t number, const View& view, const Sla
     see(brick, view);
 }
 
-// Each cell lies in one share: rays are clipped to it. Returns false if the brick has nothing of
-// the share.
+// Limits a brick to a renderer's share of the volume: exact segments are clipped to it, slabs keep
+// it for their segments' middles. Returns false if nothing of the brick is left.
 bool CpuSliceRenderer::keep_to_share(const IndexBox& share, CpuBrickView& brick) const {
     if (!plan_.integrates_cells()) {
         brick.share = share;
@@ -209,7 +208,7 @@ void CpuSliceRenderer::see(const CpuBrickView& brick, const View& view) {
     seen_ = slabs_.bricks.size() == 1 ? seen : seen_.joined(seen);
 }
 
-// Nothing was made if nothing was visible.
+// A renderer of a plan with nothing visible has prepared nothing, and can only take such plans.
 bool CpuSliceRenderer::take(const Plan& plan) {
     const SlicePlan& slice = plan.slice;
     if ((!prepared_ && !slice.nothing_visible) || of_all_views(slice) != of_all_views(plan_))
@@ -232,8 +231,7 @@ void CpuSliceRenderer::draw(const View& world_view, Progress* progress) {
     set_view(view, {depth.near, depth.far, plan_.slabs});
     geometry_ms_ = geometry.end();
     Stage drawing("draw");
-    // Tiles are taken one after the other, by whichever thread: in a volume that stays in its
-    // files, neighbours need the same pages.
+    // Threads take tiles in order: if the volume stays on disk, neighbours need the same pages.
     std::atomic<int> next{0};
     parallel_for(target_.grid().count(), 1, [&](std::int64_t) {
         const int tile = next++;
@@ -266,7 +264,8 @@ std::int64_t CpuSliceRenderer::draw_tile(int number) {
                                TilePixels::Plane& opacity) {
         samples += blend_tile_opacity(slabs_, blend_, area, span, depth_scale, opacity);
     };
-    fixed_tree_->draw(area, std::ref(draw_leaf), pixels);  // std::function takes no memory for it
+    // std::ref, because a std::function of the lambda itself would allocate memory.
+    fixed_tree_->draw(area, std::ref(draw_leaf), pixels);
     return samples;
 }
 

@@ -17,12 +17,13 @@ namespace lamina {
 class CpuVolume;
 class VolumeTextures;
 
-// The volume as renderers need it: the next renderer takes it over if it serves.
+// The volume as a renderer has prepared it. The next renderer uses it if it is what that one needs.
 struct SliceParts {
     std::shared_ptr<const CpuVolume> tiles;          // of the engine `cpu`
     std::shared_ptr<const VolumeTextures> textures;  // of OpenGL
 };
 
+// A renderer of volumes whose prepared volume other renderers can use.
 class SliceRenderer : public FrameRenderer {
   public:
     virtual SliceParts parts() const = 0;
@@ -40,8 +41,7 @@ std::unique_ptr<SliceRenderer> make_slice_renderer(const Volume& volume,
 // Draws a volume as the plan says, on the CPU. GlSliceRenderer draws it with OpenGL.
 class CpuSliceRenderer : public SliceRenderer {
   public:
-    // Prepares the volume and the tables. `ready`: volume() of another renderer, which is used if
-    // it has the right form.
+    // Prepares volume and tables. `ready`: another renderer's volume(), used if of the right form.
     CpuSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                      const Facts& facts, const SlicePlan& plan, int width, int height,
                      std::shared_ptr<const CpuVolume> ready = nullptr);
@@ -49,8 +49,8 @@ class CpuSliceRenderer : public SliceRenderer {
     CpuSliceRenderer& operator=(const CpuSliceRenderer&) = delete;
 
     bool take(const Plan& plan) override;
-    // Draws a frame; its steps are tiles. It takes no memory after the first frame. Throws Error if
-    // the files of a volume that stays in them have changed.
+    // Draws a frame; its steps are tiles. After the first frame it allocates no memory. Throws
+    // Error if the files of a volume that stays on disk have changed.
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override { return prepared_ ? target_.grid().count() : 0; }
     using FrameRenderer::read;
@@ -67,11 +67,12 @@ class CpuSliceRenderer : public SliceRenderer {
     // units with its tables. Views are in the plan's units, too, facts in world units.
     void prepare(const Volume& volume, const TransferFunction& transfer_function,
                  const Facts& facts);
-    // Takes over what belongs to a view in the plan.
+    // Sets what slabs_ says about empty and constant bricks, which may change from view to view.
     void set_cells();
     void set_view(const View& view, const Slabs& slabs);
     void set_rays(const View& view, const Slabs& slabs);
     void add_brick(std::size_t number, const View& view, const Slabs& slabs);
+    // Adds to seen_ the pixels in which a brick may show something.
     void see(const CpuBrickView& brick, const View& view);
     bool keep_to_share(const IndexBox& share, CpuBrickView& brick) const;
     void load_pages(const View& view) const;
@@ -81,16 +82,16 @@ class CpuSliceRenderer : public SliceRenderer {
     SlicePlan plan_;
     Grid grid_;
     TileImage target_;
-    std::vector<char> blank_;  // for each tile: it shows nothing
+    std::vector<char> blank_;  // for each tile 1 if it is known to be clear
     TargetBlend blend_;
-    bool prepared_ = false;                    // false if nothing is visible
-    std::shared_ptr<const CpuVolume> volume_;  // if it is not needed: for another renderer
+    bool prepared_ = false;                    // false if nothing was visible in the first plan
+    std::shared_ptr<const CpuVolume> volume_;  // if not needed here: for another renderer
     OccupiedBricks occupied_;
     ConstantBricks constant_;
     CellMap cells_;
-    bool cells_leave_out_empty_ = false;  // differs between views
+    bool cells_leave_out_empty_ = false;  // whether cells_ knows empty bricks
     std::optional<CpuTransfer> transfer_;
-    std::vector<std::uint32_t> shown_pages_;  // that hold something visible, of a paged volume
+    std::vector<std::uint32_t> shown_pages_;  // with something visible, if the volume has pages
     std::optional<CpuLight> light_;
     CpuSlabs slabs_;
     PixelBox seen_;                   // pixels in which the view may show something

@@ -17,9 +17,11 @@
 namespace lamina {
 namespace {
 
-// Number of bricks that are counted, in some 10 ms. If more have points, these are not rare.
+// Number of bricks that are counted, which takes some 10 ms. If more bricks have points, points are
+// not rare, and a sample of the bricks is enough.
 constexpr std::size_t most_bricks = 1 << 16;
 
+// Returns the min/max bricks in which the scalar passes a point of the transfer function.
 std::vector<std::size_t> bricks_with_points(const MinMaxBricks& bricks,
                                             const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();
@@ -33,7 +35,7 @@ std::vector<std::size_t> bricks_with_points(const MinMaxBricks& bricks,
     return found;
 }
 
-// Counts of rectangles, as differences from pixel to pixel until they are summed.
+// Counts the rectangles over each pixel: add() stores differences of neighbours, sums() adds up.
 class RectangleCounts {
   public:
     RectangleCounts(int width, int height)
@@ -76,7 +78,7 @@ class RectangleCounts {
     std::vector<std::int32_t> counts_;
 };
 
-// The outermost bricks have half a sample more: the outer half voxels of "cell" axes.
+// Returns a min/max brick's box. Outermost ones have half a voxel more, drawn on `cell` axes.
 IndexBox box_of(const MinMaxBricks& bricks, std::size_t number, const Grid& grid) {
     auto rest = static_cast<std::int64_t>(number);
     glm::dvec3 lower;
@@ -89,12 +91,13 @@ IndexBox box_of(const MinMaxBricks& bricks, std::size_t number, const Grid& grid
             glm::min(lower + (MinMaxBricks::edge + 0.5), grid.index_max())};
 }
 
+// A rectangle in pixels; empty at first.
 struct Rectangle {
     glm::dvec2 first{std::numeric_limits<double>::infinity()}, last = -first;
 };
 
-// Returns the rectangle around a box in pixels, as View::ray takes them; none if part of the box is
-// beside the eye: it would cover the picture.
+// Returns the rectangle around a box, in pixel coordinates of View::ray(); none if part of the box
+// is not in front of the eye, because then the rectangle would cover the picture.
 std::optional<Rectangle> rectangle_around(const IndexBox& box, const Grid& grid, const View& view) {
     const glm::dvec2 middle = 0.5 * glm::dvec2(view.width, view.height) - 0.5;
     Rectangle found;
@@ -146,7 +149,7 @@ std::vector<float> contrasts_of(const Image& picture) {
     return contrasts;
 }
 
-// Returns one pixel of each cell of `edge` x `edge` pixels.
+// Returns one pixel, chosen at random, of each square of `edge` x `edge` pixels.
 std::vector<glm::ivec2> pixels_all_over(int width, int height, int edge) {
     std::vector<glm::ivec2> pixels;
     for (int row = 0; row < height; row += edge) {
@@ -171,8 +174,7 @@ std::vector<float> differences_of(const Image& a, const Image& b) {
     return differences;
 }
 
-// Returns large values for pixels that are covered, and rarely; at random among equals. Not
-// covered: 0.
+// Returns numbers that are larger the fewer bricks cover a pixel, equals at random; 0 if none does.
 std::vector<float> rarity_of(const std::vector<float>& cover, int width) {
     std::vector<float> rarity;
     rarity.reserve(cover.size());
@@ -186,7 +188,7 @@ std::vector<float> rarity_of(const std::vector<float>& cover, int width) {
     return rarity;
 }
 
-// Appends the `count` pixels of the largest values above 0.
+// Appends the `count` pixels with the largest values, or fewer if not as many are above 0.
 void append_largest(std::size_t count, int picture_width, const std::vector<float>& values,
                     std::vector<glm::ivec2>& pixels) {
     std::vector<std::size_t> order(values.size());

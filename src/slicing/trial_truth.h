@@ -15,10 +15,9 @@
 
 namespace lamina {
 
-// Counts for each pixel the bricks that its ray may cross and in which the scalar passes a point of
-// the transfer function. A feature that is narrower than a slab lies in such a brick. A brick
-// counts in all pixels of its bounding rectangle in the picture. If there are very many such
-// bricks, only one of several is counted.
+// Counts for each pixel the min/max bricks that its ray may cross and in which the scalar passes a
+// point of the transfer function: features narrower than a slab lie in these. A brick counts in the
+// whole rectangle around it. If bricks are very many, only one in a few is counted.
 std::vector<float> cover_of_points(const MinMaxBricks& bricks, const Grid& grid,
                                    const TransferFunction& transfer_function, const View& view);
 
@@ -29,23 +28,21 @@ class TrialTruth {
                TraceOptions options);
 
     void trace_all();
-    // Traces at most `count` pixels of a picture that is too large for trace_all(). One quarter
-    // lies all over the picture, one pixel at its own place in each of equal cells. One quarter has
-    // the largest differences between `picture` and `finer`. One quarter has the smallest counts of
-    // `cover` (cover_of_points(), or empty) above zero, because both pictures may miss what is
-    // rare. The rest has the largest differences between a pixel of `finer` and a neighbour: there
-    // rays graze what their neighbours hit, and segments miss most.
+    // Traces at most `count` pixels of a picture that is too large for trace_all(). One quarter is
+    // spread over equal squares; one has the largest differences between `picture` and `finer`; one
+    // has the smallest counts of `cover` (cover_of_points(), or empty) above zero, as both pictures
+    // may miss what is rare. The rest has the largest contrasts between neighbours in `finer`:
+    // there a ray grazes what its neighbour hits, and slabs miss most.
     void trace_some(std::size_t count, const Image& picture, const Image& finer,
                     const std::vector<float>& cover);
 
     bool empty() const { return pixels_.empty(); }
     std::int64_t rays() const { return static_cast<std::int64_t>(pixels_.size()); }
-    // Returns the largest error of a channel on the traced pixels, including the tracer's own
-    // estimate, in 1/255.
+    // Returns the largest error on traced pixels, with the tracer's own estimate, in 1/255.
     double error_of(const Image& picture) const;
 
   private:
-    // Appends pixels that are not traced yet: those of the largest values above 0.
+    // Appends, of the pixels that are not in pixels_ yet, those with the largest values above 0.
     void append_unknown(std::size_t count, std::vector<float> values);
     void trace();
 

@@ -40,7 +40,8 @@ std::vector<ErrorBudget::Part> parts_of(const FourPictures& pictures) {
     return parts;
 }
 
-// Draws step by step, coarse to fine, and keeps all renderers ready to be timed.
+// Does a cross-check: draws with both methods, from coarse to fine, and keeps all renderers so that
+// their frames can be timed in turn at the end.
 class Crosschecker {
   public:
     Crosschecker(const Scene& scene, const CrosscheckSettings& settings,
@@ -92,7 +93,7 @@ class Crosschecker {
                           {.capabilities = capabilities_, .tables = tables_});
         return pipeline.plan().slice.slabs;
     }
-    // The tolerance of the mesh that the scene states, or nothing.
+    // Returns the tolerance of the made mesh that the scene states, or nothing.
     std::optional<double> stated_tolerance() const {
         if (scene_.made_mesh() == nullptr) return std::nullopt;
         return scene_.made_mesh()->tolerance;
@@ -106,7 +107,8 @@ class Crosschecker {
         return {tolerances.begin(), tolerances.end()};
     }
 
-    // A mesh that the scene does not state has a bound, unless the ladder was asked for.
+    // Tells whether the ladder's bound on the number of tets holds for this mesh: not if the scene
+    // states the mesh, nor if the ladder was asked for.
     bool is_bounded(double tolerance) const {
         return settings_.ends_by_itself && tolerance != stated_tolerance();
     }
@@ -189,13 +191,14 @@ class Crosschecker {
         made.method_part = image_error(made.picture, made.traced);
         made.error = image_error(made.picture, made_.pictures.traced_volume);
         made.bytes = frames.bytes();
-        // A mesh that was kept took longer when it was made.
+        // A mesh that was found in the folder took stored.ms when it was made; that time counts.
         cost_.add(tolerance, made.tets, std::max(watch.seconds(), stored.ms / 1000));
         end_if_fine_enough();
     }
 
-    // The scene's own mesh is drawn, too, unless one stopped because of too many tets: what the
-    // scene does not state is then the finest that was made.
+    // Ends refining once the methods agree or a mesh has too many tets. A mesh that the scene
+    // states is drawn even then. If the scene states none, the finest mesh that was made takes its
+    // place.
     void end_if_fine_enough() {
         if (!settings_.ends_by_itself) return;
         const Crosscheck::Projection& last = made_.projections.back();
@@ -206,7 +209,8 @@ class Crosschecker {
             made_.tolerance = std::max(made_.tolerance, last.tolerance);
     }
 
-    // A first frame is no faster than later ones. One more round warms renderers up.
+    // Predicts the time of timing: a first frame is at least as slow as later ones, and each
+    // renderer draws one frame more to warm up.
     double timing_seconds() const {
         double seconds = 0;
         for (const auto& frames : frames_) seconds += frames->first_ms() / 1000;
@@ -252,8 +256,8 @@ class Crosschecker {
         if (scene_.lighting) trace_unlit();
     }
 
-    // The report tells for the pictures that it shows what light adds to the difference of mesh and
-    // volume.
+    // Traces volume and mesh without light: for the pictures that it shows, the report says how
+    // much light adds to the difference between mesh and volume.
     void trace_unlit() {
         check_interrupt();
         Scene unlit = mesh_scene(made_.tolerance);
@@ -271,7 +275,7 @@ class Crosschecker {
     ReferenceStore references_;
     std::vector<std::unique_ptr<StudyFrames>> frames_;
     LadderCost cost_;
-    bool is_ended_ = false;  // whether finer meshes are not made
+    bool is_ended_ = false;  // no finer meshes are made
     Crosscheck made_;
 };
 

@@ -20,26 +20,26 @@ namespace lamina::study {
 struct FourPictures {
     Image traced_volume, traced_mesh, sliced, projected;
     ImageColorSpace space = ImageColorSpace::linear;  // of all of them
-    // Pictures of a lit scene, traced without light; empty if the scene is not lit.
+    // Pictures of a lit scene traced without its lighting; empty if the scene is not lit.
     Image unlit_volume{}, unlit_mesh{};
 };
 
 // Splits the difference of the two methods into parts, in every pixel:
 //   projected - sliced = (traced mesh - traced volume) - (sliced - traced volume)
-//                      + (projected - traced mesh)
-// Of a lit scene, the first part is that of the unlit pictures, and what light adds to it is a part
-// of its own, the gradients: a mesh has other ones than the volume that it is made from.
+//                        + (projected - traced mesh)
+// If the scene is lit, the first part is that of the unlit pictures, and what lighting adds to it
+// is a fourth part, "gradients": those of a mesh differ from those of the volume it is made from.
 struct ErrorBudget {
     struct Part {
         std::string key, name;  // in files, in sentences
         Difference e;           // in 1/255
         ImageError error;
-        // The share of the raw difference d that the part s explains: <s, d> / <d, d>, with the
-        // part's sign in the sum above. The shares add up to 1. It is 0 if d is 0.
+        // Share of the raw difference d that the part s explains: <s, d> / <d, d>, with the sign
+        // that the part has in the sum above. The shares add up to 1. It is 0 if d is 0.
         double share = 0;
     };
 
-    // Mesh discretisation, slicing method, projection method; of a lit scene the gradients, too.
+    // Mesh discretisation, slicing method, projection method; if the scene is lit, gradients, too.
     std::vector<Part> parts;
     Difference raw;  // projected - sliced
     ImageError raw_error;
@@ -52,16 +52,17 @@ struct ErrorBudget {
 ErrorBudget error_budget(const FourPictures& pictures);
 
 struct CrosscheckSettings {
-    // Tolerances of meshes made from the volume, in addition to the scene's own.
+    // Tolerances of the meshes that are made from the volume, in addition to the scene's own.
     std::vector<double> tolerances{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
     // If true, refining ends once both methods agree within the scene's max_error, or a mesh would
-    // have more than `ladder_tets`. The scene's own mesh is drawn in any case, if it states one.
+    // have more than `ladder_tets` tets. A mesh that the scene states is drawn in any case.
     bool ends_by_itself = true;
-    std::int64_t ladder_tets = 250000;  // takes about a minute of one processor
+    std::int64_t ladder_tets = 250000;  // takes about a minute on one processor
     // Numbers of slabs, in addition to the scene's own.
     std::vector<int> samples{64, 128, 256, 512, 1024};
     int rounds = 3;  // rounds of interleaved frames, >= 3
-    // Folder that keeps meshes and traced pictures as they are made, and is searched for them.
+    // Folder in which meshes and traced pictures are kept, and in which earlier ones are looked
+    // for.
     std::filesystem::path kept;
     // Called once the volume is read, before anything is kept.
     std::function<void()> begin = [] {};
@@ -81,7 +82,7 @@ struct Crosscheck {
         double tolerance = 0;  // 0 for a mesh from a file
         // Certified error, as a share of the range of values; 0 if it is not known.
         double mesh_error = 0;
-        bool stopped = false;  // whether refining stopped because of too many tets
+        bool stopped = false;  // refining stopped because of too many tets
         std::int64_t tets = 0;
         double mesh_ms = 0;  // time to make or read the mesh
         Image traced, picture;
@@ -95,7 +96,7 @@ struct Crosscheck {
     };
 
     FourPictures pictures;  // at the scene's own settings
-    int samples = 0;        // number of slabs of these
+    int samples = 0;        // slabs of `pictures.sliced`
     double tolerance = 0;
     double reference_error = 0;  // error estimate of the traced volume, in 1/255
     double reference_ms = 0;
@@ -104,19 +105,20 @@ struct Crosscheck {
     std::vector<std::vector<Pair>> pairs;  // [projection][slicing]
 };
 
-// Tells whether meshes of several tolerances are made from the scene's volume: its mesh is no file,
-// and not Kuhn's, which has none.
+// Tells whether meshes of several tolerances can be made from the scene's volume: not if its mesh
+// is a file, nor if it is a Kuhn mesh, which has no tolerance.
 bool makes_meshes(const Scene& scene);
 
-// Draws and traces all pictures. The scene must have a volume; without a mesh, one of tolerance .02
-// is made from it, or the finest of the ladder, if that ends before. Throws Error.
+// Draws and traces all pictures. The scene must have a volume. If it states no mesh, the pictures
+// shown are of the mesh of tolerance .02, or of the finest one if refining ends before. Throws
+// Error.
 Crosscheck crosscheck(const Scene& scene, const CrosscheckSettings& settings,
                       const Capabilities& capabilities);
 
-// "1 slab", "64 slabs".
+// Returns "1 slab", "64 slabs".
 std::string slabs_text(int count);
 
-// "99.9 %": the part's share of the difference.
+// Returns the part's share of the difference: "99.9 %".
 std::string share_text(const ErrorBudget::Part& part);
 
 // Facts that a report states beside the results of a cross-check.

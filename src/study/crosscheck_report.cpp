@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Keys of the ladder's parts. Gradients count as the mesh's.
+// Keys of the parts in the ladder. Gradients are counted with the mesh.
 constexpr const char* part_keys[] = {"mesh", "slicing", "projection"};
 
 Json error_json(const ImageError& error) {
@@ -30,7 +30,7 @@ Json times_json(const FrameTimes& times) {
     return {{"median", times.ms}, {"min", times.min}, {"max", times.max}, {"n", times.count}};
 }
 
-// Describes a run of either method, compared with the traced volume.
+// Describes the picture of either method at one setting, compared with the traced volume.
 Json run_json(std::string name, Json keys, const ImageError& error, const FrameTimes& times,
               std::int64_t bytes, const Crosscheck& crosscheck) {
     Json json{{"id", name},
@@ -125,7 +125,7 @@ Json pictures_json(const Crosscheck& crosscheck, const ErrorBudget& budget, doub
                          const CodedImage& picture) {
         pictures.push_back({{"title", title}, {"caption", caption}, {"image", data_uri(picture)}});
     };
-    // Adds a difference with its colour bar, which says how much of it is beyond the bar.
+    // Adds a difference with its colour bar; `largest` tells how far it exceeds the bar.
     const auto add_difference = [&](const std::string& title, const std::string& caption,
                                     const Difference& e, double largest) {
         add(title, caption, false_color(reduced(e, step), scale));
@@ -219,7 +219,7 @@ std::string pair_text(const Crosscheck& crosscheck, const PairAt& at) {
                        pair.raw.linf, part_names[pair.dominant]);
 }
 
-// Returns the pair of the scene's own settings.
+// Returns the indices of the pair at the scene's own settings.
 PairAt own_pair(const Crosscheck& crosscheck) {
     PairAt own;
     for (std::size_t p = 0; p < crosscheck.projections.size(); ++p)
@@ -254,7 +254,7 @@ PairAt closest(const Crosscheck& crosscheck) {
     return best;
 }
 
-// `told`: pairs whose difference other findings state.
+// Says at which settings the pictures agree. `told`: pairs that other findings mention already.
 std::string agreement(const Crosscheck& crosscheck, double wanted,
                       const std::vector<PairAt>& told) {
     if (const auto found = cheapest_agreeing(crosscheck, wanted)) {
@@ -335,7 +335,7 @@ nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const Err
             {"dropped", Json::array()}};
 }
 
-// Each pair of settings is told once: the coarsest and the finest may be the scene's own.
+// Mentions each pair of settings once, also if the coarsest or the finest is the scene's own.
 std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,
                                              const ErrorBudget& budget,
                                              const CrosscheckSubject& subject) {

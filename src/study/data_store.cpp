@@ -68,7 +68,7 @@ MeshReport report_from(const nlohmann::json& facts) {
     return report;
 }
 
-// Returns nothing if the folder has no such mesh, or if its files are damaged.
+// Returns the mesh of this id, or nothing if the folder lacks it or its files are damaged.
 std::optional<MadeMesh> find_mesh(const std::filesystem::path& folder, const std::string& id,
                                   const Scene& scene) {
     const std::filesystem::path facts_file = folder / (id + ".json");
@@ -76,7 +76,7 @@ std::optional<MadeMesh> find_mesh(const std::filesystem::path& folder, const std
     try {
         const nlohmann::json facts = load_json(facts_file);
         Scene whole = scene;
-        whole.scalar.clear();  // the file has one
+        whole.scalar.clear();  // the file has one array only
         MadeMesh made{SceneData(whole, read_mesh(folder / (id + ".vtu")), report_from(facts)),
                       facts.at("ms").get<double>()};
         if (content_of(*made.data.mesh(whole)) != facts.at("mesh").get<std::string>())
@@ -88,7 +88,8 @@ std::optional<MadeMesh> find_mesh(const std::filesystem::path& folder, const std
     return std::nullopt;
 }
 
-// The mesh is written before the facts: a mesh with a .json is complete.
+// Keeps a mesh as ID.vtu and ID.json. The .vtu is written first, so a mesh with a .json is
+// complete.
 void keep_mesh(const std::filesystem::path& folder, const std::string& id, MadeMesh& made) {
     const SceneMesh& drawn = *made.data.mesh({});
     const TetMesh& tets = drawn.mesh;
@@ -102,7 +103,7 @@ void keep_mesh(const std::filesystem::path& folder, const std::string& id, MadeM
     write_text(folder / (id + ".json"), json_text(facts_of(drawn, made.ms)) + "\n");
 }
 
-constexpr double units = 255;  // of errors, in full scale
+constexpr double units = 255;  // of errors: 1/255 of full scale
 
 std::string key_of(const Scene& scene, TraceOf of, DataStore& data) {
     ContentHash hash;
@@ -134,7 +135,7 @@ std::string content_of(const PreciseImage& image) {
     return hash.hex();
 }
 
-// Loads all but the picture, and returns what names the picture.
+// Loads ID.json: returns the facts of the reference, and the hash of its picture.
 std::pair<Reference, std::string> load_facts(const std::filesystem::path& folder,
                                              const std::string& id) {
     const std::filesystem::path file = folder / (id + ".json");
@@ -252,8 +253,8 @@ std::string volume_name(const Scene& scene) {
     return fmt::format("{} {} {}", request.name, fmt::join(size, "x"), name_of(request.type));
 }
 
-// The name includes the transfer function: a mesh made from a volume stays coarse in parts that
-// show nothing.
+// Returns a name of the mesh. It includes the transfer function: a mesh made from a volume stays
+// coarse where it shows nothing.
 std::string mesh_name(const Scene& scene) {
     if (const MeshFile* const file = scene.mesh_file()) {
         std::string name = file->path.string();
@@ -296,7 +297,8 @@ MadeMesh DataStore::read_or_make(const Scene& scene) {
         return MadeMesh{std::move(data), watch.milliseconds()};
     };
     if (kept_.empty() || scene.mesh_file() != nullptr) return make();
-    // Data of the volume's name may change between two processes.
+    // A file of the same name may have other contents in a later process, so the hash of the
+    // contents is part of the id.
     ContentHash id;
     id.add(volume(scene).content);
     id.add(mesh_name(scene));
@@ -306,7 +308,8 @@ MadeMesh DataStore::read_or_make(const Scene& scene) {
     return made;
 }
 
-// If the scene leaves something open, the volume decides on it even if a mesh is made from it.
+// Returns the data that the scene draws. If something is automatic, it is chosen for the volume,
+// also when a mesh is made from it.
 SceneData DataStore::data_of(const Scene& scene) {
     if (!scene.draws_mesh()) return SceneData(volume(scene).data);
     const SceneData& data = mesh(scene).data.data();
@@ -342,7 +345,7 @@ double ReferenceStore::error_estimate(const std::filesystem::path& folder, const
     return load_facts(folder, id).first.error_estimate;
 }
 
-// Returns nothing if the reference cannot be read, which is said once.
+// Returns the kept reference, or nothing if it cannot be read, which is reported once.
 std::optional<Reference> ReferenceStore::find(const std::string& id) {
     if (lost_.contains(id)) return std::nullopt;
     try {
@@ -360,7 +363,7 @@ bool ReferenceStore::is_kept(const std::string& id) {
 
 Reference ReferenceStore::make(const std::string& id, const Scene& scene, TraceOf of,
                                DataStore& data) const {
-    std::optional<AtomicFile> picture;  // first: a file that cannot be written fails at once
+    std::optional<AtomicFile> picture;  // opened first: an unwritable folder fails at once
     if (!folder_.empty()) picture.emplace(folder_ / (id + ".npy"));
     Reference reference = traced(scene, of, data);
     reference.id = id;

@@ -21,30 +21,31 @@
 
 namespace lamina::study {
 
-// Returns a text of all that an exact picture depends on beside its data: transfer function,
+// Returns a hash of everything that an exact picture depends on beside its data: transfer function,
 // camera, size, clip and lighting.
 std::string picture_key(const Scene& scene);
 
+// Returns a hash of the transfer function.
 std::string transfer_function_key(const TransferFunction& transfer_function);
 
-// Returns a hash of the contents of data, wherever they came from.
+// Return a hash of the contents of data, independent of file names.
 std::string content_of(const Volume& volume);
 std::string content_of(const SceneMesh& mesh);
 std::string content_of(const Colormap& colormap);
 
-// A tetrahedral mesh that is drawn, and the tracer's pictures of it. The mesh that a scene names is
-// ignored.
+// A tetrahedral mesh, with the tracer's pictures of it. The mesh that a scene names is ignored:
+// this one is traced.
 class TracedMesh {
   public:
     explicit TracedMesh(SceneMesh mesh);
-    explicit TracedMesh(SceneData data);  // which has a mesh
+    explicit TracedMesh(SceneData data);  // must have a mesh
 
     const SceneMesh& mesh() const { return *mesh_; }
     const TetMesh& tets() const { return mesh_->mesh; }
     const SceneData& data() const { return data_; }
 
     TracedPicture trace(const Scene& scene);
-    // The tracer's picture, made once for each transfer function, camera and size.
+    // Returns the tracer's picture, made once for each picture_key().
     const PreciseImage& exact(const Scene& scene);
 
   private:
@@ -53,13 +54,13 @@ class TracedMesh {
     std::map<std::string, PreciseImage> traced_;  // by picture_key()
 };
 
-// A mesh that was made from a volume, and the time that it took.
+// A mesh made from a volume, with the time that making it took.
 struct MadeMesh {
     SceneData data;
     double ms = 0;
 };
 
-// Return names of data: paths, or the formulas of generated data.
+// Return names of data: paths, or formulas of generated data.
 std::string volume_name(const Scene& scene);
 std::string mesh_name(const Scene& scene);
 
@@ -78,14 +79,15 @@ class DataStore {
     };
     const StoredVolume& volume(const Scene& scene);
     StoredMesh& mesh(const Scene& scene);
-    // The data that the scene draws.
+    // Returns the data that the scene draws.
     SceneData data_of(const Scene& scene);
-    // The scene with its colour map stretched over its data, if that is open.
+    // Returns the scene with an open colour map stretched over the range of its data.
     Scene closed(Scene scene);
     void clear();
 
-    // Keeps meshes that are made from volumes in this folder from now on, and finds them there, as
-    // ID.vtu and ID.json. Later processes find there the same numbers, bit for bit.
+    // Keeps meshes that are made from volumes in this folder, as ID.vtu and ID.json, from now on,
+    // and takes them from there if they exist. The numbers that a later process reads are the same,
+    // bit for bit.
     void keep_meshes(const std::filesystem::path& folder) { kept_ = folder; }
 
   private:
@@ -98,7 +100,7 @@ class DataStore {
 
 // A tracer's picture of a scene.
 struct Reference {
-    // Hash of all that it depends on: data, transfer function, camera, size, tolerance.
+    // Hash of everything it depends on: data, transfer function, camera, size, tolerance.
     std::string id;
     TraceOf of = TraceOf::volume;
     double error_estimate = 0;  // the tracer's own estimate, in 1/255
@@ -106,8 +108,8 @@ struct Reference {
     PreciseImage image;
 };
 
-// Traced pictures, each made once. With a folder they are kept there as ID.npy and ID.json, for
-// later studies of the same content. Damaged files are made again.
+// Traced pictures, each made once. If there is a folder, they are kept there as ID.npy and ID.json
+// for later studies. Damaged files are made again.
 class ReferenceStore {
   public:
     using Say = std::function<void(const std::string&)>;
@@ -117,16 +119,17 @@ class ReferenceStore {
     ReferenceStore(std::filesystem::path folder, Say say)
         : folder_(std::move(folder)), say_(std::move(say)) {}
 
-    // The reference for the scene's volume or its mesh, as `of` says. Throws Error. The result is
-    // valid until clear().
+    // Returns the reference for the scene's volume or its mesh, as `of` says. Throws Error. The
+    // result is valid until clear().
     const Reference& get(const Scene& scene, TraceOf of, DataStore& data);
-    void clear() { references_.clear(); }  // from memory
+    void clear() { references_.clear(); }  // frees the memory; files stay
 
-    // Returns true if the folder has an intact reference that was made before. If not, it will be
-    // made again.
+    // Returns true if the folder has an intact reference of this id. If not, get() will trace it
+    // again.
     bool is_kept(const std::string& id);
 
-    // Loads a reference from `folder`. Throws Error if it is missing or was changed.
+    // Load a reference, or its error estimate, from `folder`. Throw Error if it is missing or
+    // damaged.
     static Reference load(const std::filesystem::path& folder, const std::string& id);
     static double error_estimate(const std::filesystem::path& folder, const std::string& id);
 

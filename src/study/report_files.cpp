@@ -27,14 +27,14 @@ bool is_number(const std::string& cell) {
     return stop == end && error != std::errc::invalid_argument;
 }
 
-// Spreadsheets evaluate cells that begin so, which may even start programs. An apostrophe in front
-// makes them text.
+// Tells whether a spreadsheet would evaluate the cell as a formula, which may even start programs.
+// An apostrophe in front makes it text.
 bool is_formula(const std::string& cell) {
     return !cell.empty() && std::string_view("=+-@\t\r").find(cell[0]) != std::string::npos &&
            !is_number(cell);
 }
 
-// RFC 4180: a cell with a comma, a quote or the end of a line is put in quotes.
+// Returns a cell of CSV. RFC 4180: a cell with a comma, a quote or a line end is put in quotes.
 std::string quoted(const std::string& cell) {
     if (is_formula(cell)) return quoted("'" + cell);
     if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
@@ -61,7 +61,8 @@ std::string base64(const std::string& bytes) {
     return text;
 }
 
-// Calls visit(column, row) for the pixels of a square that are inside.
+// Calls visit(column, row) for the pixels of a square of step x step pixels that are in the
+// picture.
 template <typename Visit>
 void for_each_in_square(int column, int row, int step, int width, int height, const Visit& visit) {
     for (int y = row * step; y < std::min((row + 1) * step, height); ++y) {
@@ -75,7 +76,7 @@ int squares(int pixels, int step) {
 
 using Json = nlohmann::ordered_json;
 
-// Shows the control characters of all strings and keys.
+// Replaces control characters in all strings and keys by visible text.
 Json printable_json(const Json& json) {
     if (json.is_string()) return printable(json.get_ref<const std::string&>());
     if (!json.is_structured()) return json;
@@ -108,8 +109,8 @@ std::string summary_of(const Json& report) {
     return "<p id=\"summary\">" + escaped_markup(report["summary"].get<std::string>()) + "</p>\n";
 }
 
-// "<" occurs only within strings of the JSON and is escaped there, so that no text can end the
-// element or begin a comment.
+// Returns the JSON of the report for a <script> element. "<" occurs only within strings, and is
+// escaped there, so that no text can end the element or begin a comment.
 std::string document_of(const Json& report) {
     std::string json;
     for (const char c : report.dump()) {
@@ -238,11 +239,11 @@ std::string escaped_markup(const std::string& text) {
 }
 
 std::string report_page(const Json& given) {
-    // The report goes through JSON text and back, so that it is UTF-8.
+    // JSON text and back replaces bytes that are not UTF-8.
     const Json report = printable_json(Json::parse(json_text(given)));
     std::string page;
     std::string_view rest = file_named("page.html");
-    // Inserted text is not searched, because it may hold "{{" itself.
+    // Inserted text is not searched: it may contain "{{".
     for (std::size_t at = rest.find("{{"); at != rest.npos; at = rest.find("{{")) {
         const std::size_t end = rest.find("}}", at);
         assert(end != rest.npos);

@@ -57,7 +57,7 @@ std::vector<std::string> swept_keys(const StudyFile& file) {
     return keys;
 }
 
-// Fills a list run by run.
+// Expands the sweep into the runs of a list, and leaves out those that `drop` names.
 class Lister {
   public:
     Lister(const StudyFile& file, RunList& list)
@@ -82,9 +82,9 @@ class Lister {
             ++list_.dropped.back().runs;
     }
 
-    // A rule that matches no run has a mistake in its values.
+    // Throws Error if a rule of `drop` matches no run: then its values must be mistaken.
     void check_drops() const {
-        if (!file_.skipped.empty()) return;  // it may be about a scene that is skipped
+        if (!file_.skipped.empty()) return;  // a rule may be about a skipped scene
         for (std::size_t i = 0; i < matched_.size(); ++i) {
             if (!matched_[i])
                 fail("{}: drop.{}.where: no run has these values", file_.file.string(), i);
@@ -94,7 +94,7 @@ class Lister {
   private:
     const StudyFile& file_;
     RunList& list_;
-    std::vector<bool> matched_;  // of the rules
+    std::vector<bool> matched_;  // for each rule of `drop`
     std::set<std::string> ids_;
 };
 
@@ -142,7 +142,7 @@ Settings settings_from(const nlohmann::json& json) {
     return settings;
 }
 
-// Reads what all runs share. A list of an earlier version does not say it.
+// Reads the settings that all runs share. Lists of earlier versions lack them.
 void read_shared_settings(const nlohmann::json& document, RunList& list) {
     list.base = settings_from(document.value("base", nlohmann::json::object()));
     for (const nlohmann::json& each : document.value("own", nlohmann::json::array()))
@@ -153,8 +153,8 @@ void read_shared_settings(const nlohmann::json& document, RunList& list) {
 }  // namespace
 
 std::string run_name(const Settings& settings) {
-    // These values and lists of factors explain themselves. All others need the last part of their
-    // key beside them.
+    // These values, and lists of factors, explain themselves. Others are named after the last
+    // component of their key.
     static const std::set<std::string> plain{"target", "method", "context", "classification"};
     std::string name;
     for (const auto& [key, value] : settings) {

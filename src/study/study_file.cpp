@@ -17,11 +17,11 @@
 namespace lamina::study {
 namespace {
 
-constexpr std::int64_t largest_product = 65536;  // slabs of a tree
+constexpr std::int64_t largest_product = 65536;  // slabs that a tree can have
 constexpr std::int64_t most_levels = 16;
-constexpr std::size_t most_keys = 256;  // of a grid: more than a scene has
+constexpr std::size_t most_keys = 256;  // of a grid; a scene has fewer
 
-// Stops after more than most_runs.
+// Appends all lists of `levels` factors with the product `of`; stops after more than most_runs.
 void append_factorizations(int of, int levels, std::vector<int>& factors,
                            std::vector<std::vector<int>>& all) {
     if (levels == 1) {
@@ -38,8 +38,8 @@ void append_factorizations(int of, int levels, std::vector<int>& factors,
     }
 }
 
-// `listed` is the number of factorizations so far: a short file could ask for more than any memory
-// holds.
+// Returns the values of a key. `listed` counts the factorizations so far, because a short file
+// could ask for more than fit the memory.
 std::vector<nlohmann::json> read_values(JsonReader& grid, const std::string& key,
                                         std::size_t& listed) {
     const nlohmann::json& found = grid.value(key);
@@ -88,7 +88,7 @@ bool is_list_of_whole_numbers(const nlohmann::json& value) {
                        [](const nlohmann::json& each) { return each.is_number_integer(); });
 }
 
-constexpr std::size_t most_drops = 1000;  // each is held against every run
+constexpr std::size_t most_drops = 1000;  // each is compared with every run
 
 Settings read_settings(JsonReader& reader, const std::string& key) {
     Settings settings;
@@ -99,8 +99,7 @@ Settings read_settings(JsonReader& reader, const std::string& key) {
     return settings;
 }
 
-// Reads a scene as the study uses it. `entry` is a path or
-// {"scene": path, "name": ..., "set": {...}}.
+// Reads one entry of `scenes`: a path, or {"scene": path, "name": ..., "set": {...}}.
 StudyFile::SceneEntry read_scene_entry(JsonReader& study, std::size_t number,
                                        const nlohmann::json& entry, const Settings& base) {
     const std::string at = fmt::format("scenes.{}", number);
@@ -128,14 +127,14 @@ bool is_data_folder_set() {
     return folder != nullptr && *folder != '\0';
 }
 
-// Tells whether a scene names a file of the data sets.
+// Tells whether a string in the value has ${LAMINA_DATA}, the folder of the data sets.
 bool names_data_folder(const nlohmann::json& value) {
     if (value.is_string())
         return value.get_ref<const std::string&>().find("${LAMINA_DATA}") != std::string::npos;
     return value.is_structured() && std::ranges::any_of(value, names_data_folder);
 }
 
-// Moves the scenes that cannot be drawn without the data sets to those that are skipped.
+// Moves scenes that need ${LAMINA_DATA} to `skipped` if it is not set.
 void skip_scenes_without_data(StudyFile& file) {
     if (is_data_folder_set()) return;
     for (const StudyFile::SceneEntry& scene : file.scenes) {
@@ -194,7 +193,7 @@ void read_drops(JsonReader& study, const Keys& swept, StudyFile& file) {
         drop.because = reader.text("because");
         for (auto& [key, value] : read_settings(reader, "where")) {
             check_swept(swept, reader, "where", key);
-            // A list stands for its elements and also for itself, because bifurcation factors are a
+            // A list means each of its elements, and also itself, because bifurcation factors are a
             // list.
             std::vector<nlohmann::json> values{value};
             if (value.is_array()) values.insert(values.end(), value.begin(), value.end());

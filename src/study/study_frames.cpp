@@ -104,7 +104,8 @@ StudyFrames::StudyFrames(const Scene& scene, DataStore& data, const Capabilities
     first_ms_ = watch.milliseconds();
     set_up_ms_ = pipeline_->statistics().stages_ms.at("set_up");
     bytes_gpu_ = gl::bytes_allocated() - before;
-    // Errors above max_error are what a study is about; its report has them.
+    // A study reports errors above max_error itself, so slicing, whose plan warns of them, warns of
+    // nothing here.
     if (scene.method == Method::project) pipeline_->warn_of_plan();
 }
 

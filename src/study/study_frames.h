@@ -15,8 +15,7 @@
 
 namespace lamina::study {
 
-// A kind of frame to time. `draw` draws one frame and returns when it is complete; `warm_up`
-// prepares it.
+// A frame to time. `draw` draws it and returns when it is complete; `warm_up` prepares it.
 struct TimedFrame {
     std::string name;
     std::function<void()> warm_up, draw;
@@ -30,26 +29,27 @@ struct FrameTimes {
 };
 
 // Times frames in rounds A B C, A B C, ..., so that a slow phase of the machine affects all of
-// them. There must be at least three rounds.
+// them. `rounds` must be at least 3.
 std::vector<FrameTimes> time_interleaved(const std::string& label,
                                          const std::vector<TimedFrame>& frames, int rounds);
 
-// Returns {machine, processors, date}: the processor's name, how many of them this process may run
-// on, and today (UTC).
+// Returns {machine, processors, date}: the processor's name, the number of processors that this
+// process may use, and today's date (UTC).
 nlohmann::ordered_json describe_machine();
 
-// Contexts by their words (--context), made when first asked for. Of those with OpenGL only one is
-// there at a time, current in the thread that asked for it.
+// Contexts by their words (--context), made when first asked for. Only one OpenGL context exists at
+// a time; it is current in the thread that asked for it.
 class DrawContexts {
   public:
-    // `before_switch`: called before an OpenGL context is destroyed; it must destroy its renderers.
+    // `before_switch`: called before an OpenGL context is destroyed, also by the destructor; must
+    // destroy the renderers that use it.
     explicit DrawContexts(std::function<void()> before_switch)
         : before_switch_(std::move(before_switch)) {}
     ~DrawContexts() { before_switch_(); }
     DrawContexts(const DrawContexts&) = delete;
     DrawContexts& operator=(const DrawContexts&) = delete;
 
-    // Throws Error if there is no such context.
+    // Returns the capabilities of the context. Throws Error if it cannot be made.
     const Capabilities& use(const std::string& word);
 
   private:
@@ -58,8 +58,8 @@ class DrawContexts {
     std::unique_ptr<gl::CurrentContext> current_;
 };
 
-// A scene of method slice or project, prepared to be drawn again and again. The data and the
-// context must outlive it. `tables`: those of the study.
+// A scene of method slice or project that is drawn again and again. The data and the context must
+// outlive it. `tables`: pre-integration tables that the frames of a study share.
 class StudyFrames {
   public:
     StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities,
@@ -70,17 +70,17 @@ class StudyFrames {
     void draw_turned(double degrees);
 
     const Scene& scene() const { return pipeline_->scene(); }
-    // Durations of preparing and of the last frame.
+    // Returns the durations of set-up and last frame, by stage.
     std::map<std::string, double> stages_ms() const {
         return pipeline_->renderer().renderer().stages_ms();
     }
     Image picture() const { return pipeline_->renderer().picture(); }
     double set_up_ms() const { return set_up_ms_; }
-    // Time of the facts, the choice of what is automatic, the set-up and the first frame. Reading
-    // the data is not in it.
+    // Returns the time of facts, automatic choices, set-up and first frame, without reading the
+    // data.
     double first_ms() const { return first_ms_; }
     bool on_cpu() const { return pipeline_->capabilities().cpu; }
-    // Bytes of OpenGL memory after the first frame.
+    // Returns the OpenGL memory that was allocated for the first frame and is kept, in bytes.
     std::int64_t bytes_gpu() const { return bytes_gpu_; }
     std::int64_t bytes_host() const { return pipeline_->renderer().renderer().byte_count(); }
     std::int64_t bytes() const { return bytes_gpu() + bytes_host(); }

@@ -99,7 +99,7 @@ void tell_limits(const std::string& scene, const Runs& runs, std::vector<std::st
     }
 }
 
-// The runs of one scene that did not fail.
+// Returns the runs of one scene that did not fail.
 Runs runs_of(const StudyResults& results, std::size_t scene) {
     Runs runs;
     for (const RunResult& result : results.runs) {
@@ -120,11 +120,12 @@ void tell_failed(const StudyResults& results, std::size_t scene,
                                        failed == 1 ? "" : "s"));
 }
 
-// Returns the results of a study as sentences. Every number in them was measured.
+// Returns the results of a study as sentences. All their numbers are measured.
 std::vector<std::string> study_findings(const StudyResults& results) {
     const RunList& list = results.list;
     std::vector<std::string> findings;
-    // The trees to take are the answer, so they come first; how all runs compare comes after them.
+    // The trees to choose answer the study's question, so they come first, and comparisons of all
+    // runs after them.
     for (const bool in_floats : {false, true}) {
         for (std::size_t scene = 0; scene < list.scenes.size(); ++scene) {
             for (std::string& finding :
@@ -182,8 +183,9 @@ Json run_to_json(const RunList& list, const RunResult& result) {
     return json;
 }
 
-// Returns the scale of all differences of a scene: the median of the runs' L-infinity errors, so
-// that half of the pictures are shown without clipping, and the others where they are worst.
+// Returns the value at the end of the colour bar of all differences of a scene: the median of the
+// runs' Linf errors. Half of the pictures are then shown unclipped, and the rest clipped where they
+// are worst.
 double difference_scale(const Runs& runs) {
     std::vector<double> largest;
     for (const RunResult* const run : runs) {
@@ -228,7 +230,7 @@ void add_pictures(Json& comparison, const StudyFolder& folder) {
         each["height"] = reference.image.height;
         references[each["id"]] = std::move(reference);
     }
-    // Colour spaces by reference, for the runs that were compared with one.
+    // Colour space of the runs that were compared with each reference.
     std::map<std::string, ImageColorSpace> spaces;
     for (Json& run : comparison["runs"]) {
         if (run.contains("failed")) continue;
@@ -273,7 +275,8 @@ void copy_pictures(const std::filesystem::path& from, const std::filesystem::pat
     }
 }
 
-// Copies the references that are complete. Another shard may have one in place of a damaged one.
+// Copies the intact references that are missing in `into`. Damaged ones are left out: another shard
+// may have them intact.
 void copy_references(const std::filesystem::path& from, const std::filesystem::path& into,
                      const ReferenceStore::Say& say) {
     std::error_code error;
@@ -292,7 +295,7 @@ void copy_references(const std::filesystem::path& from, const std::filesystem::p
     }
 }
 
-// Throws Error if the folder's study is not that of the list, or drew other data.
+// Throws Error if the folder's study is another one than the list's, or drew other data.
 void check_list(RunList& list, const std::filesystem::path& list_of, const StudyFolder& folder) {
     const RunList other = read_list(folder);
     if (other.id() != list.id()) {
@@ -315,7 +318,7 @@ void add_journals(const StudyFolder& folder, Journals& journals) {
     }
 }
 
-// Throws Error unless the journals in `into` are beginnings of these.
+// Throws Error if a journal in `into` is not a beginning of the one that would replace it.
 void check_journals(const Journals& journals, const StudyFolder& into) {
     for (const auto& [name, journal] : journals) {
         const std::filesystem::path there = into.path / name;
@@ -327,14 +330,15 @@ void check_journals(const Journals& journals, const StudyFolder& into) {
     }
 }
 
-// A lock on a folder that several shards write into: only one at a time reads the journals and
-// writes results. So the results of the last one have all records.
+// Locks a folder that several shards write into, so that one at a time reads the journals and
+// writes results. So the results written last include all records.
 class FolderLock {
   public:
     explicit FolderLock(const std::filesystem::path& folder)
         : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
         if (descriptor_ < 0) fail("{}: cannot read: {}", folder.string(), std::strerror(errno));
-        // Any other errno means that the file system has no locks. Then it does not wait.
+        // EWOULDBLOCK: another process has the lock. Any other errno means that the file system has
+        // no locks, and then it does not wait.
         while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             check_interrupt();
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -379,7 +383,7 @@ void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFo
     if (std::filesystem::exists(into.run_list())) check_list(list, from.front(), into);
     check_journals(journals, into);
     into.make();
-    // The list stays if `into` is one of the folders that are read.
+    // runs.json is not replaced: `into` may be one of the folders that are read.
     if (!std::filesystem::exists(into.run_list())) write_run_list(into, list);
     for (const std::filesystem::path& path : from) {
         const StudyFolder folder(path);

@@ -13,18 +13,18 @@
 
 namespace lamina::study {
 
-// Returns the contents of results.json (docs/study.md): all that the page of a study shows, except
-// for its pictures.
+// Returns the contents of results.json (docs/study.md): all that the page of a study shows but the
+// pictures.
 nlohmann::ordered_json report_of(const StudyResults& results);
 
-// Copies the journals, references and pictures of shards of one study into a folder. Throws Error
-// if they belong to different studies or drew different data, if two of them are the same shard, or
-// if the folder holds another study. `say`: gets messages about damaged references.
+// Copies the journals, references and pictures of the shards of one study into a folder. Throws
+// Error if they belong to different studies or drew different data, if two are the same shard, or
+// if the folder holds another study. `say`: called with messages about damaged references.
 void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFolder& into,
                    const ReferenceStore::Say& say);
 
 struct StudySummary {
-    std::size_t runs = 0, wanted = 0;  // runs that are finished, and runs of the whole study
+    std::size_t runs = 0, wanted = 0;  // finished runs, and runs of the study in all
     std::vector<std::string> findings, failures;
 };
 

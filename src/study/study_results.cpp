@@ -29,7 +29,7 @@ struct CompleteLines {
     std::int64_t bytes = 0;
 };
 
-// Returns null if the line is not JSON that the program reads.
+// Returns the record in the line, or null if the line is not JSON.
 nlohmann::json record_of(const std::string& line) {
     try {
         return parse_json(line);
@@ -42,7 +42,7 @@ CompleteLines read_lines(const std::filesystem::path& path) {
     std::istringstream stream(read_file_bytes(path));
     CompleteLines lines;
     std::string line;
-    // getline() meets the end of the file if the newline is missing: that line is incomplete.
+    // getline() sets eof if the newline is missing: that line was not written to its end.
     while (std::getline(stream, line) && !stream.eof()) {
         lines.records.push_back(record_of(line));
         if (!lines.records.back().is_object()) {
@@ -60,7 +60,7 @@ using Records = std::vector<nlohmann::json>;
 // The records of one run in one journal.
 struct RunRecords {
     const nlohmann::json* drawn = nullptr;
-    std::map<int, const nlohmann::json*> rounds;  // the first record of each
+    std::map<int, const nlohmann::json*> rounds;  // first record of each round
     std::map<std::pair<int, int>, double> ms;     // medians by session and round
     std::string failed;
 };
@@ -91,7 +91,8 @@ ErrorNorms norms_from(const nlohmann::json& json) {
     return {json.at("linf"), json.at("l1"), json.at("l2")};
 }
 
-// Only rounds of one session are compared: they were neighbours in time, on one machine.
+// Returns the run's frame time over the baseline's. Only rounds of one session are compared: they
+// were neighbours in time, on one machine.
 std::optional<double> ratio_to(const RunRecords& run, const RunRecords& baseline) {
     std::vector<double> ratios;
     for (const auto& [place, ms] : run.ms) {
@@ -126,8 +127,8 @@ RunResult result_of(std::size_t number, const RunRecords& run) {
     return result;
 }
 
-// Adds the result of the first journal that has all of a run or, if there is none, the message of
-// its failure.
+// Adds the result of the first journal that is complete for this run or, if there is none, the
+// message of its failure.
 void add_result(const RunList& list, std::size_t number,
                 const std::vector<JournalRecords>& journals, std::vector<RunResult>& results) {
     const StudyRun& run = list.runs[number];
@@ -163,7 +164,7 @@ void find_fronts(StudyResults& results) {
     }
 }
 
-// The environments are those of all journals, because processes may have run on several machines.
+// Returns the environments of all journals, since processes may have run on several machines.
 Json environment_of(const std::vector<Records>& journals, const std::vector<RunResult>& runs) {
     std::map<std::string, std::set<std::string>> words;
     for (const Records& records : journals) {
@@ -185,7 +186,7 @@ Json environment_of(const std::vector<Records>& journals, const std::vector<RunR
 
 const std::vector<std::string> channel_names{"R", "G", "B", "A"};
 
-// All digits are written, so that the members of a front can be checked.
+// Returns the number with all digits, so that a reader can check the Pareto front.
 std::string number(double value) {
     return fmt::format("{}", value);
 }
@@ -290,7 +291,7 @@ Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
     descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
     try {
-        // Some file systems have no locks. There nothing keeps two processes apart.
+        // Some file systems have no locks: there, nothing keeps two processes apart.
         if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
             fail("{}: another lamina study is writing it", path_.string());
         CompleteLines lines = read_lines(path_);
@@ -332,7 +333,7 @@ std::vector<bool> pareto_front(const std::vector<CostAndError>& points) {
         return points[a].error < points[b].error;
     });
     std::vector<bool> front(points.size(), false);
-    CostAndError last{-INFINITY, INFINITY};  // of the front, at the largest cost so far
+    CostAndError last{-INFINITY, INFINITY};  // last point of the front so far
     for (const std::size_t i : order) {
         const CostAndError& point = points[i];
         const bool equal = point.cost == last.cost && point.error == last.error;

@@ -16,16 +16,16 @@
 
 namespace lamina::study {
 
-// The folder of a study and the files in it.
+// The folder of a study, with the paths of its files.
 struct StudyFolder {
     explicit StudyFolder(std::filesystem::path folder) : path(std::move(folder)) {}
 
-    // The files that a study replaces, and the folders that it adds files to.
+    // Names of the files that a study replaces, and of the folders that it adds files to.
     static std::vector<std::string> results() {
         return {"results.csv", "results.json", "report.html"};
     }
     static std::vector<std::string> folders() { return {"references", "pictures"}; }
-    static std::vector<std::string> names();  // both
+    static std::vector<std::string> names();  // results() and folders()
 
     std::filesystem::path path;
     OwnFiles own() const { return OwnFiles(path, "study"); }
@@ -36,21 +36,21 @@ struct StudyFolder {
         return pictures() / (run + ".exr");
     }
     std::filesystem::path journal(int shard, int shards) const;
-    std::vector<std::filesystem::path> journals() const;  // those that exist, by name
-    // All existing files that are not results: run list, journals, references, pictures.
+    std::vector<std::filesystem::path> journals() const;  // existing ones, by name
+    // Returns all existing files that are not results: run list, journals, references, pictures.
     std::vector<std::filesystem::path> kept() const;
     void make() const;  // makes the folder and its subfolders; throws Error
 };
 
-// Text about a record that lamina did not write.
+// Message about a record that lamina did not write.
 inline constexpr const char* strange_record =
     "a record lacks a key, or a key has a value of another kind";
 
-// The records of a running study, one line of JSON each. A record is on disk before append()
-// returns, so that a crash loses at most the record that was being written.
+// The file with the records of a study, one line of JSON each. A record is on disk before append()
+// returns, so that a crash loses at most the record being written.
 class Journal {
   public:
-    // Opens or makes the file. An incomplete last line is removed. Throws Error, also if another
+    // Opens or makes the file, and removes an incomplete last line. Throws Error, also if another
     // process has the file open.
     explicit Journal(std::filesystem::path path);
     ~Journal();
@@ -58,10 +58,10 @@ class Journal {
     Journal& operator=(const Journal&) = delete;
 
     void append(const nlohmann::ordered_json& record);
-    // The records that the file had when it was opened.
+    // Returns the records that the file had when it was opened.
     const std::vector<nlohmann::json>& found() const { return found_; }
 
-    // All complete records of a journal.
+    // Returns all complete records of a journal.
     static std::vector<nlohmann::json> read(const std::filesystem::path& path);
 
   private:
@@ -78,17 +78,18 @@ struct CostAndError {
 // in both numbers and smaller in one.
 std::vector<bool> pareto_front(const std::vector<CostAndError>& points);
 
-// The measurements of one run. Times in ms, errors in 1/255.
+// The measurements of one run. Times are in ms, errors in 1/255.
 struct RunResult {
     std::size_t run = 0;  // index into the list of runs
-    std::string failed;   // reason of a failure; then nothing else is set
+    std::string failed;   // reason of a failure; the other members are then unset
     std::vector<double> frame_ms, still_ms;
-    // Facts, choice, set-up and first frame, measured once. Journals of earlier versions lack it.
+    // Time of facts, choices, set-up and first frame, measured once. Journals of earlier versions
+    // lack it.
     std::optional<double> first_ms;
-    // Frame time over the baseline's: the median of the rounds' ratios.
+    // Frame time over that of the baseline: the median over the rounds.
     std::optional<double> ratio;
     std::string reference;       // id of the reference
-    double reference_error = 0;  // the reference's own estimate
+    double reference_error = 0;  // the tracer's estimate of the reference's own error
     ErrorNorms all;
     std::map<std::string, ErrorNorms> channels;
     std::map<std::string, double> stages_ms;
@@ -96,19 +97,19 @@ struct RunResult {
     std::string renderer;
     bool pareto = false;  // on the Pareto front of its scene's runs, in median frame time and L2
 
-    // Returns true if the error is below ten times the reference's own estimate. Then it says
+    // Returns true if the error is below ten times the reference's own estimate, so that it says
     // little about the run.
     bool near_reference() const { return all.linf < 10 * reference_error; }
 };
 
-// The results in a folder's journals: one for every finished run, in the order of the list.
+// The results in a folder's journals: one for each finished run, in the order of the list.
 struct StudyResults {
     RunList list;
     std::vector<RunResult> runs;
     nlohmann::ordered_json environment;
 };
 
-// Reads the results. Throws Error if the folder holds no study, or one whose files were changed.
+// Reads the results. Throws Error if the folder has no study, or if its files were changed.
 StudyResults read_results(const StudyFolder& folder);
 
 // Returns the contents of results.csv: one row for each run.

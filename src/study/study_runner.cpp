@@ -39,8 +39,8 @@ std::string content_of(const StudyData& data, DataStore& store) {
     }
 }
 
-// Adds the data that a run of the study's scene `number` draws, if they are not listed yet. The
-// data of its reference are included. For a mesh made from a volume the volume is added.
+// Adds the data that a run of scene `number` draws, and those of its reference, unless they are
+// listed already. For a mesh made from a volume, the volume is added.
 void add_data(std::size_t number, const Scene& drawn, TraceOf reference,
               std::vector<StudyData>& data) {
     const auto add = [&](Kind kind, const std::string& name) {
@@ -73,8 +73,8 @@ TraceOf reference_of(const Scene& scene, const StudyFile& file) {
     return scene.method == Method::project ? TraceOf::mesh : TraceOf::volume;
 }
 
-// Throws KeyError for settings that no run can measure: the method "trace", or a reference that the
-// scene does not have.
+// Returns the scene of a run. Throws KeyError if no run can be measured with it: it has the method
+// "trace", or lacks the data of the reference.
 Scene scene_of(const StudyRun& run, const StudyFile& file) {
     Scene scene = read_scene(document_of(run, file), file.scenes[run.scene].file);
     const std::string name = scene.file.string();
@@ -107,8 +107,8 @@ Scene scene_of(const StudyRun& run, const StudyFile& file) {
 
 using Json = nlohmann::ordered_json;
 
-// Renderers are kept for the next round while all of them together take less. Beyond that they are
-// made each time.
+// Renderers are kept for the next round while all of them together take at most this many bytes;
+// beyond it, renderers are dropped and made again in each round.
 constexpr std::int64_t kept_bytes = std::int64_t{1} << 30;
 
 }  // namespace
@@ -134,7 +134,7 @@ std::vector<StudyData> check_runs(const RunList& list, const StudyFile& study) {
             fail("{}: {}", study.file.string(), error.what());
         } catch (const KeyError& error) {
             if (outcome.failed++ == 0) outcome.message = error.what();
-        } catch (const Error& error) {  // a file that is missing
+        } catch (const Error& error) {  // a missing file
             fail("{}: {}", study.file.string(), error.what());
         }
     }
@@ -148,7 +148,8 @@ std::vector<StudyData> check_runs(const RunList& list, const StudyFile& study) {
 void list_data(const std::vector<StudyData>& data, DataStore& store, RunList& list) {
     std::map<std::pair<Kind, std::string>, std::string> known;
     for (const StudyData& each : data) {
-        if (each.scene != data.front().scene) store.clear();  // memory is for one scene at a time
+        // Only one scene's data are in memory at a time.
+        if (each.scene != data.front().scene) store.clear();
         const auto [found, added] = known.try_emplace({each.kind, each.name});
         if (added) found->second = content_of(each, store);
         list.data.push_back({each.name, found->second});
@@ -198,7 +199,8 @@ void StudyRunner::take_over(const std::vector<nlohmann::json>& records) {
     time_baselines_again();
 }
 
-// A power cut may keep a record and lose its picture.
+// Tells whether the run's picture and reference exist: after a power cut a record may exist without
+// them.
 bool StudyRunner::has_pictures(const std::string& run, const nlohmann::json& drawn) {
     const auto [found, added] =
         kept_references_.try_emplace(drawn.at("reference").get<std::string>());
@@ -206,7 +208,8 @@ bool StudyRunner::has_pictures(const std::string& run, const nlohmann::json& dra
     return found->second && std::filesystem::exists(folder_.picture(run));
 }
 
-// Runs that are still to be timed need their baseline timed in the same session.
+// Marks baselines to be timed again: runs that are still to be timed are compared with a baseline
+// of the same session.
 void StudyRunner::time_baselines_again() {
     for (std::size_t run = 0; run < list_.runs.size(); ++run) {
         if (!is_wanted(run) || is_finished(run)) continue;
@@ -238,8 +241,8 @@ std::size_t StudyRunner::finished() const {
     return count;
 }
 
-// Runs of one context follow one another, because making an OpenGL context takes longer than a
-// frame.
+// Returns the runs to do, those of one context after one another: making an OpenGL context takes
+// longer than a frame.
 std::vector<std::size_t> StudyRunner::runs_of(std::size_t scene) const {
     std::vector<std::size_t> runs;
     for (std::size_t run = 0; run < list_.runs.size(); ++run) {
@@ -281,7 +284,7 @@ void StudyRunner::run_scene(std::size_t scene, Progress& progress) {
     data_.clear();
 }
 
-// `runs`: of the scene whose first round is done.
+// Says how long the rest takes. `runs`: number of runs of the scene whose first round is done.
 void StudyRunner::say_time_left(std::size_t scene, std::size_t runs) const {
     std::size_t unseen = 0;  // runs of later scenes
     for (std::size_t run = 0; run < list_.runs.size(); ++run)
@@ -293,7 +296,8 @@ void StudyRunner::say_time_left(std::size_t scene, std::size_t runs) const {
                          list_.scenes[scene], runs, duration_text(seconds)));
 }
 
-// An error in one run does not stop the others. A failure to write does.
+// Draws and times one run in one round. An error in a run is recorded and does not stop the others;
+// a failure to write does.
 void StudyRunner::visit(std::size_t run, int round) {
     Done& done = done_[run];
     const auto number = static_cast<std::size_t>(round);
@@ -352,7 +356,7 @@ StudyFrames& StudyRunner::frames_of(std::size_t run) {
 }
 
 void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured& measured) {
-    frames.draw();  // a second time: the stages of a first frame are those of cold memory
+    frames.draw();  // drawn a second time: the first frame's times are those of cold caches
     const Image image = frames.picture();
     const Scene& scene = frames.scene();
     const Reference& reference = references_.get(scene, reference_of(scene, file_), data_);
@@ -378,7 +382,7 @@ nlohmann::ordered_json StudyRunner::time_round(std::size_t run, int round, Study
         return watch.milliseconds();
     };
     std::vector<double> moving, still;
-    frames.draw();  // the warm-up: other runs have filled the caches
+    frames.draw();  // warms up caches that other runs have filled
     for (int i = 0; i < list_.frames; ++i) still.push_back(timed([&] { frames.draw(); }));
     for (int i = 1; i <= list_.frames; ++i)
         moving.push_back(timed([&] { frames.draw_turned(degrees_per_frame * i); }));

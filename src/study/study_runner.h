@@ -31,18 +31,18 @@ struct StudyData {
     }
 };
 
-// Reads every run's scene and checks that its files exist. Throws Error if a file is missing, a
-// key is unknown, or no run of a scene can be drawn. Other errors of single runs are found when
-// these are run. Returns the data that the runs draw, each once.
+// Reads the scene of every run and checks that its files exist. Throws Error if a file is missing,
+// a key is unknown, or no run of a scene can be drawn. Other errors show when a run is drawn.
+// Returns the data that the runs draw, each once.
 std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);
 
-// Adds the data to the list, with the hashes of their contents. A hash is empty if the data
-// cannot be read; the runs that need them report this. Each is read once. Data of a single scene
-// stay in the store.
+// Adds the data to the list, with hashes of their contents. Each is read once. If data cannot be
+// read, the hash is empty, and the runs that need them report the error. If all data belong to one
+// scene, they stay in the store.
 void list_data(const std::vector<StudyData>& data, DataStore& store, RunList& list);
 
-// The runs of a list that a process does: those whose number leaves the remainder `number` - 1 when
-// divided by `count`.
+// The runs that one of `count` processes does: those whose index leaves the remainder `number` - 1
+// when divided by `count`.
 struct Shard {
     int number = 1, count = 1;
     bool has(std::size_t run) const {
@@ -66,28 +66,28 @@ struct Shard {
 //       instead of the others; the run is tried again when the study goes on
 class StudyRunner {
   public:
-    // `begin`: a record of where and how this process runs. `data`: may already hold data of the
-    // first scene. `say`: gets messages about work that is done again, and how long the rest takes
-    // after the first round of each scene. Throws Error if the journal cannot be written, or
-    // another process writes it.
+    // `begin`: a record of where and how this process runs. `data`: may hold data of the first
+    // scene already. `say`: called with messages about work that is done again, and, after the
+    // first round of each scene, about the time left. Throws Error if the journal cannot be
+    // written, or if another process is writing it.
     StudyRunner(const RunList& list, const StudyFile& file, const StudyFolder& folder, Shard shard,
                 const nlohmann::ordered_json& begin, DataStore data, ReferenceStore::Say say);
 
-    // Does all runs that the journal lacks. Throws Interrupted, and Error if records cannot be
+    // Does all runs that the journal lacks. Throws Interrupted; and Error if records cannot be
     // written. Errors of single runs are recorded.
     void run();
-    // The number of runs of this shard that the journal has.
+    // Return the number of this shard's runs that are done, and of all of them.
     std::size_t finished() const;
     std::size_t wanted() const;
 
   private:
     struct Done {
-        std::vector<char> rounds;  // which rounds were done, in any session
-        std::vector<char> again;   // for a baseline: rounds to be timed in this session, too
+        std::vector<char> rounds;  // rounds done, in any session
+        std::vector<char> again;   // for a baseline: rounds to time in this session, too
         bool drawn = false, failed = false;
     };
 
-    // The measurements of one visit, before they are written to disk.
+    // Results of one visit to a run, before they are written to disk.
     struct Measured {
         std::optional<Image> picture;
         ImageColorSpace space = ImageColorSpace::linear;
@@ -122,11 +122,11 @@ class StudyRunner {
     std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
     ReferenceStore::Say say_;
     ReferenceStore references_;
-    std::map<std::string, bool> kept_references_;  // whether each was intact, by id
-    std::map<std::size_t, StudyFrames> frames_;    // frames that are kept for the next round
+    std::map<std::string, bool> kept_references_;  // by id: true if the reference was intact
+    std::map<std::size_t, StudyFrames> frames_;    // kept for the next round
     DrawContexts contexts_;
     TimeLeft time_left_;
-    double timing_ms_ = 0;  // of the last run that was timed
+    double timing_ms_ = 0;  // time of the last call of time_round()
 };
 
 }  // namespace lamina::study

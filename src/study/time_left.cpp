@@ -11,22 +11,22 @@
 namespace lamina::study {
 namespace {
 
-constexpr double steps = 1e6;  // the line from 0 to 100 % has so many
+constexpr double steps = 1e6;  // of the progress bar, from 0 to 100 %
 constexpr std::chrono::milliseconds pause(500);
 
-// Work that goes on takes at least this share of its time so far, whatever was predicted.
+// The time left is assumed to be at least this share of the time so far, whatever was predicted.
 constexpr double least_left = 0.02;
 
-// Seconds of one processor that a tet takes: TetGen and the search for the largest errors take most
-// of it (.00022 on an EPYC with AVX2, 2026-11).
+// Time for a tet, in seconds on one processor. TetGen and the search for the largest errors take
+// most of it (measured: .00022 on an EPYC with AVX2, 2026-11).
 constexpr double usual_seconds_a_tet = 2.5e-4;
 
-// Tets over 1 / tolerance. A field with second derivatives needs points in proportion to the power
-// 1.5, noise nearly to the power 3.
+// Exponents p in: number of tets ~ (1 / tolerance)^p. A field with second derivatives needs
+// p = 1.5, noise nearly p = 3.
 constexpr double least_power = 1.5, usual_power = 2.5, largest_power = 3.5;
 
-// All meshes of a ladder that halves its tolerances have so many times the tets of the last one:
-// 1 + 2^-1.5 + 2^-3 + ...
+// Number of tets of all meshes of a ladder that halves its tolerances, over that of the last
+// one: 1 + 2^-1.5 + 2^-3 + ...
 constexpr double sum_of_ladder = 1.55;
 
 }  // namespace
@@ -81,7 +81,7 @@ void TimedProgress::keep_showing(const std::stop_token& stop) {
     }
 }
 
-// Progress predicts the time left from the share that is done.
+// Progress derives the time left from the share that is done, so the share is set to match.
 void TimedProgress::show() {
     const double now = watch_.seconds();
     const double left = std::max(expected_end_ - now, least_left * now);
@@ -102,7 +102,8 @@ void LadderCost::add(double tolerance, std::int64_t tets, double seconds) {
 }
 
 double LadderCost::most_seconds(std::span<const Step> steps) {
-    double full = 0, tets = 0;  // of a ladder that ends with a full mesh, and of other meshes
+    // Largest numbers of tets of a mesh that ends the ladder, and of the others.
+    double full = 0, tets = 0;
     double ladder = 0;
     for (const Step& step : steps) {
         const auto most = static_cast<double>(step.most_tets);

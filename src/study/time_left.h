@@ -17,15 +17,14 @@
 namespace lamina::study {
 
 // Predicts how long the rest of a study takes, from the visits to runs so far. First visits, which
-// read data, trace, set up and draw the first picture, and later ones are held apart.
+// read data, trace, set up and draw the first picture, and later visits are counted apart.
 class TimeLeft {
   public:
-    // `timing`: the part of `seconds` that timed frames, which is all that a later visit does.
+    // `timing`: the part of `seconds` that timed frames; a later visit does only this.
     void add_first(double seconds, double timing);
     void add_later(double seconds);
 
-    // Returns the seconds for so many visits of each kind. At least one first visit must have been
-    // added.
+    // Returns the seconds that these numbers of visits take. One first visit must have been added.
     double of(std::size_t first_visits, std::size_t later_visits) const;
 
   private:
@@ -33,16 +32,16 @@ class TimeLeft {
     std::size_t first_visits_ = 0, later_visits_ = 0;
 };
 
-// "8 s", "3 min", "2 h 10 min": two digits or so.
+// Returns "8 s", "3 min", "2 h 10 min": about two digits.
 std::string duration_text(double seconds);
 
-// Shows the progress of work with few, long steps whose times are predicted, and predicted again
-// after each step. It advances by itself between them.
+// Shows the progress of work with few long steps whose times are predicted, and predicted again
+// after each step. Between the steps the bar advances by the clock.
 class TimedProgress {
   public:
     explicit TimedProgress(const std::string& label);
 
-    void expect(double seconds_left);  // from now
+    void expect(double seconds_left);  // counted from the call
 
   private:
     void keep_showing(const std::stop_token& stop);
@@ -57,23 +56,24 @@ class TimedProgress {
     std::jthread thread_;  // last: it uses the others
 };
 
-// Predicts how long the meshes of a ladder take to be made, drawn and traced, which is nearly all
-// of a cross-check's time. The time grows with the tets, and these with a power of 1 / tolerance.
+// Predicts how long it takes to make, draw and trace the meshes of a ladder, which is nearly all of
+// the time of a cross-check. The time grows with the number of tets, and that with a power of
+// 1 / tolerance.
 class LadderCost {
   public:
     struct Step {
         double tolerance;
         std::int64_t most_tets;
-        bool last_if_full = false;  // no such step comes after one that has most_tets
+        bool last_if_full = false;  // if the mesh has most_tets, no later step follows
     };
 
-    // Takes a mesh that is done. Tolerances decrease.
+    // Adds a mesh that is done. Tolerances decrease from call to call.
     void add(double tolerance, std::int64_t tets, double seconds);
 
-    // Returns about how many seconds of one processor these meshes take if all are as large as they
-    // may be. Tolerances decrease.
+    // Returns about how many seconds of one processor the meshes take if each has as many tets as
+    // it may. Tolerances decrease.
     static double most_seconds(std::span<const Step> steps);
-    // Returns the seconds to expect after the meshes that were added, one at least.
+    // Returns the seconds to expect for these meshes. At least one mesh must have been added.
     double expected_seconds(std::span<const Step> steps) const;
 
   private:
@@ -81,7 +81,7 @@ class LadderCost {
         double tolerance, tets;
     };
 
-    double power_ = 0, seconds_a_tet_ = 0;  // as the last meshes had them
+    double power_ = 0, seconds_a_tet_ = 0;  // of the last meshes
     std::optional<Made> last_;
 };
 

@@ -37,7 +37,7 @@ Json plot(const Series& series, const char* title, const char* x_label, bool x_l
     return json;
 }
 
-// Returns the bifurcation factors of a run, from the root to the leaves. Empty if no tree is swept
+// Returns the bifurcation factors of a run, from the root to the leaves; empty if no tree is swept
 // or the run failed.
 std::vector<int> factors_of(const RunList& list, const RunResult& result) {
     const nlohmann::json* const found = find_setting(list.runs[result.run].settings, factors_key);
@@ -45,14 +45,14 @@ std::vector<int> factors_of(const RunList& list, const RunResult& result) {
     return found->get<std::vector<int>>();
 }
 
-// Returns a name of the run's other settings: "fixed8".
+// Returns a name of the run's settings without the factors: "fixed8".
 std::string name_without_factors(const StudyRun& run) {
     Settings others = run.settings;
     std::erase_if(others, [](const auto& setting) { return setting.first == factors_key; });
     return run_name(others);
 }
 
-// Returns the largest factor over the smallest: 1 for a regular tree.
+// Returns the largest factor over the smallest; 1 for a regular tree.
 double irregularity(const std::vector<int>& factors) {
     const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
     return static_cast<double>(*most) / *least;
@@ -75,7 +75,7 @@ std::string nodes_text(std::int64_t nodes) {
     return fmt::format("{} node{}", nodes, nodes == 1 ? "" : "s");
 }
 
-// The least power of ten that is not below the number of nodes.
+// Returns the smallest power of ten that is not below the number of nodes.
 std::int64_t bracket_of(std::int64_t nodes) {
     std::int64_t most = 1;
     while (most < nodes) most *= 10;
@@ -97,7 +97,7 @@ std::string baseline_name(const RunList& list, std::size_t scene) {
     return list.runs[list.baselines[scene]].name;
 }
 
-// The time of a run, which is a ratio if the baseline was measured, too.
+// Returns the time of a run as text: relative to the baseline, if that was measured, too.
 std::string cost_text(const RunList& list, const RunResult& run) {
     if (!run.ratio) return fmt::format("in {:.3g} ms", median(run.frame_ms));
     return fmt::format("in {:.2f} times the time of {}", *run.ratio,
@@ -120,7 +120,8 @@ std::string nodes_range(std::int64_t most) {
     return fmt::format("{} to {}", most / 10 + 1, most);
 }
 
-// Rows of the tables. Trees in floats would win by their target, so they have a table of their own.
+// Rows of the tables. Trees in floats have a table of their own: beside codes their target alone
+// would make them best.
 struct AnswerRows {
     Json trees = Json::array(), trees_in_floats = Json::array(), straight = Json::array();
 };

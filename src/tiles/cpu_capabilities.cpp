@@ -24,7 +24,7 @@ Capabilities cpu_capabilities() {
     capabilities.cpu = true;
     capabilities.max_texture_size = largest_edge;
     capabilities.max_3d_texture_size = std::numeric_limits<int>::max();
-    // Gathers address memory by vectors of 32-bit numbers.
+    // Gather instructions address memory by vectors of signed 32-bit numbers.
     capabilities.max_texture_bytes = std::uint64_t{std::numeric_limits<std::int32_t>::max()};
     capabilities.max_array_layers = std::numeric_limits<int>::max();
     capabilities.framebuffer_fetch = true;  // a fragment may read its pixel

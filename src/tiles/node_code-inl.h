@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of compositing/codes.h on vectors of floats, as
-// shaders/compositing/node_code.glsl computes it.
+// Codes of the optical depths of a compositing tree's nodes: vector forms of encode_depth() and
+// decode_depth() of compositing/codes.h in floats, as shaders/compositing/node_code.glsl computes
+// them. `share` is always a node's share of its ray's samples.
 #if defined(LAMINA_TILES_NODE_CODE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_NODE_CODE_INL_H_
 #undef LAMINA_TILES_NODE_CODE_INL_H_
@@ -35,6 +36,7 @@ LAMINA_INLINE Float depth_from_opacity(Float value) {
     return select(value < 0.25f, small, large);
 }
 
+// Returns the code NodeCode::minimax of a depth (docs/numerics.md, section 4).
 LAMINA_INLINE Float encode_minimax(Float depth, float share) {
     const Float sigma = depth / share;
     const float log_part = log_part_of(share);
@@ -45,6 +47,7 @@ LAMINA_INLINE Float encode_minimax(Float depth, float share) {
     return min(scaled / (1.0f + log_part), 1);
 }
 
+// Returns the depth of a code; value < 1.
 LAMINA_INLINE Float decode_minimax(Float value, float share) {
     const float log_part = log_part_of(share);
     const Float u = value * (1.0f + log_part);

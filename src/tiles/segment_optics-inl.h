@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opacity and colour of segments in closed form, by quadrature, and from the uniform table: vector
-// forms of optics/opacity.h, of shaders/optics, and of shaders/preintegration/uniform_table.glsl.
+// Opacity and colour of segments of rays, in three groups of vector forms: opacities of optical
+// depths (shaders/optics/opacity.glsl); weights of the front's colour on linear segments and
+// pieces, with the Gauss rules of curved ones (shaders/optics/linear_segment.glsl,
+// piece_weights.glsl); and segments looked up in a UniformTable
+// (shaders/preintegration/uniform_table.glsl).
 #if defined(LAMINA_TILES_SEGMENT_OPTICS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_SEGMENT_OPTICS_INL_H_
 #undef LAMINA_TILES_SEGMENT_OPTICS_INL_H_
@@ -18,7 +21,7 @@
 LAMINA_SIMD_BEGIN
 
 // Returns the opacity of an optical depth >= 0, with a relative error of 3e-7 at every depth,
-// infinity included. The shader gives the reasons.
+// infinity included. shaders/optics/opacity.glsl gives the reasons for each step.
 LAMINA_INLINE Float opacity_from_depth(Float depth) {
     const Float octaves = min(depth * 1.4426950408889634f, 126.0f);
     const Int n = to_int(octaves + 0.5f);
@@ -30,7 +33,7 @@ LAMINA_INLINE Float opacity_from_depth(Float depth) {
     return (1 - power) - power * (f * polynomial(f, slope));
 }
 
-// Returns the opacity in double precision, to 1e-13.
+// Returns the opacity in double precision, to 1e-13, as shaders/optics/opacity.glsl does.
 template <class V>
 requires(std::is_same_v<typename V::Scalar, double>) LAMINA_INLINE V opacity_from_depth(V depth) {
     const V x = min(depth, 40.0) * (-1.0 / 256);
@@ -41,15 +44,16 @@ requires(std::is_same_v<typename V::Scalar, double>) LAMINA_INLINE V opacity_fro
     return -result;
 }
 
-// Linear segments, on which colour and extinction are linear (shaders/optics/linear_segment.glsl):
-// opacity has a closed form, and colour needs the weight of the segment's front
-// (optics/segment_integral.h).
-//
-// For optical depths up to faint_depth. Opacity has a relative error of 1.1e-7, and the weight is
-// that of faint_front_weight().
+// Front weights. On a linear segment colour and extinction are linear. With p and q the extinction
+// at its front and back times its length, the optical depth is (p + q) / 2, and the associated
+// colour is weight * front colour + (opacity - weight) * back colour (optics/segment_integral.h).
+// Each range of depths has its approximation (shaders/optics/linear_segment.glsl).
+
+// Returns the opacity of a depth up to faint_depth, with a relative error of 1.1e-7.
 LAMINA_INLINE Float faint_opacity(Float depth) {
     return depth * polynomial(depth, {0.9999999f, -0.4999845f, 0.16627573f, -0.03848669f});
 }
+// Returns the front weight for optical depths up to faint_depth.
 LAMINA_INLINE Float faint_front_weight(Float p, Float q) {
     const Float pq = -0.07483143f + p * 0.01593537f + q * 0.01098378f;
     const Float of_p = 0.33332185f + p * (-0.06649057f + p * 0.00875053f) + q * pq;
@@ -57,7 +61,7 @@ LAMINA_INLINE Float faint_front_weight(Float p, Float q) {
     return p * of_p + q * of_q;
 }
 
-// For optical depths up to thin_depth.
+// Returns the front weight for optical depths up to thin_depth.
 LAMINA_INLINE Float thin_front_weight(Float p, Float q) {
     const Float c0 = q * polynomial(q, {0.166777794f, -0.025093103f, 0.002890381f, -0.000196459f});
     const Float c1 = polynomial(q, {0.333037217f, -0.074477034f, 0.011162302f, -0.000919007f});
@@ -67,14 +71,13 @@ LAMINA_INLINE Float thin_front_weight(Float p, Float q) {
     return p * (p * (p * (p * c4 + c3) + c2) + c1) + c0;
 }
 
-// `table`: the texels of FrontWeightTable, nodes x nodes floats, one row for each q.
+// Returns the front weight for any depth from FrontWeightTable: nodes x nodes, a row for each q.
 LAMINA_INLINE Float front_weight(const float* table, int nodes, Float p, Float q) {
     constexpr float finite = 1e30f;
     const auto last = static_cast<float>(nodes - 1);
     p = min(p, finite);
     q = min(q, finite);
-    // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q), computed without a difference so that segments of
-    // small optical depth keep their digits.
+    // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q), without a difference: faint segments keep digits.
     const Float root = sqrt(1 + q);
     const Float x = last * (p / (1 + p));
     const Float y = last * (q / root / (1 + root));
@@ -86,9 +89,8 @@ LAMINA_INLINE Float front_weight(const float* table, int nodes, Float p, Float q
     return mix(near, far, share_y);
 }
 
-// Returns the weight of the front's colour on a linear piece with extinction * length = p at its
-// front and q at its back, by nine-point Gauss-Legendre quadrature over optical depths below 12
-// (shaders/optics/piece_weights.glsl gives the reasons).
+// Returns the front weight for any optical depth by nine-point Gauss-Legendre quadrature over the
+// optical depths below 12 (shaders/optics/piece_weights.glsl gives the reasons).
 LAMINA_INLINE Float piece_front_weight(Float p, Float q) {
     constexpr float nodes[] = {
         0.015919880246187f, 0.0819844463366821f, 0.193314283649705f,  0.337873288298096f, 0.5f,
@@ -98,7 +100,7 @@ LAMINA_INLINE Float piece_front_weight(Float p, Float q) {
                                  0.130305348201468f,  0.0903240803474287f, 0.0406371941807872f};
     constexpr float most_depth = 12;
     const Float depth = 0.5f * p + 0.5f * q;
-    // Place up to which the optical depth is most_depth, in units of depth.
+    // Up to `place` the depth is most_depth: the root of a quadratic in p and q over `depth`.
     const Float slope = p / depth, share = most_depth / depth;
     const Float twice = share + share;
     const Float square = slope * slope + twice * (q / depth - slope);
@@ -114,8 +116,8 @@ LAMINA_INLINE Float piece_front_weight(Float p, Float q) {
     return 1 - seen + seen * sum;
 }
 
-// Optical depth above which pieces are split: up to here the Gauss rules below are accurate to .01
-// / 255.
+// Optical depth above which pieces of exact segments are split. Up to it, the Gauss rules of
+// GaussRule have an error of at most .01 / 255.
 inline constexpr float largest_piece_depth = 0.75f;
 
 // Returns 1 - exp(-depth) for depths up to largest_piece_depth, with a relative error of 2e-5:
@@ -146,27 +148,29 @@ LAMINA_INLINE Float length_layer(const UniformTable& table, Float v) {
         const Float octaves = log_of(max(v, 1)) * 1.44269504f;
         return octaves + min(v, 1);  // Kraus 2004, Equation 1
     }
-    // The bits of a float are linear within each octave: see the shader.
+    // As a whole number, the bits of a float grow linearly within each octave
+    // (shaders/preintegration/uniform_table.glsl).
     const Int from_half = bits_as<Int>(v) - 0x3f000000;
     const Float octaves = to_float(from_half) * (1.0f / 8388608);
     return max(octaves, min(v, 1));
 }
 
-// The table's entries for a vector of segments, before they are multiplied by its scale. `color` is
-// set for coloured tables.
+// A table entry for each segment. plain_entry() and colored_entry() return what the table stores,
+// divided by table.scale: mean extinction or opacity and, with colour, the matching mean emission
+// or associated colour. integrate_segment() returns associated colour and opacity in it.
 struct SegmentEntry {
     Float color[3];
     Float value;  // mean extinction or opacity
 };
 
-// Positions of segments in the table: the number of the texel at the lower front node, back node
-// and layer, and the distances beyond them.
+// The place of each segment in the table: the number of the texel at the lower front node, lower
+// back node and lower layer, and the shares of the steps from there to the upper ones.
 struct SegmentPlace {
     Int texel;
     Float front, back, layer;
 };
 
-// Scalars must be normalised so that the table covers [0, 1].
+// Returns the places of segments. Scalars must be normalised so that the table covers [0, 1].
 LAMINA_INLINE SegmentPlace segment_place(const UniformTable& table, float inverse_first_length,
                                          Float front, Float back, Float world_length) {
     const int nodes = table.request.scalar_nodes;
@@ -185,7 +189,7 @@ LAMINA_INLINE SegmentPlace segment_place(const UniformTable& table, float invers
     return {column + number * nodes, x - to_float(column), y - to_float(row), beyond};
 }
 
-// For tables with one number a texel.
+// Interpolates in a table with one number a texel, mean extinction or opacity.
 LAMINA_INLINE Float plain_entry(const UniformTable& table, const SegmentPlace& place) {
     const std::ptrdiff_t nodes = table.request.scalar_nodes;
     const auto layer_from = [&](const float* texels) LAMINA_LAMBDA {
@@ -199,8 +203,7 @@ LAMINA_INLINE Float plain_entry(const UniformTable& table, const SegmentPlace& p
     return mix(below, layer_from(table.texels.data() + nodes * nodes), place.layer);
 }
 
-// For tables with four numbers a texel. Lanes are read one by one, because the four numbers lie
-// side by side.
+// Interpolates in a table with four numbers a texel, lane by lane, as these lie side by side.
 LAMINA_INLINE SegmentEntry colored_entry(const UniformTable& table, const SegmentPlace& place) {
     constexpr std::size_t lanes = Float::lanes;
     alignas(64) std::int32_t numbers[lanes];
@@ -251,7 +254,8 @@ LAMINA_INLINE SegmentEntry integrate_segment(const UniformTable& table, float in
     }
     const Float opacity =
         opacities ? entry.value * scale : opacity_from_depth(entry.value * (scale * world_length));
-    // If the optical depth is 0, so is the emission. The scale cancels.
+    // In tables of extinction, colour is emission / extinction * opacity, from which the scale
+    // cancels; both are 0 if the optical depth is 0.
     const Float weight = opacities ? scale : opacity / max(entry.value, 1e-37f);
     for (int channel = 0; channel < 3; ++channel) {
         entry.color[channel] =

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a target composites fragments. Functions take and return vectors of a tile's planes
-// (tiles/tile_image.h). Vector forms of compositing/codes.h and compositing/codes.h, bit for bit.
+// Composites fragments onto a vector of pixels of a tile (tiles/tile_image.h). The first half, up
+// to random_of_pixels(), holds vector forms of compositing/codes.h, bit for bit. In the second,
+// blend() computes what OpenGL's blending unit does, rounded as by llvmpipe; composite_codes() OVER
+// on codes, rounded as render.emulate says; composite_stochastic() OVER rounded at random; and
+// blend_opacity() and composite_opacity() the same in one channel.
 #if defined(LAMINA_TILES_TARGET_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_TARGET_PIXELS_INL_H_
 #undef LAMINA_TILES_TARGET_PIXELS_INL_H_
@@ -15,11 +18,13 @@
 
 LAMINA_SIMD_BEGIN
 
-// Bits up to which OVER and UNDER may compute in floats. The rounded sum, up to M^2 + M / 2, is
-// exact in the 24 bits of a float for M < 2^12. Its quotient by M is below 2^12 and so rounded by
-// less than 2^-12. It cannot reach the next whole number, which is at least 1 / M away. For fused
-// UNDER the numbers are M^3 + M^2 / 2 and 1 / M^2, so M < 2^8. Doubles hold the 49 bits of M < 2^16
-// and round quotients by less than 2^-37.
+// Bits of a code up to which OVER and UNDER may compute in floats. With M the largest code, over()
+// and separate under() divide whole numbers of at most M^2 + M / 2 by M. A float has 24 bits and
+// holds these exactly if M < 2^12. The quotient is below 2^12, so the float division rounds it by
+// less than 2^-12, and cannot reach the next whole number, which is at least 1 / M away. Fused
+// under() divides at most M^3 + M^2 / 2 by M^2, so quotients are at least 1 / M^2 from the next
+// whole number: M < 2^8. With more bits doubles are used: they hold the 48 bits of M^3 + M^2 / 2
+// for M < 2^16, and round quotients by less than 2^-37.
 inline constexpr int max_float_over_bits = 12;
 inline constexpr int max_float_under_bits = 8;
 
@@ -29,6 +34,7 @@ LAMINA_INLINE V divide_nearest(V x, typename V::Scalar n) {
     return floor((x + (n - 1) / 2) / n);
 }
 
+// Returns `color` with opacity `alpha` over `below`, all codes 0 .. largest.
 template <class V>
 LAMINA_INLINE V over(OverRounding rounding, V color, V alpha, V below, typename V::Scalar largest) {
     const V source = color * alpha;
@@ -38,6 +44,8 @@ LAMINA_INLINE V over(OverRounding rounding, V color, V alpha, V below, typename 
                : divide_nearest(source, largest) + divide_nearest(kept, largest);
 }
 
+// Returns `above`, an associated colour of opacity `above_alpha`, with `color` of opacity `alpha`
+// added behind it; all are codes 0 .. largest.
 template <class V>
 LAMINA_INLINE V under(OverRounding rounding, V color, V alpha, V above, V above_alpha,
                       typename V::Scalar largest) {
@@ -72,7 +80,7 @@ LAMINA_INLINE V step_up(V code, typename V::Mask up) {
     return code + zero_unless(up, V(1.0));
 }
 
-// `random`: 32 random bits as a number, for stochastic rounding only.
+// Rounds opacity times the largest code to a code. `random`: 32 bits, for stochastic rounding.
 template <class V>
 LAMINA_INLINE V round_alpha(AlphaRounding rounding, const ScaledValues<V>& scaled, V random) {
     switch (rounding) {
@@ -86,6 +94,8 @@ LAMINA_INLINE V round_alpha(AlphaRounding rounding, const ScaledValues<V>& scale
     unreachable_enum();
 }
 
+// Returns the code of a scaled value, dithered along depth: of `period` slabs, the floor(period *
+// rest) with the lowest ranks get the code above the value, the others the code below.
 template <class V>
 LAMINA_INLINE V dither_code(V scaled, double rank, int period, int increment, double largest) {
     const double step = increment;
@@ -121,8 +131,8 @@ LAMINA_INLINE Word random_bits(Word column, Word row, Word sample, Word seed) {
 
 static_assert(TileGrid::block == 4);
 
-// Returns random bits for the pixels of a vector, 4 x 1, 4 x 2 or 4 x 4 of a tile. Its first pixel
-// is (column, row) of the picture, rows from the top.
+// Returns random bits for a vector of pixels: 4 x 1, 4 x 2 or 4 x 4 of them, depending on the
+// length of vectors. The first pixel is (column, row) of the picture, rows from the top.
 LAMINA_INLINE Word random_of_pixels(int column, int row, std::uint32_t sample, std::uint32_t seed) {
     const Word lanes = iota<Word>(0);
     return random_bits(static_cast<std::uint32_t>(column) + (lanes & 3u),
@@ -130,14 +140,14 @@ LAMINA_INLINE Word random_of_pixels(int column, int row, std::uint32_t sample, s
                        Word(seed));
 }
 
-// The associated colour and the opacity of a vector of pixels, or of fragments.
+// Colour and opacity of a vector of pixels, or of fragments: 0 .. 1, or codes if the target has
+// codes. Colours are associated, except in the `codes` that composite_codes() gets.
 struct Pixels {
     Float red, green, blue, alpha;
 };
 using Fragment = Pixels;
 
-// Rounds towards zero to half precision, as llvmpipe stores floats. Below 2^-14 the last place is
-// 2^-24.
+// Rounds towards 0 to half precision, as llvmpipe does; below 2^-14 halves are multiples of 2^-24.
 LAMINA_INLINE Float truncate_to_half(Float v) {
     const Float normal = bits_as<Float>(bits_as<Word>(v) & ~0x1fffu);
     const Float small = trunc(v * 0x1p24f) * 0x1p-24f;
@@ -145,7 +155,7 @@ LAMINA_INLINE Float truncate_to_half(Float v) {
     return min(half, 65504.0f);
 }
 
-// The product of two codes of `bits` bits as the blending unit of llvmpipe rounds it.
+// Returns the product of two codes of `bits` bits (8 or 16) as llvmpipe's blending unit rounds it.
 LAMINA_INLINE Float multiply_codes(int bits, Float a, Float b) {
     if (bits == 8) {
         constexpr float step = 1.0f / 256;
@@ -159,12 +169,13 @@ LAMINA_INLINE Float multiply_codes(int bits, Float a, Float b) {
     return to_float(bits_as<Int>(code));
 }
 
+// Returns the code to which OpenGL converts a value for a fixed-point target.
 LAMINA_INLINE Float native_code(float largest, Float value) {
     return round(clamp01(value) * largest);
 }
 
-// Blends one channel. `kept`: the share of the pixel that the source leaves visible or, front to
-// back, the share of the source that the pixel leaves visible.
+// Blends `source` onto one channel. `kept`: how much, up to target.largest, the source lets through
+// of the pixel or, front to back, the pixel lets through of the source.
 LAMINA_INLINE void blend_channel(const TargetBlend& target, Float source, Float kept,
                                  Float& there) {
     const bool behind = target.order == Order::front_to_back;
@@ -178,10 +189,9 @@ LAMINA_INLINE void blend_channel(const TargetBlend& target, Float source, Float 
     there = target.target == Target::float16 ? truncate_to_half(sum) : sum;
 }
 
-// Computes what the blending unit of a float32, float16, fixed8 or fixed16 target computes: source
-// + there (1 - source alpha), or front to back there + source (1 - there alpha). Fixed-point
-// targets round the fragment to codes first, and then the product. All rounding is that of
-// llvmpipe.
+// Computes what the blending unit does: source + there (1 - source alpha), or front to back there +
+// source (1 - there alpha). Fixed-point targets round the fragment to codes first, and then the
+// product. All rounding is llvmpipe's.
 LAMINA_INLINE void blend(const TargetBlend& target, const Fragment& fragment, Pixels& there) {
     Fragment source = fragment;
     if (is_fixed_point(target.target)) {
@@ -205,7 +215,7 @@ LAMINA_INLINE void blend_opacity(const TargetBlend& target, Float opacity, Float
     blend_channel(target, source, kept, there);
 }
 
-// OVER or UNDER of one channel, in floats if they are precise enough.
+// Returns OVER or, front to back, UNDER of one channel, in floats if they are precise enough.
 LAMINA_INLINE Float composite_channel(const TargetBlend& target, Float color, Float alpha,
                                       Float there, Float there_alpha) {
     const bool behind = target.order == Order::front_to_back;
@@ -222,7 +232,8 @@ LAMINA_INLINE Float composite_channel(const TargetBlend& target, Float color, Fl
         one_channel(Float64(color), Float64(alpha), Float64(there), Float64(there_alpha)));
 }
 
-// Programmable blending of codes, as render.emulate says. Colours are not associated.
+// Composites codes as programmable blending with render.emulate does. Colours in `codes` are not
+// associated; those in `there` are.
 LAMINA_INLINE void composite_codes(const TargetBlend& target, const Pixels& codes, Pixels& there) {
     const Float before = there.alpha, opaque(target.largest);
     there.red = composite_channel(target, codes.red, codes.alpha, there.red, before);
@@ -235,16 +246,14 @@ LAMINA_INLINE void composite_opacity(const TargetBlend& target, Float alpha, Flo
     there = composite_channel(target, Float(target.largest), alpha, there, there);
 }
 
-// Returns the codes of opacities, rounded as render.emulate says. `random`: bits for stochastic
-// rounding.
+// Returns opacities' codes, rounded as render.emulate says. `random`: for stochastic rounding.
 LAMINA_INLINE Float alpha_code(const TargetBlend& target, const Float64& opacity, Word random) {
     const double largest = target.largest;
     return to_float(
         round_alpha(target.alpha_rounding, split_scaled(largest * opacity), Float64(random)));
 }
 
-// Returns the codes of opacities or colours in 0..1, dithered along depth. `rank`: rank of the
-// slab.
+// Returns the codes of opacities or colours in 0..1, dithered along depth. `rank`: the slab's.
 LAMINA_INLINE Float dithered_code(const TargetBlend& target, const Float64& value,
                                   const Dither& dither, std::uint32_t rank) {
     const double largest = target.largest;
@@ -256,8 +265,8 @@ LAMINA_INLINE Float color_code(const TargetBlend& target, Float color) {
     return to_float(code_nearest(largest * Float64(clamp01(color))));
 }
 
-// OVER in real arithmetic on stored codes. The result is rounded at random, with one random number
-// for all channels (compositing/codes.h).
+// Composites a fragment by OVER in real arithmetic on stored codes. The result is rounded at
+// random, with one random number for all channels (compositing/codes.h).
 LAMINA_INLINE void composite_stochastic(const TargetBlend& target, const Fragment& fragment,
                                         Word random, Pixels& there) {
     const Float64 chance(random), alpha(fragment.alpha);

@@ -5,8 +5,8 @@
 
 namespace lamina {
 
-// Memory is touched for the first time in parallel, because the system takes its time to provide
-// it.
+// Writes all tiles once, in parallel, because the system provides memory when it is first written,
+// which takes long.
 TileImage::TileImage(int width, int height)
     : grid_(width, height),
       tiles_(

@@ -12,19 +12,17 @@
 
 namespace lamina {
 
-// A picture cut into squares (tiles). Each tile is drawn by one task, and tasks may run at the same
-// time. Rows run downwards from the picture's top.
+// A picture cut into squares (tiles), each drawn by one task. Rows run downwards from the top.
 class TileGrid {
   public:
     static constexpr int edge = 32;  // pixels of a tile
-    static constexpr int block = 4;  // pixels of a block; a vector is a whole block or rows of one
+    static constexpr int block = 4;  // pixels; a vector holds a block or some of its rows
     static constexpr int pixels = edge * edge;
 
-    // The pixels that a tile covers. Tiles at the right and lower edge may reach beyond the
-    // picture.
+    // The pixels of a tile. Tiles at the right and lower edge may reach beyond the picture.
     struct Tile {
-        int column, row;    // of its first pixel
-        int width, height;  // inside the picture
+        int column, row;    // of its first pixel, in the picture
+        int width, height;  // of the part inside the picture
     };
 
     TileGrid(int width, int height)
@@ -81,7 +79,8 @@ class TileImage {
     const TileGrid& grid() const { return grid_; }
     TilePixels& tile(int number) { return tiles_[static_cast<std::size_t>(number)]; }
     const TilePixels& tile(int number) const { return tiles_[static_cast<std::size_t>(number)]; }
-    // `largest_code`: the number that stands for 1; it is 1 if the tiles hold values.
+    // Copies the picture to `image`. `largest_code`: the number in the tiles that stands for 1; it
+    // is 1 if the tiles hold values and not codes.
     void read(float largest_code, Image& image) const;
     std::int64_t byte_count() const {
         return grid_.count() * static_cast<std::int64_t>(sizeof(TilePixels));
@@ -92,8 +91,7 @@ class TileImage {
     std::unique_ptr<TilePixels[]> tiles_;
 };
 
-// The plan's choices for compositing fragments onto the pixels of a tile, in the form that the
-// inner loops of tiles/target_pixels-inl.h use.
+// The plan's choices for compositing onto a tile, as tiles/target_pixels-inl.h uses them.
 struct TargetBlend {
     Target target = Target::float32;
     int bits = 8;       // bits of a code, for targets with codes

@@ -18,14 +18,16 @@ std::size_t after(std::size_t corner) {
 
 // A triangle cut by three planes has at most six corners.
 struct Polygon {
-    std::array<glm::dvec3, 6> corners;  // from the eye; at infinity from any common origin
+    // Relative to the eye; if it is at infinity, to any common origin.
+    std::array<glm::dvec3, 6> corners;
     std::size_t count = 0;
     void add(const glm::dvec3& corner) {
         if (count < corners.size()) corners[count++] = corner;
     }
 };
 
-// Van Oosterom and Strackee, The solid angle of a plane triangle, 1983, equation 8.
+// Returns the solid angle of a triangle seen from 0 (Van Oosterom and Strackee, The solid angle of
+// a plane triangle, 1983, equation 8).
 double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
     const double determinant = glm::dot(a, glm::cross(b, c));
@@ -54,8 +56,8 @@ Polygon from_eye(const Eye& eye, const Triangle& triangle, const glm::dvec3& ori
     return polygon;
 }
 
-// Boxes around triangles on one side of the eye: across the rays and along them. Triangles in
-// disjoint boxes are disjoint. One that is not well on that side has a box of everything.
+// Makes boxes around triangles on one side of the eye: two axes across the rays, one along them.
+// Disjoint boxes do not hide each other. Triangles not well on that side get a box of everything.
 class SeenBoxes {
   public:
     // Makes boxes for the side of the eye towards `center`.
@@ -77,7 +79,7 @@ inline bool may_show(const FaceTree::Box& exit, const FaceTree::Box& entry) {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// Tangent of the angle from the middle of the view above which points count as behind the eye.
+// Tangent of the angle from the middle of the view, above which points count as behind the eye.
 constexpr double widest = 1e3;
 
 SeenBoxes::SeenBoxes(const Eye& eye, const glm::dvec3& center)
@@ -91,8 +93,8 @@ SeenBoxes::SeenBoxes(const Eye& eye, const glm::dvec3& center)
     axes_ = {across, glm::cross(along, across), along};
 }
 
-// A coordinate is off by at most 4 epsilon of the distance (1-norm; axes need not be exactly across
-// one another). A quotient is off by that of both, as a share of the depth.
+// Bounds of the rounding: a coordinate is off by at most 4 epsilon of the distance (1-norm; axes
+// may be not quite orthogonal), a quotient by the errors of both numbers as a share of the depth.
 FaceTree::Box SeenBoxes::of(const Triangle& triangle) const {
     FaceTree::Box box = FaceTree::nothing();
     for (const glm::dvec3& corner : triangle) {
@@ -113,9 +115,11 @@ FaceTree::Box SeenBoxes::of(const Triangle& triangle) const {
     return box;
 }
 
-// Faces that may be examined for each face, on average. Real meshes need far fewer.
+// Limits the pairs of faces examined: the average for each face. Real meshes need far fewer.
 constexpr std::size_t looks_a_face = 100;
 
+// Finds gap_faces(): the open faces that are not outermost. A face is outermost if all of the mesh
+// lies inside of its plane, apart from faces in the plane that look the same way.
 class Search {
   public:
     explicit Search(const TetMesh& mesh)
@@ -136,7 +140,7 @@ class Search {
                 found.push_back(face);
                 continue;
             }
-            // One face of a flat side of the mesh is enough.
+            // One face of each flat side of the mesh is tested for all.
             for (const std::int32_t other : in_plane_) outermost[other] = true;
         }
         return found;
@@ -145,12 +149,12 @@ class Search {
   private:
     Triangle triangle(std::int32_t face) const { return mesh_.corners(mesh_.open_faces()[face]); }
 
-    // Then `in_plane_` has all other faces of its plane.
+    // Tells whether a face is outermost. If so, `in_plane_` gets all other faces of its plane.
     bool is_outermost(std::int32_t face) {
         const Triangle corners = triangle(face);
         const RoundedPlane plane(corners[1] - corners[0], corners[2] - corners[0]);
         in_plane_.clear();
-        // A point outside of the last face is mostly outside of its neighbours, too.
+        // A point outside of the last tested face is mostly outside of its neighbours, too.
         if (side_of(corners, plane, outside_) > 0) return false;
         const PlaneSide side(plane, corners[0], bounds_);
         bool outermost = true;
@@ -186,19 +190,20 @@ class Search {
         return outermost;
     }
 
-    // Tells whether the direction of its normal is certain.
+    // Tells whether rounding leaves the direction of the plane's normal certain.
     static bool is_sure(const RoundedPlane& plane) { return norm1(plane.normal) > plane.error; }
 
     const TetMesh& mesh_;
     FaceTree tree_;
     FaceTree::Box bounds_;
-    std::size_t left_;    // looks at faces
-    glm::dvec3 outside_;  // a point of the mesh: outside of the last face that is not outermost
+    std::size_t left_;  // number of faces that may still be examined
+    glm::dvec3
+        outside_;  // a point of the mesh that lay outside of the last face that is not outermost
     std::vector<std::int32_t> in_plane_;
 };
 
 constexpr std::int64_t faces_per_task = 256;
-constexpr std::size_t faces_per_run = 32;       // exits whose pairs are one task
+constexpr std::size_t faces_per_run = 32;       // number of exits that one task searches from
 constexpr std::size_t most_pairs = 10'000'000;  // some seconds, and 200 MB with the order's lists
 constexpr std::size_t most_looks = 200'000'000;
 
@@ -224,12 +229,12 @@ SeenTriangle::SeenTriangle(const Eye& eye, const Triangle& corners) : corners_(c
 int SeenTriangle::edge_sign(const Eye& eye, std::size_t corner, const glm::dvec3& point) const {
     const glm::dvec3 &from = corners_[corner], &to = corners_[after(corner)];
     if (const int sign = edges_[corner].sign(point - from)) return sign;
-    // Most triangles that meet here share a corner.
+    // Shortcut: most triangles that meet share a corner.
     if (point == from || point == to) return 0;
     return sign_as_seen(eye, from, to, point);
 }
 
-// Returns 1 if all corners are on or outside this plane, -1 on or inside, 0 on both sides.
+// Returns 1 if all corners of `other` are on this plane or outside, -1 if on it or inside, else 0.
 int SeenTriangle::all_on_one_side(const SeenTriangle& other) const {
     bool outside = false, inside = false;
     for (const glm::dvec3& point : other.corners_) {
@@ -240,7 +245,7 @@ int SeenTriangle::all_on_one_side(const SeenTriangle& other) const {
     return !inside ? 1 : !outside ? -1 : 0;
 }
 
-// Tells whether both pyramids surely lie in one open half-space.
+// Tells whether all rays through both triangles surely lie in one open half-space.
 bool SeenTriangle::sees_ahead(const Eye& eye, const SeenTriangle& other) const {
     if (eye.at_infinity) return true;
     return std::all_of(other.corners_.begin(), other.corners_.end(), [&](const glm::dvec3& point) {
@@ -250,7 +255,7 @@ bool SeenTriangle::sees_ahead(const Eye& eye, const SeenTriangle& other) const {
 
 bool SeenTriangle::separated_by_edge(const Eye& eye, const SeenTriangle& other) const {
     for (std::size_t edge = 0; edge < 3; ++edge) {
-        // Rounded values come first: one corner that is surely on this side decides.
+        // Rounded values come first: a corner that is surely on the inner side decides.
         std::array<int, 3> signs;
         for (std::size_t i = 0; i < 3; ++i)
             signs[i] = sign_ * edges_[edge].sign(other.corners_[i] - corners_[edge]);
@@ -263,8 +268,9 @@ bool SeenTriangle::separated_by_edge(const Eye& eye, const SeenTriangle& other) 
     return false;
 }
 
-// Two triangles have no inner point in common if and only if a line along an edge separates them;
-// so it is with pyramids in one half-space. Otherwise the plane may hold one edge of each.
+// Tells whether the triangles do not overlap as seen from the eye. Two triangles in a plane have no
+// inner point in common if and only if a line along an edge of one separates them; so it is for
+// pyramids in one half-space. Otherwise the separating plane may also hold one edge of each.
 bool SeenTriangle::apart(const Eye& eye, const SeenTriangle& entry) const {
     if (separated_by_edge(eye, entry) || entry.separated_by_edge(eye, *this)) return true;
     if (sees_ahead(eye, entry)) return false;
@@ -285,7 +291,7 @@ bool SeenTriangle::apart(const Eye& eye, const SeenTriangle& entry) const {
 }
 
 bool SeenTriangle::shows(const Eye& eye, const SeenTriangle& entry) const {
-    // If a triangle lies on one side of the other's plane, equal signs mean the same order.
+    // If a triangle lies on one side of the other's plane, this side decides which is in front.
     const auto surely_before = [&](const glm::dvec3& point) {
         return face_.sign(point - corners_[0]) < 0;
     };
@@ -299,7 +305,8 @@ bool SeenTriangle::shows(const Eye& eye, const SeenTriangle& entry) const {
     return of_exit != 0 ? of_exit > 0 : behind_where_mixed(eye, entry);
 }
 
-// Corners of the part seen are corners of either triangle in the other, and crossings of edges.
+// For triangles that intersect. The part of the entry seen through the exit has as corners those of
+// either inside the other, and crossings of edges. Tells whether one is behind the exit.
 bool SeenTriangle::behind_where_mixed(const Eye& eye, const SeenTriangle& entry) const {
     const auto inside = [&](const SeenTriangle& triangle, const glm::dvec3& point) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -318,8 +325,8 @@ bool SeenTriangle::behind_where_mixed(const Eye& eye, const SeenTriangle& entry)
         for (std::size_t j = 0; j < 3; ++j) {
             const glm::dvec3 &c = entry.corners_[j], &d = entry.corners_[after(j)];
             const int side_c = edge_sign(eye, i, c);
-            // Before the eye c -> d passes a -> b in the opposite sense to that of a -> b and c ->
-            // d.
+            // Edges cross if, as seen from the eye, each has its ends on both sides of the other,
+            // in opposite senses: if c -> d passes a -> b to one side, a -> b passes to the other.
             if (side_c == 0 || edge_sign(eye, i, d) != -side_c) continue;
             if (entry.edge_sign(eye, j, a) != -side_c || entry.edge_sign(eye, j, b) != side_c)
                 continue;

@@ -7,8 +7,8 @@
 
 namespace lamina {
 
-// Keeps the part of a convex polygon with height(corner) >= 0, a linear function (Sutherland and
-// Hodgman, Reentrant polygon clipping, 1974).
+// Returns the part of a convex polygon in which height(), a linear function of the place, is >= 0
+// (Sutherland and Hodgman, Reentrant polygon clipping, 1974).
 template <typename Polygon, typename Height>
 Polygon cut(const Polygon& polygon, const Height& height) {
     Polygon kept;
@@ -29,11 +29,11 @@ class SeenTriangle {
     SeenTriangle() = default;
     SeenTriangle(const Eye& eye, const Triangle& corners);
 
-    // As sign_as_seen(). 1: an exit of its tet. -1: an entry. 0: seen edge-on.
+    // Returns 1 if rays leave the triangle's tet by it (an exit), -1 if they enter, 0 if edge-on.
     int sign() const { return sign_; }
 
-    // Tells whether some of `entry`, of positive seen area, is seen through this exit, on it or
-    // behind it. Triangles that intersect: true if some of `entry` lies behind the exit.
+    // Tells whether `entry`, behind or on this exit, is seen through it with an area > 0. If the
+    // triangles intersect, only the part of `entry` behind the exit counts.
     bool shows(const Eye& eye, const SeenTriangle& entry) const;
 
   private:
@@ -48,16 +48,16 @@ class SeenTriangle {
     Triangle corners_{glm::dvec3(0), glm::dvec3(0), glm::dvec3(0)};
     // Planes of edges 01, 12, 20, through the first corner of each.
     std::array<RoundedPlane, 3> edges_;
-    RoundedPlane face_;  // plane of the triangle through corner 0; positive outside the tet
+    RoundedPlane face_;  // plane of the triangle, through corner 0; positive outside the tet
     int sign_ = 0;
 };
 
-// The region that is seen through an exit, on it or behind it, for searches in boxes.
+// The region that is seen through an exit, on it or behind it: a test for searches in a FaceTree.
 class SeenThrough {
   public:
-    // `bounds`: a box around all boxes.
+    // `bounds`: a box around all shapes that reaches() is called with.
     SeenThrough(const SeenTriangle& exit, const FaceTree::Box& bounds);
-    // Rounding never makes this false for a shape with a point of the region.
+    // Tells whether a shape may contain a point of the region. Rounding never makes this false.
     template <typename Shape>
     bool reaches(const Shape& box_or_triangle) const {
         return sides_[0].reaches(box_or_triangle) && sides_[1].reaches(box_or_triangle) &&
@@ -68,32 +68,30 @@ class SeenThrough {
     std::array<PlaneSide, 4> sides_;
 };
 
-// Solid angle (steradian), or for an eye at infinity projected area (world units squared).
+// Returns a triangle's solid angle (steradian), or for an eye at infinity its projected area.
 double seen_area(const Eye& eye, const Triangle& triangle);
 
-// Seen area of `entry` through `exit` (corners clockwise for the eye).
+// Returns the seen area of `entry` through `exit`, whose corners are clockwise for the eye.
 double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry);
 
-// Finds the open faces (ascending indices) at which gaps may begin or end: outside of them lies
-// another part of the mesh, or touches them. Finely faceted surfaces that are flat up to rounding
-// may have others, too, which saves time.
+// Returns the indices, ascending, of open faces where gaps may begin or end: another part of the
+// mesh lies outside of their plane, or touches it from outside. Of finely faceted surfaces that are
+// flat up to rounding it may return more: deciding would take too long.
 std::vector<std::int32_t> gap_faces(const TetMesh& mesh);
 
-// A pair of open faces, by index: some ray leaves the mesh through `exit` and comes back through
-// `entry`, so the tet of the exit is nearer.
+// Open faces, by index: some ray leaves by `exit`, whose tet is nearer, and comes back by `entry`.
 struct OpenFaceConstraint {
     std::int32_t exit, entry;
 };
 
-// Finds all pairs of an exit and an entry behind it that overlap as seen from the eye: with the
-// order across shared faces all that an order must keep. Silva, Mitchell and Williams (1998) and
-// Comba et al. (1999, XMPVO) sweep over the projected boundary; here every exit asks a tree of
-// boxes, for any eye. The mesh must outlive this object.
+// Finds all pairs of an exit and an entry behind it that overlap as seen from the eye; a visibility
+// order must keep these and the order across shared faces. Silva, Mitchell, Williams (1998) and
+// Comba et al. (1999, XMPVO) sweep over the projected boundary; here each exit searches a tree.
 class OpenFaceConstraints {
   public:
     explicit OpenFaceConstraints(const TetMesh& mesh);
 
-    // The order depends only on the mesh and the eye. Parallel. Memory is kept.
+    // Returns the pairs for an eye until the next call, in an order set by mesh and eye. Parallel.
     std::span<const OpenFaceConstraint> find(const Eye& eye);
 
   private:
@@ -110,7 +108,7 @@ class OpenFaceConstraints {
                           std::vector<OpenFaceConstraint>& found) const;
 
     const TetMesh& mesh_;
-    // Faces at which gaps may end; the following members are about these.
+    // The result of gap_faces(). Members below have an entry for each of these, or tree node.
     std::vector<std::int32_t> open_faces_;
     FaceTree tree_;
     FaceTree::Box bounds_;
@@ -119,7 +117,7 @@ class OpenFaceConstraints {
     std::vector<FaceTree::Box> seen_boxes_;
     std::vector<SeenTriangle> seen_;
     std::vector<std::int8_t> signs_;                      // signs of seen_, packed
-    std::vector<std::vector<OpenFaceConstraint>> found_;  // result of each run of faces
+    std::vector<std::vector<OpenFaceConstraint>> found_;  // by each task of find()
     std::vector<OpenFaceConstraint> all_;
 };
 

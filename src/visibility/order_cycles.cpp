@@ -53,13 +53,13 @@ void CycleBreaker::list_entering() {
     entering_.resize(links_.size());
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(links_.size()); ++i)
         entering_[node(link(i).to).in++] = i;
-    // Each list's start has moved to its end, at which the next list started.
+    // Filling moved each list's start to the start of the next list: move them back.
     for (std::size_t i = nodes_.size() - 1; i > 0; --i) nodes_[i].in = nodes_[i - 1].in;
     nodes_[0].in = 0;
 }
 
-// Subtracts the smallest area left on each cycle from all its links, and drops those with nothing
-// left. A node gets its place, the nearest first, when all nearer nodes are done.
+// Searches for cycles depth first. Subtracts from all links of one their smallest `left`, and drops
+// links with nothing left. A node gets its place, the nearest first, when all nearer ones have one.
 void CycleBreaker::drop_links() {
     dropped_.clear();
     path_.clear();
@@ -97,7 +97,7 @@ void CycleBreaker::push(std::int32_t index) {
     path_.push_back(index);
 }
 
-// The cycle is the path from depth `first`. The search goes on from its first link that is dropped.
+// Cuts the path, which closes a cycle from depth `first` on, at the first link that is dropped.
 void CycleBreaker::thin_cycle(std::int32_t first) {
     const auto begin = path_.begin() + first;
     work_ += path_.end() - begin;
@@ -117,7 +117,7 @@ void CycleBreaker::thin_cycle(std::int32_t first) {
     path_.erase(cut + 1, path_.end());
 }
 
-// Takes dropped links back, the largest first, if they close no cycle.
+// Keeps dropped links again, the largest first, if they close no cycle.
 void CycleBreaker::take_back() {
     std::sort(dropped_.begin(), dropped_.end(), [&](std::int32_t a, std::int32_t b) {
         return link(a).area != link(b).area ? link(a).area > link(b).area : a < b;
@@ -130,7 +130,8 @@ void CycleBreaker::take_back() {
     }
 }
 
-// Pearce and Kelly, A dynamic topological sort algorithm for directed acyclic graphs, 2007.
+// Adds a link to the order by moving nodes, or returns false if it closes a cycle (Pearce and
+// Kelly, A dynamic topological sort algorithm for directed acyclic graphs, 2007).
 bool CycleBreaker::keep(const Link& kept) {
     nearer_.clear();
     farther_.clear();
@@ -153,7 +154,7 @@ bool CycleBreaker::keep(const Link& kept) {
     return true;
 }
 
-// Collects nodes nearer than place `end`. Returns false if the node there is among them.
+// Collects in nearer_ the nodes that kept links from `from` reach before `end`, false if `end` too.
 bool CycleBreaker::mark_nearer(std::int32_t from, std::int32_t end) {
     nearer_.push_back(from);
     node(from).marked = true;
@@ -189,9 +190,10 @@ void CycleBreaker::mark_farther(std::int32_t from, std::int32_t end) {
 
 namespace {
 
-// Edges visited at most to break a component: some seconds. Overlapping tets may have more cycles.
+// Limits the edges visited to break a component: some seconds. Overlaps may make more cycles.
 constexpr std::int64_t most_work = 200'000'000;
 
+// Number of tets whose component is complete: larger than all others.
 constexpr std::int32_t complete = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
@@ -236,7 +238,7 @@ OrderCycles::Found OrderCycles::order(const OrderGraph& graph, bool break_rings)
     return found;
 }
 
-// Reorders the tets of the component. The search is over, so its numbers may serve as nodes.
+// Reorders a component's tets. The search is over: numbers_ may hold their indices in members_.
 CycleBreaker::Broken OrderCycles::break_ring(const OrderGraph& graph, std::int32_t component) {
     const auto [first, end] = cyclic_[component];
     const auto members = std::span(memory_).subspan(first, end - first);
@@ -292,7 +294,7 @@ void OrderCycles::visit(const OrderGraph& graph, std::int32_t tet) {
     path_.push_back({tet, graph.first_edge(tet)});
 }
 
-// Completes the component of the tets that are open since this one.
+// Completes the component that consists of all tets found from `tet` on that are still open.
 void OrderCycles::finish(std::int32_t tet) {
     const std::size_t end = memory_.size() - sequence_.size();
     std::size_t first = end;

@@ -5,12 +5,11 @@
 
 namespace lamina {
 
-// Orders the nodes of a graph with cycles so that the edges that it breaks have a small area: a
-// feedback arc set (Demetrescu and Finocchi, Combinatorial algorithms for feedback problems in
-// directed graphs, 2003). For a ring it is optimal; in general no broken edge could be kept alone.
+// Orders the nodes of a graph with cycles so that broken edges have a small area: a feedback arc
+// set (Demetrescu and Finocchi, Combinatorial algorithms for feedback problems in directed graphs,
+// 2003). Optimal for a single ring; otherwise no broken edge fits in without breaking another.
 class CycleBreaker {
   public:
-    // An edge from a node to a nearer one.
     struct Edge {
         std::int32_t from, to;
         double area;
@@ -23,21 +22,21 @@ class CycleBreaker {
         std::span<const std::int32_t> places;  // place of each node; 0 is the farthest
         Broken broken;
     };
-    // `edges`: in ascending order of `from`; areas of parallel ones are summed. `work`: edges
-    // visited in the search for cycles, and again while some are taken back. Valid until the next
-    // call.
+    // `edges`: by ascending `from`; areas of parallel edges are summed. `work`: most edges visited
+    // to find cycles, and again to take broken edges back. The result is valid until the next call.
     Order order(std::size_t nodes, std::span<const Edge> edges, std::int64_t work);
 
   private:
+    // All edges from one node to another.
     struct Link {
         std::int32_t from, to;
         double area;
-        double left;  // area that is left in the search for cycles
+        double left;  // area minus what the cycles found so far took
         bool kept;
     };
     enum class State : std::uint8_t { fresh, on_path, done };
     struct Node {
-        std::int32_t out, in;  // first place of its links in links_ and in entering_
+        std::int32_t out, in;  // where its links begin in links_ and in entering_
         std::int32_t next;     // link that the search follows next
         std::int32_t depth;    // its place on the path
         std::int32_t place;    // its place in the order, back to front
@@ -64,11 +63,11 @@ class CycleBreaker {
     std::vector<std::int32_t> dropped_;
     std::vector<std::int32_t> nearer_, farther_, free_;  // scratch of taking one link back
     std::vector<std::int32_t> places_;
-    std::int64_t work_ = 0, most_work_ = 0;  // number of links that were visited
+    std::int64_t work_ = 0, most_work_ = 0;  // links visited, and the limit
 };
 
-// Orders tets with cycles. The strongly connected components (Tarjan, Depth-first search and linear
-// graph algorithms, 1972) are ordered without breaking a constraint; inside each, CycleBreaker
+// Orders tets that hide one another in cycles. Strongly connected components (Tarjan, Depth-first
+// search and linear graph algorithms, 1972) keep all constraints between them; inside, CycleBreaker
 // breaks some of small seen area. Memory (28 bytes a tet) is taken at the first use.
 class OrderCycles {
   public:
@@ -79,13 +78,13 @@ class OrderCycles {
         std::int64_t cyclic_tets = 0;
         CycleBreaker::Broken broken;
     };
-    // Orders all tets whose farther count is above zero, from which no edge may lead to others.
-    // Linear time (n log n in a component). `break_rings`: orders the tets of components, too.
+    // Orders all tets whose farther count is above zero. No edge may lead from these to other tets.
+    // Linear time (n log n in a component). `break_rings`: orders the tets inside components, too.
     Found order(const OrderGraph& graph, bool break_rings = true);
 
     // Returns the tets that order() ordered, back to front.
     std::span<const std::int32_t> sequence() const { return sequence_; }
-    // The component of more than one tet that holds it, or none.
+    // Returns the component of more than one tet that holds `tet`, or none.
     std::int32_t component(std::int32_t tet) const {
         return components_.empty() ? none : components_[tet];
     }
@@ -93,7 +92,7 @@ class OrderCycles {
 
   private:
     struct Step {
-        std::int32_t tet, edge;  // next of its edges to follow
+        std::int32_t tet, edge;  // a tet on the path, and its edge to follow next
     };
     void reserve(std::size_t tets);
     void search(const OrderGraph& graph, std::int32_t root);

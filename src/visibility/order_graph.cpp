@@ -6,20 +6,20 @@
 namespace lamina {
 namespace {
 
-// Off by less than 8 half ulps of its permanent (Shewchuk 1997, section 4.3), at most 6 times the
-// cube of the largest coordinate; doubled, so that its own rounding does not matter.
+// Bounds the error of a rounded determinant, by the cube of the largest coordinate: 8 half ulps of
+// its permanent (Shewchuk 1997, section 4.3; at most 6 cubes), doubled for rounding of the bound.
 constexpr double error_bound = 96 * (std::numeric_limits<double>::epsilon() / 2);
 
 double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// States of a tet: not met; on the path, next face `state - first_face`; drawn.
+// A tet's states in FarthestFirst: not met; on the path, next across `state - first_face`; drawn.
 constexpr std::uint8_t unmet = 0, first_face = 1, drawn = 6;
 
 }  // namespace
 
-// The four faces share their vectors from the eye and two cross products.
+// Computes rounded determinants of the four faces, which share two cross products.
 FaceSigner::Rounded FaceSigner::rounded(const Tet& tet) const {
     std::array<glm::dvec3, 4> p;
     double reach = 0;
@@ -43,11 +43,11 @@ FaceSigner::Rounded FaceSigner::rounded_at_infinity(const Tet& tet) const {
     }
     const glm::dvec3 d1 = glm::cross(d, p[0]), d3 = glm::cross(d, p[2]);
     const double d12 = glm::dot(d1, p[1]), d13 = glm::dot(d1, p[2]), d23 = -glm::dot(d3, p[1]);
-    // Face 0 is the sum of three determinants. Its bound is used for all faces.
+    // Face 0 has the sum of the other three determinants; its error bound is used for all faces.
     return {{d12 + d23 - d13, -d23, d13, -d12}, 4 * error_bound * largest(d) * reach * reach};
 }
 
-// There are no branches on the signs, because these cannot be predicted.
+// Has no branches on the signs, because they could not be predicted.
 FaceSigns FaceSigner::signs(std::size_t index) const {
     const Tet& tet = tets_[index];
     const Rounded seen = eye_.at_infinity ? rounded_at_infinity(tet) : rounded(tet);
@@ -96,7 +96,7 @@ void OrderGraph::look_from(const Eye& eye) {
     gap_edges_ = gaps_->find(eye);
     std::fill(first_gap_.begin(), first_gap_.end(), -1);
     next_gap_.resize(gap_edges_.size());
-    // The loop runs backwards, so that each list runs forwards.
+    // Backwards, because each edge is put at the front of its tet's list.
     for (std::size_t i = gap_edges_.size(); i-- > 0;) {
         const auto& [exit, entry] = gap_edges_[i];
         const auto farther = static_cast<std::size_t>(mesh_.open_faces()[entry].tet);
@@ -140,7 +140,7 @@ std::int64_t FarthestFirst::sort(const OrderGraph& graph, std::span<std::int32_t
     drawn_ = 0;
     broken_ = 0;
     for (const Start& start : starts_) draw(graph, start.tet, order);
-    // An eye inside the mesh has tets that no open face towards it leads to.
+    // If the eye is inside the mesh, some tets cannot be reached from open faces towards it.
     for (std::size_t tet = 0; tet < order.size(); ++tet)
         draw(graph, static_cast<std::int32_t>(tet), order);
     return broken_;
@@ -149,7 +149,7 @@ std::int64_t FarthestFirst::sort(const OrderGraph& graph, std::span<std::int32_t
 void FarthestFirst::draw(const OrderGraph& graph, std::int32_t root,
                          std::span<std::int32_t> order) {
     if (next_face_[root] != unmet) return;
-    // The path grows from the end of `order`: no tet is drawn and on the path at once.
+    // The search's path grows downwards from the end of `order`: no tet is both on it and drawn.
     std::size_t top = order.size();
     order[--top] = root;
     next_face_[root] = first_face;

@@ -10,8 +10,8 @@ namespace lamina {
 
 inline constexpr std::int64_t tets_per_task = 4096;
 
-// Bit f: the eye is on the outer side of face f, so the tet across is nearer. Bit 4 + f: on the
-// inner side, so it is farther. Faces seen edge-on have neither.
+// On which side of a tet's faces the eye is. Bit f: outside of face f, so the tet across is nearer;
+// bit 4 + f: inside, so it is farther. Faces seen edge-on have neither bit.
 using FaceSigns = std::uint32_t;
 constexpr FaceSigns nearer_bit(std::size_t face) {
     return FaceSigns{1} << face;
@@ -20,13 +20,13 @@ constexpr FaceSigns farther_bit(std::size_t face) {
     return FaceSigns{16} << face;
 }
 
-// So it is for one of the two tets that share the face.
+// Tells whether sorting the corners by index turns the face: true for exactly one of its two tets.
 inline bool turned_by_sorting(const Tet& tet, std::size_t face) {
     const auto [a, b, c] = corners_of_face(tet, face);
     return (a > b) != ((b > c) != (a > c));
 }
 
-// A face seen edge-on is in front for one of its two tets.
+// Tells whether a face is on the eye's side of its tet: if edge-on, for just one of its two tets.
 inline bool is_front(const Tet& tet, std::size_t face, FaceSigns signs) {
     const bool nearer = (signs & nearer_bit(face)) != 0, farther = (signs & farther_bit(face)) != 0;
     return nearer || (!farther && turned_by_sorting(tet, face));
@@ -40,7 +40,7 @@ inline int sign_as_seen(const Eye& eye, const glm::dvec3& a, const glm::dvec3& b
     return sign_of_determinant(a, e, b, e, c, e);
 }
 
-// Signs are exact, so that the two tets of a face always agree. Safe from many threads.
+// Computes the exact FaceSigns of tets, so the two tets of a face always agree. Thread-safe.
 class FaceSigner {
   public:
     FaceSigner(const TetMesh& mesh, const Eye& eye)
@@ -61,8 +61,8 @@ class FaceSigner {
     Eye eye_;
 };
 
-// The graph of which tets hide which. An edge leads to every nearer tet that must be drawn after:
-// across shared faces and, if wanted, gaps. The mesh must outlive this object.
+// The graph of which tets hide which. An edge leads from a tet to every nearer tet drawn after it:
+// across a shared face, or across a gap if wanted. The mesh must outlive this object.
 class OrderGraph {
   public:
     OrderGraph(const TetMesh& mesh, bool across_gaps);
@@ -75,11 +75,11 @@ class OrderGraph {
     // Returns the signs of shared faces; no bit of an open face is set.
     FaceSigns signs(std::int32_t tet) const { return signs_[tet]; }
 
-    // Edges to each tet, which callers may count down.
+    // Returns for each tet the number of edges that lead to it. Callers may count these down.
     std::span<std::int32_t> farther_counts() { return farther_counts_; }
     std::span<const std::int32_t> farther_counts() const { return farther_counts_; }
 
-    // Numbers of the edges from a tet: edges 0 to 3 cross its faces; higher numbers cross gaps.
+    // The number of a tet's edge: 0 to 3 across its face of that number; higher ones across gaps.
     static constexpr std::int32_t no_edge = -1;
     std::int32_t first_edge(std::int32_t tet) const { return edge_from(tet, 0); }
     std::int32_t next_edge(std::int32_t tet, std::int32_t edge) const {
@@ -89,15 +89,14 @@ class OrderGraph {
     std::int32_t first_gap_edge(std::int32_t tet) const {
         return first_gap_.empty() ? no_edge : shifted(first_gap_[tet]);
     }
-    std::int32_t nearer(std::int32_t tet,
-                        std::int32_t edge) const {  // the tet that the edge leads to
+    std::int32_t nearer(std::int32_t tet, std::int32_t edge) const {
         if (edge < faces) return mesh_.neighbors()[tet][edge];
         const OpenFaceConstraint& gap = gap_edges_[edge - faces];
         return mesh_.open_faces()[gap.exit].tet;
     }
-    // The seen area of the face, or of the overlap of the two open faces.
+    // Returns the seen area of the shared face, or of the overlap of the gap's two open faces.
     double area(std::int32_t tet, std::int32_t edge) const;
-    // The exit of the nearer tet and the entry of the farther one, which may be one face.
+    // The exit of the nearer tet and the entry of the farther one: one face twice if it is shared.
     struct Passage {
         Triangle exit, entry;
         bool shared;
@@ -125,7 +124,7 @@ class OrderGraph {
     std::vector<std::int32_t> next_gap_;   // next gap edge of the same tet, or -1
 };
 
-// Grows with the distance: its square, or at infinity the distance along the view.
+// Returns a number that grows with the distance from the eye: its square, or that along the view.
 inline double view_distance(const Eye& eye, const glm::dvec3& point) {
     if (eye.at_infinity) return glm::dot(eye.position, point);
     const glm::dvec3 ray = point - eye.position;
@@ -133,7 +132,7 @@ inline double view_distance(const Eye& eye, const glm::dvec3& point) {
 }
 
 // MPVO for nonconvex meshes (Williams, Visibility ordering meshed polyhedra, 1992; Kraus et al.
-// 2004): draws a tet when all behind it across shared faces are drawn. It starts at open faces
+// 2004): draws a tet when all behind it across shared faces are drawn. Starts from open faces
 // towards the eye, the farthest centroid first, which is a guess at the order across gaps.
 class FarthestFirst {
   public:
@@ -154,7 +153,7 @@ class FarthestFirst {
 
     const TetMesh& mesh_;
     std::vector<Start> starts_;
-    // Next face of each tet to look across (see order_graph.cpp).
+    // The state of each tet in the search (states: order_graph.cpp).
     std::vector<std::uint8_t> next_face_;
     std::size_t drawn_ = 0;
     std::int64_t broken_ = 0;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr PixelArea no_pixels{0, -1, 0, -1};
 
-// Distance in pixels up to which a centre counts as covered: above the rounding of corners (1e-7 at
-// 1e9 pixels) and the ray perturbation (1e-7).
+// Distance in pixels from a polygon up to which a pixel's centre counts as covered: above the
+// rounding of corners (1e-7 at 1e9 pixels) and ray_perturbation() (1e-7).
 constexpr double margin = 1e-3;
 
 double signed_area(const SeenPolygon& polygon) {
@@ -38,7 +38,6 @@ struct Range {
     }
 };
 
-// The columns of a polygon between two rows.
 Range columns_between(const SeenPolygon& polygon, double top, double bottom) {
     Range columns;
     for (std::size_t i = 0; i < polygon.count; ++i) {
@@ -67,7 +66,6 @@ void for_each_row(const SeenPolygon& polygon, const PixelArea& area, const Visit
     }
 }
 
-// Returns the common part of two convex polygons.
 SeenPolygon overlap_of(const SeenPolygon& a, const SeenPolygon& b) {
     const double sign = signed_area(b) < 0 ? -1 : 1;
     SeenPolygon common = a;
@@ -97,15 +95,15 @@ bool covers_some(const SeenPolygon& polygon, const PixelArea& area) {
     });
     return some;
 }
-// Visits for each constraint while rings are broken; smaller parts find the rest.
+// Edges that CycleBreaker may visit for a constraint; smaller rectangles solve what it breaks.
 constexpr std::int64_t work_a_constraint = 16;
 
-// Tets overlap on a ray if they share more than these parts of the shorter way, and of the depth:
-// far above the rounding of ways (1e-16 of the depth, over a face's slope of at least 1e-7). Less
-// changes the picture by that part of one tet's opacity.
+// Tets overlap on a ray if they share more than these parts: of the shorter one's length, and of
+// the depth. Both are far above rounding (1e-16 of the depth, over a face's slope of >= 1e-7). A
+// smaller overlap changes the picture by that share of one tet's opacity.
 constexpr double overlap_share = 1e-3, overlap_of_depth = 1e-9;
 
-// A ray is inside a tet from in to out; it misses the tet if in > out.
+// The parameters of a ray between which it is inside a tet; it misses the tet if in > out.
 struct Way {
     double in, out;
     double middle() const { return 0.5 * in + 0.5 * out; }
@@ -123,7 +121,7 @@ Way way_through(const View::Ray& ray, std::span<const glm::dvec3> points, const 
         if (speed < 0) way.in = std::max(way.in, at);
     }
     if (std::isfinite(way.in) && std::isfinite(way.out)) return way;
-    // A tet without volume shows nothing, wherever it is drawn.
+    // A tet without volume shows nothing, wherever it is in the order.
     return {0, 0};
 }
 
@@ -326,7 +324,7 @@ void RingOrder::draw_pixel(const Problem& problem, const PixelArea& pixel) {
         return way_of(a).middle() > way_of(b).middle();
     });
     draw(problem, order, pixel);
-    const Member* before = nullptr;  // the tet with the least depth so far at which the ray enters
+    const Member* before = nullptr;  // of the tets so far, the one that the ray enters first
     Way reached{INFINITY, INFINITY};
     for (const std::int32_t index : order) {
         const Way& way = way_of(index);

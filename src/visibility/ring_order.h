@@ -10,21 +10,20 @@
 
 namespace lamina {
 
-// Consecutive places of a list that are drawn only in some of the pixels.
+// Consecutive items of a DrawOrder, places first .. end - 1, that are drawn only in some pixels.
 struct LimitedRun {
     std::size_t first, end;
     PixelArea pixels;
 };
 
-// Tets, or cell fragments, back to front. If they hide one another in rings, no order of whole tets
-// is right for all pixels: these tets are listed several times, each time for other pixels.
+// Items to draw (tets, or cell fragments), back to front. If tets hide one another in rings, no
+// order is right for all pixels. Such tets are listed several times, each time for other pixels.
 template <typename Item>
 struct DrawOrder {
     std::span<const Item> items;
-    std::span<const LimitedRun> limited;  // ascending, disjoint; other places are for all pixels
-    std::size_t first = 0;                // the place of items[0] that the runs count from
+    std::span<const LimitedRun> limited;  // ascending, disjoint; other items are for all pixels
+    std::size_t first = 0;                // the place of items[0], as `limited` counts places
 
-    // `count` items from the i-th on.
     DrawOrder part(std::size_t i, std::size_t count) const {
         const std::size_t begin = first + i, end = begin + count;
         const auto from = std::ranges::upper_bound(limited, begin, {}, &LimitedRun::end);
@@ -52,7 +51,7 @@ struct SeenPolygon {
     }
 };
 
-// In perspective views nothing nearer than `near` is seen. No pixel is lost by rounding.
+// Projects triangles and points to pixels; in perspective from `near` on. Never loses a pixel.
 class PixelFinder {
   public:
     PixelFinder(const View& view, double near) : window_(view), near_(near) {}
@@ -70,16 +69,14 @@ class PixelFinder {
     double near_;
 };
 
-// An order of whole tets is right for the pixels whose rays meet none of the constraints that it
-// breaks:
-//
+// Draws the tets of rings. An order of tets is right for all pixels whose rays meet none of the
+// constraints that it breaks:
 //   order the tets; break constraints of small seen area (CycleBreaker)
 //   W = rectangle around the pixels that see a broken constraint
-//   draw the tets in this order in all pixels but W
-//   in W do the same with those tets and constraints that are seen there;
+//   draw the tets in this order in all pixels outside W
+//   in W do the same with those tets and constraints that are seen in W;
 //     if W is more than half of the pixels: in each half of W
 //     if W is one pixel: draw the tets by where its ray meets them
-//
 // Kraus and Ertl (Cell-projection of cyclic meshes, 2001) render such tets in layers.
 class RingOrder {
   public:
@@ -94,19 +91,20 @@ class RingOrder {
     void add_ring(std::span<const std::int32_t> tets, const OrderCycles& cycles);
 
     DrawOrder<std::int32_t> order() const { return {tets_, limited_}; }
-    // Pairs of tets that overlap on a pixel's ray: no order is right for these.
+    // Returns the number of pairs of tets that overlap on a pixel's ray: no order is right there.
     std::int64_t overlapping_pairs() const;
 
   private:
     struct Member {
         std::int32_t tet;
-        PixelArea pixels;  // that may see it
+        PixelArea pixels;  // pixels that may see the tet
     };
-    // `farther` comes before `nearer` (indices into Problem::tets) in the pixels that see `seen`.
+    // Indices of two tets: `farther` must be drawn before `nearer` in the pixels that see `seen`.
     struct Constraint {
         std::int32_t farther, nearer;
         SeenPolygon seen;
     };
+    // Tets to draw in some pixels, with the constraints on their order.
     struct Problem {
         PixelArea pixels;
         std::vector<Member> tets;
@@ -114,7 +112,7 @@ class RingOrder {
     };
     struct Solution {
         std::vector<std::int32_t> order;  // indices of tets, back to front
-        PixelArea wrong;                  // around the pixels for which it is wrong
+        PixelArea wrong;  // rectangle around the pixels for which the order is wrong
     };
 
     SeenPolygon seen_through(std::int32_t tet, std::int32_t edge) const;

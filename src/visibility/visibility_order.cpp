@@ -14,7 +14,7 @@
 namespace lamina {
 namespace {
 
-// Share of the diagonal; the near plane is at 1e-6 (plan/project_planner.cpp).
+// Distance of `near`, as a share of the diagonal: half the renderer's (plan/project_planner.cpp).
 constexpr double near_share = 0.5e-6;
 
 }  // namespace
@@ -83,7 +83,7 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
                 if (!farthest_first_) return sort_topologically(break_rings);
                 const std::int64_t broken = farthest_first_->sort(*graph_, order_);
                 if (broken == 0) return;
-                find_cycles(false);  // for the report alone: the order is the search's
+                find_cycles(false);  // only for the report: FarthestFirst has made the order
                 report_.broken = broken;
                 report_.broken_area = 0;
             },
@@ -95,7 +95,7 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
     return order_;
 }
 
-// Tets in no ring come first, then rings and tets between them (sort_topologically).
+// In order_, draw_free()'s tets come first, then rings and tets between (sort_topologically()).
 void VisibilityOrder::solve_rings(const View& view) {
     const Stage solving("rings");
     rings_.emplace(*graph_, view,
@@ -117,7 +117,7 @@ void VisibilityOrder::solve_rings(const View& view) {
     report_.broken_area = 0;
 }
 
-// VTK's vtkCellCenterDepthSort takes the depth along the axis; this is the better estimate.
+// Sorts by distance from the eye: better than depth along the view (VTK's vtkCellCenterDepthSort).
 void VisibilityOrder::sort_centroids(const Eye& eye) {
     const auto points = mesh_.points();
     parallel_for(std::ssize(order_), tets_per_task, [&](std::int64_t index) {
@@ -140,8 +140,8 @@ void VisibilityOrder::sort_topologically(bool break_rings) {
     std::copy(rest.begin(), rest.end(), order_.begin() + static_cast<std::ptrdiff_t>(drawn));
 }
 
-// Kahn 1962. Returns how many tets were drawn: all, unless there are cycles. Those that may be
-// drawn wait on a stack at the end of the order: the next is mostly a neighbour of the last.
+// Orders tets by Kahn's algorithm (1962) and returns how many: all, unless there are cycles. Those
+// whose farther ones are drawn wait on a stack at order_'s end: the next is mostly a neighbour.
 std::size_t VisibilityOrder::draw_free() {
     const auto counts = graph_->farther_counts();
     const auto neighbors = mesh_.neighbors();
@@ -157,7 +157,7 @@ std::size_t VisibilityOrder::draw_free() {
         const std::int32_t tet = order_[top++];
         order_[drawn++] = tet;
         const auto& across = neighbors[tet];
-        // The bits of the nearer faces, one after the other.
+        // Visits the bits of the nearer faces, one after the other.
         for (FaceSigns left = graph_->signs(tet) & 0xf; left != 0; left &= left - 1)
             count_down(across[std::countr_zero(left)]);
         for (std::int32_t edge = graph_->first_gap_edge(tet); edge != OrderGraph::no_edge;

@@ -13,12 +13,12 @@
 
 namespace lamina {
 
-// Counts the shared faces in a wrong order. Throws Error unless `order` has every tet once.
+// Counts shared faces whose tets `order` reverses. Throws Error unless it has every tet once.
 std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
                              std::span<const std::int32_t> order);
 
 enum class OrderMethod {
-    // keeps the order across shared faces (Williams 1992), with the guess of FarthestFirst
+    // Keeps the order across shared faces (Williams 1992); guesses it across gaps (FarthestFirst).
     mpvo,
     exact,     // also keeps the order across gaps (open_face_constraints.h)
     centroid,  // by the distance of centroids, as VTK does; often wrong, for comparison
@@ -29,10 +29,10 @@ const char* name_of(OrderMethod method);
 struct OrderReport {
     std::int64_t cycles = 0;       // number of sets of tets that hide one another in a ring
     std::int64_t cyclic_tets = 0;  // number of tets in these
-    // Pairs of tets in a wrong order (exact), or faces (mpvo of a nonconvex mesh); after
-    // sort_pixels() those of tets that overlap.
+    // For `exact`, pairs of tets in a wrong order; for mpvo of a nonconvex mesh, such faces. After
+    // sort_pixels(): pairs of tets that overlap.
     std::int64_t broken = 0;
-    // Seen area of these pairs, for `exact`: bounds the area of the view with a wrong order.
+    // Seen area of the pairs of `broken` for `exact`: bounds the area with a wrong order.
     double broken_area = 0;
 };
 
@@ -42,20 +42,19 @@ class VisibilityOrder {
   public:
     VisibilityOrder(const TetMesh& mesh, OrderMethod method);
 
-    // Returns all tets back to front, for an eye anywhere. Valid until the next call. `meanwhile`
-    // is called once, while the rest of the work uses only one core.
-    // `break_rings`: the tets of rings are ordered, too, as well as whole tets can be.
+    // Returns all tets back to front, for an eye anywhere, until the next call. Calls `meanwhile`
+    // once, beside work on one core. `break_rings`: orders tets of rings, too, as well as possible.
     std::span<const std::int32_t> sort(
         const Eye& eye, const std::function<void()>& meanwhile = [] {}, bool break_rings = true);
-    // Lists tets in rings several times (RingOrder), so that every pixel is right whose ray meets
-    // no overlap; for `exact`, and for `mpvo` of a convex mesh.
+    // Returns the tets for a view. Rings' tets are listed several times (RingOrder), to be right in
+    // all pixels on whose ray no tets overlap. Holds for `exact`, and for `mpvo` of a convex mesh.
     DrawOrder<std::int32_t> sort_pixels(
         const View& view, const std::function<void()>& meanwhile = [] {});
     std::span<const std::int32_t> order() const { return order_; }  // result of the last sort()
 
     OrderMethod method() const { return method_; }
     const OrderReport& report() const { return report_; }
-    // The cycle that held the tet in the last sort(), below report().cycles, or -1.
+    // Returns the cycle (below report().cycles) that held the tet in the last sort(), or -1.
     std::int32_t cycle_of(std::int32_t tet) const { return cycles_.component(tet); }
 
   private:

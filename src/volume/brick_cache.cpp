@@ -10,10 +10,10 @@
 namespace lamina {
 namespace {
 
-// Number of bricks that one task reads ahead of their use.
+// Number of bricks that one task of load_ahead() reads.
 constexpr std::size_t together = 64;
 
-// Length in bricks of the runs along x whose expected bricks are read together.
+// Most bricks along x that are read together because one of them is missing.
 constexpr std::uint32_t neighbours = 16;
 
 std::int64_t cache_bricks_along(std::int64_t size) {
@@ -33,13 +33,13 @@ BrickCache::BrickCache(const std::array<std::int64_t, 3>& size, std::size_t bric
     slots_ = std::vector<std::atomic<std::uint32_t>>(bricks);
     for (auto& slot : slots_) slot.store(no_slot, std::memory_order_relaxed);
     used_ = std::vector<std::atomic<std::uint32_t>>(bricks);
-    // Address space alone: bricks take memory when they are read.
+    // Reserves address space only: bricks take memory when they are read.
     const std::uint64_t most = std::max(memory_limit() + own_memory, fewest_bytes());
     memory_ = ReservedMemory(std::min(bricks * brick_bytes_, most), ReservedMemory::Filling::dense);
     set_capacity(0);
 }
 
-// Each thread holds most_held bricks, and reads as many.
+// Each thread may hold most_held bricks while as many more are read for it.
 std::uint64_t BrickCache::fewest_bytes() const {
     const std::uint64_t threads = std::max(2u, std::thread::hardware_concurrency());
     return std::min<std::uint64_t>(slots_.size(), 2 * most_held * threads) * brick_bytes_;
@@ -61,7 +61,7 @@ std::uint64_t BrickCache::resident_bytes() const {
     return owners_.size() * brick_bytes_;
 }
 
-// Returns this thread's stripe: each thread has one of its own as long as there are enough.
+// Returns the mutex that this thread locks while it holds bricks; threads share the stripes.
 std::mutex& BrickCache::stripe() const {
     static std::atomic<unsigned> threads{0};
     static thread_local const unsigned thread = threads++;
@@ -77,8 +77,8 @@ void BrickCache::expect(std::span<const std::uint32_t> bricks) {
     for (const std::uint32_t brick : bricks) expected_[brick] = 1;
 }
 
-// Returns the bricks and their expected neighbours, in ascending order, each once. All threads
-// together may claim half of the slots.
+// Returns the bricks and their expected neighbours, in ascending order, each once. Takes so few
+// neighbours that all threads together claim at most half of the slots.
 std::vector<std::uint32_t> BrickCache::with_neighbours(
     std::span<const std::uint32_t> bricks) const {
     std::vector<std::uint32_t> all(bricks.begin(), bricks.end());
@@ -113,7 +113,8 @@ void BrickCache::load(std::span<const std::uint32_t> bricks) const {
     publish(wanted, true);
 }
 
-// Takes those of the bricks that no thread reads yet. If others read all of them, waits for these.
+// Assigns slots to those of the bricks that are neither in memory nor being read. If there are
+// none, waits until other threads have read the bricks.
 std::vector<BrickCache::Wanted> BrickCache::claim(std::span<const std::uint32_t> bricks) const {
     std::unique_lock lock(access_);
     std::vector<Wanted> wanted;
@@ -134,6 +135,7 @@ std::vector<BrickCache::Wanted> BrickCache::claim(std::span<const std::uint32_t>
     return wanted;
 }
 
+// Ends the reading of bricks: makes them available if they are `filled`, else frees their slots.
 void BrickCache::publish(std::span<const Wanted> bricks, bool filled) const {
     const std::lock_guard lock(access_);
     const std::uint32_t now = clock_.fetch_add(1, std::memory_order_relaxed) + 1;
@@ -152,6 +154,7 @@ void BrickCache::publish(std::span<const Wanted> bricks, bool filled) const {
     changed_.notify_all();
 }
 
+// Returns a free slot; evicts bricks, or waits, until there is one.
 std::uint32_t BrickCache::take_slot(std::unique_lock<std::mutex>& lock) const {
     while (true) {
         if (!free_.empty()) {
@@ -168,8 +171,8 @@ std::uint32_t BrickCache::take_slot(std::unique_lock<std::mutex>& lock) const {
     }
 }
 
-// Frees an eighth of the slots, those whose bricks were used least recently. A thread that holds
-// bricks has locked a stripe: with all stripes locked, no brick is held.
+// Frees an eighth of the slots, those whose bricks were used least recently. A thread locks a
+// stripe as long as it holds bricks: while all stripes are locked here, no brick is held.
 void BrickCache::evict() const {
     struct Slot {
         std::uint32_t number;

@@ -18,10 +18,9 @@
 
 namespace lamina {
 
-// A volume in bricks of edge^3 cells. As many are in memory as there is room for; the least
-// recently used ones make room for others. A brick has one more sample along each axis than cells,
-// so that each cell lies in one brick; beyond the volume's last sample, that sample is repeated.
-// Safe from any thread.
+// A cache of a volume's samples in bricks of edge^3 cells, which drops the least recently used
+// bricks. A brick has one more sample along each axis than cells, so that each cell lies in one
+// brick; beyond the volume's last sample, that sample is repeated. Safe from any thread.
 class BrickCache {
   public:
     static constexpr std::int64_t edge = 32, shift = 5;
@@ -29,12 +28,13 @@ class BrickCache {
     static constexpr std::int64_t row = samples, slice = samples * samples;
     static constexpr std::int64_t sample_count = samples * samples * samples;
 
+    // A brick that is to be read, and the memory for its samples.
     struct Wanted {
         std::uint32_t brick;
         std::byte* to;
     };
-    // Fills bricks, in ascending order, of which several may lie beside each other along x. It is
-    // called from several threads at a time, and may throw.
+    // A function that reads bricks, which are in ascending order; some may lie beside each other
+    // along x. Several threads may call it at once. It may throw.
     using Fill = std::function<void(std::span<const Wanted>)>;
 
     // `size`: samples of the volume along each axis.
@@ -42,12 +42,11 @@ class BrickCache {
 
     const std::array<std::int64_t, 3>& count() const { return count_; }
     std::uint32_t brick_count() const { return static_cast<std::uint32_t>(slots_.size()); }
-    std::uint32_t number(std::int64_t x, std::int64_t y, std::int64_t z) const {  // of bricks
+    std::uint32_t number(std::int64_t x, std::int64_t y, std::int64_t z) const {  // of a brick
         return static_cast<std::uint32_t>((z * count_[1] + y) * count_[0] + x);
     }
 
-    // Sets how many bytes bricks may take; at least `fewest_bytes()` are taken. Bricks in memory
-    // stay there.
+    // Sets how many bytes bricks may take, but no less than fewest_bytes(). Drops no bricks.
     void set_capacity(std::uint64_t bytes);
     std::uint64_t capacity() const;
     static constexpr std::size_t most_held = 64;  // bricks in one call of hold()
@@ -57,8 +56,8 @@ class BrickCache {
 
     // While a hold lives, its bricks stay in memory.
     using Hold = std::unique_lock<std::mutex>;
-    // Holds the bricks number_of(i), i = 0 .. count - 1, of which at most most_held differ. A
-    // thread holds once at a time. It reads what is missing.
+    // Reads the bricks number_of(i), i = 0 .. count - 1, if they are not in memory, and holds them.
+    // At most most_held of them may differ, and a thread may have one hold at a time.
     template <typename NumberOf>
     Hold hold(std::size_t count, const NumberOf& number_of) const {
         std::array<std::uint32_t, most_held> missing;
@@ -89,16 +88,13 @@ class BrickCache {
     }
 
     void clear();  // forgets all bricks, and gives their memory back; nobody may hold any
-    // Names the bricks, ascending, that will be used sooner or later: if one is missing, its
-    // neighbours along x among these are read with it, because they lie beside each other in files.
-    // Without this call, all neighbours are.
+    // Sets the bricks, ascending, that will be used: a missing one is read with its neighbours
+    // along x among these (near it in files). Without this call, all neighbours are read.
     void expect(std::span<const std::uint32_t> bricks);
     // Returns the bricks that are not in memory, ascending.
     std::vector<std::uint32_t> missing(std::span<const std::uint32_t> bricks) const;
-    // Reads bricks that will be used soon, and that fit, if they are not in memory, in ascending
-    // order on all cores.
+    // Reads those that are not in memory, ascending, on all cores. All must fit in memory.
     void load_ahead(std::span<const std::uint32_t> bricks) const;
-    // Returns how many bricks were read so far.
     std::int64_t bricks_read() const { return bricks_read_.load(); }
 
   private:
@@ -121,17 +117,17 @@ class BrickCache {
     std::size_t brick_bytes_;
     Fill fill_;
     mutable std::vector<std::atomic<std::uint32_t>> slots_;  // slot of each brick
-    mutable std::vector<std::atomic<std::uint32_t>> used_;   // when last, by the clock, each brick
+    mutable std::vector<std::atomic<std::uint32_t>> used_;   // clock_ at the last use of each brick
     mutable std::atomic<std::uint32_t> clock_{0};            // counts calls of fill_
     mutable std::atomic<std::int64_t> bricks_read_{0};
-    std::vector<std::uint8_t> expected_;  // 1: this brick; empty: all
+    std::vector<std::uint8_t> expected_;  // 1: the brick is expected; empty: all are
     mutable std::array<Stripe, 32> stripes_;
 
     mutable std::mutex access_;  // guards all members below
     mutable std::condition_variable changed_;
     mutable ReservedMemory memory_;
     std::uint32_t capacity_ = 0;                     // in slots
-    mutable std::vector<std::uint32_t> owners_;      // the brick of each slot that was made
+    mutable std::vector<std::uint32_t> owners_;      // brick in each slot that was ever used
     mutable std::vector<std::uint32_t> free_;        // slots
     mutable std::vector<std::uint32_t> being_read_;  // bricks
 };
@@ -149,8 +145,7 @@ struct BrickPlaces {
                 origin[2] + number / (count[0] * count[1]) * BrickCache::edge};
     }
 
-    // Returns the box of the samples of bricks that lie beside each other along x, with `margin`
-    // more samples on each side.
+    // Returns the samples of bricks beside each other along x, with `margin` more on each side.
     SampleBox box_of(std::uint32_t first_brick, std::uint32_t last_brick,
                      std::int64_t margin) const {
         const auto first = first_sample(first_brick), last = first_sample(last_brick);
@@ -168,9 +163,8 @@ struct BrickPlaces {
     }
 };
 
-// Reads the samples of bricks, with `margin` more on each side, at once for those that lie beside
-// each other along x, and calls make(wanted, first sample, window) for each. T: the type of the
-// source's samples.
+// Reads the samples, of type T, of bricks, with `margin` more on each side, those beside each other
+// along x at once. Calls make(brick, its first sample, window with the samples) for each.
 template <typename T, typename Make>
 void read_brick_runs(const SampleSource& source, const BrickPlaces& places,
                      std::span<const BrickCache::Wanted> wanted, std::int64_t margin,

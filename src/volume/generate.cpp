@@ -58,19 +58,16 @@ class Generator {
   public:
     virtual ~Generator() = default;
 
-    // Computes the samples (0, y, z), (1, y, z), ..., each in 0..1. Safe from several threads at
-    // once.
+    // Computes the samples (0, y, z), (1, y, z), ..., each in 0..1. Safe from any thread.
     virtual void row(std::int64_t y, std::int64_t z, double* values) const = 0;
 };
 
-// Returns the position of sample i of n in the unit box: 0 for the first, 1 for the last, 1/2 for a
-// single one.
+// Returns the place of sample i of n in the unit box, from 0 to 1, or 1/2 of a single one.
 double unit_position(std::int64_t i, std::int64_t n) {
     return n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);
 }
 
-// The finaliser of splitmix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number
-// generators", 2014).
+// splitmix64's finaliser (Steele et al., "Fast splittable pseudorandom number generators", 2014).
 std::uint64_t mix(std::uint64_t bits) {
     bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
     bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
@@ -117,8 +114,7 @@ struct Lines {
     }
 };
 
-// The gradients at one lattice coordinate of x, interpolated over y and z, contribute value + slope
-// * d at distance d along x.
+// The gradients at one lattice x, interpolated over y and z, give value + slope * d at distance d.
 struct Node {
     double value;
     double slope;
@@ -136,9 +132,8 @@ Node node(std::uint64_t seed, const Lines& lines, std::int64_t x) {
     return {lines.interpolate(values), lines.interpolate(slopes)};
 }
 
-// Gradient noise (Perlin, "An image synthesizer", SIGGRAPH 1985) with the fade curve of "Improving
-// noise", 2002, and gradients from a hash of the lattice point. Values are about -1..1 with mean 0
-// and are zero at lattice points. They are the same on every machine.
+// Gradient noise (Perlin, "An image synthesizer", 1985) with the fade curve of "Improving noise",
+// 2002, and gradients from a hash of the lattice point. About -1..1, mean 0, 0 at lattice points.
 class GradientNoise {
   public:
     explicit GradientNoise(std::uint64_t seed) : seed_(seed) {}
@@ -259,8 +254,7 @@ const Blob blobs[] = {{{0.50, 0.50, 0.50}, 0.17, 1.00}, {{0.24, 0.30, 0.66}, 0.0
                       {{0.74, 0.26, 0.38}, 0.05, 0.65}, {{0.70, 0.76, 0.72}, 0.09, 0.55},
                       {{0.30, 0.74, 0.28}, 0.04, 0.70}, {{0.52, 0.28, 0.82}, 0.06, 0.60}};
 
-// The maximum of the sum is the highest of the peaks that mean shift finds from every blob's
-// centre.
+// Returns the maximum of all blobs' sum: the highest peak of mean shift from every blob's centre.
 double highest_peak() {
     double highest = 0;
     for (const Blob& start : blobs) {
@@ -331,9 +325,8 @@ struct Sheet {
 const Sheet oblique_sheets[] = {
     {{0.20, 0.10, 1.00}, 0.86, 2}, {{-0.30, 0.25, 1.00}, 0.34, 2}, {{1.00, 0.35, 0.45}, 0.95, 0}};
 
-// Thin dense sheets, as in LaMar's tests: 1 inside, 0 outside. Two sheets are perpendicular to z,
-// of one sample and of two samples. Two are oblique and take two samples along z each. One takes
-// two samples along x.
+// Thin dense sheets, as in LaMar's tests: 1 inside, 0 outside. Two are perpendicular to z, one and
+// two samples thick; two are oblique, two samples along z each; one takes two samples along x.
 class Sheets final : public Generator {
   public:
     explicit Sheets(const GridSize& size)
@@ -362,30 +355,29 @@ class Sheets final : public Generator {
     std::int64_t double_z_;
 };
 
-// All lengths are in units of the box.
-// Begin of the layer; pure light fluid before, pure heavy fluid after layer_end.
+// The mixing layer, with lengths in units of the box: pure light fluid lies before layer_begin,
+// pure heavy fluid behind layer_end. The numbers only shape the picture.
 constexpr double layer_begin = 0.08;
 constexpr double layer_end = 0.92;
 constexpr double layer_margin = 0.20;     // over which stirring fades in and out
 constexpr double interface_reach = 0.34;  // reach of spikes and bubbles
-constexpr double interface_width = 0.08;
-constexpr double stirring = 0.22;
-constexpr double entrainment = 0.7;
+constexpr double interface_width = 0.08;  // over which the fluids blend
+constexpr double stirring = 0.22;         // displacement by eddies of amplitude 1
+constexpr double entrainment = 0.7;       // strength of eddies of one fluid in the other
 
 constexpr int interface_octaves = 3;
-constexpr double interface_frequency = 6;
-constexpr double stirring_frequency = 6;
-constexpr double persistence = 0.70;
+constexpr double interface_frequency = 6;  // lattice cells a box, first octave
+constexpr double stirring_frequency = 6;   // lattice cells a box, first octave
+constexpr double persistence = 0.70;       // amplitude of an octave, divided by the one before
 constexpr double samples_per_finest_cell = 4;
 
 double smooth_step(double t) {
     return fade(std::clamp(t, 0.0, 1.0));
 }
 
-// A field that looks like a turbulent mixing layer after a Richtmyer-Meshkov instability. Light
-// fluid (0) lies at small x, heavy fluid (1) at large x. Narrow spikes of heavy fluid reach into
-// the light one, and broad bubbles of light fluid into the heavy one. In between both are mixed
-// down to the scale of a few samples, so that a finer grid shows finer eddies.
+// A field like a turbulent mixing layer after a Richtmyer-Meshkov instability: light fluid (0) at
+// small x, heavy (1) at large x. Narrow spikes of the heavy reach into the light, broad bubbles of
+// the light into the heavy; between, both mix down to a few samples: finer grids have finer eddies.
 class Mixing final : public Generator {
   public:
     explicit Mixing(const GridSize& size) : size_(size) {
@@ -500,7 +492,7 @@ const Entry& entry_of(const std::string& name) {
          fmt::join(generator_names(), ", "));
 }
 
-// Rounds values to the nearest codes of an integer type, whose whole range stands for 0..1.
+// Converts values in 0..1 to samples: for integer types, to the nearest of 0 .. maximum.
 template <typename T>
 void quantize(const double* values, std::int64_t count, T* samples) {
     for (std::int64_t i = 0; i < count; ++i) {
@@ -513,7 +505,7 @@ void quantize(const double* values, std::int64_t count, T* samples) {
     }
 }
 
-// Fills `samples`, which has room for just these, with the slices [begin, end).
+// Computes the slices begin .. end - 1 into `samples`, which holds only these.
 template <typename T>
 void fill_slices(const Generator& generator, const GridSize& size, std::int64_t begin,
                  std::int64_t end, T* samples, Progress& progress) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes made by formula (docs/scene.md, volume.generate). The samples are the same on every
-// machine.
+// Volumes made by formula (docs/scene.md, volume.generate), the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 namespace lamina {
 
-constexpr std::int64_t largest_generated_axis = 2048;
+constexpr std::int64_t largest_generated_axis = 2048;  // samples
 
 const std::vector<std::string>& generator_names();
 
@@ -21,8 +20,7 @@ const std::vector<std::string>& generator_names();
 // Error if name, size (1..2048 along each axis) or type is not valid.
 Grid generated_grid(const GeneratorRequest& request);
 
-// Generate values over the type's whole range: 0..255, 0..65535, 0..1. Parallel, with progress.
-// Both throw Error.
+// Generate values over 0..255, 0..65535 or 0..1. Parallel, with progress. Both throw Error.
 Volume generate(const GeneratorRequest& request);  // in memory
 // Works slab by slab, in less than 200 MB of memory at any size.
 void generate_nrrd(AtomicFile& file, const GeneratorRequest& request);

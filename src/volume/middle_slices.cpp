@@ -15,7 +15,7 @@ namespace {
 constexpr int room = 8;  // pixels around slices
 constexpr int letter_dot = 2, title_high = (text_dots_high + 3) * letter_dot;
 constexpr double fewest_pixels = 256, most_pixels = 1024;  // along the longest axis
-constexpr double share_of_rounding = 1e-9;
+constexpr double share_of_rounding = 1e-9;  // relative error of a length that is ignored
 constexpr PixelColor no_value{20, 40, 160}, paper{255, 255, 255}, ink{40, 40, 40};
 
 struct Slice {
@@ -30,7 +30,7 @@ PixelColor grey(double value, const ValueRange& range) {
     return {code, code, code};
 }
 
-// Pixels along each axis.
+// Returns the number of pixels for each axis of the volume (middle_slices()).
 std::array<int, 3> pixels_of(const Grid& grid) {
     std::array<double, 3> spacing{}, length{};
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -7,11 +7,10 @@
 
 namespace lamina {
 
-// Draws the three slices through the middle sample side by side on white, each with its axes and
-// the index of the slice above: (x right, y up), (x right, z up), (y right, z up), in lengths of
-// the world. The longest axis has 256 to 1024 pixels, if possible a whole number for each sample;
-// a pixel shows the nearest sample. Grey goes from `range.lo` (black) to `range.hi` (white), and is
-// 0.5 if both are the same. Samples that are not finite are blue.
+// Draws the three slices through the middle sample side by side on white, axes and index of each
+// above it: (x right, y up), (x right, z up), (y right, z up), in lengths of the world. The longest
+// axis has 256 to 1024 pixels, if possible a whole number a sample; pixels show the nearest sample.
+// Grey goes from range.lo (black) to range.hi (white), 0.5 if equal. Non-finite samples are blue.
 CodedImage middle_slices(const Volume& volume, const ValueRange& range);
 
 }  // namespace lamina

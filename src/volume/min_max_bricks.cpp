@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
 
-// Minima and maxima in the samples' own type; lo > hi if nothing is finite.
+// Minimum and maximum of each column of samples in a bundle of lines along x, in the samples' own
+// type; lo > hi for a column without finite samples.
 template <typename T>
 struct Extrema {
     explicit Extrema(std::size_t count)
         : lo(count, std::numeric_limits<T>::max()), hi(count, std::numeric_limits<T>::lowest()) {}
 
-    // Includes line[i] in the extrema of element i. The loop has no branches, so that it becomes
-    // vector instructions.
+    // Includes line[i] in column i's extrema, without branches, so that it becomes vector code.
     void include(const T* line) {
         for (std::size_t i = 0; i < lo.size(); ++i) {
             T low = line[i], high = line[i];
@@ -34,6 +34,7 @@ struct Extrema {
         }
     }
 
+    // Sets the range of brick `number` by the columns first .. first + count - 1.
     void set_range(std::int64_t first, std::int64_t count, std::size_t number,
                    BrickRanges& ranges) const {
         T least = *std::min_element(lo.begin() + first, lo.begin() + first + count);
@@ -61,8 +62,8 @@ std::int64_t bricks_along(std::int64_t samples) {
     return std::max<std::int64_t>(1, (samples - 1 + edge - 1) / edge);
 }
 
-// The samples that a block's bricks touch on an axis, and those that they own: all but the last
-// one, if another brick follows, which owns it.
+// The samples begin .. end - 1 that some bricks touch on an axis. They own begin .. owned_end - 1:
+// a sample on a border belongs to the second brick, so that it is counted once.
 struct Touched {
     std::int64_t begin, end, owned_end;
 };

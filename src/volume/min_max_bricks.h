@@ -12,8 +12,7 @@
 
 namespace lamina {
 
-// A range of finite scalars in float32, which holds every sample type exactly; lo > hi if there are
-// none.
+// A range of finite scalars in float32, which holds all sample types exactly; lo > hi if empty.
 struct BrickRange {
     float lo = 1;
     float hi = 0;
@@ -76,9 +75,8 @@ struct ValueRange {
 };
 ValueRange joined(const ValueRange& a, const ValueRange& b);
 
-// The volume in bricks of `edge` cells. A brick's range covers every sample that interpolation
-// inside the brick can touch: its own samples and the next one along each axis. So neighbours share
-// their border samples.
+// The ranges of a volume's values in bricks of edge^3 cells: of every sample that interpolation
+// inside a brick can touch, so that neighbours share their border samples.
 struct MinMaxBricks {
     static constexpr std::int64_t edge = 4;
 
@@ -101,13 +99,13 @@ struct MinMaxBricks {
 
 MinMaxBricks measure_bricks(const Volume& volume);  // parallel
 
-// Sets the ranges of a block of bricks, first .. first + count - 1 along each axis, from a box
-// that holds their samples, and returns what the block adds to `whole` and `non_finite`. Blocks may
-// be set from several threads.
+// The range and the non-finite samples of a block of bricks.
 struct BlockExtent {
     ValueRange whole;
     std::int64_t non_finite = 0;
 };
+// Sets the ranges of bricks first .. first + count - 1 along each axis by a box of their samples.
+// Returns what the caller adds to `whole` and `non_finite`. Threads may measure different blocks.
 BlockExtent measure_block(const Grid& grid, const SampleBox& box, const void* samples,
                           const std::array<std::int64_t, 3>& first,
                           const std::array<std::int64_t, 3>& count, MinMaxBricks& bricks);

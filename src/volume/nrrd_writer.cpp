@@ -11,7 +11,7 @@ namespace {
 
 std::string vector_text(const glm::dvec3& vector) {
     return fmt::format("({},{},{})", vector.x, vector.y,
-                       vector.z);  // fmt: as many digits as give the double back
+                       vector.z);  // shortest text that reads back as the same double
 }
 
 const char* centering_text(Centering centering) {
@@ -23,7 +23,7 @@ const char* centering_text(Centering centering) {
 void write_nrrd_header(AtomicFile& file, const Grid& grid, SampleType type) {
     std::string text = "NRRD0004\n";
     text += fmt::format("type: {}\n", name_of(type));
-    // No space is named, because readers of medical images would flip axes in some.
+    // No space is named, because readers of medical images flip the axes of some spaces.
     text += "dimension: 3\nspace dimension: 3\n";
     text += fmt::format("sizes: {} {} {}\n", grid.size[0], grid.size[1], grid.size[2]);
     text += fmt::format("space directions: {} {} {}\n", vector_text(grid.step[0]),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes NRRD files, from which open_nrrd() (volume_files/volume_formats.h) gives back the same
-// volume, bit for bit.
+// Writes NRRD files, from which open_nrrd() reads back the same volume, bit for bit.
 #pragma once
 
 #include "base/output_file.h"
@@ -8,8 +7,7 @@
 
 namespace lamina {
 
-// Writes a header that its data follow in the same file: the caller must then write
-// grid.sample_count() samples in native byte order, x fastest.
+// Writes a header; the caller must then write all samples, in native byte order, x fastest.
 void write_nrrd_header(AtomicFile& file, const Grid& grid, SampleType type);
 
 // Writes header and raw samples. Does not commit the file.

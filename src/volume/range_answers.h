@@ -17,9 +17,9 @@
 
 namespace lamina {
 
-// The answers of a slow function of the ranges of bricks. Samples of 8 bits have few different
-// ranges, so if there are many bricks, all ranges are answered at once. Otherwise the latest
-// answers are remembered, because holes of any sample type have one range.
+// Answers of a slow function of the ranges of bricks. Samples of 8 bits have few different ranges,
+// so if there are many bricks, the constructor computes the answers for all ranges. Otherwise each
+// reader remembers its latest answers, because the bricks in a hole all have the same range.
 template <typename Answer>
 class RangeAnswers {
     static_assert(!std::is_same_v<Answer, bool>);  // threads cannot set bits of a vector
@@ -53,8 +53,7 @@ class RangeAnswers {
             return entry.answer;
         }
 
-        // Fills in the answers for consecutive bricks. Large holes are recognised by their bytes,
-        // and answered at once.
+        // Sets the answers for consecutive bricks, faster in large holes (ranges [0, 0]).
         void fill(std::size_t first, std::span<Answer> answers) {
             while (!answers.empty()) {
                 const std::size_t count = std::min(answers.size(), together);
@@ -70,7 +69,7 @@ class RangeAnswers {
 
       private:
         static constexpr int address_bits = 12;
-        static constexpr std::size_t together = 2048;
+        static constexpr std::size_t together = 2048;  // bricks of a group in fill()
 
         struct Remembered {
             BrickRange range{std::numeric_limits<float>::quiet_NaN(), 0};  // equal to no other
@@ -81,8 +80,8 @@ class RangeAnswers {
     };
 
   private:
-    static constexpr std::size_t many = 1 << 20;
-    static constexpr int values = 256;
+    static constexpr std::size_t many = 1 << 20;  // bricks
+    static constexpr int values = 256;            // of a sample of 8 bits
 
     void answer_all() {
         of_bytes_.resize(std::size_t{values} * values);
@@ -96,7 +95,7 @@ class RangeAnswers {
 
     const BrickRanges& ranges_;
     Compute compute_;
-    std::vector<Answer> of_bytes_;  // by BrickRanges::byte_pair(); empty: not answered at once
+    std::vector<Answer> of_bytes_;  // by BrickRanges::byte_pair(); empty: not computed
 };
 
 }  // namespace lamina

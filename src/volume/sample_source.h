@@ -28,39 +28,35 @@ class SampleSource {
     SampleSource(const SampleSource&) = delete;
     SampleSource& operator=(const SampleSource&) = delete;
 
-    // Reads a box inside the volume, in the volume's type and native byte order, x fastest. Throws
-    // Error if the files do not have it any more.
+    // Reads a box inside the volume, in its type and native byte order, x fastest. Throws Error.
     virtual void read(const SampleBox& box, void* to) const = 0;
 
-    // Returns the size of the boxes, on multiples of it, that are read at the least cost. 0: any
-    // size.
+    // Returns the size of the cheapest boxes to read, which begin at multiples of it; 0: any.
     virtual std::array<std::int64_t, 3> block() const { return {0, 0, 0}; }
 
-    // Brings boxes that will be read soon from the disk into the system's cache, in the order of
-    // the files, if there is room for them.
+    // Brings boxes that will be read soon into the system's cache, in file order, if they fit.
     virtual void will_read(std::span<const SampleBox> /*boxes*/) const {}
 
-    // Returns the most bytes that it keeps in memory.
+    // Returns the most bytes that the source keeps in memory.
     virtual std::uint64_t memory() const { return 0; }
 
-    // Tells whether all samples of the box are 0, if that is known without reading them: so it is
-    // for holes in sparse files.
+    // Tells if the box is known to be 0 without reading it, as in holes of sparse files.
     virtual bool known_as_zero(const SampleBox& /*box*/) const { return false; }
 
     // Throws Error if the files have changed since they were opened.
     virtual void check_unchanged() const = 0;
 
-    // Return the file or folder that stands for the files, and the names of all files with what is
-    // taken of them.
+    // Returns the file or folder beside which the volume's index file lies.
     virtual std::filesystem::path main_file() const = 0;
+    // Returns the names of all files and what is read of them, which name the cached index.
     virtual std::string name() const = 0;
-    // Identifies these samples as they are now: also by the files' sizes and times, and a hash of
-    // some samples.
+    // Returns a text that identifies the samples as they are now: also by the files' sizes and
+    // times, and a hash of some samples.
     virtual std::string identity() const = 0;
 };
 
-// A box of a volume's samples in memory, x fastest. Samples beyond the box repeat its border; if
-// the box reaches the volume's border, so does the volume.
+// A box of a volume's samples in memory, x fastest. Places beyond the box have the samples at its
+// border; they must lie beyond the volume's border, too.
 template <typename T>
 struct SampleWindow {
     SampleBox box;

@@ -12,8 +12,8 @@
 namespace lamina {
 namespace {
 
-// Whole numbers that ascend with the finite values of float32. Percentiles are found by the leading
-// bits of these first, and then by the rest.
+// Maps the finite values of float32 to whole numbers, the keys, that ascend with them. Percentiles
+// are found first by the leading bits of the keys, and then by the rest.
 struct FloatKeys {
     static constexpr std::uint32_t negative = std::uint32_t{1} << 31;
     static constexpr int rest_bits = 12;
@@ -32,7 +32,7 @@ struct FloatKeys {
     }
 };
 
-// The key of the value with a rank, and its rank among the values of that key.
+// The key of the value of a rank (from 1, ascending), and its rank among the values of that key.
 struct RankedKey {
     std::size_t key = 0;
     std::int64_t rank = 0;
@@ -42,8 +42,8 @@ RankedKey ranked_key(std::span<const std::int64_t> counts, std::int64_t rank) {
     while (counts[key] < rank) rank -= counts[key++];
     return {key, rank};
 }
-// Adds up, in parallel, the counts that `count_part(samples, count, counts)` makes of parts of the
-// samples: of layers, if the volume stays in its files.
+// Adds up, in parallel, the counts that `count_part(samples, count, counts)` makes of pieces of a
+// volume's samples: of slices, if the volume stays in its files.
 template <typename CountPart>
 Counts count_floats(const Volume& volume, std::size_t counters, const CountPart& count_part) {
     const Grid& grid = volume.grid();
@@ -70,13 +70,12 @@ Counts count_floats(const Volume& volume, std::size_t counters, const CountPart&
     return total;
 }
 
-// Returns the values with these ranks, which ascend. `leading`: how many samples have which leading
-// bits.
+// Returns the values with these ascending ranks. `leading`: counts of samples by leading bits.
 std::vector<double> values_of_ranks(const Volume& volume, std::span<const std::int64_t> leading,
                                     const std::vector<std::int64_t>& ranks) {
     std::vector<RankedKey> wanted;
     for (const std::int64_t rank : ranks) wanted.push_back(ranked_key(leading, rank));
-    // Only the rests of samples are counted whose leading bits are wanted.
+    // The rest is counted only for samples with the leading bits of a wanted value.
     std::vector<std::size_t> keys;
     for (const RankedKey& one : wanted) {
         if (keys.empty() || keys.back() != one.key) keys.push_back(one.key);
@@ -103,7 +102,7 @@ std::vector<double> values_of_ranks(const Volume& volume, std::span<const std::i
     return values;
 }
 
-// `lowest`: the value that is counted first.
+// Measures samples of 8 or 16 bits. `counts`: samples with each value, from `lowest` on.
 ValueStatistics measure_whole(const Counts& counts, int lowest) {
     ValueStatistics found;
     for (const std::int64_t count : counts) found.count += count;
@@ -127,7 +126,7 @@ ValueStatistics measure_floats(const Volume& volume, const ValueRange& range) {
     ValueStatistics found;
     if (range.empty()) return found;
     found.histogram = Histogram::of_range(range);
-    // The leading bits, then the intervals.
+    // Counters of the leading bits come first, then those of the intervals.
     const Counts counts = count_floats(
         volume, FloatKeys::leading_count + found.histogram.counts.size(),
         [&](const float* samples, std::int64_t count, std::vector<std::uint32_t>& into) {
@@ -147,7 +146,7 @@ ValueStatistics measure_floats(const Volume& volume, const ValueRange& range) {
         ranks.push_back(ValueStatistics::rank(place, found.count));
     found.percentiles = values_of_ranks(
         volume, std::span<const std::int64_t>(counts).first(FloatKeys::leading_count), ranks);
-    for (double& value : found.percentiles) value += 0.0;  // makes a zero without a sign
+    for (double& value : found.percentiles) value += 0.0;  // -0 becomes 0
     return found;
 }
 
@@ -184,6 +183,7 @@ namespace {
 
 constexpr int bars_high = 160;
 
+// Draws histogram_picture().
 class Chart {
   public:
     Chart(const ValueStatistics& statistics, int width)

@@ -15,19 +15,17 @@
 
 namespace lamina {
 
-// Counts of values in intervals of equal width that follow one another: edges[i] <= value < edges[i
-// + 1]; the last interval includes its upper edge.
+// Counts of values in equal intervals: edges[i] <= value < edges[i + 1], or <= in the last.
 struct Histogram {
     static constexpr std::int64_t most_intervals = 256;
 
     std::vector<double> edges;         // one more than counts, or none
     std::vector<std::int64_t> counts;  // sum: the finite values
-    double per_unit = 0;               // intervals per unit of value; 0 if that is no number
+    double per_unit = 0;               // intervals per unit of value; 0 if that overflows
 
     bool empty() const { return counts.empty(); }
 
-    // Cuts a range, which must not be empty, into most_intervals, or into one if it is a single
-    // value.
+    // Cuts a range, not empty, into most_intervals, or into one if it is a single value.
     static Histogram of_range(const ValueRange& range) {
         const std::int64_t intervals = range.lo < range.hi ? most_intervals : 1;
         Histogram histogram;
@@ -42,8 +40,7 @@ struct Histogram {
         return histogram;
     }
 
-    // Returns the interval of a value between the first and the last edge: first a guess, then
-    // exactly by the edges.
+    // Returns the interval of a value between the outermost edges: a guess, corrected by the edges.
     std::size_t place(double value) const {
         const auto last = static_cast<double>(counts.size() - 1);
         const double guess = per_unit > 0 ? per_unit * (value - edges.front()) : 0;
@@ -63,8 +60,8 @@ struct ValueStatistics {
     std::vector<double> percentiles;  // one a place; none if there is no value
     Histogram histogram;              // likewise
 
-    // Returns the number in ascending order, from 1, of a percentile: the smallest value that at
-    // least this share of the values does not exceed.
+    // Returns the rank of a percentile, from 1 in ascending order. The percentile is the smallest
+    // value that at least this share of the values does not exceed.
     static std::int64_t rank(int thousandths, std::int64_t count) {
         const std::int64_t rounded_up =
             (thousandths * (count / 1000)) + (thousandths * (count % 1000) + 999) / 1000;
@@ -73,8 +70,7 @@ struct ValueStatistics {
 };
 
 // Measures exactly: samples of 8 and 16 bits in one parallel pass, with whole numbers as the
-// histogram's edges and equally many values in each interval; float32 in two passes, with 4 MiB a
-// thread.
+// histogram's edges, equally many in each interval; float32 in two passes, with 4 MiB a thread.
 ValueStatistics measure_values(const VolumeData& data);
 
 // Measures exactly, with as much memory as the values take.

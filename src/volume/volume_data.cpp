@@ -22,7 +22,7 @@
 namespace lamina {
 namespace {
 
-// Number of samples that are looked at: with so many, a share of 1e-4 is known to 7 percent.
+// Most samples in ValueCounts::some: with so many, a share of 1e-4 is known to 7 percent.
 constexpr std::int64_t most_float_samples = std::int64_t{1} << 21;
 
 }  // namespace
@@ -61,8 +61,7 @@ std::int64_t up_to_multiple(std::int64_t number, std::int64_t of) {
     return (number + of - 1) / of * of;
 }
 
-// Returns the bricks of a block along each axis: whole blocks of the source if it has blocks; else
-// whole rows, which lie beside each other in files.
+// Returns the bricks of a block along each axis: whole blocks of the source, else whole rows.
 Triple block_of(const Volume& volume, const MinMaxBricks& bricks) {
     const Triple own = volume.store().source().block();
     Triple block{bricks.count[0], 8, 8};
@@ -80,7 +79,7 @@ Triple block_of(const Volume& volume, const MinMaxBricks& bricks) {
     return block;
 }
 
-// Measures blocks, from several threads.
+// Makes the index of a volume that stays in its files: measures it block by block, on all cores.
 template <typename T>
 class IndexMaker {
   public:
@@ -137,6 +136,7 @@ class IndexMaker {
         take(found);
     }
 
+    // The results of one block. `zeros`: its samples, if they are known to be 0 and not read.
     struct Found {
         BlockExtent extent;
         std::vector<std::uint32_t> codes;
@@ -144,6 +144,7 @@ class IndexMaker {
         std::int64_t zeros = 0;
     };
 
+    // Counts the samples of a block, without those that the next block counts.
     void count_owned(const SampleWindow<T>& window, const Triple& owned, Found& found) const {
         const Triple& first = window.box.first;
         found.codes.resize(codes_.size());
@@ -162,13 +163,13 @@ class IndexMaker {
         }
     }
 
-    // Returns the first sample of a part of a row that ValueCounts takes, counted from the part's
-    // begin.
+    // Returns how many samples behind (x, y, z) the next one lies that ValueCounts::some takes.
     std::int64_t first_sampled(std::int64_t x, std::int64_t y, std::int64_t z) const {
         const std::int64_t number = (z * grid_.size[1] + y) * grid_.size[0] + x;
         return up_to_multiple(number, step_) - number;
     }
 
+    // Adds the samples that ValueCounts::some takes of a block that is known to be 0.
     void add_sampled_zeros(const SampleBox& box, const Triple& owned, Found& found) const {
         if (std::is_integral_v<T> || found.zeros == 0) return;
         for (std::int64_t z = box.first[2]; z < box.first[2] + owned[2]; ++z) {
@@ -198,8 +199,7 @@ class IndexMaker {
     Counts codes_;
 };
 
-// Returns the index file in the user's cache folder, named by the volume's files and what is taken
-// of them; empty if there is no such folder.
+// Returns the index file in the user's cache folder; empty if there is no such folder.
 std::filesystem::path cached_index(const Volume& volume) {
     std::filesystem::path folder;
     if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != 0)
@@ -213,7 +213,7 @@ std::filesystem::path cached_index(const Volume& volume) {
     return folder / "lamina" / (hash.hex() + ".lamina-index");
 }
 
-// Keeps an index if that is possible: the picture does not need the file.
+// Writes an index to a file. Only warns if that fails, because the picture does not need the file.
 void keep(const Volume& volume, const VolumeIndex& index, const std::filesystem::path& file) {
     if (file.empty()) return;
     try {
@@ -281,7 +281,7 @@ std::size_t bytes_of_all(const std::vector<Value>& values) {
     return values.size() * sizeof(Value);
 }
 
-// Calls visit(first byte, bytes) for the pieces of the ranges.
+// Calls visit(first byte, number of bytes) for each piece of the ranges.
 template <typename Bytes, typename Visit>
 void for_each_piece(Bytes* data, std::size_t count, const Visit& visit) {
     for (std::size_t at = 0; at < count; at += piece_bytes)

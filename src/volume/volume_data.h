@@ -19,9 +19,8 @@ namespace lamina {
 
 using Counts = std::vector<std::int64_t>;
 
-// Adds up, in parallel, the counts that `count_part(first, end, counts)` makes of the parts of [0,
-// samples). Parts are so large that counting takes much longer than adding, and so small that
-// 32-bit counters suffice.
+// Adds up, in parallel, the counts that count_part(first, end, counts) makes of pieces of [0,
+// samples): large ones, so that adding is cheap, but small enough for 32-bit counters.
 template <typename CountPart>
 Counts count_in_parts(std::int64_t samples, std::size_t counters, const CountPart& count_part) {
     constexpr std::int64_t fewest = std::int64_t{1} << 20, most = std::int64_t{1} << 30;
@@ -50,32 +49,29 @@ Counts count_codes(const T* samples, std::int64_t count) {
         });
 }
 
-// The values of a volume.
+// The distribution of a volume's values: exact for integers, by some samples for floats.
 struct ValueCounts {
     Counts codes;             // for integers: how many samples have each value, from the lowest on
     std::vector<float> some;  // for floats: every sample_step()-th sample, if it is finite
 };
 
-// Returns a step that has no factor in common with the length of a row, so that all columns take
-// part.
+// Returns the step of ValueCounts::some, coprime to a row's length, so that it takes all columns.
 std::int64_t sample_step(const Grid& grid);
 
 ValueCounts count_values(const Volume& volume);  // in memory
 
-// The results of a pass over all samples of a volume. If the volume stays in its files, they are
-// kept in a file.
+// The results of a pass over all samples, kept in a file if the volume stays in its files.
 struct VolumeIndex {
     MinMaxBricks bricks;
     ValueCounts values;
 };
 
-// Returns the index of a volume that stays in its files: from the index file beside them, or from
-// that in the user's cache folder, if it is of these samples as they are now; else by a pass over
-// the samples, on all cores, whose result is kept in the cache folder. A warning says what is wrong
-// with an index that is there.
+// Returns the index of a volume that stays in its files: from a file beside them or in the user's
+// cache folder, if it is of the samples as they are now; else by a parallel pass over them, whose
+// result is kept in the cache folder. A warning says what is wrong with an existing index file.
 VolumeIndex index_of(const Volume& volume);
 
-// Makes the pass, whatever index files there are.
+// Makes an index by a pass over the samples, without looking for index files.
 VolumeIndex measure_index(const Volume& volume);
 
 // Returns the name of the index file beside a volume's files.
@@ -89,12 +85,11 @@ void write_index(const Volume& volume, const VolumeIndex& index, const std::file
 void write_index_file(const std::filesystem::path& file, const std::string& identity,
                       const Grid& grid, SampleType type, const VolumeIndex& index);
 
-// Throws Error if `file` exists and is no index: it must not be replaced. A link is never followed,
-// neither here nor by write_index_file().
+// Throws Error if `file` exists and is no index. Like write_index_file(), never follows a link.
 void expect_index_or_nothing(const std::filesystem::path& file);
 
-// An index that was read: none if the file is not there, is damaged, or is of other samples.
-// `wrong` then says what is wrong with a file that is there; otherwise it is empty.
+// The result of reading an index file: no index if the file does not exist, is damaged, or is of
+// other samples. `wrong` then says what is wrong with an existing file; otherwise it is empty.
 struct FoundIndex {
     std::optional<VolumeIndex> index;
     std::string wrong;
@@ -103,7 +98,7 @@ FoundIndex read_index_file(const std::filesystem::path& file, const std::string&
                            const Grid& grid, SampleType type);
 
 // A volume that is drawn, with its min/max bricks, which are measured once. If the volume stays in
-// its files, that is a pass over all of them, or over the index that an earlier pass has left.
+// its files, they come from its index (index_of()).
 struct VolumeData {
     explicit VolumeData(Volume opened);
 

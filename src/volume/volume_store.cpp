@@ -4,7 +4,7 @@
 namespace lamina {
 namespace {
 
-// Share of the memory limit for bricks until it is known what drawing takes.
+// Share of the memory limit that bricks may take until it is known what drawing takes.
 constexpr double first_share = 0.25;
 
 }  // namespace
@@ -43,7 +43,7 @@ namespace {
 
 using Triple = std::array<std::int64_t, 3>;
 
-// Tells whether the brick that holds a cell has one value, and which.
+// Tells if the brick that holds a cell has one value, and sets it.
 bool is_one_value(const MinMaxBricks* bricks, const Triple& lower, double& value) {
     if (bricks == nullptr || bricks->non_finite > 0) return false;
     Triple brick{};
@@ -54,7 +54,7 @@ bool is_one_value(const MinMaxBricks* bricks, const Triple& lower, double& value
     return range.lo == range.hi;
 }
 
-// Returns the corners of a cell, in a box that begins with it.
+// Returns a cell's corners. `samples`: from its first corner on; `step`: to the upper ones.
 template <typename T>
 std::array<double, 8> corners_in(const T* samples, const Triple& step) {
     std::array<double, 8> corners{};

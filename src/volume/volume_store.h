@@ -17,8 +17,7 @@
 
 namespace lamina {
 
-// The samples of a volume that stays in its files, and the bricks of them that were used last. Safe
-// from any thread.
+// The samples of a volume in its files, with a cache of bricks. Safe from any thread.
 class VolumeStore {
   public:
     VolumeStore(const Grid& grid, SampleType type, std::unique_ptr<const SampleSource> source);
@@ -29,14 +28,13 @@ class VolumeStore {
     // Returns the bricks, with samples of the volume's type.
     BrickCache& bricks() const { return bricks_; }
 
-    // Returns one sample, by its place: reads the brick that holds it.
+    // Returns one sample; reads the brick that holds it.
     template <typename T>
     T sample(std::int64_t x, std::int64_t y, std::int64_t z) const {
         return corners<T>({x, y, z}, {x, y, z})[0];
     }
 
-    // Returns the samples at the corners of a cell, x fastest; `upper`: at most one more than
-    // `lower`.
+    // Returns the samples at a cell's corners, x fastest; `upper`: at most one more than `lower`.
     template <typename T>
     std::array<T, 8> corners(const std::array<std::int64_t, 3>& lower,
                              const std::array<std::int64_t, 3>& upper) const {
@@ -71,8 +69,7 @@ class VolumeStore {
     mutable BrickCache bricks_;
 };
 
-// Samples of a volume that stays in its files, one by one, as through a pointer to the first: x
-// changes fastest.
+// Samples of a volume in its files, as through a pointer to the first: x changes fastest.
 template <typename T>
 class SamplesInFiles {
   public:
@@ -86,8 +83,7 @@ class SamplesInFiles {
         return store_->template sample<T>(number % size[0], number / size[0] % size[1],
                                           number / (size[0] * size[1]));
     }
-    // Returns the samples at the corners of a cell, x fastest. The cell is at most one step wide on
-    // each axis.
+    // Returns the samples at a cell's corners, x fastest. The cell is at most one step wide.
     std::array<T, 8> corners(const std::array<std::int64_t, 3>& lower,
                              const std::array<std::int64_t, 3>& upper) const {
         return store_->template corners<T>(lower, upper);
@@ -101,8 +97,7 @@ class SamplesInFiles {
     std::int64_t first_ = 0;
 };
 
-// Calls visitor(samples) with a pointer to the first sample, or with SamplesInFiles: for work that
-// looks at few samples.
+// Calls visitor(a pointer to the first sample, or SamplesInFiles): for work on few samples.
 template <typename Visitor>
 decltype(auto) visit_samples(const Volume& volume, const Visitor& visitor) {
     if (volume.in_memory()) return volume.visit(visitor);
@@ -123,6 +118,7 @@ std::array<double, 8> scattered_corners(const Volume& volume, const MinMaxBricks
                                         const std::array<std::int64_t, 3>& lower,
                                         const std::array<std::int64_t, 3>& upper);
 
+// Returns one sample, which is read like scattered_corners().
 double scattered_sample(const Volume& volume, const std::array<std::int64_t, 3>& place);
 
 }  // namespace lamina

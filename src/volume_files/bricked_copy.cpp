@@ -34,7 +34,7 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-constexpr int level = 5;  // Blosc's own default
+constexpr int level = 5;  // Blosc's compression level, 0 .. 9: its default
 
 void write_small_file(const std::filesystem::path& path, const void* bytes, std::size_t count) {
     std::FILE* const file = std::fopen(path.c_str(), "wb");
@@ -56,12 +56,11 @@ std::string type_text(ValueType type) {
     return fmt::format("{}{}{}", order, kind, bytes_of(type));
 }
 
-// Writes a Zarr v2 array of the axes z, y, x in chunks that Blosc packs (lz4). Chunks of zeros are
-// not written: the fill value is 0.
+// Writes a Zarr v2 array of the axes z, y, x in chunks that Blosc compresses (lz4). Chunks of zeros
+// get no file, because the fill value is 0; only the first chunk always has one.
 class ZarrWriter {
   public:
-    // `folder`: there, and empty. `size`, `edge`: samples of the array and of a chunk along x, y
-    // and z. Throws Error.
+    // `folder`: empty. `size`, `edge`: samples of array and chunk along x, y, z. Throws Error.
     ZarrWriter(std::filesystem::path folder, const std::array<std::int64_t, 3>& size,
                const std::array<std::int64_t, 3>& edge, ValueType type,
                const nlohmann::json& attributes)
@@ -86,7 +85,7 @@ class ZarrWriter {
         write_json_file(folder_ / ".zattrs", attributes);
     }
 
-    // Writes the slices of the next layer of chunks, in native byte order. Throws Error.
+    // Writes the next layer (all chunks at one z) from slices in native byte order. Throws Error.
     void write_layer(const void* samples) {
         for (std::int64_t y = 0; y < counts_[1]; ++y)
             make_folder(folder_ / fmt::format("{}/{}", next_, y));
@@ -103,7 +102,7 @@ class ZarrWriter {
     void finish() const { write_chunk_hashes(folder_, hashes_); }
 
     std::int64_t layer_count() const { return counts_[2]; }
-    // Returns the slices of a layer: the last one may have fewer than a chunk.
+    // Returns the number of slices of a layer: those of a chunk, or fewer in the last layer.
     std::int64_t slices_of(std::int64_t layer) const {
         return std::min(edge_[2], size_[2] - layer * edge_[2]);
     }
@@ -112,7 +111,8 @@ class ZarrWriter {
     std::uint64_t bytes_written() const { return bytes_written_; }
 
   private:
-    // Writes a chunk, which has zeros beyond the array's border. Returns the bytes of its file.
+    // Writes the chunk (x, y) of layer next_, with zeros beyond the array's border. Returns the
+    // number of bytes of its file; 0 if it gets none.
     std::uint64_t write_chunk(std::int64_t x, std::int64_t y, const char* layer) {
         const std::size_t row = static_cast<std::size_t>(edge_[0]) * bytes_;
         ByteBuffer chunk(row * static_cast<std::size_t>(edge_[1] * edge_[2]));
@@ -128,7 +128,7 @@ class ZarrWriter {
                             layer + static_cast<std::size_t>(from) * bytes_, copied);
             }
         }
-        const bool first = x == 0 && y == 0 && next_ == 0;  // an array without any is no array
+        const bool first = x == 0 && y == 0 && next_ == 0;  // ZarrChunks rejects arrays without any
         if (!first && all_zero(chunk.data(), chunk.size())) return 0;
         ByteBuffer packed(chunk.size() + BLOSC_MAX_OVERHEAD);
         const int bytes =
@@ -144,18 +144,18 @@ class ZarrWriter {
 
     std::filesystem::path folder_;
     std::array<std::int64_t, 3> size_, edge_, counts_{};
-    std::size_t bytes_;  // a sample's
-    std::int64_t next_ = 0;
+    std::size_t bytes_;      // of a sample
+    std::int64_t next_ = 0;  // layer to be written
     std::uint64_t bytes_written_ = 0;
     std::vector<std::uint64_t> hashes_;  // of chunks, as write_chunk_hashes() takes them
 };
 
-// A folder that is written beside its destination, as NAME.part, and takes its place when it is
-// complete; without commit() it disappears.
+// A folder NAME that is written as NAME.part, which commit() renames to NAME; without commit(),
+// NAME.part is removed.
 class ReplacedFolder {
   public:
-    // Throws Error if the destination is a folder that is no Zarr array, or if another command
-    // writes it now. Removes what a killed command has left.
+    // Throws Error if NAME is a folder that is no Zarr array, or if another command writes it now.
+    // Removes files that a killed command left in NAME.part.
     explicit ReplacedFolder(std::filesystem::path path)
         : path_(std::move(path)), temporary_(path_.string() + ".part") {
         std::error_code absent;
@@ -200,10 +200,10 @@ class ReplacedFolder {
     bool committed_ = false;
 };
 
+// Key in .zattrs of what a bricked copy says about itself: the hash of copied() and the grid.
 constexpr const char* attribute = "lamina_bricks";
 
-// Returns a hash that tells the files, as they are now, and the part that is taken of them, from
-// others.
+// Returns a hash of the files' state and of what the request takes of them: the copy's identity.
 std::string copied(const Path& file, const VolumeRequest& request) {
     ContentHash hash;
     for (const Path& each : files_of_volume(file, request)) {
@@ -252,8 +252,9 @@ Grid grid_in(const Json& json, const ZarrArray& array) {
     return grid;
 }
 
-// Returns the samples of a chunk along each axis. A layer of chunks is in memory while it is
-// written: flatter and wider chunks keep it below a quarter of the limit, as far as that goes.
+// Returns the samples of a chunk along each axis: 64, unless a layer of chunks, which is in memory
+// while it is written, would exceed a quarter of the memory limit. Chunks are then flatter (4
+// slices at least) and wider. They are also wider if there would be more than most_chunks of them.
 std::array<std::int64_t, 3> chunk_edge(const Grid& grid, SampleType type) {
     std::array<std::int64_t, 3> edge{64, 64, 64};
     const std::uint64_t slice =
@@ -298,7 +299,7 @@ Path bricked_copy_of(const Path& file) {
     while (name.size() > 1 && name.back() == '/') name.pop_back();
     // "." and ".." are no names to which an extension can be added.
     if (name.ends_with('.')) name = std::filesystem::canonical(file).string();
-    // "FILE.h5:/group/array" lies in no folder.
+    // "FILE.h5:/group/array", an array in a file, has the copy FILE.h5.group.array.lamina-bricks.
     std::error_code absent;
     const std::size_t inside = name.find(":/");
     if (inside != std::string::npos && !std::filesystem::exists(file, absent)) {

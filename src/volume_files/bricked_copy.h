@@ -9,26 +9,24 @@
 
 namespace lamina {
 
-// A copy of a volume's samples beside its files, as FILE.lamina-bricks: a Zarr array of chunks, for
-// files of which no part can be read alone. Its attributes name what it is a copy of, and the
-// volume's grid; hashes of its chunks are checked as they are read.
+// Returns the folder of a volume's bricked copy, FILE.lamina-bricks: a Zarr array with the samples
+// in chunks, for files of which no part can be read alone, such as compressed ones. Its attributes
+// hold the grid and a hash of what was copied; each chunk is checked by its hash when it is read.
 std::filesystem::path bricked_copy_of(const std::filesystem::path& file);
 
-// A copy that was written, for messages.
+// A bricked copy that was written, as messages describe it.
 struct BrickedCopy {
     std::filesystem::path folder;
     std::int64_t chunks = 0;
     std::uint64_t bytes = 0;
 };
 
-// Writes the copy, and replaces one that is there. The volume is read slice by slice if its files
-// allow that. Distances and origin of the request do not matter. Throws Error, and then leaves
-// nothing.
+// Writes the bricked copy, replacing an existing one. Reads the volume by layers of chunks if its
+// files allow that. Ignores the request's spacing and origin. Leaves no new files if it fails.
 BrickedCopy write_bricked_copy(const std::filesystem::path& file, const VolumeRequest& request);
 
-// Returns the volume of the copy, if there is one and the volume stays in files by this use. A
-// warning says if the files are not those that were copied, or if another part of them is
-// requested.
+// Returns the volume of the bricked copy; nothing if there is none or `use` asks for memory
+// (stays_in_files()), or, with a warning, if it is damaged or of other samples than are asked for.
 std::optional<Volume> open_bricked_copy(const std::filesystem::path& file,
                                         const VolumeRequest& request, const VolumeUse& use);
 

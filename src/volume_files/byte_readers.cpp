@@ -19,7 +19,8 @@
 namespace lamina {
 namespace {
 
-// Bytes between checks for a requested stop. zlib and libbz2 count them in 32 bits.
+// Most bytes, 64 MiB, that are read or decompressed between checks for a requested stop. It must be
+// below 2^32, because zlib and libbz2 count bytes in 32 bits.
 constexpr std::size_t step_bytes = std::size_t{1} << 26;
 
 class FileReader final : public ByteReader {
@@ -56,6 +57,7 @@ class FileReader final : public ByteReader {
     bool counts_surplus_;
 };
 
+// Reads compressed data: one or more members, each a stream. unpack(): the format's decompressor.
 class PackedReader : public ByteReader {
   public:
     void read(void* bytes, std::size_t count) override {
@@ -108,13 +110,13 @@ class PackedReader : public ByteReader {
     }
 
   private:
-    static constexpr std::size_t input_bytes = std::size_t{1} << 20;
+    static constexpr std::size_t input_bytes = std::size_t{1} << 20;  // of one read of the file
 
     // Decompresses some bytes from `from` to `to` and updates both. Returns true at the end of a
     // member; the next call may then start another member.
     virtual bool unpack(Input& from, Output& to) = 0;
 
-    // Returns false at the end of the file.
+    // Decompresses bytes to `to`, and reads on in the file if needed. Returns false at its end.
     bool unpack_some(Output& to) {
         if (left_.empty()) {
             const std::size_t got = std::fread(input_.data(), 1, input_.size(), stream_.get());
@@ -125,8 +127,8 @@ class PackedReader : public ByteReader {
         return true;
     }
 
-    // Decompresses the rest of the member, up to most_counted_surplus bytes, which verifies its
-    // checksum. Returns the number of bytes.
+    // Decompresses the rest of the member, up to most_counted_surplus bytes, and so verifies its
+    // checksum. Returns the number of decompressed bytes.
     std::uint64_t unpack_rest() {
         std::uint64_t unpacked = 0;
         std::vector<unsigned char> scratch(input_bytes);
@@ -144,7 +146,7 @@ class PackedReader : public ByteReader {
     std::string name_;
     const char* format_;
     std::vector<unsigned char> input_;
-    Input left_;              // of input_
+    Input left_;              // bytes of input_ that are still packed
     bool in_member_ = false;  // a member has begun and not ended
 };
 
@@ -238,7 +240,7 @@ class SequenceReader final : public ByteReader {
     std::vector<std::string> surplus() override { return surplus_; }
 
   private:
-    // Calls step(reader, bytes) until `count` bytes are used, each time for bytes of one file.
+    // Uses the next `count` bytes: calls step(reader, bytes) for each file that holds some of them.
     template <typename Step>
     void use(std::size_t count, const Step& step) {
         while (count > 0) {
@@ -263,9 +265,9 @@ class SequenceReader final : public ByteReader {
     Paths paths_;
     std::size_t bytes_each_;
     Opener open_;
-    std::size_t next_ = 0;  // of paths_, to be opened
+    std::size_t next_ = 0;  // index in paths_: the file that is open or is opened next
     std::unique_ptr<ByteReader> reader_;
-    std::size_t left_ = 0;  // of bytes_each_ in the reader
+    std::size_t left_ = 0;  // bytes of the open file that are not used yet
     std::vector<std::string> surplus_;
 };
 

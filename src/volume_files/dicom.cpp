@@ -27,10 +27,11 @@ struct DicomSeries {
     Grid grid;
 };
 
-// Largest deviation of a slice's place, as a part of the distance between slices: scanners round
-// positions to a few digits.
+// Largest deviation of the distance between two slices from the usual distance, as a share of it; a
+// slice may lie twice as far off the series' line. Scanners round positions to a few digits.
 constexpr double place_tolerance = 1e-2;
 
+// Returns the DICOM images of a file or folder by their SeriesInstanceUID. Warns of other files.
 std::map<std::string, Images> images_by_series(const Path& path) {
     const std::vector<Path> files = files_of_dicom(path);
     std::map<std::string, Images> series;
@@ -57,6 +58,7 @@ std::string described(const Images& images) {
                        images.size());
 }
 
+// Returns the images of the series that request.array names, else those of the largest series.
 Images chosen_series(const Path& path, const VolumeRequest& request) {
     std::map<std::string, Images> all = images_by_series(path);
     std::vector<std::string> list;
@@ -80,6 +82,8 @@ Images chosen_series(const Path& path, const VolumeRequest& request) {
     return std::move(largest->second);
 }
 
+// Throws Error unless all images have one size, orientation and pixel spacing. Several images must
+// also have positions, and one frame each.
 void expect_alike(const Images& images) {
     const DicomImage& first = images.front();
     for (const DicomImage& image : images) {
@@ -110,18 +114,18 @@ void expect_alike(const Images& images) {
     }
 }
 
+// Returns the position of an image along the slices' normal, in mm.
 double depth_of(const DicomImage& image, const glm::dvec3& normal) {
     return glm::dot(*image.position, normal);
 }
 
-// Sorts the images along the normal, and keeps those of one time if there are several images at
-// each place.
+// Sorts the images along the slices' normal; of several at each place, keeps the request's time.
 void order(Images& images, const glm::dvec3& normal, const std::string& name,
            const VolumeRequest& request) {
     std::ranges::stable_sort(images, {}, &DicomImage::instance);
     std::ranges::stable_sort(images, {},
                              [&](const DicomImage& image) { return depth_of(image, normal); });
-    constexpr double same_place = 1e-4;  // mm
+    constexpr double same_place = 1e-4;  // mm; images that are nearer are at one place
     std::vector<Images> places;
     for (DicomImage& image : images) {
         const bool next = places.empty() ||
@@ -148,8 +152,7 @@ struct SlicePlace {
     std::string name;
 };
 
-// Returns the step from slice to slice. Throws Error unless slices lie on a line at equal
-// distances.
+// Returns the step between slices. Throws Error unless they lie on a line at equal distances.
 glm::dvec3 slice_step(const std::vector<SlicePlace>& slices, const std::string& name) {
     const std::size_t count = slices.size();
     std::vector<double> distances;
@@ -176,7 +179,7 @@ glm::dvec3 slice_step(const std::vector<SlicePlace>& slices, const std::string& 
     return step;
 }
 
-// Returns the places of the files, or of the frames of a single file.
+// Returns the places of the files, or of a single file's frames; none if frames lack positions.
 std::vector<SlicePlace> places_of(const Images& images) {
     std::vector<SlicePlace> places;
     if (images.size() > 1) {
@@ -189,7 +192,7 @@ std::vector<SlicePlace> places_of(const Images& images) {
     return places;
 }
 
-// Rejects the skewed slices of a tilted gantry.
+// Throws Error if slices are shifted against each other, as those of a tilted gantry.
 void expect_straight(const glm::dvec3& step, const DicomImage& image, const std::string& name) {
     for (const glm::dvec3& axis : {image.along_row, image.along_column}) {
         const double cosine = glm::dot(axis, step) / glm::length(step);
@@ -232,7 +235,7 @@ DicomSeries read_dicom_series(const Path& path, const VolumeRequest& request) {
     return series;
 }
 
-// Checks compressed slices before memory is taken; the pixels of others are known to be there.
+// Throws Error if a compressed slice has more pixels than its file can hold, before taking memory.
 void expect_pixels(const DicomSeries& series) {
     constexpr std::uint64_t most_expansion = 1 << 16;
     for (const DicomImage& slice : series.slices) {
@@ -244,7 +247,7 @@ void expect_pixels(const DicomSeries& series) {
     }
 }
 
-// Reads a slice as scaled floats. Returns the end of these.
+// Reads a slice to `to`, scaled to floats. Returns the end of the floats.
 float* read_scaled(const DicomImage& slice, float* to) {
     std::string raw(slice.byte_count(), '\0');
     read_dicom_pixels(slice, raw.data());
@@ -254,9 +257,8 @@ float* read_scaled(const DicomImage& slice, float* to) {
     return to;
 }
 
-// Reads the samples of a series. Slices whose slope or intercept differ, as those of PET, are
-// scaled one by one. `line`: that of the process of its own in which a library reads compressed
-// slices.
+// Reads the samples of a series. Slices whose slope or intercept differ, as in PET, are scaled one
+// by one. `line`: that of the isolated process that reads compressed slices; else null.
 StoredSamples read_slices(const DicomSeries& series, IsolatedLine* line = nullptr) {
     expect_pixels(series);
     const DicomImage& first = series.slices.front();
@@ -292,7 +294,7 @@ StoredSamples read_slices(const DicomSeries& series, IsolatedLine* line = nullpt
 bool is_dicom(const std::filesystem::path& path) {
     std::error_code unreadable;
     if (std::filesystem::is_regular_file(path, unreadable)) return has_dicom_mark(path);
-    int left = 64;
+    int left = 64;  // files of the folder that are looked at
     for (const auto& entry : std::filesystem::directory_iterator(path, unreadable)) {
         if (left-- == 0) break;
         if (entry.is_regular_file(unreadable) && has_dicom_mark(entry.path())) return true;

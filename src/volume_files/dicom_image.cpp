@@ -28,7 +28,7 @@ namespace {
 // A data element's group and number: 0x00280010 is (0028,0010).
 using DicomTag = std::uint32_t;
 
-// Reads the numbers of a text with backslashes between; returns none if it is anything else.
+// Returns the numbers of a text, separated by backslashes; none if it holds anything else.
 std::vector<double> dicom_numbers(std::string_view text) {
     const std::size_t last = text.find_last_not_of(std::string_view(" \0", 2));
     text = text.substr(0, last == std::string_view::npos ? 0 : last + 1);
@@ -54,14 +54,15 @@ struct DicomElements {
     std::string transfer_syntax;
     bool big_endian = false;    // byte order of the data set
     bool encapsulated = false;  // the pixels are compressed
-    // Values of the elements in kept_tags. `shared`: those of all frames of a file with several.
+    // Values of the elements in kept_tags. `values`: those outside of sequences. `shared`: the
+    // first ones in the sequences for all frames or for each frame (shared_groups, frame_groups).
     std::map<DicomTag, std::string> values, shared;
     std::vector<std::string> frame_positions;  // ImagePositionPatient of each frame
-    std::uint64_t pixels_begin = 0;            // byte of the file
+    std::uint64_t pixels_begin = 0;            // offset in the file
     std::uint64_t pixel_bytes = 0;             // 0 if they are encapsulated
     std::string pixel_form;                    // VR of the pixels: "OB", "OW"
 
-    // Returns the value for the file or for all of its frames; an empty one if there is none.
+    // Returns the element's value outside of sequences, else that in `shared`, else an empty text.
     std::string text(DicomTag tag) const {
         for (const auto* const map : {&values, &shared}) {
             if (const auto found = map->find(tag); found != map->end()) return found->second;
@@ -76,7 +77,7 @@ struct DicomElements {
         return found.size() == 1 ? found[0] : otherwise;
     }
 
-    // Returns a whole number of two bytes; 0 if there are none.
+    // Returns the whole number in an element of two bytes (VR US); 0 if the file lacks it.
     std::int64_t whole(DicomTag tag) const {
         const std::string word = text(tag);
         if (word.size() < 2) return 0;
@@ -101,8 +102,8 @@ constexpr DicomTag kept_tags[] = {
     image_position,     image_orientation, samples_per_pixel, frame_count, row_count,
     column_count,       pixel_spacing,     bits_allocated,    bits_stored, highest_bit,
     pixel_sign,         rescale_intercept, rescale_slope};
-constexpr std::uint32_t undefined = 0xffffffff;
-constexpr int most_depth = 16;
+constexpr std::uint32_t undefined = 0xffffffff;  // length: up to a delimiter
+constexpr int most_depth = 16;                   // of sequences in sequences
 constexpr std::size_t most_frames = 1 << 20;
 
 // Reads the elements of a file up to its pixels. Throws Error if it is truncated or damaged.
@@ -112,7 +113,7 @@ class ElementReader {
         : name_(path.string()), file_(open_to_read(path)), left_(bytes_left(file_.get())) {}
 
     DicomElements read() {
-        skip(132);
+        skip(132);  // the preamble of 128 bytes and "DICM"
         while (left_ > 0 && !found_pixels_) read_element(0, 0);
         if (!found_pixels_) fail("{}: found no pixels before its end", name_);
         return std::move(elements_);
@@ -141,6 +142,7 @@ class ElementReader {
         left_ -= count;
     }
 
+    // Undoes read_tag().
     void step_back() {
         fseeko(file_.get(), -4, SEEK_CUR);
         left_ += 4;
@@ -170,7 +172,8 @@ class ElementReader {
         return group << 16 | number(2);
     }
 
-    // Reads the head of an element. Behind group 2 the file goes on as its transfer syntax says.
+    // Reads tag, VR and length of an element. Elements of group 2 have explicit VRs and
+    // little-endian numbers; those after them are coded as the transfer syntax says.
     Element read_head(int depth) {
         Element element;
         element.tag = read_tag();
@@ -201,6 +204,7 @@ class ElementReader {
         return element;
     }
 
+    // Sets explicit_ and big_endian_ by the transfer syntax. Throws Error if that cannot be read.
     void take_syntax() {
         const std::string& syntax = elements_.transfer_syntax;
         if (syntax == "1.2.840.10008.1.2") {
@@ -213,6 +217,7 @@ class ElementReader {
         }
     }
 
+    // Reads an element. `sequence`: the tag of the outermost sequence that holds it; 0: none does.
     void read_element(int depth, DicomTag sequence) {
         const Element element = read_head(depth);
         if (element.tag == pixel_data_tag && depth == 0) {
@@ -234,6 +239,7 @@ class ElementReader {
         keep_or_skip(element, depth, sequence);
     }
 
+    // Keeps the value of an element in kept_tags (DicomElements::values, shared); skips others.
     void keep_or_skip(const Element& element, int depth, DicomTag sequence) {
         constexpr std::uint32_t most_bytes = 1 << 12;
         const bool kept = std::ranges::count(kept_tags, element.tag) > 0;
@@ -256,12 +262,12 @@ class ElementReader {
         }
     }
 
-    // Reads the items of a sequence, each of which has elements.
+    // Reads the items of a sequence, each of elements. `top`: the tag of the outermost sequence.
     void read_sequence(const Element& sequence, int depth, DicomTag top) {
         if (depth > most_depth) fail("{}: found sequences more than {} deep", name_, most_depth);
         if (sequence.length != undefined && sequence.length > left_) fail_at(sequence, left_);
         const bool was_explicit = explicit_;
-        if (sequence.form == "UN") explicit_ = false;  // PS3.5, 6.2.2
+        if (sequence.form == "UN") explicit_ = false;  // inside, VRs are implicit: PS3.5, 6.2.2
         const std::uint64_t end = sequence.length == undefined ? 0 : left_ - sequence.length;
         while (sequence.length == undefined || left_ > end) {
             const Element item = read_head(depth);
@@ -286,7 +292,7 @@ class ElementReader {
         if (item.length != undefined && left_ != end) fail_at(item, left_);
     }
 
-    // Passes the end of an item of undefined length.
+    // Tells if an item of undefined length ends here, and then moves past its end.
     bool at_item_end() {
         const DicomTag tag = read_tag();
         if (tag == item_end) {
@@ -299,7 +305,7 @@ class ElementReader {
 
     std::string name_;
     OpenedFile file_;
-    std::uint64_t left_;  // bytes of the file
+    std::uint64_t left_;  // bytes from here to the end of the file
     bool in_meta_ = true, explicit_ = true, big_endian_ = false;
     bool found_pixels_ = false;
     DicomElements elements_;
@@ -307,8 +313,7 @@ class ElementReader {
 
 #ifdef LAMINA_HAS_GDCM
 
-// Writes image.byte_count() bytes of the pixels of a compressed image to `to`. Throws Error, also
-// if the build has no decoder.
+// Writes a compressed image's byte_count() bytes to `to`. Throws Error, always without GDCM.
 void decode_dicom(const DicomImage& image, char* to) {
     constexpr std::uint64_t most_expansion = 1 << 16;
     const std::string name = image.file.string();
@@ -354,6 +359,7 @@ std::string trimmed(const std::string& text) {
     return end == std::string::npos ? "" : one_line(text.substr(0, end + 1));
 }
 
+// Sets position, orientation and spacing of an image. Throws Error if these are invalid.
 void read_place(const DicomElements& elements, DicomImage& image) {
     image.position = place_of(elements.numbers(image_position));
     for (const std::string& text : elements.frame_positions) {
@@ -387,6 +393,7 @@ void read_place(const DicomElements& elements, DicomImage& image) {
     if (image.spacing.z == 0) image.spacing.z = 1;
 }
 
+// Sets type, bits, byte order and place of the pixels. Throws Error if they cannot be read.
 void read_form(const DicomElements& elements, DicomImage& image) {
     const std::string name = image.file.string();
     if (const auto samples = elements.whole(samples_per_pixel); samples > 1) {
@@ -424,7 +431,7 @@ void read_form(const DicomElements& elements, DicomImage& image) {
     }
 }
 
-// Turns the bits that count into a number: shifted down, and with their sign.
+// Extracts the number in the stored bits of each pixel: shifts it down and extends its sign.
 template <typename Value>
 void take_bits(const DicomImage& image, char* pixels, std::size_t count) {
     using Word = std::make_unsigned_t<Value>;
@@ -440,6 +447,7 @@ void take_bits(const DicomImage& image, char* pixels, std::size_t count) {
     }
 }
 
+// Turns pixels as they lie in the file into numbers of image.type in native byte order.
 void normalize(const DicomImage& image, char* pixels, std::size_t count) {
     const std::size_t bytes = bytes_of(image.type);
     const bool big = std::endian::native == std::endian::big;

@@ -21,12 +21,13 @@
 namespace lamina {
 namespace {
 
-// A volume in an HDF5 file; `array`: as Hdf5Volume takes it.
+// The arguments of Hdf5Volume.
 struct Hdf5Place {
     std::string file, array;
     VolumeRequest request;
 };
 
+// A question to an Hdf5Process: the arguments of Hdf5Volume::read().
 struct Question {
     SampleBox box;
     bool is_all;
@@ -36,34 +37,33 @@ std::size_t bytes_in(const SampleBox& box, ValueType type) {
     return static_cast<std::size_t>(box.count()) * bytes_of(type);
 }
 
-// A process that reads an HDF5 file with libhdf5 (volume_files/isolated_process.h). One thread at a
-// time asks it.
+// An isolated process that reads an HDF5 file with libhdf5. For one thread at a time.
 class Hdf5Process {
   public:
-    // Throws Error.
+    // Starts the process and receives the head of its volume. Throws Error.
     explicit Hdf5Process(const Hdf5Place& place)
         : process_(place.file, "libhdf5", [&](IsolatedLine& line) { serve(line, place); }) {
         process_.receive(&head_, sizeof head_);
     }
 
     const Hdf5Head& head() const { return head_; }
-    // Returns all samples, in memory that read() would overwrite: one of the two may be called.
+    // Returns all samples. read() must not be called then, because it would overwrite their memory.
     std::shared_ptr<void> read_all() {
         read_shared({{0, 0, 0}, head_.grid.size}, true);
         return shared_.memory;
     }
 
-    // Reads a box of samples.
     void read(const SampleBox& box, void* to) {
         std::memcpy(to, read_shared(box, false), bytes_in(box, head_.type));
     }
 
   private:
-    // Memory that both processes see. Both renew it in step, by the sizes that are asked for.
+    // Memory that both processes see. Each sizes its mapping by the same questions, so both agree.
     struct Shared {
         std::shared_ptr<void> memory;
         std::size_t bytes = 0;
 
+        // Returns memory for `wanted` bytes. `taker`: this process's end of the line.
         template <typename Taker>
         void* room(std::size_t wanted, Taker& taker) {
             if (wanted > bytes) {
@@ -74,6 +74,7 @@ class Hdf5Process {
         }
     };
 
+    // Answers questions in the isolated process until no more come.
     static void serve(IsolatedLine& line, const Hdf5Place& place) {
         const Hdf5Volume volume(place.file, place.array, place.request);
         line.answer(&volume.head(), sizeof(Hdf5Head));
@@ -86,6 +87,7 @@ class Hdf5Process {
         }
     }
 
+    // Asks for a box of samples and returns it in the shared memory.
     void* read_shared(const SampleBox& box, bool is_all) {
         void* const samples = shared_.room(bytes_in(box, head_.type), process_);
         const Question question{box, is_all};
@@ -99,8 +101,8 @@ class Hdf5Process {
     Shared shared_;
 };
 
-// Edge of the boxes in which arrays without chunks are read, and to which smaller chunks are
-// joined: less is not worth a question to the process.
+// Least edge in samples of the boxes that are read at once: arrays without chunks have it, and
+// smaller chunks are read several at a time, because smaller boxes are not worth a question.
 constexpr std::int64_t least_edge = 64;
 
 std::array<std::int64_t, 3> edge_of(const Hdf5Head& head) {
@@ -112,8 +114,8 @@ std::array<std::int64_t, 3> edge_of(const Hdf5Head& head) {
     return edge;
 }
 
-// Samples in the chunks of an HDF5 file, which processes of their own decode: one for each core, up
-// to most_processes. They are started first of all, because this process has few threads then.
+// Samples in the chunks of an HDF5 file, which isolated processes decode: one for each core, up to
+// most_processes. The constructor starts them all, because this process still has few threads then.
 class Hdf5Source : public ChunkedSource {
   public:
     Hdf5Source(const Hdf5Place& place, std::unique_ptr<Hdf5Process> first)
@@ -129,8 +131,7 @@ class Hdf5Source : public ChunkedSource {
 
     void check_unchanged() const override { file_.check_unchanged(); }
 
-    // Returns the file with the array's name behind it, because each array of a file counts as a
-    // file.
+    // Returns the file's name with the array's appended: each array has an index of its own.
     std::filesystem::path main_file() const override {
         std::string array = place_.array;
         std::ranges::replace(array, '/', '.');
@@ -158,13 +159,13 @@ class Hdf5Source : public ChunkedSource {
             process = take_process();
             process->read(box, to);
         } catch (...) {
-            give_back({});  // it may have an answer under way, or have ended
+            give_back({});  // the process may have ended, or not have sent all
             throw;
         }
         give_back(std::move(process));
     }
 
-    // Starts one more process, without its warnings: the first one has given them.
+    // Starts one more process. Drops its warnings, which the first process has given already.
     std::unique_ptr<Hdf5Process> started() const {
         const WarningTaker nobody = [](const std::string&) {};
         Client client = ClientScope::current();
@@ -179,6 +180,7 @@ class Hdf5Source : public ChunkedSource {
         return process;
     }
 
+    // Returns an idle process, as soon as there is one; starts a new one in place of a lost one.
     std::unique_ptr<Hdf5Process> take_process() const {
         std::unique_lock lock(access_);
         given_back_.wait(lock, [&] { return !idle_.empty() || lost_ > 0; });
@@ -192,6 +194,7 @@ class Hdf5Source : public ChunkedSource {
         return process;
     }
 
+    // Makes a process idle again; null counts as a lost one.
     void give_back(std::unique_ptr<Hdf5Process> process) const {
         const std::lock_guard lock(access_);
         if (process)
@@ -209,10 +212,10 @@ class Hdf5Source : public ChunkedSource {
     mutable std::mutex access_;
     mutable std::condition_variable given_back_;
     mutable std::vector<std::unique_ptr<Hdf5Process>> idle_;
-    mutable unsigned lost_ = 0;  // processes that have to be started anew
+    mutable unsigned lost_ = 0;  // processes that are to be replaced by new ones
 };
 
-// The two parts of "FILE.h5:/PATH"; the second is empty if the path is a file's.
+// The file and the array that "FILE.h5:/PATH" names: "/PATH", or empty if there is none.
 struct ArrayPath {
     std::filesystem::path file;
     std::string array;
@@ -229,7 +232,7 @@ ArrayPath array_path(const std::filesystem::path& path) {
     return {path, ""};
 }
 
-// Describes where the samples of an array lie, if its file holds them as they are.
+// Describes where an array's samples lie in its file, if the head says it (Hdf5Head::raw).
 StoredData raw_data(const std::filesystem::path& file, const Hdf5Head& head) {
     StoredData data;
     data.path = file;

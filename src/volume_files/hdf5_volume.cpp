@@ -22,7 +22,7 @@ namespace {
 
 constexpr int most_rank = 5;
 
-// Most bytes that a byte of a packed data set gives: deflate's 1032, twice over.
+// Most bytes that a byte of a packed data set gives: deflate's 1032, squared for data packed twice.
 constexpr std::uint64_t most_hdf5_expansion = 1 << 20;
 
 hid_t memory_type(ValueType type) {
@@ -46,7 +46,7 @@ std::optional<ValueType> type_of_hdf5(hid_t type) {
                        !integers || H5Tget_sign(type) == H5T_SGN_2);
 }
 
-// Returns the numbers of a small data space.
+// Returns a data space's numbers, which read(pointer) reads; none if over `most`, or if that fails.
 template <typename Read>
 std::vector<double> numbers_of(hid_t space, std::size_t most, const Read& read) {
     const hssize_t count = H5Sget_simple_extent_npoints(space);
@@ -56,7 +56,7 @@ std::vector<double> numbers_of(hid_t space, std::size_t most, const Read& read) 
     return numbers;
 }
 
-// Refuses a link into another file: HDF5 calls it, and then does not follow the link.
+// Refuses a link into another file. HDF5 calls this before it follows such a link.
 herr_t refuse_file(const char* /*file*/, const char* /*group*/, const char* /*to*/,
                    const char* /*object*/, unsigned* /*flags*/, hid_t /*access*/,
                    void* is_refused) {
@@ -64,6 +64,7 @@ herr_t refuse_file(const char* /*file*/, const char* /*group*/, const char* /*to
     return -1;
 }
 
+// Opens a data set. If the client allows only some files, a link into another file is an Error.
 hid_t opened_set(hid_t file, const std::string& path, const std::string& name) {
     const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     bool is_refused = false;
@@ -73,12 +74,14 @@ hid_t opened_set(hid_t file, const std::string& path, const std::string& name) {
     return set;
 }
 
+// The coordinates of an axis that read_scale() finds. `length`: how many the axis has.
 struct ScaleFound {
     std::size_t length;
     std::vector<double> numbers;
 };
 
-// Reads a scale of an axis: H5DSiterate_scales calls it for each.
+// Takes the coordinates of a dimension scale, if there are as many as the axis needs.
+// H5DSiterate_scales() calls this for each scale of the axis until it returns 1.
 herr_t read_scale(hid_t /*set*/, unsigned /*axis*/, hid_t scale, void* data) {
     if (is_restricted() && stores_elsewhere(scale)) return 0;
     auto& found = *static_cast<ScaleFound*>(data);
@@ -100,10 +103,11 @@ struct FoundArrays {
     bool too_deep = false;
 };
 
-// Most groups within groups that are searched: real files have a few, and the time that the library
-// takes grows with the square of the depth.
+// Largest searched depth of groups: real files have few, and time grows with the square of it.
 constexpr std::ptrdiff_t most_groups = 64;
 
+// Notes the path of an object that can be a volume. H5Ovisit() calls this for each object in the
+// file, until it returns 1.
 herr_t note_array(hid_t file, const char* name, const H5O_info_t* info, void* data) {
     constexpr std::size_t most_names = 1000;
     auto& found = *static_cast<FoundArrays*>(data);
@@ -122,6 +126,7 @@ herr_t note_array(hid_t file, const char* name, const H5O_info_t* info, void* da
 
 constexpr std::size_t most_of_names = 200;  // bytes that a message shows
 
+// Returns the path of the only array that can be a volume. Throws Error if there is not one.
 std::string only_array(hid_t file, const std::string& name) {
     FoundArrays found;
     H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_array, &found);
@@ -141,14 +146,15 @@ std::string only_array(hid_t file, const std::string& name) {
     return found.names.front();
 }
 
-// Distance and beginning of equally spaced coordinates.
+// Equally spaced coordinates: their distance, and the first one.
 struct RegularAxis {
     double step, first;
 };
 
 // Returns nothing unless the coordinates are equally spaced.
 std::optional<RegularAxis> regular(const std::vector<double>& coordinates) {
-    // Coordinates in float32 are off by 6e-8 of themselves; what people call regular is closer.
+    // A share of the step. Rounding to float32, by up to 6e-8 of a coordinate, stays below it up to
+    // some 16,000 steps from 0.
     constexpr double tolerance = 1e-3;
     const std::size_t count = coordinates.size();
     if (count < 2) return {};
@@ -161,6 +167,7 @@ std::optional<RegularAxis> regular(const std::vector<double>& coordinates) {
     return RegularAxis{step, coordinates.front()};
 }
 
+// Returns the grid by dimension scales, else by element_size_um, else with steps of 1.
 Grid hdf5_grid(const Hdf5Array& array, const std::string& name) {
     Grid grid;
     const std::vector<double> sizes = array.attribute("element_size_um");  // z, y, x
@@ -192,12 +199,13 @@ double attribute_or(const Hdf5Array& array, const char* key, double otherwise) {
 }
 
 Hdf5Handle opened(const std::string& file) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // its errors become ours
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown here, not printed
     Hdf5Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (!handle.valid()) fail("{}: truncated or damaged HDF5 file", file);
     return handle;
 }
 
+// The attributes in which NetCDF names a value that marks missing samples.
 constexpr const char* missing_keys[] = {"_FillValue", "missing_value"};
 
 std::optional<double> missing_value(const Hdf5Array& array, const char* key) {
@@ -381,7 +389,8 @@ void Hdf5Volume::read(const SampleBox& box, bool is_all, void* to) const {
     mark_missing(box.count(), is_all, to);
 }
 
-// Makes samples that NetCDF calls missing NaN, if their type has one.
+// Replaces missing samples, those with the value of an attribute of missing_keys, by NaN if their
+// type has it. If `is_told`, warns of them and counts them.
 void Hdf5Volume::mark_missing(std::int64_t count, bool is_told, void* samples) const {
     if (is_integer(head_.type) && !is_told) return;
     for (const char* const key : missing_keys) {

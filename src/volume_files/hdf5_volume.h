@@ -17,7 +17,7 @@
 
 namespace lamina {
 
-// An object of the HDF5 library, which is closed at the end. Negative: there is none.
+// Owns an object of the HDF5 library and closes it at the end. A negative id stands for no object.
 class Hdf5Handle {
   public:
     using Closer = herr_t (*)(hid_t);
@@ -39,15 +39,14 @@ class Hdf5Handle {
     Closer close_;
 };
 
-// Tells if a data set has its samples in other files, by HDF5's external storage or as a virtual
-// data set.
+// Tells if a data set has its samples in other files: external storage, or a virtual data set.
 bool stores_elsewhere(hid_t set);
 
 // A data set of numbers in an open HDF5 file, with what is known of its axes.
 class Hdf5Array {
   public:
-    // `name`: that of file and data set, for messages. Throws Error if it cannot be read, or if it
-    // lies in another file though the client allows only some (base/client.h).
+    // `name`: that of file and data set, for messages. Throws Error if the data set cannot be read,
+    // or if it lies in another file and the client allows only some files (base/client.h).
     Hdf5Array(hid_t file, const std::string& path, std::string name);
 
     const std::vector<std::int64_t>& shape() const { return shape_; }  // the last changes fastest
@@ -65,11 +64,10 @@ class Hdf5Array {
         std::int64_t offset;  // of the first sample, in bytes of the file
         bool big_endian;
     };
-    // Returns where the samples lie in the file, if they lie there as they are, one after the
-    // other.
+    // Returns where the samples lie in the file, if contiguous, not packed and not to be converted.
     std::optional<RawPlace> raw_place() const;
 
-    // Tells if the samples lie in another file than this one.
+    // Tells if the samples lie in another file than `file`.
     bool lies_elsewhere(hid_t file) const;
 
     // Throws Error if the samples cannot be read: a filter is missing here, or the file's
@@ -88,19 +86,19 @@ class Hdf5Array {
     ValueType type_ = ValueType::uint8;
 };
 
-// The description of a volume in an HDF5 file, which its process gives before it reads samples. It
-// is sent as it lies in memory.
+// A volume's description, which the isolated process sends first, byte for byte as in memory.
 struct Hdf5Head {
     Grid grid;
     ValueType type = ValueType::uint8;
     double scale = 1, offset = 0;                // as in StoredSamples
-    bool has_missing = false;                    // some values become NaN
+    bool has_missing = false;                    // samples of some values become NaN
     bool elsewhere = false;                      // the samples lie in another file
     std::array<std::int64_t, 3> chunk{0, 0, 0};  // samples along x, y and z; 0: not in chunks
-    // The place of all samples of the array, which may be more than the volume's, if they lie in
-    // the file as they are; else its offset is below 0.
+    // Result of Hdf5Array::raw_place(), for all samples of the array: the volume's, and those of
+    // other channels and times. Its offset is -1 if there is no such place.
     Hdf5Array::RawPlace raw{-1, false};
-    std::array<std::int64_t, 2> outer{1, 1}, taken{0, 0};  // channels, times
+    // Channels and times: how many there are, and the index that is read.
+    std::array<std::int64_t, 2> outer{1, 1}, taken{0, 0};
 };
 
 // A volume in an HDF5 file, read by libhdf5.
@@ -110,11 +108,10 @@ class Hdf5Volume {
     Hdf5Volume(const std::string& file, const std::string& array, const VolumeRequest& request);
 
     const Hdf5Head& head() const { return head_; }
-    // Returns the bytes that libhdf5 unpacks at a time, however few are read: a chunk along all
-    // axes.
+    // Returns the bytes of a chunk along all axes of the array, which libhdf5 unpacks at once even
+    // if few samples are read; 0 if the array is not in chunks.
     std::size_t chunk_bytes() const { return chunk_bytes_; }
-    // Reads a box of samples, in native byte order, x fastest. If `is_all`, a warning counts those
-    // that are missing.
+    // Reads a box, in native byte order, x fastest. `is_all`: a warning counts missing samples.
     void read(const SampleBox& box, bool is_all, void* to) const;
 
   private:
@@ -124,7 +121,7 @@ class Hdf5Volume {
     std::string path_;  // the array's, in the file
     std::string name_;
     Hdf5Array array_;
-    std::vector<std::int64_t> index_;  // on the axes before the volume's
+    std::vector<std::int64_t> index_;  // indices on the axes before z: time, channel
     Hdf5Head head_;
     std::size_t chunk_bytes_ = 0;
 };

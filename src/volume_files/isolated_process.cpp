@@ -25,11 +25,12 @@
 namespace lamina {
 namespace {
 
-constexpr rlim_t seconds_for_headers = 5;
+constexpr rlim_t seconds_for_headers = 5;  // of processor time
 
-// The other process sends one of these letters, a length, and so many bytes.
+// Kinds of messages from the isolated process; the length (a std::size_t) follows the kind.
 enum Message : char { warning = 'W', refusal = 'E', result = 'R' };
 
+// Resizes the file that both processes share and maps it.
 std::shared_ptr<void> mapped(int file, std::size_t bytes) {
     if (ftruncate(file, static_cast<off_t>(bytes)) != 0) throw std::bad_alloc();
     void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
@@ -49,7 +50,7 @@ bool send_all(int to, const void* bytes, std::size_t count) {
     return true;
 }
 
-// Limits processor time to a few seconds, and the time that so many bytes take.
+// Limits processor time, from now on, to that of headers and of decompressing `bytes` bytes.
 void allow_time(std::size_t bytes) {
     constexpr std::size_t slowest = 1 << 20;  // bytes a second, decompressed
     rusage used{};
@@ -63,9 +64,8 @@ void allow_time(std::size_t bytes) {
     setrlimit(RLIMIT_CPU, &limit);
 }
 
-// Limits address space to the present one, 256 MiB for headers, and four copies of the bytes: the
-// samples, their packed form, and buffers of a library that unpacks. Sanitizers reserve more than
-// any limit.
+// Limits address space to its present size, 256 MiB for headers, and 4 * `bytes` for samples, their
+// compressed form and a library's buffers. Does nothing with sanitizers, which exceed any limit.
 void allow_memory([[maybe_unused]] std::size_t bytes) {
 #ifndef LAMINA_SANITIZED
     constexpr std::size_t for_headers = std::size_t{256} << 20, copies = 4;
@@ -79,14 +79,14 @@ void allow_memory([[maybe_unused]] std::size_t bytes) {
 #endif
 }
 
-// The line's end in the isolated process.
+// The isolated process's end of the line.
 class OwnLine final : public IsolatedLine {
   public:
     OwnLine(int line, int memory, pid_t starter)
         : line_(line), memory_(memory), starter_(starter) {}
 
-    // Processes of other files hold copies of this line, so its end does not show that the starter
-    // has ended.
+    // Looks every second if the starter still runs. The line alone does not show it: processes that
+    // are started later for other files inherit the starter's end and keep it open.
     bool next(void* question, std::size_t count) override {
         constexpr int milliseconds = 1000;
         pollfd waiting{line_, POLLIN, 0};
@@ -106,6 +106,7 @@ class OwnLine final : public IsolatedLine {
         return mapped(memory_, bytes);
     }
 
+    // Sends a message. Ends this process if the starter does not receive it.
     void message(char kind, const void* bytes, std::size_t count) const {
         const bool heard = send_all(line_, &kind, 1) && send_all(line_, &count, sizeof count) &&
                            send_all(line_, bytes, count);
@@ -120,8 +121,8 @@ class OwnLine final : public IsolatedLine {
 
 pid_t awaited_starter = -1;  // set in the isolated process
 
-// Ends this process within a second of the one that started it, even if it waits for a file that
-// never gives anything. (PR_SET_PDEATHSIG would end it with the thread that started it.)
+// Ends this process within a second of the starter's end, even if it waits for input that never
+// comes. (PR_SET_PDEATHSIG would end it together with the thread that started it.)
 void end_with_starter(pid_t starter) {
     awaited_starter = starter;
     struct sigaction action = {};
@@ -134,9 +135,10 @@ void end_with_starter(pid_t starter) {
     setitimer(ITIMER_REAL, &every_second, nullptr);
 }
 
+// Does the work in the isolated process, and exits. `too_much`: the message if memory runs out.
 [[noreturn]] void run_isolated(OwnLine& line, const std::string& too_much,
                                const IsolatedProcess::Work& work) {
-    // A terminal interrupts both processes: the other one hears of it, and ends this one.
+    // Ctrl-C in a terminal reaches both processes. The starter handles it, and ends this one.
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
     signal(SIGABRT, SIG_DFL);
     const rlimit no_core{0, 0};
@@ -156,7 +158,7 @@ void end_with_starter(pid_t starter) {
     _exit(0);
 }
 
-// The answer of an isolated reader, of fixed size: both processes run one program.
+// The answer of read_isolated()'s process, as it lies in memory: both are the same program.
 struct ReadHead {
     Grid grid;
     ValueType type;
@@ -167,7 +169,7 @@ struct ReadHead {
 
 IsolatedProcess::IsolatedProcess(std::string name, const char* library, const Work& work)
     : name_(std::move(name)), library_(library) {
-    // Processes start one at a time: one that began meanwhile would keep the other end open.
+    // One at a time: a process forked meanwhile would inherit this one's line and keep it open.
     static std::mutex starting;
     const std::lock_guard lock(starting);
     int ends[2] = {-1, -1};
@@ -213,7 +215,7 @@ void IsolatedProcess::receive(void* bytes, std::size_t count) {
         expect_all(&length, sizeof length);
         if (kind == result) {
             if (length == count) return expect_all(bytes, count);
-            kill(process_, SIGKILL);  // the library has overwritten what does not belong to it
+            kill(process_, SIGKILL);  // the library has overwritten memory that is not its own
             fail_as_ended();
         }
         constexpr std::size_t most_text = 1 << 16;
@@ -229,7 +231,7 @@ std::shared_ptr<void> IsolatedProcess::shared_memory(std::size_t bytes) {
     return mapped(memory_, bytes);
 }
 
-// Returns false if the process has ended before it has sent all.
+// Receives `count` bytes. Returns false if the process ends before it has sent them.
 bool IsolatedProcess::receive_all(void* bytes, std::size_t count) {
     char* at = static_cast<char*>(bytes);
     while (count > 0) {
@@ -256,6 +258,7 @@ void IsolatedProcess::expect_all(void* bytes, std::size_t count) {
     if (!receive_all(bytes, count)) fail_as_ended();
 }
 
+// Waits for the end of the process and returns its status.
 int IsolatedProcess::wait_for() {
     int status = 0;
     while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {

@@ -12,39 +12,39 @@
 
 namespace lamina {
 
-// The line of an isolated process to the process that started it.
+// Connects an isolated process to its starter, the process whose questions it answers.
 class IsolatedLine {
   public:
-    // Takes the next question, of `count` bytes. Returns false when no more come.
+    // Waits for the next question, of `count` bytes. Returns false when no more come.
     virtual bool next(void* question, std::size_t count) = 0;
     virtual void answer(const void* bytes, std::size_t count) = 0;
-    // Allows the processor time and memory that so many bytes of samples take, beside those of
-    // headers.
+    // Raises the limits of time and memory to what headers and `bytes` bytes of samples need.
     virtual void allow_bytes(std::size_t bytes) = 0;
-    // Returns memory that both processes see, of the size that was asked for last.
+    // Returns memory that both see. Both must ask for the same size, and not use what they had.
     virtual std::shared_ptr<void> shared_memory(std::size_t bytes) = 0;
 
   protected:
     ~IsolatedLine() = default;
 };
 
-// A process that works with `library`, which may crash at a damaged file, or never end: both become
-// an Error here. Its warnings and its Error are passed on. The work must start no threads. The
-// process ends with this object, with its work, and when the client requests a stop.
+// A process for a library that may crash or never return at a damaged file: both become an Error of
+// receive(), as an Error of the work does; warnings are passed on. The work must start no threads.
+// The process ends when the work does, when this object is destroyed, or when the starter ends.
 class IsolatedProcess {
   public:
     using Work = std::function<void(IsolatedLine&)>;
 
-    // `name`: the file's, for messages.
+    // `name` (the file's) and `library`: for messages.
     IsolatedProcess(std::string name, const char* library, const Work& work);
     ~IsolatedProcess();
     IsolatedProcess(const IsolatedProcess&) = delete;
     IsolatedProcess& operator=(const IsolatedProcess&) = delete;
 
+    // Sends a question. Throws Error if the process has ended.
     void ask(const void* question, std::size_t count);
     // Receives the next answer, which has `count` bytes. Throws Error.
     void receive(void* bytes, std::size_t count);
-    // Returns memory that both processes see. The other one must no longer use what it had before.
+    // Returns memory that both processes see, as IsolatedLine::shared_memory() does.
     std::shared_ptr<void> shared_memory(std::size_t bytes);
 
   private:
@@ -60,14 +60,14 @@ class IsolatedProcess {
     bool ended_ = false;
 };
 
-// The grid and the samples that a reader has taken of a file.
+// The grid and the samples that a reader has found in a file.
 struct ReadSamples {
     Grid grid;
     StoredSamples samples;
 };
 
-// Calls `read` in a process of its own. Its samples are in the line's shared_memory(). `name`: the
-// file's, for messages. Throws Error.
+// Calls `read` in an isolated process; it must put the samples into the line's shared_memory().
+// `name`: the file's, for messages. Throws Error.
 ReadSamples read_isolated(const std::string& name, const char* library,
                           const std::function<ReadSamples(IsolatedLine&)>& read);
 

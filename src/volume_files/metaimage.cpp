@@ -16,10 +16,9 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr std::size_t header_limit = std::size_t{1} << 20;
+constexpr std::size_t header_limit = std::size_t{1} << 20;  // bytes of the file that are searched
 
-// The header of a MetaImage: lines "Key = value" up to ElementDataFile. Throws Error, which names
-// the file, the key, what was found and what was expected.
+// The header of a MetaImage: lines "Key = value" up to ElementDataFile. Throws Error.
 class MetaImageFields {
   public:
     explicit MetaImageFields(const std::filesystem::path& path) : file_(path.string()) {
@@ -47,9 +46,9 @@ class MetaImageFields {
     }
 
     const std::string& file() const { return file_; }
-    // Returns the bytes up to the end of ElementDataFile's line, -1 if the file ends with it.
+    // Returns the bytes up to the end of ElementDataFile's line; -1 if the file ends there.
     std::int64_t length() const { return length_; }
-    const std::vector<std::string>& listed() const { return listed_; }  // the lines behind it
+    const std::vector<std::string>& listed() const { return listed_; }  // after LIST
 
     bool has(const std::string& key) const { return fields_.contains(key); }
 
@@ -58,7 +57,7 @@ class MetaImageFields {
         return found == fields_.end() ? otherwise : found->second;
     }
 
-    // Returns what "True" or "False" says.
+    // Returns the value of a field that is True or False.
     bool flag(const std::string& key, bool otherwise) const {
         const std::string word = text(key);
         if (word.empty() && !has(key)) return otherwise;
@@ -85,7 +84,7 @@ class MetaImageFields {
         return result;
     }
 
-    // Returns finite numbers.
+    // Returns the `count` finite numbers of a field. Throws Error if it has others.
     std::vector<double> numbers(const std::string& key, std::size_t count) const {
         std::vector<double> result;
         const std::vector<std::string> words = words_of(text(key));
@@ -100,6 +99,7 @@ class MetaImageFields {
         return result;
     }
 
+    // Throws Error for a field that is missing or wrong.
     [[noreturn]] void reject(const std::string& key, const std::string& expected) const {
         if (!has(key)) fail("{}: {}: found nothing, expected {}", file_, key, expected);
         fail("{}: {}: found '{}', expected {}", file_, key, one_line(text(key).substr(0, 80)),
@@ -113,7 +113,7 @@ class MetaImageFields {
     std::vector<std::string> listed_;
 };
 
-constexpr std::int64_t largest_size = std::int64_t{1} << 40;
+constexpr std::int64_t largest_size = std::int64_t{1} << 40;  // of axes, of HeaderSize
 
 struct ElementType {
     const char* word;
@@ -187,7 +187,7 @@ class MetaImage {
         return found->type;
     }
 
-    // Channels lie beside each other; a single channel is no axis.
+    // Returns the axes of the data. Channels are the fastest; a single one is no axis.
     std::vector<StoredAxis> axes(std::int64_t channels, const VolumeRequest& request) const {
         std::vector<StoredAxis> axes;
         const StoredAxis channel = taken_axis(fields_.file(), "channel", request.channel, channels);
@@ -211,11 +211,11 @@ class MetaImage {
             return;
         }
         if (skip < 0)
-            data.byte_skip = skip;  // the data end the file
+            data.byte_skip = skip;  // -1: the data are the last bytes of the file
         else
             data.offset = skip;
         const std::vector<std::string> words = words_of(value);
-        std::optional<std::size_t> each;  // axes in one file
+        std::optional<std::size_t> each;  // axes that one file holds
         const auto set_each = [&](std::size_t word) {
             if (words.size() <= word) return;
             const auto axes = whole_number(words[word]);
@@ -237,6 +237,7 @@ class MetaImage {
         }
     }
 
+    // Returns the names of a numbered series of files. `words`: pattern, first, last and step.
     std::vector<std::string> numbered(const std::vector<std::string>& words) const {
         std::array<std::optional<std::int64_t>, 3> steps;
         for (std::size_t i = 0; i < 3 && words.size() > i + 1; ++i)
@@ -253,7 +254,7 @@ class MetaImage {
         return *names;
     }
 
-    // Returns the numbers of the first key that is there.
+    // Returns the numbers of the first of the keys that the header has, else `otherwise`.
     std::vector<double> numbers_of(std::initializer_list<const char*> keys,
                                    const std::vector<double>& otherwise) const {
         for (const char* const key : keys)

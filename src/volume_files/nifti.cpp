@@ -18,7 +18,7 @@ using Path = std::filesystem::path;
 // (https://nifti.nimh.nih.gov/nifti-1, nifti1.h; nifti2.h).
 struct NiftiHeader {
     std::filesystem::path path;       // the header's
-    std::filesystem::path data_path;  // the samples': the same file for magic "n+1"
+    std::filesystem::path data_path;  // the file of the samples: the same for magic "n+1"
     bool packed = false;              // both are gzip files
     bool big_endian = false;
     std::array<std::int64_t, 8> dim{};  // dim[0]: how many of the others count
@@ -118,6 +118,7 @@ bool is_gzip(const Path& path) {
     return file_beginning(path, 2) == "\x1f\x8b";
 }
 
+// Returns the header in `bytes`, nothing if its magic is wrong. `second`: NIfTI-2. Throws Error.
 std::optional<NiftiHeader> header_of(const Path& path, const HeaderBytes& bytes, bool second,
                                      bool big_endian) {
     const std::string_view magic = second ? bytes.text(4, 4) : bytes.text(344, 4);
@@ -142,12 +143,11 @@ std::optional<NiftiHeader> header_of(const Path& path, const HeaderBytes& bytes,
     return header;
 }
 
-// Returns the columns of the rotation of a quaternion whose real part is not stored (nifti1.h,
-// "Method 2").
+// Returns the columns of a quaternion's rotation; no real part is stored (nifti1.h, "Method 2").
 std::array<glm::dvec3, 3> rotation_of(const std::array<double, 3>& quaternion) {
     double b = quaternion[0], c = quaternion[1], d = quaternion[2];
     double a = 1 - (b * b + c * c + d * d);
-    if (a < 1e-7) {  // a half turn, written in single precision
+    if (a < 1e-7) {  // a half turn, rounded to float32
         const double length = std::sqrt(b * b + c * c + d * d);
         b /= length;
         c /= length;
@@ -199,8 +199,8 @@ std::optional<NiftiHeader> read_nifti_header(const Path& path) {
     return {};
 }
 
-// Returns the grid of the first three axes: by sform, else by qform, turned to LPS. Without either,
-// samples lie pixdim apart from the origin on, and directions are unnamed. Throws Error.
+// Returns the grid of the first three axes: placed by sform, else by qform, and turned to LPS; else
+// samples lie pixdim apart from the origin on, in unnamed world axes. Throws Error.
 Grid nifti_grid(const NiftiHeader& header) {
     Grid grid = plain_grid({header.dim[1], header.dim[2], header.dim[3]});
     const std::string file = header.path.string();
@@ -294,7 +294,7 @@ bool is_nifti(const Path& path) {
     try {
         return read_nifti_header(header_path(path)).has_value();
     } catch (const Error&) {
-        return false;  // open_nifti() says why, if the file's name is that of one
+        return false;  // open_nifti() reports it for files with an extension of NIfTI
     }
 }
 

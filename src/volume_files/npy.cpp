@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-// Turns samples whose first axis, z, is the fastest in memory into those whose last one, x, is.
+// Reorders samples from Fortran order (the first axis, z, is fastest) to C order (the last, x).
 template <typename T>
 std::shared_ptr<void> turned(const void* stored, const std::array<std::int64_t, 3>& size) {
     const auto* const from = static_cast<const T*>(stored);

@@ -34,9 +34,8 @@ bool is_apart(const Nrrd& nrrd, unsigned axis) {
     return false;
 }
 
-// Returns the three axes that span the volume. If there are more axes, those are left out first
-// that do not lie in space, then axes of one sample, beginning with those without a direction in
-// space.
+// Returns the three axes that span the volume. If the file has more, leaves out those that do not
+// lie in space, and then axes of one sample, beginning with those without a direction in space.
 std::vector<unsigned> volume_axes(const std::string& file, const Nrrd& nrrd) {
     std::vector<unsigned> axes(nrrd.dim);
     std::vector<std::size_t> sizes(nrrd.dim);
@@ -72,8 +71,7 @@ Centering centering_of(const NrrdAxisInfo& axis) {
     return axis.center == nrrdCenterCell ? Centering::cell : Centering::node;
 }
 
-// Returns the distance of samples along an axis without a direction: its spacing, else what its
-// mins and maxs imply, else NaN.
+// Returns the spacing of an axis without a direction, else what its mins and maxs imply, else NaN.
 double known_spacing_of(const NrrdAxisInfo& axis) {
     if (!std::isnan(axis.spacing)) return axis.spacing;
     const bool cell = centering_of(axis) == Centering::cell;
@@ -88,8 +86,8 @@ double spacing_of(const NrrdAxisInfo& axis) {
     return std::isnan(known) ? 1 : known;
 }
 
-// Throws Error if an axis has no spacing: a field `spacings` gives those of all axes that have no
-// mins and maxs.
+// Throws Error if an axis has no spacing. For files with the field `spacings`, which must give the
+// spacing of each axis without mins and maxs.
 void expect_spacings(const std::string& file, const Nrrd& nrrd, const std::vector<unsigned>& axes) {
     for (const unsigned axis : axes) {
         if (std::isnan(known_spacing_of(nrrd.axis[axis])))
@@ -107,7 +105,7 @@ double first_position_of(const NrrdAxisInfo& axis) {
 WorldAxes axes_of(int space) {
     switch (space) {
         case nrrdSpaceLeftPosteriorSuperior:
-        case nrrdSpaceScannerXYZ:  // the same by definition
+        case nrrdSpaceScannerXYZ:  // LPS by definition
             return WorldAxes::left_posterior_superior;
         case nrrdSpaceRightAnteriorSuperior:
             return WorldAxes::right_anterior_superior;
@@ -142,10 +140,8 @@ void set_steps_by_spacings(const Nrrd& nrrd, const std::vector<unsigned>& axes, 
     }
 }
 
-// Returns the grid that a parsed header describes (docs/scene.md, "What is drawn"). `file`: for
-// messages. `has_spacings`: the header has a field of that name, which then must give every spacing
-// that nothing else gives. Throws Error if the axes are not three, not spatial, not orthogonal, or
-// not finite.
+// Returns the grid of a parsed header (docs/scene.md, "What is drawn"). `has_spacings`: it has the
+// field `spacings`. Throws Error unless there are three orthogonal, finite, spatial axes.
 Grid nrrd_grid(const std::string& file, const Nrrd& nrrd, bool has_spacings) {
     const std::vector<unsigned> axes = volume_axes(file, nrrd);
     Grid grid;
@@ -170,9 +166,8 @@ Grid nrrd_grid(const std::string& file, const Nrrd& nrrd, bool has_spacings) {
     return grid;
 }
 
-// Returns the axes of the data, with the index that is taken of those that do not span the grid:
-// the request's time of an axis of that kind, its channel of another. Throws Error if there is no
-// such index.
+// Returns the axes of the data. Those that do not span the grid get the index that is read: the
+// request's time on an axis of kind `time`, its channel on another. Throws Error.
 std::vector<StoredAxis> nrrd_axes(const std::string& file, const Nrrd& nrrd,
                                   const VolumeRequest& request) {
     const std::vector<unsigned> spanning = volume_axes(file, nrrd);
@@ -197,11 +192,11 @@ std::vector<StoredAxis> nrrd_axes(const std::string& file, const Nrrd& nrrd,
 // one a line, up to the end of the header file), or a pattern ("slice%03d.raw MIN MAX STEP").
 struct NrrdDataFiles {
     std::vector<std::string> names;
-    // The number of axes, the first ones, that one file holds, if the field names it.
+    // How many axes, counted from the fastest, one file holds, if the field says it.
     std::optional<std::size_t> axes_each;
 };
 
-// `path` and `line` are for messages; `following`: the header after the field's line. Throws Error.
+// Parses `data file`. `path`, `line`: for messages; `following`: the header after it. Throws Error.
 NrrdDataFiles nrrd_data_files(const std::string& path, int line, const std::string& value,
                               const std::string& following) {
     const std::vector<std::string> words = words_of(value);
@@ -250,16 +245,16 @@ NrrdDataFiles nrrd_data_files(const std::string& path, int line, const std::stri
 }
 
 constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
-// Most bytes of a field's line: teem prints lines that are wrong into buffers of some 1000 bytes.
+// Most bytes of a line with a field: teem prints wrong lines into buffers of some 1000 bytes.
 constexpr std::size_t line_limit = 512;
 
-// The lines of a header, separated by the rules of the format; teem interprets them.
+// A header, cut into the lines that teem interprets and what lamina reads itself.
 struct HeaderText {
     std::string text;  // magic and fields, without `data file` and remarks
     std::optional<NrrdDataFiles> data_files;
     std::set<std::string> fields;  // names of all, lower case
     std::int64_t length = 0;       // bytes up to and including the empty line
-    bool ended = false;            // with an empty line, not with the end of the file
+    bool ended = false;            // by an empty line, not by the end of the file
 };
 
 // Reads the beginning of a file, at most most_header_bytes bytes.
@@ -285,15 +280,15 @@ struct Field {
     std::string value;
 };
 
-// Tells if a line says nothing about the samples: comments, key/value pairs, `content`. teem keeps
-// such lines in lists, and takes minutes for a header with a megabyte of them.
+// Tells if a line says nothing about the samples: a comment, a key/value pair, or `content`. teem
+// does not get such lines: it keeps them in lists and takes minutes for a megabyte of them.
 bool is_remark(const std::string& line) {
     const auto colon = line.find(':');
     return line[0] == '#' || line.starts_with("content:") ||
            (colon != std::string::npos && line.substr(colon, 2) == ":=");
 }
 
-// Returns the field of a `name: value` line, and nothing for comments and key/value pairs.
+// Returns the field of a `name: value` line; nothing if the line is a comment or a key/value pair.
 std::optional<Field> field_of(const std::string& line) {
     const auto colon = line.find(':');
     if (colon == std::string::npos || is_remark(line)) return {};
@@ -323,8 +318,8 @@ void check_sizes(const std::string& path, int line, const Field& field) {
         fail_at(path, line, field, "at most 2^62 samples in all");
 }
 
-// Checks the spacings, because teem's messages name neither field nor number. NaN: the axis has
-// none, or its mins and maxs give it (volume_files/volume_formats.h).
+// Checks the spacings, because teem's messages name neither field nor number. NaN passes: the axis
+// has no spacing, or its mins and maxs give it (volume_files/volume_formats.h).
 void check_spacings(const std::string& path, int line, const Field& field) {
     for (const std::string& word : words_of(field.value)) {
         const char* const start = word.c_str();
@@ -335,8 +330,8 @@ void check_spacings(const std::string& path, int line, const Field& field) {
     }
 }
 
-// Checks the fields that are one number each. teem takes them modulo 2^32, ignores what follows
-// them, and treats what it does not understand as missing.
+// Checks a field whose value is a single number, and passes others. teem would take the number
+// modulo 2^32, ignore what follows it, and treat what it does not understand as missing.
 void check_number(const std::string& path, int line, const Field& field) {
     struct Limits {
         std::set<std::string> names;
@@ -358,6 +353,7 @@ void check_number(const std::string& path, int line, const Field& field) {
         fail_at(path, line, field, limit->expected);
 }
 
+// Splits the header in `bytes`. Throws Error if a line is wrong or the header does not end.
 HeaderText split_header(const std::string& path, const std::string& bytes) {
     HeaderText header;
     std::size_t position = 0;
@@ -405,7 +401,8 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
     return header;
 }
 
-// Returns the innermost two of teem's stacked messages ("[nrrd] function: message") on one line.
+// Returns the innermost of teem's stacked messages ("[nrrd] function: message") on one line, after
+// the one before it if that says "trouble parsing".
 std::string teem_message() {
     const std::unique_ptr<char, decltype(&std::free)> stack(biffGetDone(NRRD), &std::free);
     std::vector<std::string> messages;
@@ -425,7 +422,7 @@ std::string teem_message() {
 }
 
 ValueType type_of_nrrd(const std::string& path, int type) {
-    static_assert(nrrdTypeDouble - nrrdTypeChar == std::size(value_types) - 1);  // in our order
+    static_assert(nrrdTypeDouble - nrrdTypeChar == std::size(value_types) - 1);  // teem's order
     if (type >= nrrdTypeChar && type <= nrrdTypeDouble) return value_types[type - nrrdTypeChar];
     fail("{}: type: found '{}', expected a type of numbers, such as uint8 or float", path,
          airEnumStr(nrrdType, type));

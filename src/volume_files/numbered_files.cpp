@@ -15,7 +15,7 @@ bool is_digit(char letter) {
     return letter >= '0' && letter <= '9';
 }
 
-// Takes the digits, or the other letters, at the beginning of a name.
+// Removes the digits, or the other characters, at the beginning of a name and returns them.
 std::string_view take_run(std::string_view& name) {
     const bool digits = is_digit(name[0]);
     std::size_t count = 0;
@@ -29,6 +29,7 @@ std::string_view without_zeros(std::string_view digits) {
     return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
 }
 
+// Orders names by the numbers in them: a2 comes before a10.
 bool comes_before(std::string_view a, std::string_view b) {
     const std::string_view whole_a = a, whole_b = b;
     while (!a.empty() && !b.empty()) {

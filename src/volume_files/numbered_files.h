@@ -20,29 +20,29 @@ inline std::optional<std::int64_t> whole_number(std::string_view word) {
     return number;
 }
 
-// Returns the words of a text, which blanks part.
+// Returns the words of a text, which are separated by blanks.
 std::vector<std::string> words_of(const std::string& text);
 
 // Returns the text without blanks at its ends.
 std::string without_blanks(const std::string& text);
 
-// A file name with a number in it, as "slice%03d.raw" says.
+// A pattern of file names with a number in them, such as "slice%03d.raw".
 struct FilePattern {
     std::string before, after;
-    int width = 0;  // digits at least, filled up with zeros
+    int width = 0;  // least number of digits; zeros go before shorter numbers
 };
 
-// Returns nothing unless there is exactly one %d, %3d or %03d, and no other '%'.
+// Parses a pattern. Returns nothing unless it has exactly one %d, %3d or %03d, and no other '%'.
 std::optional<FilePattern> file_pattern(std::string_view text);
 
 constexpr std::int64_t most_pattern_files = 100000;
 
-// Returns the names with the numbers from `first` to `last`. Returns nothing if the step does not
-// lead there, or if there are more than most_pattern_files.
+// Returns the names with the numbers from `first` to `last`. Returns nothing if the step is 0 or
+// leads away from `last`, or if there are more than most_pattern_files.
 std::optional<std::vector<std::string>> names_of(const FilePattern& pattern, std::int64_t first,
                                                  std::int64_t last, std::int64_t step);
 
-// Returns the regular files in a folder, but for hidden ones, in the order of the numbers in their
+// Returns the regular files in a folder, except hidden ones, in the order of the numbers in their
 // names: a2 before a10. Returns none if the folder cannot be read.
 std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& folder);
 

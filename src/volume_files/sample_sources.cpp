@@ -24,8 +24,8 @@ namespace {
 
 using Triple = std::array<std::int64_t, 3>;
 
-// Adds samples of bytes, spread over all of the `all` bytes, to a hash that is to notice other
-// contents without reading everything. read(place, to, count) gives `count` bytes from a place on.
+// Adds 64 pieces of 4096 bytes, spread evenly over `all` bytes, to a hash, which so notices most
+// changes of contents. read(place, to, count) reads `count` bytes from byte `place` on.
 template <typename Read>
 void add_some_bytes(ContentHash& hash, std::uint64_t all, const Read& read) {
     constexpr std::uint64_t places = 64, bytes_each = 4096;
@@ -40,27 +40,27 @@ void add_some_bytes(ContentHash& hash, std::uint64_t all, const Read& read) {
     }
 }
 
-// Largest gap between rows that are read together with the bytes between them: so many bytes, or so
-// many times the length of a row. A system call takes as long as copying that much.
+// Rows of a box are read in one call if at most so many bytes, or so many times a row's length, lie
+// from one to the next: a system call takes as long as copying that much.
 constexpr std::uint64_t most_between_bytes = 4096, most_between_rows = 8;
-constexpr std::size_t most_extents = 1 << 20;
-// Largest gap that a disk reads over rather than to begin anew.
+constexpr std::size_t most_extents = 1 << 20;  // longer lists are not used
+// Largest gap in bytes that is read over: a disk takes longer to continue behind a larger one.
 constexpr std::uint64_t most_skipped = 1 << 20;
-// Bytes of one read ahead, and number of such reads that follow each other in the file's order:
-// short reads leave a disk waiting between them.
+// Bytes of each read of will_read(), and number of consecutive reads in one task: a disk would wait
+// between short reads.
 constexpr std::uint64_t read_at_once = 1 << 21;
 constexpr std::size_t pieces_together = 32;
 // Holes shorter than this are read with the data around them.
 constexpr std::uint64_t shortest_hole = 1 << 15;
 
-// Bytes of decoded chunks that stay: an eighth of the memory limit, up to most_kept; more if the
-// chunks that one row of bricks touches take more, up to a quarter; and at least two chunks a
-// thread.
+// Most bytes of decoded chunks that stay in memory, unless bytes_to_keep() demands more.
 constexpr std::uint64_t most_kept = std::uint64_t{1} << 26;
 
-// `count`: chunks along each axis.
+// Returns how many bytes of decoded chunks may stay in memory: an eighth of the memory limit, up to
+// most_kept; if the chunks that one row of bricks touches take more, as much as these, up to a
+// quarter of the limit; in any case two chunks a thread. `count`: chunks along each axis.
 std::uint64_t bytes_to_keep(const Triple& edge, const Triple& count, std::uint64_t chunk_bytes) {
-    // Chunks of a row of bricks, which is read before the next row.
+    // Chunks that a row of bricks along x touches. A row is read before the next one.
     std::int64_t touched = count[0];
     for (const std::size_t axis : {1, 2})
         touched *= std::min(count[axis], BrickCache::samples / edge[axis] + 2);
@@ -71,7 +71,7 @@ std::uint64_t bytes_to_keep(const Triple& edge, const Triple& count, std::uint64
         {std::min(most_kept, limit / 8), std::min(row, limit / 4), fewest * chunk_bytes});
 }
 
-// Tells if three axes are taken as a whole, of samples that are drawn as they are.
+// Tells if exactly three axes are read in full, and the samples are drawn as they are.
 bool is_drawn_volume(const StoredData& data) {
     const auto axes = std::ranges::count_if(
         data.axes, [](const StoredAxis& axis) { return !axis.taken.has_value(); });
@@ -141,7 +141,7 @@ FileSource::FileSource(const StoredData& data, const std::array<std::int64_t, 3>
     find_extents();
 }
 
-// Finds the data of a sparse file. If the file system does not know of holes, all is data.
+// Finds a sparse file's extents of data: one if the file system does not know of holes.
 void FileSource::find_extents() {
     const int file = open(files_[0].path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return;
@@ -165,7 +165,7 @@ void FileSource::find_extents() {
     std::uint64_t data = 0;
     for (const Extent& extent : extents_) data += extent.end - extent.begin;
     mostly_holes_ = data < files_[0].bytes / 2;
-    // A system that reads on by itself would fill its cache with holes.
+    // The system's own read-ahead would fill its cache with holes.
     if (mostly_holes_) only_file_->expect_single_reads();
 }
 
@@ -190,7 +190,7 @@ bool FileSource::known_as_zero(const SampleBox& box) const {
     return true;
 }
 
-// `place`: counts bytes in the data of all files, one after the other.
+// Reads `count` bytes from byte `place` of the data of all files, one after another.
 void FileSource::read_bytes(std::uint64_t place, char* to, std::size_t count) const {
     while (count > 0) {
         const std::uint64_t number = place / bytes_each_, within = place % bytes_each_;
@@ -207,7 +207,7 @@ void FileSource::read_bytes(std::uint64_t place, char* to, std::size_t count) co
     }
 }
 
-// Reads rows y .. y + rows - 1 of the box, with the bytes between them.
+// Reads the rows y .. y + rows - 1 at z of a box in one call, with the bytes between them.
 void FileSource::read_rows(const SampleBox& box, std::int64_t y, std::int64_t z, std::int64_t rows,
                            char* to) const {
     const std::uint64_t begin = place_of(box.first[0], y, z);
@@ -230,7 +230,7 @@ void FileSource::read_rows(const SampleBox& box, std::int64_t y, std::int64_t z,
     }
 }
 
-// Returns how many rows of a box are read at once, with the bytes between them.
+// Returns how many rows of a box are read in one call: all of a slice, or one.
 std::int64_t FileSource::rows_together(const SampleBox& box) const {
     const std::uint64_t row_bytes = static_cast<std::uint64_t>(box.size[0]) * bytes_;
     const bool together = step_[1] <= std::max(most_between_bytes, most_between_rows * row_bytes);
@@ -267,7 +267,7 @@ std::vector<FileSource::Extent> FileSource::joined(std::span<const Extent> exten
     return all;
 }
 
-// Returns the data in a part of the file, without its holes.
+// Returns the extents with data in an extent. Holes below shortest_hole count as data.
 std::vector<FileSource::Extent> FileSource::data_in(const Extent& part) const {
     std::vector<Extent> found;
     for (auto next = std::ranges::upper_bound(extents_, part.begin, {}, &Extent::end);
@@ -278,7 +278,7 @@ std::vector<FileSource::Extent> FileSource::data_in(const Extent& part) const {
 
 void FileSource::will_read(std::span<const SampleBox> boxes) const {
     if (!only_file_) return;
-    // Anything beyond this would be gone from the cache before it is read.
+    // If more is read ahead, the first bytes have left the system's cache before they are used.
     const std::uint64_t most_bytes = machine_memory() / 2;
     const auto offset = static_cast<std::uint64_t>(offsets_[0]);
     std::vector<Extent> extents;
@@ -306,7 +306,7 @@ void FileSource::will_read(std::span<const SampleBox> boxes) const {
     const std::size_t parts = (pieces.size() + pieces_together - 1) / pieces_together;
     Progress progress("reading ahead", static_cast<std::int64_t>(parts));
     parallel_for(static_cast<std::int64_t>(parts), 1, [&](std::int64_t part) {
-        const RandomAccessFile file(files_[0].path);  // each has a place in it of its own
+        const RandomAccessFile file(files_[0].path);  // each task has its own read position
         mostly_holes_ ? file.expect_single_reads() : file.expect_in_order();
         const auto some = std::make_unique_for_overwrite<char[]>(read_at_once);
         const std::size_t first = static_cast<std::size_t>(part) * pieces_together;
@@ -353,7 +353,7 @@ StreamSource::StreamSource(const StoredData& data, const std::array<std::int64_t
     skip_outer(true);
 }
 
-// Skips the samples of the axes behind z that are not taken, before or after those that are.
+// Skips samples on the axes outside of z (channel, time): those before or after the ones read.
 void StreamSource::skip_outer(bool is_before) const {
     std::size_t bytes = stored_bytes(data_.path.string(), inner_, bytes_of(data_.type));
     for (const StoredAxis& axis : outer_) {
@@ -404,7 +404,7 @@ void ChunkedSource::for_each_chunk(const SampleBox& box, const Visit& visit) con
     }
 }
 
-// Returns the chunk's entry among the kept ones; the least recently used one makes room for it.
+// Returns the chunk's entry, made if need be; may drop the least recently used one for memory.
 std::shared_ptr<ChunkedSource::Kept> ChunkedSource::kept(std::int64_t chunk) const {
     const std::lock_guard lock(access_);
     std::shared_ptr<Kept>& found = decoded_[chunk];
@@ -419,6 +419,7 @@ std::shared_ptr<ChunkedSource::Kept> ChunkedSource::kept(std::int64_t chunk) con
     return result;
 }
 
+// Copies the samples of a chunk that lie in a box. `from`: the box of the chunk.
 void ChunkedSource::copy_part(const char* chunk, const SampleBox& from, const SampleBox& box,
                               char* to) const {
     std::array<std::int64_t, 3> begin{}, count{};

@@ -19,34 +19,33 @@
 
 namespace lamina {
 
-// A file as it was when it was opened.
+// The state of a file at one time, such as when it was opened.
 struct FileState {
     // Throws Error if there is no such file.
     static FileState of(const std::filesystem::path& path);
 
     // Throws Error if the file now has another size or time.
     void check_unchanged() const;
-    std::string text() const;        // tells it from others, and from what it may become
+    std::string text() const;        // identifies the file and its state
     std::string bytes_hash() const;  // hash of some of its bytes, as they are now; throws Error
 
     std::filesystem::path path;
     std::uint64_t bytes = 0;
     std::int64_t modified = 0;  // nanoseconds
-    // These tell a file from a copy with its size and time. A file that is moved, or gets another
-    // mode, has another `changed`: check_unchanged() passes, text() differs.
+    // These tell a file from a copy with the same size and time. Moving a file, or changing its
+    // mode, changes `changed`: check_unchanged() still passes, but text() differs.
     std::uint64_t inode = 0;
     std::int64_t changed = 0;  // nanoseconds
 };
 
-// Samples that lie in files as they are, without compression.
+// Samples that lie in files uncompressed, and in the type in which they are drawn.
 class FileSource : public SampleSource {
   public:
-    // Tells if the data can be read so: if they are raw, and of a type that is drawn as it is.
+    // Tells if this class can read the data: if they are raw, and of a type that is drawn as it is.
     static bool can_read(const StoredData& data);
 
-    // `size`: the volume's, whose three axes are those that are taken as a whole. Checks the data
-    // as read_stored() does, and warns of an axis of which the first index is taken though the
-    // request names none.
+    // `size`: the volume's along the three axes of the data that are read in full. Checks the data
+    // as read_stored() does, and warns as say_taken() does.
     FileSource(const StoredData& data, const std::array<std::int64_t, 3>& size);
 
     void read(const SampleBox& box, void* to) const override;
@@ -64,6 +63,7 @@ class FileSource : public SampleSource {
     };
 
     void find_extents();
+    // Returns the byte of the data (of all files, one after another) with which a sample begins.
     std::uint64_t place_of(std::int64_t x, std::int64_t y, std::int64_t z) const {
         return first_ + static_cast<std::uint64_t>(x) * step_[0] +
                static_cast<std::uint64_t>(y) * step_[1] + static_cast<std::uint64_t>(z) * step_[2];
@@ -77,26 +77,25 @@ class FileSource : public SampleSource {
 
     std::vector<FileState> files_;
     std::vector<std::int64_t> offsets_;
-    // Open if there is one file only; several are opened anew for each read.
+    // The open file if there is one only; several are opened anew for each read.
     std::unique_ptr<RandomAccessFile> only_file_;
     std::uint64_t bytes_each_;
     std::array<std::int64_t, 3> size_;
-    std::size_t bytes_;  // a sample's
-    std::uint64_t first_ = 0;
-    std::array<std::uint64_t, 3> step_{};  // bytes between neighbours
+    std::size_t bytes_;                    // of a sample
+    std::uint64_t first_ = 0;              // byte of the data with the volume's first sample
+    std::array<std::uint64_t, 3> step_{};  // bytes between neighbours along x, y, z
     bool swap_;
-    std::vector<Extent> extents_;  // the data of one file
+    std::vector<Extent> extents_;  // the data of the only file; empty: unknown
     bool mostly_holes_ = false;
 };
 
-// Samples of packed data, which can be read once: whole slices, one after the other.
+// Samples of compressed data, which can be read only once and in order, in boxes of whole slices.
 class StreamSource : public SampleSource {
   public:
-    // Tells if the data can be read so: if they are packed, and of a type that is drawn as it is.
+    // Tells if the data are compressed, and of a type that is drawn as it is.
     static bool can_read(const StoredData& data);
 
-    // `size`: of the volume, whose three axes are those of the data that are taken as a whole.
-    // Checks as read_stored() does, and warns of what was taken untold.
+    // Takes `size`, checks the data and warns as FileSource does.
     StreamSource(const StoredData& data, const std::array<std::int64_t, 3>& size);
 
     // Reads a box of whole slices, the first of which follows the last one of the box before.
@@ -115,10 +114,10 @@ class StreamSource : public SampleSource {
     std::int64_t slices_;
     std::vector<StoredAxis> inner_, outer_;  // the axes up to z, and those behind it
     std::unique_ptr<ByteReader> bytes_;
-    mutable std::int64_t next_ = 0;  // slice
+    mutable std::int64_t next_ = 0;  // slice that is read next
 };
 
-// Samples in chunks, each of which is decoded as a whole. The most recently used ones stay decoded.
+// Samples in chunks, each decoded as a whole. Recently used ones stay decoded in memory.
 class ChunkedSource : public SampleSource {
   public:
     void read(const SampleBox& box, void* to) const override;
@@ -132,14 +131,15 @@ class ChunkedSource : public SampleSource {
                   std::size_t sample_bytes);
 
   private:
+    // A decoded chunk, or one that a thread decodes now. `used`: clock_ at its last use.
     struct Kept {
         std::once_flag once;
         ByteBuffer samples;
         std::int64_t used = 0;
     };
 
-    // Decodes the part of a chunk that lies in the volume, which is `box`, in the order of read().
-    // Chunks are counted along x, then y, then z. Called from several threads.
+    // Decodes the samples of a chunk that lie in the volume, which are those of `box`, in the order
+    // of read(). Chunks are counted along x, then y, then z. Called from several threads.
     virtual void decode(std::int64_t chunk, const SampleBox& box, void* to) const = 0;
     // Tells if all samples of a chunk are 0, as far as that is known without decoding it.
     virtual bool is_zero(std::int64_t /*chunk*/) const { return false; }

@@ -63,8 +63,8 @@ class WordReader {
     std::string word_;
 };
 
-// Parses numbers that are nearer to 0 than any of the type, which std::from_chars() reports as out
-// of range, too.
+// Parses a number that is too near to 0 for its type. std::from_chars() reports it as out of range,
+// like too large ones; for the latter this returns false.
 template <typename T>
 bool parse_small(const char* first, const char* end, T& sample) {
     long double wide = 0;  // has a wider range of exponents
@@ -123,7 +123,7 @@ void read_numbers(std::FILE* stream, const std::string& file, ValueType type, st
     }
 }
 
-// Bytes of an array up to which it is read as a whole and cut up in memory.
+// Arrays of up to this many bytes are read in full; what is taken is then copied in memory.
 constexpr std::size_t scratch_bytes = std::size_t{1} << 22;
 
 std::size_t product(Axes axes, std::size_t value_bytes) {
@@ -151,8 +151,8 @@ char* gather_values(const char* from, const StoredAxis& channels, std::int64_t c
     return to;
 }
 
-// Copies one value of each sample along the second axis. Copies of known size are one instruction
-// each.
+// Copies the taken channel (axes[0]) of each sample along axes[1]. Because the number of bytes is a
+// template argument, each copy is one instruction.
 char* gather_row(const char* from, Axes axes, std::size_t value_bytes, char* to) {
     switch (value_bytes) {
         case 1:
@@ -166,6 +166,7 @@ char* gather_row(const char* from, Axes axes, std::size_t value_bytes, char* to)
     }
 }
 
+// Reads an array from its first byte to its last, and stores what its axes take of it.
 class TakenReader {
   public:
     TakenReader(ByteReader& reader, std::size_t value_bytes, char* to)
@@ -196,7 +197,7 @@ class TakenReader {
     }
 
   private:
-    // Reads as many steps along the last axis at once as fit the scratch memory.
+    // Reads the array in pieces of as many steps along the last axis as fit the scratch memory.
     void read_pieces(Axes axes, std::size_t inner_bytes) {
         std::vector<StoredAxis> piece(axes.begin(), axes.end());
         const auto most = static_cast<std::int64_t>(
@@ -213,8 +214,8 @@ class TakenReader {
     std::vector<char> scratch_;
 };
 
-// Checks the number of files: one for each step of the axes that a single file does not hold. The
-// last axis may be cut into equal pieces, too.
+// Throws Error unless there is one file for each index on the axes that a single file does not
+// hold, or the files hold equal shares of the last axis.
 void check_file_count(const StoredData& data, std::int64_t found,
                       const std::optional<std::size_t>& axes_each, const char* field) {
     const std::size_t each = axes_each.value_or(data.axes.size() - 1);
@@ -237,7 +238,7 @@ const char* name_of(DataEncoding encoding) {
     return word_of(encoding, words);
 }
 
-// Tells if byte_skip counts bytes of the file, not of the decoded data.
+// Tells if byte_skip counts bytes of the file; otherwise it counts those of the decompressed data.
 bool skips_stored(const StoredData& data) {
     return data.encoding == DataEncoding::raw || data.encoding == DataEncoding::ascii;
 }
@@ -389,7 +390,7 @@ OpenedFile StoredReader::open(const Path& path) const {
     return file;
 }
 
-// Returns the most bytes of samples that `stored` bytes can give.
+// Returns the most bytes of samples that `stored` bytes of a file can hold.
 std::uint64_t StoredReader::capacity(std::uint64_t stored) const {
     if (data_.encoding == DataEncoding::raw) return stored;
     if (data_.encoding == DataEncoding::ascii) return (stored + 1) / 2 * bytes_of(data_.type);
@@ -409,8 +410,7 @@ void StoredReader::check_capacity(const Path& path) const {
         path == data_.path ? "the file" : path.string(), usable, name_of(data_.encoding), most);
 }
 
-// Moves from the start of the data to the first sample, for encodings whose byte skip counts
-// bytes of the file.
+// Moves from the start of the data to the first sample. Only if skips_stored().
 void StoredReader::skip_bytes(std::FILE* file) const {
     if (data_.byte_skip >= 0) {
         fseeko(file, data_.byte_skip, SEEK_CUR);
@@ -427,7 +427,7 @@ std::unique_ptr<ByteReader> StoredReader::open_binary(const Path& path) const {
     OpenedFile file = open(path);
     if (data_.encoding == DataEncoding::raw) {
         skip_bytes(file.get());
-        // If data are counted from the end of the file, the header says how many bytes follow them.
+        // Data placed from the end of the file have as many bytes behind them as the header says.
         return file_reader(std::move(file), path.string(), data_.byte_skip >= 0);
     }
     const auto open_packed = data_.encoding == DataEncoding::gzip ? gzip_reader : bzip2_reader;
@@ -442,7 +442,7 @@ std::unique_ptr<ByteReader> StoredReader::open_all() const {
                            [this](const Path& path) { return open_binary(path); });
 }
 
-// Reads all samples of the files, whichever part is taken.
+// Reads all samples of text files, those that are not taken, too.
 std::shared_ptr<void> StoredReader::text_samples() const {
     std::shared_ptr<void> all = filled_memory(bytes_);
     auto* to = static_cast<char*>(all.get());

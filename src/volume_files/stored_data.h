@@ -22,32 +22,29 @@ struct StoredAxis {
         : size(a_size), taken(a_taken), what(its_name), told(is_told) {}
 
     std::int64_t size;
-    std::optional<std::int64_t> taken;  // index of the only one that is read; empty: all are
-    const char* what;                   // "channel" or "time", if one is taken
-    bool told;                          // the request names the one
+    std::optional<std::int64_t> taken;  // the only index that is read; empty: all are
+    const char* what;                   // "channel" or "time", if `taken` is set
+    bool told;                          // the request names `taken`
 };
 
-// Makes an axis of `count` things, such as channels, of which one is taken: the wanted one, else
-// the first. `what`: "channel" or "time", as the request's key is called. Throws Error if there is
-// no such one.
+// Makes an axis of `count` channels or times (`what`: "channel" or "time", the request's key, too),
+// of which one is taken: `wanted`, else the first. Throws Error if there is no such index.
 StoredAxis taken_axis(const std::string& file, const char* what,
                       const std::optional<std::int64_t>& wanted, std::int64_t count);
 
-// Warns of every axis of which the first is taken because the request names none.
+// Warns of each axis of which index 0 is taken only because the request names none.
 void say_taken(const std::string& file, std::span<const StoredAxis> axes);
 
-// Returns the number of bytes of an array, or of the part of it that is taken. Throws Error if no
-// file holds as much. `file`: for messages.
+// Returns the number of bytes of an array, or, if `taken_only`, of what is taken of it. Throws
+// Error if these are more than any file holds (2^62). `file`: for messages.
 std::size_t stored_bytes(const std::string& file, std::span<const StoredAxis> axes,
                          std::size_t value_bytes, bool taken_only = false);
 
-// Reads the part of an array that is taken. `axes`: the fastest first, as in the file; those that
-// are taken as a whole keep their order. `to` has room for its bytes. Uses all of the array's
-// bytes.
+// Reads an array and stores what is taken of it to `to`, in its order. `axes`: the fastest first.
 void read_taken(ByteReader& reader, std::span<const StoredAxis> axes, std::size_t value_bytes,
                 void* to);
 
-// Copies the part that is taken of an array in memory, and returns the end of the copy.
+// Copies what is taken of an array in memory, in its order; returns the end of the copy.
 char* take_of_memory(const char* from, std::span<const StoredAxis> axes, std::size_t value_bytes,
                      char* to);
 
@@ -55,22 +52,21 @@ char* take_of_memory(const char* from, std::span<const StoredAxis> axes, std::si
 std::int64_t taken_of(const std::string& file, const char* what,
                       const std::optional<std::int64_t>& wanted, std::int64_t count);
 
-enum class DataEncoding { raw, ascii, gzip, bzip2 };  // gzip: or zlib
+enum class DataEncoding { raw, ascii, gzip, bzip2 };  // gzip stands for zlib, too
 
 // Describes where the samples of a volume lie, as a header says.
 struct StoredData {
     std::filesystem::path path;         // the file that the user named
-    const char* teller = "the header";  // the source of all this, for messages
+    const char* teller = "the header";  // names the source of this description in messages
     ValueType type = ValueType::uint8;
-    std::vector<StoredAxis> axes;  // the data's, and which part of each is the volume's
+    std::vector<StoredAxis> axes;  // the data's, fastest first; `taken` selects the volume
     DataEncoding encoding = DataEncoding::raw;
     bool swap_bytes = false;  // the samples are not in this machine's byte order
     // At least one: `path` itself if the header is attached. All hold the same number of samples.
     std::vector<std::filesystem::path> files;
     std::int64_t offset = 0;     // bytes to skip first in each
     std::int64_t line_skip = 0;  // lines to skip next
-    // Bytes of the decompressed stream to skip last. -1 - n: raw data that end n bytes before the
-    // end of the file.
+    // Bytes to skip last, after decompression; -1 - n: raw data end n bytes before the file's end.
     std::int64_t byte_skip = 0;
     double scale = 1, shift = 0;  // StoredSamples::scale and offset
 
@@ -81,29 +77,28 @@ struct StoredData {
 void set_byte_order(StoredData& data, bool big_endian);
 
 // Sets `files`, which a header in `path` names relative to itself. Axes must be set before. Each
-// file holds the first `axes_each` axes, or an equal part of the last axis; if `axes_each` is
-// empty, one file holds all axes, and several hold all but the last each. Throws Error if their
-// number does not fit, or if one is no regular file. `field`: for messages.
+// file holds the first `axes_each` axes; if these are all axes, an equal share of the last. If
+// `axes_each` is empty, a single file holds all axes, and each of several all but the last. Throws
+// Error if the number of files does not fit, or if one is no regular file. `field`: for messages.
 void set_data_files(StoredData& data, const std::vector<std::string>& names,
                     const std::optional<std::size_t>& axes_each, const char* field);
 
-// Reads the part of the data that is taken. Takes memory only after it has checked that the files
-// can hold what the header promises; a warning counts surplus bytes. Throws Error.
+// Reads what is taken of the data. Takes memory only after it has checked that the files can hold
+// what the header promises; a warning counts surplus bytes. Throws Error.
 StoredSamples read_stored(const StoredData& data);
 
-// Reads data that a header describes.
 class StoredReader {
   public:
     // `data` must outlive the reader. Throws Error if the files cannot hold them.
     explicit StoredReader(const StoredData& data);
 
-    // Reads the part that is taken, as read_stored() does.
+    // Reads what is taken of the data, as read_stored() does.
     StoredSamples read() const;
-    // Returns, of raw data, the byte of each file with which its samples begin.
+    // Returns the byte of each file with which its samples begin; for raw data only.
     std::vector<std::int64_t> raw_offsets() const;
-    // Opens all data of all files, whichever part is taken; not text. This must outlive the result.
+    // Returns a reader of all data, taken or not, except text. The StoredReader must outlive it.
     std::unique_ptr<ByteReader> open_all() const;
-    // Warns of bytes beyond those that the header promises, once all is read.
+    // Warns of bytes beyond those that the header promises. Must be called when all data are read.
     void warn_of_surplus(ByteReader& reader) const;
 
   private:

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int64_t chunk = std::int64_t{1} << 18;  // samples of one task
 
-// Calls part(begin, end) for all samples, on all cores.
+// Calls part(begin, end) for pieces that make up 0 .. count, on all cores.
 template <typename Part>
 void for_parts(std::int64_t count, const Part& part) {
     parallel_for((count + chunk - 1) / chunk, 1,
@@ -67,7 +67,7 @@ bool is_within(T value, int least, int most) {
         return value >= least && value <= most;
 }
 
-// Returns the first of the types that holds both numbers and all between.
+// Returns the first of uint8, int16 and uint16 that holds lo to hi; float32 if none does.
 template <typename T>
 SampleType type_for(T lo, T hi) {
     const auto both = [&](int least, int most) {
@@ -78,7 +78,7 @@ SampleType type_for(T lo, T hi) {
     return both(0, 65535) ? SampleType::uint16 : SampleType::float32;
 }
 
-// Counts the samples that float32 cannot hold.
+// Counts of samples that float32 does not hold exactly, and the largest error of finite ones.
 struct Rounded {
     std::int64_t inexact = 0, infinite = 0;
     double largest_error = 0;
@@ -87,7 +87,7 @@ struct Rounded {
 template <typename From>
 bool holds_exactly(float to, From from) {
     if constexpr (std::is_integral_v<From>) {
-        // A float of 2^63 or more would overflow on its way back.
+        // A float beyond the integer type, such as 2^63, would
         const auto above = std::ldexp(1.0F, std::numeric_limits<From>::digits);
         return to < above && static_cast<From>(to) == from;
     } else {
@@ -133,7 +133,7 @@ void warn_of(const Rounded& rounded, const StoredSamples& samples, std::int64_t 
     }
 }
 
-// Makes samples of the type, each by make(index).
+// Makes `count` samples of a type; make(i) gives the value of sample i.
 template <typename Make>
 std::shared_ptr<const void> filled(SampleType type, std::int64_t count, const Make& make) {
     const std::shared_ptr<void> memory =

@@ -11,8 +11,8 @@
 
 namespace lamina {
 
-// The samples that a reader has taken of a file, x fastest, in native byte order. They mean scale *
-// sample + offset, computed in double precision.
+// The samples that a reader has read from a file, x fastest, in native byte order. Their values are
+// scale * sample + offset, computed in double precision.
 struct StoredSamples {
     std::string file;  // for messages
     ValueType type = ValueType::uint8;
@@ -21,12 +21,11 @@ struct StoredSamples {
     double offset = 0;
 };
 
-// Reverse the bytes of each of `count` words of 1, 2, 4 or 8 bytes: on all cores, or in this thread
-// alone.
+// Reverse the bytes of words of 1, 2, 4 or 8 bytes: on all cores, or in this thread alone.
 void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes);
 void swap_bytes_alone(void* words, std::int64_t count, std::size_t word_bytes);
 
-// Returns the type of numbers of so many bytes. Floats have a sign.
+// Returns the type of numbers of `bytes` bytes, or nothing. Floats always have a sign.
 std::optional<ValueType> number_type(std::size_t bytes, bool integers, bool has_sign);
 
 // Returns the volume's type if samples of `type` are drawn as they are, else nothing.
@@ -35,8 +34,7 @@ std::optional<SampleType> drawn_type(ValueType type);
 // Makes the volume that is drawn. uint8, int16, uint16 and float samples stay as they are, int8
 // become int16. Other integers, and integers scaled by integers, become the first of uint8, int16,
 // uint16 and float that holds all of them; all others become float. Values that float does not hold
-// are rounded to the nearest that it does, or become infinite, and are counted in one warning;
-// those that `scale` and `offset` make of integers are rounded without one.
+// are rounded, or become infinite; one warning counts those of unscaled samples.
 Volume drawn_volume(const Grid& grid, const StoredSamples& samples);
 
 }  // namespace lamina

@@ -25,22 +25,21 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// Most bytes that one byte gives with any compression of libtiff: zstd's longest run, 128 KiB,
-// takes 4 bytes.
+// Most bytes that one byte gives in any compression: zstd's longest run, 128 KiB, takes 4 bytes.
 constexpr std::uint64_t most_expansion = 32768;
 constexpr tmsize_t most_memory = tmsize_t{1} << 31;  // bytes that libtiff itself may take at once
 
-// The form of a page of a TIFF file.
+// Size and type of a page of a TIFF file.
 struct TiffPage {
     std::int64_t width = 0, height = 0;
-    std::int64_t samples = 1;  // a pixel's
-    bool planar = false;       // each of these in a plane of its own
+    std::int64_t samples = 1;  // of each pixel
+    bool planar = false;       // each sample of a pixel in a plane of its own
     ValueType type = ValueType::uint8;
 
     bool operator==(const TiffPage&) const = default;
 };
 
-// Copies one of every `samples` values.
+// Copies value number `sample` of every `samples` values, `count` times. `word`: a value's bytes.
 void take_sample(const char* from, std::int64_t samples, std::int64_t sample, std::int64_t count,
                  std::size_t word, char* to) {
     const StoredAxis axes[] = {{samples, sample}, count};
@@ -78,11 +77,10 @@ class TiffFile {
         return true;
     }
 
-    // Returns the page's place in bytes of the file.
+    // Returns the byte of the file at which the page's directory lies.
     std::uint64_t place() const { return TIFFCurrentDirOffset(tiff_.get()); }
 
-    // Moves to a page. `place`: the value that place() had there; finding a page by its number
-    // alone reads all before it.
+    // Moves to a page. `place`: place() there, because finding it by number reads all before it.
     void go_to_page(std::uint32_t number, std::uint64_t place) {
         number_ = number;
         message_.clear();
@@ -134,23 +132,21 @@ class TiffFile {
         return found && text != nullptr ? text : "";
     }
 
-    // Returns the most bytes of samples that the file can hold, if all pages are packed as this one
-    // is.
+    // Returns the most bytes of samples in the file, if all pages are packed like this one.
     std::uint64_t capacity() const {
         const bool packed =
             field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
         return file_bytes_ * (packed ? most_expansion : 1);
     }
 
-    // Returns pixels a unit along x and y, whichever unit that is; 0: unknown.
+    // Returns the pixels per unit of length, whatever unit, along an axis; 0: unknown.
     double resolution(int axis) const {
         float value = 0;
         TIFFGetField(tiff_.get(), axis == 0 ? TIFFTAG_XRESOLUTION : TIFFTAG_YRESOLUTION, &value);
         return static_cast<double>(value);
     }
 
-    // Reads one of the samples of all pixels of the page, row by row, in native byte order, into
-    // width * height values.
+    // Reads one sample of all pixels, row by row, in native byte order: width * height values.
     void read(const TiffPage& page, std::int64_t sample, char* to) {
         check_interrupt();
         check_capacity(page);
@@ -227,7 +223,7 @@ class TiffFile {
         }
     }
 
-    // Rejects the sizes of a damaged page, which would take all memory.
+    // Throws Error if the file is too small for the page, before a damaged one takes all memory.
     void check_capacity(const TiffPage& page) const {
         const StoredAxis axes[] = {page.width, page.height, page.samples};
         const std::size_t bytes = stored_bytes(name_, axes, bytes_of(page.type));
@@ -255,24 +251,23 @@ class TiffFile {
         if (!self.message_.empty() || std::vsnprintf(text, sizeof text, format, arguments) <= 0)
             return 1;
         self.message_ = one_line(text);
-        // Some of them begin with the file's name, as lamina's do.
+        // Some messages begin with the file's name, as lamina's do.
         const std::string name = self.name_ + ": ";
         if (self.message_.starts_with(name)) self.message_.erase(0, name.size());
-        return 1;  // nobody else need hear of it
+        return 1;  // handled: libtiff prints nothing
     }
 
     std::string name_;
-    std::string message_;  // libtiff's first since the last call
+    std::string message_;  // the first of libtiff since it was cleared
     std::uint64_t file_bytes_ = 0;
     std::uint32_t number_ = 0;  // the page's, from 0
     std::unique_ptr<TIFF, void (*)(TIFF*)> tiff_;
 };
 
-// The meaning of the pages of a TIFF stack, as ImageJ or OME wrote it into the first page's
-// description.
+// The meaning of a TIFF stack's pages, as ImageJ or OME wrote it into the first one's description.
 struct TiffAxes {
     std::int64_t channels = 1, slices = 1, times = 1;
-    // Pages from one step to the next along each of these.
+    // Number of pages from one channel, slice or time to the next.
     std::int64_t channel_step = 1, slice_step = 1, time_step = 1;
     glm::dvec3 spacing{1, 1, 1};
 };
@@ -281,7 +276,7 @@ bool is_distance(double number) {
     return std::isfinite(number) && number > 1e-100 && number < 1e100;
 }
 
-// Reads ImageJ's lines "key=value"; its pages are channels, then slices, then frames.
+// Reads ImageJ's lines "key=value". Pages run through channels first, then slices, then frames.
 TiffAxes imagej_axes(const std::string& text, std::int64_t pages,
                      const std::array<double, 2>& resolution) {
     std::map<std::string, std::string> values;
@@ -310,7 +305,7 @@ TiffAxes imagej_axes(const std::string& text, std::int64_t pages,
     return axes;
 }
 
-// The first image of OME's XML; pages run through its DimensionOrder, such as XYZCT.
+// Reads the first image of OME's XML. Pages are in its DimensionOrder, fastest first, as in XYZCT.
 TiffAxes ome_axes(const std::string& file, const pugi::xml_node pixels, std::int64_t pages) {
     TiffAxes axes;
     axes.slices = pages;
@@ -339,10 +334,10 @@ TiffAxes ome_axes(const std::string& file, const pugi::xml_node pixels, std::int
     return axes;
 }
 
-// Reads a description. `pages`: their number; `resolution`: pixels a unit along x and y, 0 if
-// unknown. Pages that the description does not mention are slices, one apart. Resolutions without
-// ImageJ's description are not trusted: programs write 72 dots an inch into everything, and have no
-// distance between slices. Throws Error if the description has another number of pages.
+// Reads a stack's description. `pages`: their number; `resolution`: pixels per unit along x and y,
+// 0 if unknown. Pages that it does not mention are slices, 1 apart. Resolutions are trusted only
+// with ImageJ's description: programs write 72 dots an inch into everything, and no distance
+// between slices. Throws Error if the description has another number of pages.
 TiffAxes tiff_axes(const std::string& file, const std::string& description, std::int64_t pages,
                    const std::array<double, 2>& resolution) {
     TiffAxes axes;
@@ -373,6 +368,7 @@ bool has_tiff_mark(const Path& path) {
     return magic == "II*\0"sv || magic == "MM\0*"sv || magic == "II+\0"sv || magic == "MM\0+"sv;
 }
 
+// The pages of a TIFF file, or of the TIFF files in a folder, as a volume.
 class TiffStack {
   public:
     TiffStack(const Path& path, const VolumeRequest& request)
@@ -427,7 +423,7 @@ class TiffStack {
         std::uint64_t offset;  // the page's, in bytes of the file
     };
 
-    // Checks that the files can hold all pages, before memory is taken.
+    // Throws Error unless the files can hold all pages, before memory is taken.
     void check_capacity(std::size_t word) const {
         const StoredAxis sizes[] = {page_.width, page_.height, page_.samples, std::ssize(places_)};
         const std::size_t bytes = stored_bytes(name_, sizes, word);
@@ -488,7 +484,7 @@ class TiffStack {
     std::string name_;
     std::vector<Path> files_;
     std::vector<Place> places_;
-    TiffPage page_;  // alike at every place
+    TiffPage page_;  // the same for all pages
     std::string description_;
     std::array<double, 2> resolution_{};
     std::uint64_t capacity_ = 0;  // bytes of samples that all files can hold

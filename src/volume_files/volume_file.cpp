@@ -17,8 +17,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// Names the things of which files of a format may hold several; the request then chooses one by the
-// key of that name.
+// Things of which a file may hold several; the request chooses one by the key of the same name.
 enum Keys : unsigned {
     has_none = 0,
     has_arrays = 1,
@@ -27,13 +26,12 @@ enum Keys : unsigned {
     has_times = 8
 };
 
-// A kind of files that hold volumes.
+// A file format of volumes.
 struct VolumeFormat {
     const char* name;  // "NIfTI"
-    // Extensions in small letters, for files whose content tells nothing because they are damaged;
-    // null ends the list.
+    // Extensions in lower case, which tell files with damaged content; null ends the list.
     const char* extensions[4];
-    // Tells a file by its content, or a folder by that of its files. Never throws.
+    // Tells if a file, or a file in a folder, is of this format by its content. Never throws.
     bool (*recognizes)(const Path& path);
     // Throws Error: one line that names the file, what was found and what was expected.
     Volume (*open)(const Path& path, const VolumeRequest& request, const VolumeUse& use);
@@ -97,8 +95,7 @@ bool has_extension(const VolumeFormat& format, const Path& path) {
     });
 }
 
-// Returns the format of a file or folder: by its content, else by its extension, in capitals or
-// not; null if neither tells.
+// Returns the format by content, else by extension in any case; null if neither is known.
 const VolumeFormat* format_of(const Path& path) {
     for (const VolumeFormat& format : formats)
         if (format.recognizes(path)) return &format;
@@ -107,8 +104,8 @@ const VolumeFormat* format_of(const Path& path) {
     return nullptr;
 }
 
-// Opens samples that lie in a file without a header, as request.raw says: x fastest, 1 apart from
-// the origin on, as nodes. Throws Error if the file is too short.
+// Opens a file of samples without a header by the layout request.raw: x fastest, samples 1 apart
+// from the origin on, as nodes. Throws Error if the file is too short.
 Volume open_raw(const std::filesystem::path& path, const VolumeRequest& request,
                 const VolumeUse& use) {
     const RawLayout& raw = *request.raw;
@@ -135,7 +132,8 @@ Volume open_raw(const std::filesystem::path& path, const VolumeRequest& request,
 constexpr VolumeFormat raw_format{"raw", {}, {}, open_raw, that_file, has_none};
 
 const VolumeFormat& expected_format(const Path& path) {
-    // Neither a part of a file ("FILE.h5:/ARRAY") nor a missing file is a regular file.
+    // "FILE.h5:/ARRAY" is no file, but a format may know it; if none does, it is reported below
+    // like a missing file.
     std::error_code absent;
     const auto status = std::filesystem::status(path, absent);
     if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
@@ -160,7 +158,7 @@ void expect_known_keys(const Path& path, const VolumeFormat& format, const Volum
     expect(has_times, request.time.has_value(), "time");
 }
 
-// Replaces the file's distances and origin by those of the request.
+// Replaces spacing and origin of the file by those of the request, if it has any.
 Volume placed(const Path& path, const Volume& volume, const VolumeRequest& request) {
     if (!request.spacing && !request.origin) return volume;
     Grid grid = volume.grid();

@@ -10,18 +10,18 @@
 
 namespace lamina {
 
-// Tells if a file or folder is a volume: by its content, else by its extension, in capitals or not.
+// Tells if a file or folder is a volume: by its content, else by its extension in any case.
 bool is_volume_file(const std::filesystem::path& path);
 
-// Reads a volume of any format. Throws Error: one line that names the file, what was found and what
-// was expected. Warnings (base/client.h) say which of several things was taken, and what was
-// rounded or left over.
+// Reads a volume of any format into memory. Throws Error: one line that names the file, what was
+// found and what was expected. Warnings (base/client.h) say which of several arrays, channels or
+// times was read, which values were rounded, and what was not used.
 Volume read_volume(const std::filesystem::path& path, const VolumeRequest& request = {});
-// Opens a volume, which may stay in its files.
+// Opens a volume, which may stay in its files, as `use` says.
 Volume open_volume(const std::filesystem::path& path, const VolumeRequest& request,
                    const VolumeUse& use);
 
-// Returns the file and those that it refers to; it alone if it cannot be read.
+// Returns the file and the files that it refers to; the file alone if it cannot be read.
 std::vector<std::filesystem::path> files_of_volume(const std::filesystem::path& path,
                                                    const VolumeRequest& request = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The readers of volumes, one pair or three of functions a format. is_NAME() tells a file or folder
-// by its content and never throws. open_NAME() throws Error: one line that names the file.
-// files_of_NAME() returns the file and those that belong to it, and throws Error.
+// The readers of volumes: two or three functions for each format. is_NAME() tells by its content if
+// a file or folder is of the format, and never throws. open_NAME() throws Error: one line that
+// names the file. files_of_NAME() returns the file and those that belong to it, and throws Error.
 #pragma once
 
 #include <filesystem>
@@ -17,17 +17,16 @@ namespace lamina {
 
 // NRRD (http://teem.sourceforge.net/nrrd/format.html): three orthogonal axes of any scalar type in
 // the file's own coordinates (`space origin` and `space directions`, or axis mins and `spacings`).
-// Other axes have one sample, or kinds and directions make them the request's channel and time.
-// Encodings are raw, gzip, bzip2 and ascii; the header is attached or names its data files.
+// Further axes have one sample, or are channel and time by their kinds and directions. Encodings
+// are raw, gzip, bzip2 and ascii; the header is attached or names its data files.
 bool is_nrrd(const std::filesystem::path& path);
 Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request = {},
                  const VolumeUse& use = {});
 std::vector<std::filesystem::path> files_of_nrrd(const std::filesystem::path& path);
 
-// A folder with an array of Zarr version 2, or with an OME-Zarr image, of which a level is read. A
-// plain array has the axes z, y, x, before these the channel, before that the time; its samples are
-// 1 apart. If the folder is a group, `request.array` names an array or image in it; else it must
-// have only one.
+// A folder with an array of Zarr version 2 or an OME-Zarr image, of which one level is read. A
+// plain array has the axes (time, channel,) z, y, x; its samples are 1 apart. In a group,
+// `request.array` names an array or image, unless there is only one.
 bool is_zarr(const std::filesystem::path& path);
 Volume open_zarr(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use);
@@ -59,17 +58,17 @@ Volume open_metaimage(const std::filesystem::path& path, const VolumeRequest& re
                       const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_metaimage(const std::filesystem::path& path);
 
-// NIfTI-1 and NIfTI-2, packed or not, a single file or a pair (either name stands for both), of any
-// real type, or of RGB and RGBA, whose colours are channels. The fourth axis is time; the fifth, of
-// vectors, is channels. scl_slope and scl_inter are applied.
+// NIfTI-1 and NIfTI-2, with gzip or without, a single file or a pair (either name stands for both),
+// of any real type, or of RGB and RGBA, whose colours are channels. The fourth axis is time; the
+// fifth, the components of vectors, are channels. scl_slope and scl_inter are applied.
 bool is_nifti(const std::filesystem::path& path);
 Volume open_nifti(const std::filesystem::path& path, const VolumeRequest& request,
                   const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_nifti(const std::filesystem::path& path);
 
 // VTK XML image data: the request's array, else the one that its piece calls Scalars, else the
-// first; arrays of points come before those of cells. Points are nodes; cells are cells, whose
-// samples lie in their middles. Components are channels. Pieces are put together.
+// first; arrays of points come before those of cells. Samples of points are nodes; those of cells
+// lie in the cells' middles. Components are channels. Pieces are put together.
 bool is_vti(const std::filesystem::path& path);
 Volume open_vti(const std::filesystem::path& path, const VolumeRequest& request,
                 const VolumeUse& use);
@@ -88,8 +87,7 @@ bool is_npy(const std::filesystem::path& path);
 Volume open_npy(const std::filesystem::path& path, const VolumeRequest& request,
                 const VolumeUse& use);
 
-// Returns the type that NumPy writes as "f8" and the like, behind the byte order; a truth value is
-// a byte.
+// Returns the type of NumPy's type word without byte order, such as "f8". "b1" (truth) is a byte.
 std::optional<ValueType> numpy_type(std::string_view word);
 
 }  // namespace lamina

@@ -17,8 +17,8 @@
 namespace lamina {
 namespace {
 
-// Directions count as orthogonal up to this cosine: headers print some 6 digits, and it moves
-// samples by less than a hundredth of a voxel over 1000 voxels.
+// Largest cosine of the angle between directions that count as orthogonal: headers print some 6
+// digits, and this moves samples by less than a hundredth of a voxel over 1000 voxels.
 constexpr double orthogonal_cosine = 1e-5;
 
 // Steps outside of this range would overflow or vanish when squared.
@@ -61,8 +61,8 @@ void turn_to_lps(Grid& grid, WorldAxes axes) {
 
 namespace {
 
-// Bytes that drawing takes for each min/max brick of 64 samples beside its range: whether it shows
-// something, whether it is constant, and how rays pass it.
+// Bytes that drawing takes for each min/max brick of 64 samples, beside the brick's range: if it
+// shows something, if it is constant, and how rays leap over it.
 constexpr double bytes_per_brick = 4, samples_per_brick = 64;
 
 constexpr double gradient_bytes = 8, float_bytes = 4;  // for each sample

@@ -12,8 +12,7 @@
 
 namespace lamina {
 
-// Makes a grid of which only the size is known: samples 1 apart from 0 on, each a node; the sample
-// of an axis with one is a cell.
+// Makes a grid by its size alone: nodes 1 apart from 0 on; an axis of one sample is a cell.
 inline Grid plain_grid(const std::array<std::int64_t, 3>& size) {
     Grid grid;
     grid.size = size;
@@ -22,44 +21,42 @@ inline Grid plain_grid(const std::array<std::int64_t, 3>& size) {
     return grid;
 }
 
-// The words of a format for the steps between samples and the place of the first.
+// How messages name the steps between samples and the place of the first, in the words of a format.
 struct GridWords {
     const char* directions;  // "space directions"
     const char* origin;      // "space origin"
 };
 
 // Throws Error unless all steps are finite, neither vanish nor overflow when squared, and are
-// orthogonal, up to the digits that headers have. They may be oblique in the world, and mirrored.
+// orthogonal up to headers' digits. They may be oblique and mirrored. `file`: for messages.
 void check_grid(const std::string& file, const Grid& grid, const GridWords& words);
 
-// Turns a grid from these axes to those of DICOM (LPS), which are the world's. Samples stay at
-// their places in the body. A grid in unnamed axes stays as it is.
+// Converts a grid from world axes `axes` to those of DICOM (LPS), which are lamina's. Samples stay
+// at their places in the body. A grid in unnamed axes stays as it is.
 void turn_to_lps(Grid& grid, WorldAxes axes);
 
-// The use for which a volume is opened.
+// The use for which a volume is opened, and so where its samples are to be.
 struct VolumeUse {
     enum class Residence {
         in_memory,
         as_fits,   // in its files if it exceeds the memory limit and can stay there
         in_files,  // in its files; Error if it cannot stay there
-        in_order,  // in its files if they can be read once, from first to last
+        in_order,  // in its files if these can be read once, in order
     };
     Residence residence = Residence::in_memory;
     bool lit = false;  // drawing takes memory for gradients, too
 };
 
-// Tells if a volume that can stay in its files is to do so: by the memory that it and its derived
-// data for drawing take (base/memory.h).
+// Tells if a volume that can stay in its files is to do so: by use.residence; for as_fits, if it
+// and its derived data for drawing exceed the memory limit (base/memory.h).
 bool stays_in_files(const Grid& grid, SampleType type, const VolumeUse& use);
 
-// Throws Error if a volume that cannot stay in its files has to, or if its samples alone take more
-// than a memory limit that somebody has set. `name`: the file's; `why`: the reason, as "its data
-// are compressed".
+// Throws Error if a volume that cannot stay in its files has to, or if its samples alone exceed the
+// user's memory limit. `name`: the file's; `why`: the reason, such as "its data are not raw".
 void expect_room(const std::string& name, std::uint64_t bytes, const VolumeUse& use,
                  const std::string& why);
 
-// Opens the volume of data that a header describes: in its files if the use allows it and memory
-// has no room for it, else in memory. Throws Error.
+// Opens data as a volume: in their files if possible and asked for, else in memory. Throws Error.
 Volume open_stored(const Grid& grid, const StoredData& data, const VolumeUse& use);
 
 // Makes a volume that stays in its files.

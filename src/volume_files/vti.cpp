@@ -17,17 +17,18 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// Most bytes that one byte gives, above that of every compressor: LZMA's is some 7000.
+// A bound on the bytes that one byte decompresses to: the largest factor, LZMA's, is some 7000.
 constexpr std::size_t most_vti_expansion = 32768;
-constexpr std::size_t most_pieces = 4096;  // each is compared with each
+constexpr std::size_t most_pieces = 4096;  // each is compared with all others
 
-// The first and the last point along each axis.
+// A box of points: the first and the last one along each axis.
 struct Extent {
     std::array<std::int64_t, 3> first{}, last{};
 
     bool operator==(const Extent&) const = default;
 };
 
+// A VTK XML image file, whose pieces are joined into one volume.
 class ImageFile {
   public:
     ImageFile(const Path& path, const VolumeRequest& request)
@@ -52,7 +53,7 @@ class ImageFile {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const glm::dvec3 column{direction[axis], direction[axis + 3], direction[axis + 6]};
             grid.step[axis] = spacing[axis] * column;
-            // Cells of an axis without extent lie in its points.
+            // On an axis with a single point, the cells lie at that point.
             const bool between = of_cells_ && whole_.first[axis] != whole_.last[axis];
             if (of_cells_) grid.centering[axis] = Centering::cell;
             grid.origin +=
@@ -115,7 +116,7 @@ class ImageFile {
         return size;
     }
 
-    // Chooses the array, and finds if cells have it, by the first piece.
+    // Chooses the array by the first piece, and finds out if it belongs to points or to cells.
     void choose_array() {
         std::vector<std::string> names;
         std::string preferred;
@@ -179,8 +180,7 @@ class ImageFile {
         return samples;
     }
 
-    // Checks the size of the whole, because memory for it is taken before each piece is known to
-    // hold what it promises.
+    // Throws Error if the file cannot hold the image, before its memory is taken.
     void check_capacity() const {
         const std::array<std::int64_t, 3> size = size_of(whole_);
         const StoredAxis axes[] = {size[0], size[1], size[2]};
@@ -212,8 +212,8 @@ class ImageFile {
         return all;
     }
 
-    // Checks that the pieces fill the whole. They share the points between them, but no cells: they
-    // do so if none overlaps another, none lies outside, and their cells add up to the whole.
+    // Throws Error unless the pieces fill the whole image. They may share points but no cells: so
+    // none may overlap another or lie outside, and their cells must add up to the whole's.
     void check_pieces() const {
         double covered = 0, expected = 1;
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -276,7 +276,7 @@ class ImageFile {
     Extent whole_;
     std::vector<Node> pieces_;
     std::string array_;
-    bool of_cells_ = false;
+    bool of_cells_ = false;  // the array belongs to cells
 };
 
 }  // namespace

@@ -26,11 +26,12 @@ using Path = std::filesystem::path;
 struct ZarrImage {
     std::filesystem::path folder;            // the array's
     std::vector<std::string> axes;           // "t", "c", "z", "y" or "x", in the array's order
-    std::vector<double> scale, translation;  // along each axis, to the world
+    std::vector<double> scale, translation;  // from indices to the world, along each axis
 };
 
 constexpr std::size_t most_image_axes = 5;
 
+// Reads an image's metadata, "multiscales", from an OME-Zarr folder's attributes. Throws Error.
 class OmeReader {
   public:
     OmeReader(const std::filesystem::path& folder, const Json& attributes)
@@ -62,8 +63,8 @@ class OmeReader {
         return *found;
     }
 
-    // Returns the names of the axes. Version 0.3 of the format has names alone; earlier ones have
-    // none: always t, c, z, y, x.
+    // Returns the names of the axes. Version 0.3 of the format has only names; earlier ones have
+    // none, and the axes are always t, c, z, y, x.
     std::vector<std::string> read_axes() const {
         if (!image_.contains("axes")) return {"t", "c", "z", "y", "x"};
         std::vector<std::string> axes;
@@ -84,6 +85,7 @@ class OmeReader {
         return axes;
     }
 
+    // Throws Error if an axis has another unit than the axes before it; `unit` is theirs.
     void expect_unit(const Json& axis, std::string& unit) const {
         const Json* const found = member_of(axis, "unit");
         if (found == nullptr || !found->is_string()) return;
@@ -161,7 +163,7 @@ bool has_file(const Path& folder, const char* name) {
     return std::filesystem::exists(folder / name, unreadable);
 }
 
-// Finds arrays and images of a group, by their paths in it.
+// Adds the arrays and images in a folder and its subfolders to `found`, by their paths in `root`.
 void find_arrays(const Path& root, const Path& folder, int depth, std::vector<std::string>& found) {
     constexpr int most_depth = 8;
     constexpr std::size_t most_entries = 1000;
@@ -180,6 +182,7 @@ void find_arrays(const Path& root, const Path& folder, int depth, std::vector<st
     for (const Path& inner : folders) find_arrays(root, inner, depth + 1, found);
 }
 
+// Returns the axes of an array without OME-Zarr's metadata: the last ones of t, c, z, y, x.
 std::vector<std::string> plain_axes(const ZarrArray& array) {
     static const std::vector<std::string> all{"t", "c", "z", "y", "x"};
     if (array.shape.size() > all.size()) {
@@ -189,6 +192,7 @@ std::vector<std::string> plain_axes(const ZarrArray& array) {
     return {all.end() - static_cast<std::ptrdiff_t>(array.shape.size()), all.end()};
 }
 
+// Returns the array or image that the request takes of a folder; `axes` is empty for an array.
 ZarrImage image_in(const Path& path, const VolumeRequest& request) {
     const Path folder = request.array.empty() ? path : path / request.array;
     if (has_file(folder, ".zarray")) return {folder, {}, {}, {}};
@@ -215,6 +219,7 @@ struct PlacedArray {
     Grid grid;
 };
 
+// Selects the samples of the volume by the meaning of the array's axes, and places them.
 PlacedArray place(const ZarrArray& array, const ZarrImage& image, const VolumeRequest& request) {
     const std::string name = image.folder.string();
     PlacedArray placed;
@@ -250,7 +255,7 @@ PlacedArray place(const ZarrArray& array, const ZarrImage& image, const VolumeRe
     return placed;
 }
 
-// Reads all that is selected, in native byte order.
+// Reads all selected samples, in native byte order.
 std::shared_ptr<void> samples_of(const ZarrChunks& chunks) {
     chunks.expect_all();
     const std::size_t bytes = chunks.selected_bytes();

@@ -24,8 +24,7 @@
 
 namespace lamina {
 
-// How the chunks of an array are packed. decode() returns false unless the stored bytes give
-// exactly the chunk's.
+// A compression of chunks. decode() returns false unless it gives exactly chunk.size() bytes.
 struct ZarrCodec {
     const char* id;
     bool (*decode)(std::span<const char> stored, std::span<char> chunk);
@@ -35,8 +34,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Most bytes that a stored byte gives, whatever the codec: zstd repeats a byte 2^17 times in four
-// bytes.
+// A bound on the bytes that a stored byte gives with any codec: zstd packs 2^17 equal ones into 4.
 constexpr std::size_t most_chunk_expansion = 1 << 16;
 
 // Decodes zlib and gzip streams alike, each as a whole.
@@ -102,8 +100,7 @@ const ZarrCodec* zarr_codec(const std::string& id, const std::string& name) {
          one_line(id));
 }
 
-// Decodes a chunk that has exactly chunk.size() bytes. Throws Error if it is damaged, or has
-// another number of bytes. `name`: the chunk's file, for messages.
+// Decodes a chunk of exactly chunk.size() bytes. Throws Error. `name`: its file, for messages.
 void decode_chunk(const ZarrCodec* codec, std::span<const char> stored, std::span<char> chunk,
                   const std::string& name) {
     if (codec == nullptr) {
@@ -229,8 +226,8 @@ ZarrArray read_zarray(const std::filesystem::path& folder) {
 
 namespace {
 
-// The file of hashes has one for each chunk, one for the array's two headers, and one for all
-// these.
+// The file of hashes has one for each chunk, then one for .zarray and .zattrs together, then one
+// for all hashes before.
 constexpr const char* file_name = "lamina-chunks";
 constexpr std::size_t more_hashes = 2;
 
@@ -423,7 +420,7 @@ Value ZarrChunks::fill_as() const {
     if constexpr (std::is_floating_point_v<Value>) {
         return static_cast<Value>(array_.fill);
     } else {
-        // Whole numbers beyond the type are none that its samples could have.
+        // A fill value beyond the type's range is no value of a sample.
         const double most = static_cast<double>(std::numeric_limits<Value>::max());
         const double least = static_cast<double>(std::numeric_limits<Value>::min());
         if (!(array_.fill >= least && array_.fill <= most)) {

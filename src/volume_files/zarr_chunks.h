@@ -38,12 +38,12 @@ struct ZarrArray {
     std::filesystem::path folder;
     std::vector<std::int64_t> shape, chunks;  // along each axis, 1 or more; the last is the fastest
     ValueType type = ValueType::uint8;
-    bool swap = false;     // the other byte order than this machine's
+    bool swap = false;     // not in this machine's byte order
     bool fortran = false;  // the first axis is the fastest in a chunk
     double fill = 0;
-    // How chunks are packed (the "compressor"); null: they are not.
+    // Compression of the chunks (the "compressor"); null: none.
     const ZarrCodec* codec = nullptr;
-    char separator = '.';  // between the numbers of a chunk
+    char separator = '.';  // between the indices in a chunk's file name
 
     std::int64_t chunk_count(std::size_t axis) const {
         return (shape[axis] + chunks[axis] - 1) / chunks[axis];
@@ -51,29 +51,28 @@ struct ZarrArray {
     std::int64_t chunk_samples() const;
 };
 
-// Throws Error if the file is not that of an array, or of one that cannot be read.
+// Reads a folder's .zarray. Throws Error if it is none, or that of an array that cannot be read.
 ZarrArray read_zarray(const std::filesystem::path& folder);
 
-// The part that is taken of an array: three of its axes for z, y and x (-1: the axis is not there,
-// and has one sample), and an index on each other one.
+// The samples that are taken of an array: which of its axes are z, y and x (-1: the array has no
+// such axis, and the volume one sample there), and one index on each other axis.
 struct ZarrSelection {
     std::array<int, 3> axes{-1, -1, -1};  // for z, y, x
     std::vector<std::int64_t> index;      // on each axis of the array; those in `axes` do not count
 };
 
-// Hashes of the chunks of an array that lamina wrote, in the order of ZarrChunks, so that a damaged
-// or lost chunk is never drawn.
-inline constexpr std::uint64_t no_chunk = 0;  // hash for a chunk of zeros, which has no file
+// An array that lamina wrote has a file with the hashes of its chunks, in the order of ZarrChunks,
+// so that a damaged or lost chunk is never drawn.
+inline constexpr std::uint64_t no_chunk = 0;  // for a chunk of zeros, which has no file
 
 std::uint64_t hash_of_chunk(std::span<const char> stored);
 
-// Writes the hashes into the array's folder, with one of .zarray and .zattrs, which must be there.
-// Throws Error.
+// Writes the hashes, with one of .zarray and .zattrs, into the array's folder. Throws Error.
 void write_chunk_hashes(const std::filesystem::path& folder,
                         const std::vector<std::uint64_t>& hashes);
 
-// Returns nothing if there is no such file, if it is damaged or of another number of chunks, or if
-// .zarray or .zattrs are not those that were written.
+// Reads the hashes. Returns nothing if there is no such file, if it is damaged or of another number
+// of chunks, or if .zarray or .zattrs have changed since it was written.
 std::optional<std::vector<std::uint64_t>> read_chunk_hashes(const std::filesystem::path& folder,
                                                             std::int64_t count);
 
@@ -84,43 +83,42 @@ class ZarrChunks {
   public:
     using Triple = std::array<std::int64_t, 3>;  // along z, y, x
 
-    // Throws Error if the files cannot hold what is selected.
+    // Throws Error if there are more than most_chunks chunks, or if none has a file.
     ZarrChunks(ZarrArray array, ZarrSelection selection);
 
     const ZarrArray& array() const { return array_; }
     const Triple& size() const { return size_; }  // samples that are selected
-    const Triple& edge() const { return edge_; }  // a chunk's
+    const Triple& edge() const { return edge_; }  // of a chunk
     std::int64_t count() const { return counts_[0] * counts_[1] * counts_[2]; }
     std::size_t selected_bytes() const;
     std::size_t chunk_bytes() const {
         return static_cast<std::size_t>(array_.chunk_samples()) * bytes_;
     }
 
-    // Returns a hash of the size and time that a chunk's file had at first; 0 if there is no file,
-    // and the fill value counts.
+    // Returns a hash of the size and time that a chunk's file had when this was made; 0 if it had
+    // none, so that all its samples have the fill value.
     std::uint64_t state(std::int64_t chunk) const {
         return states_[static_cast<std::size_t>(chunk)];
     }
-    // Returns a hash that tells all files from copies of them with the same sizes and times.
+    // Returns a hash of the state of all files: not that of copies with their sizes and times.
     std::uint64_t files() const { return files_.word(); }
     std::int64_t missing() const;
-    // Takes the hashes of all chunks, which decoded() then expects. Throws Error if a chunk is
-    // missing.
+    // Sets all chunks' hashes, for decoded(). Throws Error if a chunk with a hash has no file.
     void expect(std::vector<std::uint64_t> hashes);
-    // Throws Error if the files cannot hold all that is selected, missing chunks included.
+    // Throws Error if the files are too small for the samples of all chunks, missing or not.
     void expect_all() const;
-    std::string selection_text() const;  // tells what is selected from what else might be
+    std::string selection_text() const;  // identifies what is selected
 
     // Returns a chunk's samples, decoded, in the byte order of the file. Throws Error if it is
-    // damaged, has another hash, or is not the one that was there at first.
+    // damaged, has another hash, or has changed since this was made.
     ByteBuffer decoded(std::int64_t chunk) const;
-    // Copies the part of a decoded chunk that lies in a box of the selected samples to that box, at
-    // `to`, x fastest.
+    // Copies the samples of a decoded chunk that lie in a box to that box at `to`, x fastest.
     void copy(const ByteBuffer& samples, std::int64_t chunk, const SampleBox& box, char* to) const;
 
   private:
     Triple place_of(std::int64_t chunk) const;
     std::filesystem::path file_of(std::int64_t chunk) const;
+    // The present state of a chunk's file; all 0 if there is none. `state`: as state() returns it.
     struct FileNow {
         std::uint64_t state = 0, bytes = 0, inode = 0;
         std::int64_t changed = 0;  // nanoseconds

@@ -44,7 +44,8 @@ TEST(AtomicFile, ReplacesAnOldFileInOneStep) {
     EXPECT_EQ(read_bytes_of(folder / "a.txt"), "old");
     file.commit();
     EXPECT_EQ(read_bytes_of(folder / "a.txt"), "a longer text");
-    // Who had opened the old file still reads the old file: it was replaced, not overwritten.
+    // A stream that was opened before still reads the old file: the file is replaced, not
+    // overwritten.
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(old_reader), {}), "old");
 }
 
@@ -82,7 +83,8 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
     EXPECT_EQ(read_bytes_of(folder / "a.txt"), "old");
 }
 
-// Until then a killed process leaves nothing, where the file system can do that.
+// The file has no name before commit(), so a killed process leaves nothing (if the file system
+// allows it).
 TEST(AtomicFile, HasNoNameUntilItIsComplete) {
     const TemporaryFolder folder;
     if (!has_nameless_files(folder)) GTEST_SKIP() << "files of this file system all have names";
@@ -125,7 +127,8 @@ TEST(AtomicFile, TwoOfOneNameDoNotMeet) {
     EXPECT_EQ(names_in(folder), std::set<std::string>{"a.txt"});
 }
 
-// As after SIGKILL in the middle of commit(), and where files have names from the start.
+// Tests the names NAME.lamina-N.part, which remain if a process is killed during commit() or if the
+// file system has no nameless files.
 TEST(AtomicFile, WhatKilledProcessesLeftIsRemovedButNotWhatIsInUse) {
     const TemporaryFolder folder;
     write_bytes_to(folder / "a.txt.lamina-0.part", "left");
@@ -143,7 +146,8 @@ TEST(AtomicFile, WhatKilledProcessesLeftIsRemovedButNotWhatIsInUse) {
     one.commit();
     EXPECT_EQ(names_in(folder), std::set<std::string>{"a.txt"});
     EXPECT_EQ(read_bytes_of(folder / "a.txt"), "one");
-    std::filesystem::create_directory(folder / "a.txt.lamina-0.part");  // nothing of ours
+    // Not a file that lamina writes.
+    std::filesystem::create_directory(folder / "a.txt.lamina-0.part");
     AtomicFile three(folder / "a.txt");
     three.write("three");
     three.commit();
@@ -166,7 +170,7 @@ TEST(AtomicFile, NamesMayBeAsLongAsTheFileSystemHasThem) {
 TEST(AtomicFile, WritesWhatALinkLeadsTo) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "there");
-    std::filesystem::create_symlink("there/b.txt", folder / "a.txt");  // b.txt comes to be
+    std::filesystem::create_symlink("there/b.txt", folder / "a.txt");  // b.txt does not exist yet
     std::filesystem::create_symlink("a.txt", folder / "again");
     for (const char* text : {"new", "newer"}) {
         AtomicFile file(folder / "again");
@@ -209,8 +213,10 @@ TEST(AtomicFile, FullDiskIsAnErrorAndLeavesNothing) {
     };
     {
         const FileSizeLimit limit(1000);
-        expect_error([&] { write(1000000); }, {"a.txt", "cannot write"});  // seen while writing
-        expect_error([&] { write(1001); }, {"a.txt", "cannot write"});     // seen while closing
+        // The error occurs while writing.
+        expect_error([&] { write(1000000); }, {"a.txt", "cannot write"});
+        // The error occurs while closing.
+        expect_error([&] { write(1001); }, {"a.txt", "cannot write"});
     }
     EXPECT_TRUE(folder.empty());
 }

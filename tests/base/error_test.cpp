@@ -29,7 +29,7 @@ TEST(Fail, FormatsItsMessage) {
     }
 }
 
-// The marks of texts that libraries write.
+// Expects none of the words by which messages of libraries are recognised.
 void expect_no_library_speaks(const std::string& text) {
     for (const char* const mark : {"json", "std::", "filesystem error", "vector", "basic_string"})
         EXPECT_EQ(text.find(mark), std::string::npos) << text;

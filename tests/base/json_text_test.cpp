@@ -23,7 +23,7 @@ std::string repeated(const std::string& text, std::size_t times) {
     return whole;
 }
 
-// A list of `count` copies.
+// Returns a JSON list of `count` copies of an element.
 std::string list_of(const std::string& element, std::size_t count) {
     return fmt::format("[{}{}]", repeated(element + ",", count - 1), element);
 }
@@ -32,7 +32,7 @@ std::string nested(std::size_t depth) {
     return repeated("[", depth) + repeated("]", depth);
 }
 
-// The library's own parser knows no limits, and serves as the oracle.
+// The parser of nlohmann's library, which has no limits, serves as the oracle.
 TEST(JsonText, DocumentsAreThoseOfTheLibrary) {
     for (const char* text :
          {"null", "true", "-7", "18446744073709551615", "0.1", "1e-320", R"("é☃\n")", "[]", "{}",
@@ -50,7 +50,7 @@ TEST(JsonText, MistakesSayWhere) {
     EXPECT_THROW(parse_json("[1] 2"), JsonSyntaxError);
     expect_error([] { parse_json("{\"a\": 1,\n \"b\": {\"c\": 1, \"c\": 2}}"); },
                  {"line 2", "column 18", "\"c\"", "twice"});
-    // Messages do not repeat what is long.
+    // Messages do not repeat long words and keys.
     const std::string word(100'000, 'x');
     EXPECT_LT(error_of([&] { parse_json(fmt::format("[\"{}", word)); }).size(), 250u);
     EXPECT_LT(error_of([&] { parse_json(fmt::format(R"({{"{0}":1,"{0}":2}})", word)); }).size(),
@@ -63,19 +63,19 @@ TEST(JsonText, DepthAndNumberAreLimited) {
                  {"line 2, column 64: nested more than 64 deep"});
     expect_error([] { parse_json(repeated("[", 1'000'000)); }, {"nested more than 64"});
     expect_error([] { parse_json(repeated("{\"a\":", 1'000'000)); }, {"nested more than 64"});
-    // The list is a value, too.
+    // The list itself counts as a value.
     EXPECT_EQ(parse_json(list_of("0", most_json_values - 1)).size(), most_json_values - 1);
     expect_error([] { parse_json(list_of("0", most_json_values)); },
                  {"line 1", "more than 10000000 values"});
 }
 
-// With a look through the whole list after each of its objects these would take an hour.
+// If the list were searched after each of its objects, these would take an hour.
 TEST(JsonText, ListsOfObjectsTakeTimeInProportion) {
     EXPECT_EQ(parse_json(list_of("{}", 1'000'000)).size(), 1'000'000u);
     EXPECT_EQ(parse_json(list_of("[]", 1'000'000)).size(), 1'000'000u);
 }
 
-// The signal comes after some processor time of this process: in the midst of the list.
+// Parses a long list. A timer of processor time sends the signal in the middle of it.
 void parse_until_a_signal_comes() {
     const std::string text = list_of("{}", most_json_values - 1);
     std::signal(SIGTERM, SIG_DFL);

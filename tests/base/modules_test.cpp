@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of the house that a compiler does not check: who may include whom, licence lines, sizes
-// of files, citations.
+// Checks rules of the project that a compiler does not: which module may include which, licence
+// lines, sizes of files, citations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ std::vector<std::string> words_of(const char* text) {
     return {std::istream_iterator<std::string>(words), {}};
 }
 
-// Lowest first: a module includes only itself and the modules before it. src/CMakeLists.txt lists
-// them.
+// The modules, lowest first, from src/CMakeLists.txt. A module may include only itself and the
+// modules before it.
 const std::vector<std::string> modules = words_of(LAMINA_MODULES);
 const fs::path source = LAMINA_SOURCE_DIR;
 
@@ -48,7 +48,7 @@ std::vector<fs::path> files_under(const std::vector<std::string>& folders) {
     return files;
 }
 
-// Folders of modules: those of the library, and those that belong to one program.
+// Returns the folders of all modules: those of the library, and those that belong to one program.
 std::vector<std::string> module_folders() {
     std::vector<std::string> folders;
     for (const char* const parent : {"src", "tools/lamina", "tools/lamina-mpi"}) {
@@ -73,8 +73,8 @@ std::string module_of(const std::string& include) {
     return include.substr(0, include.find('/'));
 }
 
-// What a file of the module includes, or its CMakeLists.txt links, against the rules; one line
-// each.
+// Returns a line for each file that a file of the module includes, or module that its
+// CMakeLists.txt links, against the rules.
 std::vector<std::string> wrong_includes(const std::string& module, const std::string& file_name,
                                         const std::string& text) {
     std::vector<std::string> wrong;
@@ -101,9 +101,9 @@ std::vector<std::string> wrong_includes(const std::string& module, const std::st
     return wrong;
 }
 
-// What a text cites and a checkout has not got: pages of docs/, and of these what may follow after
-// a comma: sections ("section 4", "sections 2 and 3") and headings in quotation marks. Citations
-// may go on in the next line.
+// Returns what a text cites but the checkout lacks: pages of docs/, and their sections ("section
+// 4", "sections 2 and 3") and headings in quotation marks, which may follow after a comma.
+// Citations may continue in the next line.
 std::vector<std::string> wrong_citations(const std::string& text) {
     std::vector<std::string> wrong;
     if (text.find("docs/") == std::string::npos) return wrong;
@@ -182,8 +182,8 @@ TEST(Modules, IncludeOnlyThemselvesAndLowerRooms) {
     EXPECT_EQ(found.size(), modules.size());
 }
 
-// What a text has of Highway that only the module simd may name. HWY_TARGET_TOGGLE guards headers
-// that are included once for each instruction set.
+// Returns the names of the library Highway in a text, which only the module simd may use.
+// HWY_TARGET_TOGGLE is allowed: it guards headers that are included once for each instruction set.
 std::vector<std::string> highway_words(const std::string& text) {
     std::vector<std::string> words = all_matches(text, R"((<hwy/[^>]*>))");
     for (const char* pattern : {R"(\b(hn::\w*))", R"(\b(hwy::\w*))", R"(\b(HWY_\w+))"}) {
@@ -214,7 +214,8 @@ TEST(Simd, IsTheOnlyModuleThatNamesHighway) {
     }
 }
 
-// The plain tracer judges the other one, by code of its own that people can read to its end.
+// The plain tracer checks the reference tracer, so it must share no code with it, and must be short
+// enough to be verified by reading.
 TEST(PlainTracer, SharesNoCodeWithTheTracerAndIsShort) {
     const std::set<std::string> data{"base/parallel.h", "base/client.h", "scene/camera.h",
                                      "scene/clip.h",    "scene/scene.h", "volume/volume_store.h"};
@@ -232,7 +233,7 @@ TEST(PlainTracer, SharesNoCodeWithTheTracerAndIsShort) {
     EXPECT_LE(lines, 400);
 }
 
-// Whoever uses the library needs GLM and nothing else.
+// A user of the library needs GLM and no other library.
 TEST(PublicHeaders, IncludeEachOtherGlmAndTheStandardLibrary) {
     for (const fs::path& file : files_under({"include"})) {
         const std::string text = read_bytes_of(file);
@@ -245,7 +246,7 @@ TEST(PublicHeaders, IncludeEachOtherGlmAndTheStandardLibrary) {
     }
 }
 
-// Whatever the Python module needs of the library, other programs need, too.
+// The Python module uses only what other programs can use, too.
 TEST(PythonModule, IncludesPublicHeadersAndItsOwn) {
     for (const fs::path& file : files_under({"python/src"})) {
         for (const std::string& include :
@@ -261,7 +262,7 @@ TEST(SourceFiles, BeginWithTheLicence) {
         if (!is_code(file) || file.string().find("/tests/fuzz/corpus/") != std::string::npos)
             continue;
         const std::string text = read_bytes_of(file);
-        // Second line where the first must be something else: #! and #version.
+        // On the second line if the first must be #! or #version.
         const std::size_t line = text.find("SPDX-License-Identifier: Apache-2.0");
         EXPECT_TRUE(line != std::string::npos &&
                     std::count(text.begin(), text.begin() + line, '\n') < 2)
@@ -271,7 +272,8 @@ TEST(SourceFiles, BeginWithTheLicence) {
 
 TEST(Citations, TheCheckItselfSeesViolations) {
     using Wrong = std::vector<std::string>;
-    const std::string docs = "docs/";  // apart from names, or this file would be found
+    // Apart from the names, or this file would itself contain wrong citations.
+    const std::string docs = "docs/";
     EXPECT_EQ(wrong_citations("// (" + docs + "numerics.md, section 4), " + docs + "scene.md."),
               Wrong{});
     EXPECT_EQ(wrong_citations("// " + docs + "numerics.md,\n    // sections 2\n// and 3"), Wrong{});
@@ -313,8 +315,8 @@ TEST(SourceFiles, AreShortEnoughToRead) {
     }
 }
 
-// A step from a scene to its picture: a pattern that its calls match, a word that all of them have,
-// and the files that define it.
+// A step from a scene to its picture: a pattern that its calls match, a word that all its calls
+// contain, and the files that define or may call it.
 struct PipelineStep {
     const char* word;
     const char* call;
@@ -328,7 +330,7 @@ std::vector<PipelineStep> pipeline_steps() {
         {"load_mesh(", R"(\b(load_mesh\())", {"src/scene/scene."}},
         {"scene_mesh(",
          R"(\b(scene_mesh\())",
-         {"src/scene/scene.", "src/library/sampling.cpp"}},  // samples points, for no picture
+         {"src/scene/scene.", "src/library/sampling.cpp"}},  // samples points, makes no picture
         {"choose(", R"(\b(choose\([^)]))", {"src/choice/choose."}},
         {"plan", R"(\b((?:make_plan|plan_alone)\())", {"src/plan/plan."}},
         {"try_samples(", R"(\b(try_samples\())", {"src/slicing/slab_trials."}},
@@ -339,7 +341,7 @@ std::vector<PipelineStep> pipeline_steps() {
         {"SceneRenderer", R"(\b(SceneRenderer>?(?:| \w+)[({]))", {}},
         {"trace_",
          R"(\b(trace_(?:volume|mesh|pixels)\())",
-         {tracers, "src/slicing/trial_truth.cpp"}},  // judges the numbers of slabs that are tried
+         {tracers, "src/slicing/trial_truth.cpp"}},  // measures the errors of slabs that are tried
         {"scene_tracer.h", R"((reference/scene_tracer\.h))", {tracers}},
         {"trace_plainly(", R"(\b(trace_plainly\())", {"src/plain/"}}};
 }
@@ -351,7 +353,7 @@ bool defines(const PipelineStep& step, const std::string& file) {
 }
 
 TEST(Pipeline, IsTheOnlyWayFromASceneToItsPicture) {
-    std::set<std::string> seen;  // words of steps that the pipeline itself does
+    std::set<std::string> seen;  // words of the steps that the pipeline itself calls
     for (const fs::path& file : files_under({"src", "tools", "python"})) {
         if (!is_code(file)) continue;
         const std::string name = fs::relative(file, source).generic_string();
@@ -367,10 +369,12 @@ TEST(Pipeline, IsTheOnlyWayFromASceneToItsPicture) {
                 << name << " has " << step.word << ": it should be a client of render/pipeline.h";
         }
     }
-    EXPECT_EQ(seen.size(), pipeline_steps().size() - 1);  // all but trace_volume() and its kin
+    // All but `trace_`, which the pipeline calls through scene_tracer.h.
+    EXPECT_EQ(seen.size(), pipeline_steps().size() - 1);
 }
 
-// A renderer takes over parts of the one before; who made both knows their type.
+// Renderers may take over parts of the renderer before, but code must not use casts to find out
+// their type: the code that makes them knows it.
 TEST(Renderers, AreNotAskedForTheirType) {
     for (const fs::path& file : files_under({"src", "tools", "python"})) {
         if (!is_code(file)) continue;

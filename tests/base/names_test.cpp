@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A type of one name has one definition: two of them in one program are undefined behaviour, which
-// no compiler reports.
+// Checks that no two types have the same name. Two definitions of a type in one program are
+// undefined behaviour, which no compiler reports.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Types that a file defines in namespaces with a name: "namespace::Type". Definitions begin at the
-// start of a line, members do not.
+// Returns the types that a file defines in named namespaces, as "namespace::Type". Definitions of
+// types begin at the start of a line, those of members do not.
 std::set<std::string> types_of(const fs::path& file) {
     static const std::regex opened("namespace ([A-Za-z_0-9:]*) ?\\{.*");
     static const std::regex type(

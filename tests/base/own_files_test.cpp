@@ -12,7 +12,7 @@ namespace {
 TEST(OwnFiles, WhatIsThereIsOwnWhereItIsListed) {
     const TemporaryFolder folder;
     const OwnFiles own(folder.path(), "study");
-    own.expect_own({"a.csv", "b.csv"});  // none is there
+    own.expect_own({"a.csv", "b.csv"});  // neither file exists yet
     own.add({"a.csv"});
     write_bytes_to(folder / "a.csv", "1");
     own.expect_own({"a.csv", "b.csv"});
@@ -33,7 +33,7 @@ TEST(OwnFiles, AreOfOneVerb) {
     write_bytes_to(folder / "report.html", "");
     expect_error([&] { crosscheck.expect_own({"report.html"}); }, {"report.html", "crosscheck"});
     crosscheck.add({"budget.json"});
-    study.expect_own({"report.html"});  // a verb's lines stay when another adds its own
+    study.expect_own({"report.html"});  // lines of one verb stay when another verb adds its own
 }
 
 TEST(OwnFiles, FoldersAndLinksThatLeadNowhereAreThere) {

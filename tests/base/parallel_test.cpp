@@ -35,11 +35,11 @@ TEST(ParallelFor, RethrowsWhatACallThrows) {
     EXPECT_EQ(message, "number 617");
 }
 
-// In a process of its own, because the signal is of the whole process.
+// A death test, because the signal goes to the process: it needs a process of its own.
 TEST(ParallelForDeathTest, StopsWhenInterrupted) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     const auto code_of_interrupted_loop = [] {
-        std::signal(SIGINT, SIG_DFL);  // a shell's background ignores it
+        std::signal(SIGINT, SIG_DFL);  // shells let background processes ignore it
         const SignalStop signals;
         const ClientScope scope({.stop = signals.token()});
         std::atomic<int> calls = 0;

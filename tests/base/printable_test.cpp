@@ -19,10 +19,11 @@ TEST(Printable, ControlCharactersAreNamed) {
     EXPECT_EQ(printable(std::string("\0\x1f\x7f", 3)), "\\x00\\x1f\\x7f");
     EXPECT_EQ(printable("\xC2\x80 \xC2\x9B"
                         "31m"),
-              "\\xc2\\x80 \\xc2\\x9b31m");  // the escape sequences of ISO 6429 in eight bits
+              // U+0080, and U+009B, which begins escape sequences of ISO 6429.
+              "\\xc2\\x80 \\xc2\\x9b31m");
 }
 
-// One case a row of what the standard calls ill-formed.
+// One case for each kind of ill-formed sequence in the Unicode Standard.
 TEST(Printable, BytesThatAreNotUtf8AreNamed) {
     EXPECT_EQ(printable("a\xFFz"), "a\\xffz");
     EXPECT_EQ(printable("\x80"), "\\x80");

@@ -16,8 +16,8 @@ TEST(ProfileTest, WithoutOneAStageIsAStopwatch) {
     Stage stage("work");
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
     const double milliseconds = stage.end();
-    EXPECT_GE(milliseconds, 2);            // what sleep_for promises
-    EXPECT_EQ(stage.end(), milliseconds);  // the first call ends it
+    EXPECT_GE(milliseconds, 2);            // sleep_for() sleeps at least so long
+    EXPECT_EQ(stage.end(), milliseconds);  // the first call has ended it
 }
 
 TEST(ProfileTest, StagesNest) {
@@ -60,7 +60,8 @@ TEST(ProfileTest, EveryThreadHasARow) {
         });
     }
     for (std::thread& thread : crew) thread.join();
-    // OpenGL's, this thread's, which has no stage, and theirs: ids of ended threads may come again.
+    // Rows: OpenGL's, that of this thread (which has no stage), and at most one for each thread,
+    // because ids of ended threads may be used again.
     EXPECT_LE(profile.row_count(), 2 + threads);
     EXPECT_GT(profile.row_count(), 2);
     EXPECT_EQ(profile.spans().size(), std::size_t{threads * stages});
@@ -88,7 +89,7 @@ TEST(ProfileTest, RecordsUntilItsEnd) {
         EXPECT_EQ(Profile::recording(), &profile);
     }
     EXPECT_EQ(Profile::recording(), nullptr);
-    const Stage stage("after it");  // goes nowhere
+    const Stage stage("after it");  // not recorded
 }
 
 }  // namespace

@@ -20,7 +20,7 @@
 namespace lamina {
 namespace {
 
-// Work that lasts longer than the half second between two drawings.
+// Reports progress of work that lasts longer than the half second between two drawings.
 void work() {
     Progress progress("slicing", 4);
     progress.advance();
@@ -38,7 +38,7 @@ void with_stderr(int descriptor, const Action& action) {
     close(saved);
 }
 
-// A bare chroot has no pseudo terminals.
+// Tells whether pseudo terminals can be made: a bare chroot has none.
 bool has_terminals() {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     if (terminal < 0) return false;
@@ -50,7 +50,7 @@ bool has_terminals() {
     return device >= 0;
 }
 
-// What arrives at a terminal while work() runs.
+// Returns what arrives at a terminal during work(), and a dot that marks marks the end.
 std::string seen_on_terminal() {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     grantpt(terminal);
@@ -60,7 +60,7 @@ std::string seen_on_terminal() {
         work();
         (void)!write(STDERR_FILENO, ".", 1);  // the end
     });
-    // The kernel hands over what was written in as many pieces as it likes.
+    // The kernel may deliver the text in any number of pieces.
     std::string seen;
     char piece[1000];
     for (ssize_t count = 1; count > 0 && !seen.ends_with('.');) {
@@ -94,8 +94,8 @@ TEST(Progress, IsSilentWhenQuiet) {
     Progress::set_quiet(false);
 }
 
-// Work shorter than the pause between two reports has its end to report alone. Two cores reach it
-// together in some of the many pieces of work.
+// Work shorter than the pause between two reports reports at least its end. It is repeated so often
+// that two cores sometimes reach the end together.
 TEST(Progress, ItsEndIsHeardHoweverShortTheWork) {
     for (int i = 0; i < 5000; ++i) {
         std::vector<double> shares;

@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-// The handler of a signal while it lives; signals that a test does not expect end the test.
+// Sets the handler of a signal while it exists, and restores the handler before.
 class HandlerOf {
   public:
     HandlerOf(int signal, void (*handler)(int))
@@ -50,7 +50,7 @@ TEST(SignalStop, StopsOnlyWhatWorksForIt) {
     EXPECT_NO_THROW(check_interrupt());
 }
 
-// Without a signal, too, its thread ends with it.
+// Also tests that SignalStop's thread ends with it if no signal came.
 TEST(SignalStop, RestoresTheHandlers) {
     static volatile std::sig_atomic_t heard = 0;
     const HandlerOf own(SIGTERM, [](int signal) { heard = signal; });

@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-// Runs of any length, across pages or not, over what was set before.
+// Sets intervals of any length, across pages or within one, over bytes that were set before.
 TEST(SparseBytes, HoldWhatWasSetLast) {
     constexpr std::size_t size = 20000;
     constexpr std::uint8_t background = 63;
@@ -40,7 +40,7 @@ TEST(SparseBytes, FindsTheFirstPlaceOfAValue) {
         EXPECT_EQ(bytes.find(7, 0, size), 17u);
         EXPECT_EQ(bytes.find(7, 17, size), 17u);
         EXPECT_EQ(bytes.find(7, 18, size), 5000u);
-        EXPECT_EQ(bytes.find(7, 5001, 9999), 9999u);  // none before the end
+        EXPECT_EQ(bytes.find(7, 5001, 9999), 9999u);  // no 7 before place 9999
         EXPECT_EQ(bytes.find(7, 5001, size), 9999u);
         EXPECT_EQ(bytes.find(background, 17, size), 18u);
         EXPECT_EQ(bytes.find(7, 30, 30), 30u);

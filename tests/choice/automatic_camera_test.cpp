@@ -16,7 +16,7 @@ namespace {
 
 constexpr int width = 300, height = 200;
 
-// The largest coordinates of the points in the picture, in half widths and half heights.
+// How far points reach in the picture to all four sides, in halves of its width and height.
 struct Reach {
     double left = INFINITY, right = -INFINITY, down = INFINITY, up = -INFINITY;
     Reach(const std::vector<glm::dvec3>& points, const Camera& camera) {
@@ -43,8 +43,9 @@ std::vector<glm::dvec3> cloud(unsigned seed, const glm::dvec3& size, const glm::
     return points;
 }
 
-// Coordinates in the picture are quotients of sums of a few products, each with a rounding of 1e-16
-// of the cloud's distance from the origin, at most 1e3 times its size: 1e-12 leaves room for 10.
+// Coordinates in the picture are quotients of sums of products. Each product has a rounding error
+// of 1e-16 of the cloud's distance from the origin, which is at most 1e3 times the cloud's size:
+// 1e-12 allows for 10 such errors.
 constexpr double rounding = 1e-12;
 
 TEST(FittedCamera, TwoOppositeEdgesTouchTheMargin) {
@@ -63,11 +64,11 @@ TEST(FittedCamera, TwoOppositeEdgesTouchTheMargin) {
     }
 }
 
-// Turned by any angle about its up, all points are in the picture, and by one of 720 two opposite
-// edges are as good as touched: between two of these angles a point moves by at most 1 - cos(1/4
-// degree) = 1e-5 of its distance from the axis, of which the picture's half is no less than a
-// fifth (its width is 3/2 of its height, and clouds are 40 times as high as wide at most: 1e-5 *
-// 40 of its width).
+// A camera turned by any angle about its up has all points in its picture, and at one of 720 angles
+// two opposite edges are almost touched. A point is farthest out at an angle at most 1/4 degree
+// from one of these, where it is nearer to the middle by at most 1 - cos(1/4 degree) = 1e-5 of its
+// distance from the axis. In the picture this is at most 1e-5 * 40 of the width, because clouds are
+// at most 40 times as high as wide.
 TEST(FittedCamera, AllAroundEveryViewHoldsAllPoints) {
     for (unsigned seed = 0; seed < 50; ++seed) {
         const auto points =
@@ -94,7 +95,8 @@ glm::dvec3 toward_eye(WorldAxes axes) {
 }
 
 TEST(FittedCamera, LooksAtPatientsFromInFrontWithTheHeadUp) {
-    // Anterior is -y of LPS, +y of the others; the patient's left is +x of LPS and LAS, -x of RAS.
+    // Anterior is -y in LPS and +y in the other axes; the patient's left is +x in LPS and LAS and
+    // -x in RAS.
     const double degree = std::acos(-1.) / 180;
     const glm::dvec3 lps(std::sin(30 * degree) * std::cos(20 * degree),
                          -std::cos(30 * degree) * std::cos(20 * degree), std::sin(20 * degree));

@@ -8,7 +8,7 @@
 namespace lamina {
 namespace {
 
-// Half of it is 0; the other half falls off from 1 to 200.
+// A distribution of which half is 0; the density of the other half falls from value 1 to 200.
 ValueDistribution scan() {
     std::vector<WeightedValue> values{{0, 20100}};
     for (int value = 1; value <= 200; ++value)
@@ -41,7 +41,8 @@ TEST(AutomaticTransfer, NoColorIsFull) {
         const auto chosen = choose_transfer_function(scan(), whole);
         for (const TransferKnot& knot : chosen.transfer_function.knots()) {
             for (int c = 0; c < 3; ++c)
-                EXPECT_LT(knot.optics.color[c], .9956);  // 254.5 / 255 of sRGB
+                // Linear light of the sRGB value 254.5 / 255.
+                EXPECT_LT(knot.optics.color[c], .9956);
         }
     }
 }
@@ -65,11 +66,11 @@ TEST(AutomaticTransfer, FewWholeNumbersAreLabels) {
     const ValueDistribution values({{0, 70}, {1, 10}, {2, 10}, {7, 10}});
     const auto function = choose_transfer_function(values, true).transfer_function;
     EXPECT_EQ(function.at(0).extinction, 0);
-    EXPECT_EQ(function.at(1), function.at(1.4));  // one label, one look
-    EXPECT_EQ(function.at(2), function.at(4.4));  // halfway to 7
+    EXPECT_EQ(function.at(1), function.at(1.4));  // a label has one colour
+    EXPECT_EQ(function.at(2), function.at(4.4));  // up to the middle between 2 and 7
     EXPECT_NE(function.at(1).color, function.at(2).color);
     EXPECT_NE(function.at(2).color, function.at(7).color);
-    // The same numbers of a measured field are no labels.
+    // If the values are not known to be whole numbers, the same numbers are not labels.
     EXPECT_NE(choose_transfer_function(values, false).transfer_function, function);
 }
 
@@ -79,7 +80,7 @@ TEST(AutomaticTransfer, OneValueShowsEverywhere) {
     EXPECT_EQ(function.max_extinction(-1e9, 1e9), 1);
     EXPECT_TRUE(function.constant(-1e9, 1e9));
     EXPECT_EQ(choose_transfer_function(ValueDistribution(), false).transfer_function.knots().size(),
-              1u);  // no value at all: not a crash
+              1u);  // no value at all
 }
 
 TEST(AutomaticTransfer, ShowsTheRangeThatIsWished) {
@@ -90,7 +91,8 @@ TEST(AutomaticTransfer, ShowsTheRangeThatIsWished) {
     EXPECT_EQ(function.at(50).extinction, 0);
     EXPECT_EQ(function.at(200).extinction, 1);
     const auto empty = choose_transfer_function(scan(), true, {.range = ValueRange{300, 400}});
-    EXPECT_EQ(empty.transfer_function.at(400).extinction, 1);  // where there is nothing, a ramp
+    // A ramp, because the range has no values.
+    EXPECT_EQ(empty.transfer_function.at(400).extinction, 1);
 }
 
 TEST(AutomaticTransfer, TakesTheColorsOfAMap) {

@@ -10,7 +10,7 @@ namespace lamina {
 namespace {
 
 TEST(BinnedValues, WholeNumbersHaveEquallyManyInEachInterval) {
-    // Twelve numbers in at most five intervals: three in each of four.
+    // The numbers 0 to 11 in at most five intervals: four intervals of three numbers.
     const ValueDistribution values({{0, 1}, {2, 1}, {3, 4}, {11, 2}});
     const ValueHistogram histogram = binned(values, {0, 11}, true, 5);
     EXPECT_EQ(histogram.lo, -.5);

@@ -20,8 +20,8 @@ TransferFunction function_of(const std::vector<double>& values) {
     return TransferFunction::linear(knots);
 }
 
-// Every range that does not make three points one makes a function that is read as it is written:
-// its values ascend, from one end of the range to the other.
+// stretched() either throws Error, because three points would get one value, or returns a function
+// that can be written and read: its values ascend from one end of the range to the other.
 TEST(StretchedTransfer, ValuesAscendWhateverTheRange) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> share(0, 1), exponent(-20, 300);

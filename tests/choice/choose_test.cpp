@@ -29,7 +29,7 @@ Scene open_scene() {
     return scene;
 }
 
-// A ball of values that grow inwards, in air.
+// Values of a ball in air, growing inwards.
 double ball(const glm::dvec3& p, double edge) {
     const glm::dvec3 arm = p - glm::dvec3(edge / 2);
     return std::max(0., 1 - 2.5 * std::sqrt(arm.x * arm.x + arm.y * arm.y + arm.z * arm.z) / edge);
@@ -50,9 +50,9 @@ SceneMesh ball_mesh() {
     return scene_mesh(scene, std::move(data));
 }
 
-// The median of the rays that meet more than a 500th of what the deepest one meets is 0.9 opaque.
-// Depths are sums of float32 numbers, up to a few of them per voxel of 70 along the view: 300
-// roundings of 6e-8 are 2e-5.
+// Expects an opacity of 0.9 for the median of the rays whose optical depth exceeds 1/500 of the
+// largest one. Depths are sums of float32 numbers, about 4 for each of 70 voxels along the view:
+// 300 roundings of 6e-8 are 2e-5.
 void expect_median_opacity(const Scene& scene, const Field& field) {
     std::vector<double> depths = field.optical_depths(scene);
     const double least = *std::ranges::max_element(depths) / 500;
@@ -77,8 +77,8 @@ TEST(Choose, TheMedianRayIsNineTenthsOpaque) {
     expect_median_opacity(chosen_of(open_scene(), MeshField(mesh)), MeshField(mesh));
 }
 
-// A picture does not depend on the unit of length, which may be one in which depths that are
-// measured in float32 would not be finite, or vanish.
+// A picture does not depend on the unit of length, even if float32 depths in that unit would
+// overflow or vanish.
 TEST(Choose, TheUnitOfLengthDoesNotMatter) {
     const auto extinction = [](double spacing) {
         Grid grid = test::grid_of({40, 40, 40}, Centering::node);
@@ -105,7 +105,7 @@ TEST(Choose, OnlyWhatIsOpenIsChosen) {
     scene.transfer_function = Scene().transfer_function;
     const auto [chosen, reasons] = choose(scene, one.field);
     EXPECT_EQ(chosen.transfer_function, scene.transfer_function);
-    EXPECT_EQ(reasons.size(), 1u);  // the camera
+    EXPECT_EQ(reasons.size(), 1u);  // the reason for the camera
 }
 
 TEST(Choose, DoesNotDependOnThreads) {
@@ -133,7 +133,7 @@ TEST(Choose, DoesAsWished) {
     const Scene plain = chosen_of(open_scene(), one.field);
     const Scene dense = chosen_of(open_scene(), one.field, {.density = 2});
     EXPECT_EQ(dense.transfer_function, plain.transfer_function->attenuated(2));
-    // A quarter turn and back: the same direction as no turn.
+    // A full turn is the same as no turn.
     const Scene around = chosen_of(open_scene(), one.field, {.turn = {360, 0}});
     EXPECT_LT(glm::distance(around.camera->eye, plain.camera->eye), 1e-10);
     EXPECT_LT(chosen_of(open_scene(), one.field, {.zoom = 3}).camera->fov_y,
@@ -150,8 +150,8 @@ TEST(Choose, NothingFromNoNumber) {
                  {"none.nrrd: all values are NaN or infinite, expected numbers"});
 }
 
-// One vertex of 2197 is .0005 of the mesh. The tets around it are no part of the field. A slope
-// makes more values than the few of labels, to which no marker belongs.
+// One vertex of 2197 is .0005 of the mesh; the tets around it do not count for the field. A slope
+// is added so that there are more values than the few of labels, among which no marker is sought.
 TEST(Choose, ASingleVertexFarFromAllOthersIsPadding) {
     const auto sloping_ball = [](const glm::dvec3& p) {
         return ball(p, 12) + 1e-3 * (p.x + .1 * p.y + .01 * p.z);
@@ -164,7 +164,8 @@ TEST(Choose, ASingleVertexFarFromAllOthersIsPadding) {
     const Scene chosen = chosen_of(open_scene(), MeshField(marked));
     EXPECT_NE(heard.all().find("-9999, "), std::string::npos) << heard.all();
     EXPECT_TRUE(chosen.transfer_function->transparent(-9999, -1));
-    // Of the field 24 of 10,368 tets count otherwise: the values that show stay nearly the same.
+    // Only 24 of 10,368 tets count otherwise, so the values that show are nearly the same as
+    // without the marker.
     const Scene without = chosen_of(open_scene(), MeshField(plain));
     const auto last = [](const Scene& scene) {
         return scene.transfer_function->knots().back().value;
@@ -176,12 +177,13 @@ TEST(Choose, ACameraThatIsTurnedAllAroundFitsAllViews) {
     const Ball one;
     const Scene plain = chosen_of(open_scene(), one.field);
     const Scene around = chosen_of(open_scene(), one.field, {.all_around = true});
-    // The ball's bricks reach farther from its axis than from the front.
+    // Seen from all sides the visible bricks reach farther out than from the front, so the camera
+    // is farther away.
     EXPECT_GT(glm::distance(around.camera->eye, around.camera->center),
               glm::distance(plain.camera->eye, plain.camera->center));
 }
 
-// What is said has the digits that tell values and places apart.
+// Messages have enough digits to distinguish values and positions.
 TEST(Choose, FarFromZeroNumbersAreToldApart) {
     Grid grid = test::grid_of({40, 40, 40}, Centering::node);
     grid.origin = {5e6, 0, 0};
@@ -195,7 +197,8 @@ TEST(Choose, FarFromZeroNumbersAreToldApart) {
     EXPECT_NE(reasons[1].find("to (50000"), std::string::npos) << reasons[1];
 }
 
-// .01 of the range over the smallest spacing of an axis that has more than one sample.
+// It is .01 of the range of values, divided by the smallest spacing among axes with more than one
+// sample.
 TEST(Choose, TheSmallestGradientIsAShareOfTheRange) {
     Grid grid = test::grid_of({5, 4, 1}, Centering::cell);
     grid.step = {glm::dvec3(0, 3, 0), glm::dvec3(0, 0, -2), glm::dvec3(.5, 0, 0)};
@@ -214,7 +217,7 @@ TEST(Choose, TheSmallestGradientIsAShareOfTheRange) {
     EXPECT_EQ(chosen_of(chosen, VolumeField(volume, bricks)).lighting, chosen.lighting);
 }
 
-// A round picture of values from 0 to 1000 in a square of -3024.
+// The data are a disc of values from 0 to 1000 in a square of -3024, the padding.
 TEST(Choose, PaddingDoesNotCountForTheSmallestGradient) {
     const Volume volume = test::volume_of<std::int16_t>(
         test::grid_of({21, 21, 3}, Centering::node), [](double x, double y, double) {
@@ -227,8 +230,8 @@ TEST(Choose, PaddingDoesNotCountForTheSmallestGradient) {
                      .01 * 1000);
 }
 
-// A cube of edge 1 cut into six tets: each has three edges of the cube, two diagonals of its faces
-// and its own diagonal.
+// The mesh is a cube of edge 1 cut into six tets. The edges of each tet are three edges of the
+// cube, two diagonals of its faces and the diagonal of the cube.
 TEST(Choose, TheSmallestGradientOfAMeshHasItsMeanEdge) {
     Scene scene;
     scene.lighting = Lighting{};
@@ -250,8 +253,7 @@ TEST(Choose, DataOfOneValueHaveSomeSmallestGradient) {
     }
 }
 
-// What no picture should fail on: every kind of degenerate data has a transfer function and a
-// camera with finite numbers.
+// Degenerate data of every kind get a transfer function and a camera of finite numbers.
 TEST(Choose, OddData) {
     const auto check = [](const Volume& volume, const std::string& name) {
         const MinMaxBricks bricks = measure_bricks(volume);

@@ -6,7 +6,7 @@
 namespace lamina {
 namespace {
 
-// `weight` for each whole number from first to last.
+// Appends the whole numbers from `first` to `last`, each with this weight.
 void add(std::vector<WeightedValue>& values, int first, int last, double weight) {
     for (int value = first; value <= last; ++value)
         values.push_back({static_cast<double>(value), weight});
@@ -42,7 +42,7 @@ TEST(CommonValues, WhereNothingGathersTheyAreOnlyTheClosestTogether) {
     EXPECT_FALSE(common.background);
     EXPECT_GE(common.lo, 199);  // the third with 52 or 53 values lies in the denser part
     EXPECT_GE(ValueDistribution(values).share(common.lo, common.hi),
-              1. / 3 - 1e-12);  // roundings of sums up to 1
+              1. / 3 - 1e-12);  // tolerance for rounding of sums up to 1
 }
 
 TEST(UsualRange, LeavesOutAFewExtremeValuesAlone) {
@@ -53,7 +53,7 @@ TEST(UsualRange, LeavesOutAFewExtremeValuesAlone) {
     const ValueRange range = usual_range(ValueDistribution(values));
     EXPECT_EQ(range.lo, -40);
     EXPECT_EQ(range.hi, 40);
-    values.push_back({-5000, 2000});  // these are no longer few
+    values.push_back({-5000, 2000});  // now more than a thousandth
     EXPECT_EQ(usual_range(ValueDistribution(values)).lo, -5000);
 }
 

@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-// Of a CT: a peak of air, and tissue above it.
+// Values as in a CT scan: a peak of air, and tissue above it.
 std::vector<WeightedValue> scan() {
     std::vector<WeightedValue> values;
     for (int i = -1024; i <= 3000; i += 8) {
@@ -49,7 +49,8 @@ TEST(Padding, OfTwoKinds) {
     EXPECT_TRUE(found.below && found.above);
 }
 
-// Where a single value may mark missing data, as a vertex of a mesh does, it may be rare.
+// With a least share of 0, as for meshes, where a single vertex may mark missing data, padding may
+// be rare.
 TEST(Padding, MayBeRareIfItIsFarAway) {
     for (const double value : {-9999., -32768., 32767., 1e20}) {
         const ValueDistribution all = with(scan(), value, 1e-6);
@@ -57,7 +58,8 @@ TEST(Padding, MayBeRareIfItIsFarAway) {
         EXPECT_EQ(find_padding(all, false, 0).values, std::vector{value}) << value;
         EXPECT_EQ(find_markers(all), std::vector{value}) << value;
     }
-    const ValueDistribution near = with(scan(), -2000, 1e-6);  // a quarter of the range below
+    // Only a quarter of the range below the rest.
+    const ValueDistribution near = with(scan(), -2000, 1e-6);
     EXPECT_TRUE(find_padding(near, false, 0).values.empty());
     EXPECT_TRUE(find_markers(ValueDistribution(scan())).empty());
     EXPECT_TRUE(find_markers(ValueDistribution()).empty());
@@ -73,7 +75,7 @@ TEST(Padding, IsNoneOfThese) {
     EXPECT_TRUE(none(with({{0, 5}, {1, 5}}, 10, 5)));
     EXPECT_TRUE(none(ValueDistribution({{0, 1}})));
     EXPECT_TRUE(none(ValueDistribution()));
-    // What is left when a brain was cut out: 0 is its background, and no code for it.
+    // A brain that was cut out of its surroundings: 0 is background, and no padding.
     std::vector<WeightedValue> brain{{0, 700}};
     for (int i = 0; i < 200; ++i) brain.push_back({900. + i, 1});
     EXPECT_TRUE(none(ValueDistribution(brain)));
@@ -87,7 +89,7 @@ TEST(Padding, IsTransparent) {
     EXPECT_TRUE(function.transparent(-3024, -990));  // the air, too
     EXPECT_GT(function.at(40).extinction, 0);
     EXPECT_EQ(chosen.padding.find("-3024, "), 0u) << chosen.padding;
-    // Fields that go both ways from a common value, with padding on either side.
+    // A field with values on both sides of a common one, and padding below or above.
     std::vector<WeightedValue> flow;
     for (int i = -100; i <= 100; ++i) flow.push_back({1. * i, i == 0 ? 400. : 2.});
     for (const double value : {-9999., 9999.}) {
@@ -97,15 +99,15 @@ TEST(Padding, IsTransparent) {
         EXPECT_EQ(both.transfer_function.at(value).extinction, 0);
         EXPECT_EQ(both.transfer_function.at(.02 * value).extinction, 0);
     }
-    // Nearer padding would make a thick shell of the values between it and the common one, so
-    // these do not show, if others do.
+    // Values between nearer padding and the common value would show as a thick shell, so they are
+    // transparent if the values on the other side show.
     const auto near = choose_transfer_function(with(flow, -999, 100), false).transfer_function;
     EXPECT_EQ(near.at(-50).extinction, 0);
     EXPECT_GT(near.at(50).extinction, 0);
-    // A wished range is taken as it is.
+    // In a wished range padding shows, too.
     const auto wished = choose_transfer_function(below, true, {.range = ValueRange{-4000, 3000}});
     EXPECT_GT(wished.transfer_function.at(-3000).extinction, 0);
-    // Above one, values show as at its end, but for padding.
+    // Above a wished range values show like its end, except for padding.
     const auto part =
         choose_transfer_function(with(flow, 9999, 100), false, {.range = ValueRange{20, 60}});
     EXPECT_GT(part.transfer_function.at(100).extinction, 0);

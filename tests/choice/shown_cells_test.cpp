@@ -17,6 +17,7 @@
 namespace lamina {
 namespace {
 
+// Extent of points along a direction.
 struct Reach {
     double lo = INFINITY, hi = -INFINITY;
     void add(double value) {
@@ -35,7 +36,7 @@ bool shows(const ValueRange& range) {
     return range.hi > 100;
 }
 
-// Every corner of every cell with a sample above 100, by looking at all of them.
+// Returns all corners of all cells with a sample above 100, found by testing every cell.
 std::vector<glm::dvec3> all_shown_corners(const Volume& volume) {
     const Grid& grid = volume.grid();
     const auto* const samples = static_cast<const std::uint8_t*>(volume.data());
@@ -67,7 +68,8 @@ std::vector<glm::dvec3> all_shown_corners(const Volume& volume) {
     return points;
 }
 
-// A few lone samples, so that rows end anywhere in a brick, in the first cell and in the last.
+// Returns a volume with scattered samples above 100, so that visible cells of a row begin and end
+// anywhere in a brick, also in the first and the last cell.
 Volume lone_samples(std::array<std::int64_t, 3> size, Centering centering, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0, 1);
@@ -117,7 +119,8 @@ TEST(ShownCells, OneSampleAcrossAndValuesThatAreNotFinite) {
     EXPECT_EQ(y.hi, grid.to_world({0, .5, 0}).y);
 }
 
-// Files of one head differ in which way their axes run: the camera must not.
+// Files of the same data may store axes in opposite directions; the hull, and so the camera, must
+// be the same.
 TEST(ShownCells, AreTheSameForAxesThatAreStoredTheOtherWayRound) {
     const Volume volume = lone_samples({22, 19, 15}, Centering::cell, 5);
     Grid turned = volume.grid();
@@ -133,14 +136,14 @@ TEST(ShownCells, AreTheSameForAxesThatAreStoredTheOtherWayRound) {
     const auto other = hull_of_shown_cells(mirrored, measure_bricks(mirrored), shows);
     for (const glm::dvec3& along :
          {glm::dvec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}, {1, 2, -3}, {-.5, .25, 1}}) {
-        // Positions of whole and half voxels at distance 1 have no rounding.
+        // With a spacing of 1, positions of samples and half voxels are exact.
         EXPECT_EQ(reach_of(one, along).lo, reach_of(other, along).lo);
         EXPECT_EQ(reach_of(one, along).hi, reach_of(other, along).hi);
     }
 }
 
-// Of large volumes (choice/field.h) the corners of bricks are taken. The samples are not
-// looked at.
+// For large volumes (large_volume, choice/field.h) the hull is that of bricks. The samples, here
+// all 0, are not read.
 TEST(ShownCells, OfLargeVolumesAreBricks) {
     const Grid grid = test::grid_of({1024, 1024, 258}, Centering::node);
     const auto samples =

@@ -35,7 +35,8 @@ TEST(ValueDistribution, APartIsAWholeAgain) {
     EXPECT_TRUE(part.between(2.1, 2.9).empty());
 }
 
-// Sums of many weights depend on their order. It is the values' own.
+// Rounding of sums depends on their order, so the constructor must add weights in an order of its
+// own.
 TEST(ValueDistribution, DoesNotDependOnTheOrderThatValuesComeIn) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> weight(0, 1);

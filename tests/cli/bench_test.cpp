@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tools/bench, as a user runs it.
+// tools/bench on the command line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,7 +93,7 @@ TEST_F(Bench, KeepsAHistoryThatIsDrawn) {
     EXPECT_NE(text.find("<h2>here</h2>"), std::string::npos);
     EXPECT_NE(text.find("image.width=30"), std::string::npos);
     EXPECT_NE(text.find("1 runs of other machines or arguments"), std::string::npos);
-    // Two runs: two points of one way, the first of them at 1.
+    // The history has two measurements: two points of one curve, the first at 1.
     std::size_t points = 0;
     for (std::size_t at = 0; (at = text.find("<circle", at)) != std::string::npos; ++at) ++points;
     EXPECT_EQ(points, 2u);

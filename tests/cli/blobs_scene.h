@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// A coloured volume of edge^3 samples, to be sliced with `samples` slabs.
+// Returns a scene of a coloured volume of edge^3 samples, sliced with `samples` slabs.
 inline nlohmann::json gaussians_scene(int edge, int width, int height, int samples) {
     auto scene = nlohmann::json::parse(R"({
         "version": 1,
@@ -20,7 +20,7 @@ inline nlohmann::json gaussians_scene(int edge, int width, int height, int sampl
     return scene;
 }
 
-// A small one, with a mesh of tolerance .1.
+// Returns such a scene of 16^3 samples with a mesh of tolerance .1.
 inline nlohmann::json blobs_scene(int width, int height, int samples) {
     auto scene = gaussians_scene(16, width, height, samples);
     scene["mesh"] = {{"tolerance", 0.1}};

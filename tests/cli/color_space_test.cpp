@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures in linear light and in display values, as a user makes and compares them.
+// Pictures in linear light and in display values, made and compared on the command line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,8 @@ class ColorSpaceFiles : public testing::Test {
     TemporaryFolder folder;
 };
 
-// PNG is the EXR over the background, encoded or not: the program writes both from one picture.
+// The PNG is the picture of the EXR over the background, encoded by sRGB if it is in linear light:
+// the program writes both files from one picture.
 TEST_F(ColorSpaceFiles, PngShowsWhatExrHolds) {
     const glm::dvec3 purple(0x66 / 255., 0x33 / 255., 0x99 / 255.);
     for (const char* const method : {"slice", "project", "trace"}) {
@@ -63,8 +64,8 @@ TEST_F(ColorSpaceFiles, PngShowsWhatExrHolds) {
     }
 }
 
-// Colour composited as display values is a mean of display values; the other one is a mean of
-// light, which is at least as bright once it is encoded: the curve of sRGB is concave.
+// In display values, compositing averages display values. In linear light it averages light, and
+// the encoded mean is at least as bright, because the curve of sRGB is concave.
 TEST_F(ColorSpaceFiles, MeansOfLightAreBrighterThanMeansOfDisplayValues) {
     render("linear.png", "trace", "linear");
     render("display.png", "trace", "display");
@@ -72,8 +73,8 @@ TEST_F(ColorSpaceFiles, MeansOfLightAreBrighterThanMeansOfDisplayValues) {
     const auto display = read_png(folder / "display.png").codes;
     int brighter = 0;
     for (std::size_t i = 0; i < linear.size(); ++i) {
-        // The tracer is good to 1e-5, which the curve's slope of 12.92 at 0 makes .03 of a code:
-        // where both are all but equal, they may round to two codes.
+        // The tracer's error of 1e-5 becomes .03 of a code by the curve's slope of 12.92 at 0. So
+        // where both pictures are nearly equal, they may round to neighbouring codes.
         EXPECT_GE(linear[i] + 1, display[i]);
         brighter += linear[i] > display[i] + 4 ? 1 : 0;
     }

@@ -17,7 +17,7 @@
 namespace lamina {
 namespace {
 
-// One line that names every one of `parts`.
+// Expects one line with all of `parts`.
 void expect_one_line(const std::string& text, const std::vector<std::string>& parts) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
     for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << text;
@@ -25,7 +25,8 @@ void expect_one_line(const std::string& text, const std::vector<std::string>& pa
 
 class Compare : public testing::Test {
   protected:
-    // a: all .5; b: as a but for pixel (2, 1), where G is .25 more and B .125 less.
+    // Writes picture a, all .5; b, which differs from a in pixel (2, 1): G + .25, B - .125; and a
+    // small picture.
     void SetUp() override {
         PreciseImage image(4, 3);
         for (double& value : image.rgba) value = 0.5;
@@ -61,8 +62,8 @@ TEST_F(Compare, JsonHasTheNormsOfEveryChannel) {
     const ProgramResult result = compare("a.exr", "b.npy", {"--json"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");
-    // 12 pixels; e(G) = -255/4, e(B) = 255/8 at one of them: exact binary fractions, so only the
-    // division by 12 and the root round.
+    // One of 12 pixels has an error, -255/4 in G and 255/8 in B. These are exact binary fractions,
+    // so only the division by 12 and the root round.
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json.size(), 2u);
     EXPECT_EQ(json["channels"].size(), 4u);
@@ -105,7 +106,7 @@ TEST_F(Compare, DiffShowsSignAndPlace) {
     EXPECT_EQ(result.exit_code, 0);
     expect_one_line(result.err, {"d.png", "63.75"});
     const CodedImage picture = read_png(folder / "d.png");
-    ASSERT_GT(picture.width, 4);  // as wide as the colour bar, which is below
+    ASSERT_GT(picture.width, 4);  // at least as wide as the colour bar below it
     ASSERT_GT(picture.height, 3 + 10);
     for (std::size_t pixel = 0; pixel < 12; ++pixel) {
         const std::size_t place = pixel / 4 * static_cast<std::size_t>(picture.width) + pixel % 4;
@@ -118,7 +119,8 @@ TEST_F(Compare, DiffShowsSignAndPlace) {
     }
 }
 
-// Twice the range, half the colour; half the range, and the message says what is beyond it.
+// With twice the range, colours are half as strong; with half the range, the message says that the
+// error is beyond the scale.
 TEST_F(Compare, RangeSetsTheColours) {
     const auto blue_of = [&](const std::string& range, const char* says) {
         const ProgramResult result =
@@ -143,7 +145,7 @@ TEST_F(Compare, BadInputIsOneLineAndExit1AndNothingWritten) {
     };
     write_bytes_to(folder / "text.exr", "no image");
     write_bytes_to(folder / "cut.exr", read_bytes_of(folder / "a.exr").substr(0, 300));
-    std::string with_nan = read_bytes_of(folder / "a.npy");  // the last number: pixel (3, 2), A
+    std::string with_nan = read_bytes_of(folder / "a.npy");  // its last number is A of pixel (3, 2)
     with_nan.replace(with_nan.size() - 8, 8, std::string("\0\0\0\0\0\0\xF8\x7F", 8));
     write_bytes_to(folder / "nan.npy", with_nan);
     const auto files_before = std::distance(std::filesystem::directory_iterator(folder.path()), {});

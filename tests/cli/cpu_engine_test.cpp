@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina render --context cpu, as a user runs it.
+// lamina render --context cpu on the command line.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -23,7 +23,7 @@ class CpuEngine : public testing::Test {
         write_bytes_to(folder / "scene.json", scene.dump());
     }
 
-    // `before`: what starts the program, and how.
+    // `before`: words before the program's name, such as "env" with variables.
     ProgramResult render(const std::string& context, const std::vector<std::string>& options,
                          std::vector<std::string> before = {}) {
         before.insert(before.end(),
@@ -55,7 +55,7 @@ bool has(const std::string& text, const char* part) {
     return text.find(part) != std::string::npos;
 }
 
-// The dynamic linker's own record of the files that it opens.
+// LD_DEBUG makes the dynamic linker print every file that it opens.
 TEST_F(CpuEngine, LoadsNoOpenGL) {
     const std::vector<std::string> recorded = {"env", "LD_DEBUG=files"};
     const std::vector<std::string> output = {"-o", folder / "a.exr"};
@@ -80,10 +80,10 @@ TEST_F(CpuEngine, SaysWhatItTookInTheStatistics) {
         const std::string context = stats["context"];
         EXPECT_TRUE(context.starts_with("cpu: " + instruction_set() + ", ")) << context;
         EXPECT_EQ(stats["bytes_gpu"], 0);
-        EXPECT_GT(stats["bytes_host"], 100 * 75 * 16);  // the picture at least
+        EXPECT_GT(stats["bytes_host"], 100 * 75 * 16);  // at least the picture
         EXPECT_GT(stats["fragments"], 1000);
         EXPECT_GT(stats["stages"]["draw"], 0);
-        // Without --frames the scene's own frame is the one that is timed.
+        // Without --frames, the timed frame is the one that is written.
         EXPECT_GT(stats["first_picture_ms"].get<double>(),
                   stats["frame_ms"]["median"].get<double>() +
                       stats["stages"]["set_up"].get<double>() +
@@ -91,7 +91,7 @@ TEST_F(CpuEngine, SaysWhatItTookInTheStatistics) {
     }
 }
 
-// Without a GPU it is what draws; with one OpenGL.
+// `auto` takes the cpu engine if there is no GPU, and never llvmpipe.
 TEST_F(CpuEngine, IsTheDefaultWithoutAGpu) {
     const json stats = stats_of("auto", "slice");
     const std::string context = stats["context"];
@@ -119,7 +119,7 @@ TEST_F(CpuEngine, DrawsTheSameInOneThread) {
     EXPECT_TRUE(has(result.err, ", 1 thread,")) << result.err;
 }
 
-// Attributes and all: also what the plan chooses, and says.
+// The bytes include attributes, so the plan is the same, too.
 TEST_F(CpuEngine, WritesTheSameBytesInOneThread) {
     if (run_program({"taskset", "-c", "0", "true"}).exit_code != 0) GTEST_SKIP() << "no taskset";
     const auto bytes_of = [&](const char* method, const std::vector<std::string>& before) {

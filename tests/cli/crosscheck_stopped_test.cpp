@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina crosscheck, interrupted and gone on with.
+// lamina crosscheck, interrupted and then resumed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,10 +18,11 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-// Times differ from run to run, and the command has the folder's name.
+// Removes what differs between two equal cross-checks: times, and the command with the folder's
+// name.
 json without_times(json budget) {
     budget.erase("environment");
-    budget.erase("findings");  // they tell times, too
+    budget.erase("findings");  // they contain times
     for (json& each : budget["ladder"]["slicing"]) each.erase("frame_ms");
     for (json& each : budget["ladder"]["projection"]) {
         each.erase("frame_ms");
@@ -55,7 +56,7 @@ class CrosscheckStopped : public testing::Test {
             std::count_if(begin(files), end(files),
                           [](const auto& file) { return file.path().extension() == ".json"; }));
     }
-    // Returns whether it was interrupted before it had ended.
+    // Interrupts a cross-check that has kept `steps` steps. Returns false if it ended before that.
     bool interrupt(const std::string& output, std::size_t steps) const {
         auto arguments = command(output);
         arguments.insert(arguments.begin(), LAMINA_BINARY);
@@ -87,7 +88,9 @@ class CrosscheckStopped : public testing::Test {
     TemporaryFolder folder;
 };
 
-// After the traced volume, and in the middle and at the end of the meshes.
+// Five meshes follow the traced volume, and each keeps two steps: the mesh and its traced picture.
+// So 1 step is the traced volume, and 3, 5, 7 and 9 steps include the first mesh, the first two,
+// three and four.
 TEST_F(CrosscheckStopped, GoesOnToTheSamePage) {
     ASSERT_EQ(lamina_run(command("whole")).exit_code, 0);
     int interrupted = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina crosscheck, as a user runs it.
+// lamina crosscheck on the command line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class Crosschecks : public testing::Test {
     std::string out, err;
 };
 
-// Of one channel, or of all: -1.
+// Norms of one channel, or of all (channel -1).
 struct Norms {
     double linf = 0, l1 = 0, l2 = 0;
 };
@@ -73,8 +73,8 @@ Norms norms_of(const std::vector<double>& e, int channel) {
     return {norms.linf, norms.l1 / count, std::sqrt(norms.l2 / count)};
 }
 
-// Sums of 24 * 24 * 4 numbers up to 255 in another order differ by less than 2304 * 2304 * 255 u =
-// 1.5e-7 at the worst, u = 2^-53, before the division by 2304.
+// Rounding of sums of 24 * 24 * 4 numbers up to 255 in different orders: at most 2304 * 2304 * 255
+// u = 1.5e-7 before the division by 2304, with u = 2^-53.
 void expect_norms(const json& found, const std::vector<double>& e) {
     const auto expect = [](const json& norms, const Norms& wanted) {
         EXPECT_NEAR(norms["linf"].get<double>(), wanted.linf, 1e-9);
@@ -127,7 +127,7 @@ TEST_F(Crosschecks, PartsOfTheFourPicturesAddUpToTheRawDifference) {
     EXPECT_NEAR(shares, 1, 1e-9);
     EXPECT_EQ(budget["dominant"], part_keys[dominant]);
     EXPECT_LT(budget["residual"].get<double>(), 1e-6);
-    EXPECT_GT(norms_of(raw, -1).linf, 1);  // there is a difference to explain
+    EXPECT_GT(norms_of(raw, -1).linf, 1);  // there is a difference to split
     EXPECT_LT(budget["reference_error"].get<double>(), 0.01);
 }
 
@@ -151,7 +151,8 @@ TEST_F(Crosschecks, LitScenesNameTheGradients) {
     scene["lighting"] = json::object();
     const json parts = run_well({}, ".2", "8")["parts"];
     ASSERT_EQ(parts.size(), 4u);
-    // A mesh of tolerance .2 has gradients of its own; what light adds shows in the picture.
+    // A mesh of tolerance .2 has other gradients than the volume, so lighting adds to the
+    // difference.
     EXPECT_GT(parts["gradients"]["linf"], .5);
     double shares = 0;
     for (const json& part : parts) shares += part["share"].get<double>();
@@ -192,7 +193,7 @@ TEST_F(Crosschecks, TheLadderHasEveryStepWithItsErrorsAndTimes) {
         EXPECT_GT(each["frame_ms"]["median"], 0);
         EXPECT_LE(each["mesh_error"], each["tolerance"]);
     }
-    EXPECT_EQ(samples, json({8, 16, 32}));  // the scene's own among them
+    EXPECT_EQ(samples, json({8, 16, 32}));  // 16 is the scene's own number of slabs
     EXPECT_EQ(tolerances, json({0.2, 0.15, 0.1}));
     EXPECT_LT(tets[0], tets[2]);
     EXPECT_LT(ladder["slicing"][2]["method"]["l2"], ladder["slicing"][0]["method"]["l2"]);
@@ -207,14 +208,14 @@ TEST_F(Crosschecks, TheLadderHasEveryStepWithItsErrorsAndTimes) {
         EXPECT_EQ(pair["dominant"],
                   part_keys[static_cast<std::size_t>(std::max_element(l2, l2 + 3) - l2)]);
     }
-    // The budget is that of the scene's own settings, one of these pairs.
+    // The budget is that of one of these pairs, at the scene's own settings.
     EXPECT_EQ(budget["samples"], 16);
     EXPECT_EQ(budget["tolerance"], 0.15);
     EXPECT_EQ(ladder["pairs"][4]["l2"], budget["raw"]["l2"]);
     EXPECT_EQ(ladder["pairs"][4]["linf"], budget["raw"]["linf"]);
 }
 
-// Few slabs against a fine mesh, and many against a coarse one.
+// Few slabs with a fine mesh: slicing dominates. Many slabs with a coarse mesh: the mesh does.
 TEST_F(Crosschecks, SaysWhichPartDominates) {
     scene["mesh"]["tolerance"] = 0.02;
     scene["render"]["slice"]["samples"] = 4;
@@ -229,7 +230,7 @@ TEST_F(Crosschecks, SaysWhichPartDominates) {
     EXPECT_EQ(budget["dominant"], "mesh");
     EXPECT_GT(budget["parts"]["mesh"]["share"], 0.5);
     EXPECT_NE(out.find("mesh discretisation dominates"), std::string::npos) << out;
-    // Coarsest and finest settings are the scene's own, and told once.
+    // The coarsest and the finest settings are the scene's own, so no finding repeats them.
     EXPECT_EQ(budget["findings"].size(), 2u);
     for (const json& finding : budget["findings"])
         EXPECT_NE(out.find(finding.get<std::string>()), std::string::npos) << finding;
@@ -237,7 +238,7 @@ TEST_F(Crosschecks, SaysWhichPartDominates) {
     EXPECT_NE(page.find("Projected tetrahedra (PT) against slicing: blobs"), std::string::npos);
 }
 
-// Numbers of a part stand in the tables and beside the pictures, not in each sentence.
+// A finding has one L2 at most; the other numbers are in the tables and beside the pictures.
 TEST_F(Crosschecks, SaysEachThingOnceAndInFullWords) {
     scene["mesh"]["tolerance"] = 0.2;
     scene["render"]["slice"]["samples"] = 1;
@@ -258,7 +259,8 @@ TEST_F(Crosschecks, SaysEachThingOnceAndInFullWords) {
     EXPECT_EQ(page.find("1 slabs"), std::string::npos);
 }
 
-// Without a mesh of its own, the scene's is the finest of a ladder that ends because of its cost.
+// If the scene states no mesh, the finest mesh of the ladder counts as the scene's, and refining
+// ends at 250000 tets.
 TEST_F(Crosschecks, TheDefaultLadderSaysWhatItTakesAndEnds) {
     scene.erase("mesh");
     const std::vector<std::string> short_ladder{"--samples", "8",     "--context",
@@ -269,7 +271,7 @@ TEST_F(Crosschecks, TheDefaultLadderSaysWhatItTakesAndEnds) {
         << result.err;
     json budget = json::parse(read_bytes_of(folder / "out" / "budget.json"));
     EXPECT_LE(budget["ladder"]["projection"].back()["tets"], 250000);
-    // The scene's own mesh is drawn as it states it.
+    // A mesh that the scene states is drawn with its own max_tets.
     scene["mesh"] = {{"tolerance", .001}, {"max_tets", 500}};
     result = run(short_ladder);
     ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -300,7 +302,7 @@ TEST_F(Crosschecks, AMeshOfAFileIsTheOnlyStep) {
               std::string::npos)
         << err;
     EXPECT_NE(err.find("blobs.vtu\n"), std::string::npos) << err;
-    // Kuhn's mesh follows no tolerance, either.
+    // A Kuhn mesh has no tolerance, either.
     scene["mesh"] = {{"kuhn", true}};
     EXPECT_EQ(run_well()["ladder"]["projection"].size(), 1u);
     EXPECT_NE(err.find("--tolerances: not used: the scene's mesh is Kuhn's"), std::string::npos)
@@ -310,14 +312,14 @@ TEST_F(Crosschecks, AMeshOfAFileIsTheOnlyStep) {
     EXPECT_EQ(err.find("not used"), std::string::npos) << err;
 }
 
-// With commas, as the help shows them, and each of them drawn.
+// Lists are separated by commas, as the help says; each value is drawn.
 TEST_F(Crosschecks, HelpSaysHowListsAreWritten) {
     const std::string help = lamina_run({"crosscheck", "--help"}).out;
     EXPECT_NE(help.find("--tolerances T,T,..."), std::string::npos) << help;
     EXPECT_NE(help.find("--samples N,N,..."), std::string::npos) << help;
     EXPECT_NE(help.find("--set KEY=VALUE"), std::string::npos) << help;
     const json budget = run_well({}, ".3,.25,.2", "8,16");
-    EXPECT_EQ(budget["ladder"]["projection"].size(), 4u);  // and the scene's own
+    EXPECT_EQ(budget["ladder"]["projection"].size(), 4u);  // three, and the scene's own
 }
 
 TEST_F(Crosschecks, BadArgumentsAreOneLineAndWriteNothing) {

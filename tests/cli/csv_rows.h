@@ -8,9 +8,9 @@
 
 namespace lamina {
 
-using CsvRow = std::map<std::string, std::string>;  // by the column's name
+using CsvRow = std::map<std::string, std::string>;  // cells by the name of their column
 
-// The cells of a table as RFC 4180 has them, line by line.
+// Returns the cells of a CSV table (RFC 4180), line by line.
 inline std::vector<std::vector<std::string>> csv_cells(const std::string& text) {
     std::vector<std::vector<std::string>> lines(1, std::vector<std::string>(1));
     bool quoted = false;
@@ -29,11 +29,11 @@ inline std::vector<std::vector<std::string>> csv_cells(const std::string& text) 
             cell += text[i];
         }
     }
-    lines.pop_back();  // what follows the last line's end
+    lines.pop_back();  // the empty line after the last line end
     return lines;
 }
 
-// The rows below the line of names. Throws where one has more or fewer cells than that.
+// Returns the rows below the line of names. Throws if a row has more or fewer cells than that line.
 inline std::vector<CsvRow> csv_rows(const std::string& text) {
     const std::vector<std::vector<std::string>> lines = csv_cells(text);
     std::vector<CsvRow> rows;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Disks that are full, places that cannot be written.
+// Full disks, and files that cannot be written.
 #include <sys/resource.h>
 
 #include <set>
@@ -9,8 +9,8 @@
 namespace lamina {
 namespace {
 
-// No file can grow beyond this: a full disk, as far as the program can tell. More than any message
-// to stderr has, less than any of the outputs below.
+// Limit of file sizes in bytes, which simulates a full disk. Messages to stderr are shorter, and
+// all outputs in this file are longer.
 constexpr rlim_t room = 1000;
 
 void fill_the_disk() {
@@ -20,7 +20,8 @@ void fill_the_disk() {
 
 class FaultsOfDisks : public FaultsTestCase {
   protected:
-    // `arguments` write `name` (and what `beside` names) into the folder `out`.
+    // Expects that the files `names` in the folder `out`, which `arguments` write, keep their old
+    // contents if the disk is full.
     void expect_old_files_survive(const std::vector<std::string>& arguments,
                                   const std::vector<std::string>& names) {
         SCOPED_TRACE(arguments[0] + " " + names[0]);
@@ -59,7 +60,7 @@ TEST_F(FaultsOfDisks, FullOnesLeaveOldFilesAsTheyAre) {
     expect_old_files_survive({"info", folder / "mesh.vtu", "--png", out / "a.png"}, {"a.png"});
 }
 
-// The picture was complete before: it stays, and the exit code says that not all is there.
+// The picture is written before and stays; the exit code says that the statistics are missing.
 TEST_F(FaultsOfDisks, StatisticsThatDoNotFitAreAFailure) {
     for (const std::string option : {"--stats", "--profile"}) {
         const std::string picture = folder / "tiny.png", file = out / "a.json";
@@ -83,7 +84,8 @@ TEST_F(FaultsOfDisks, AStudyStopsAndGoesOnWhenThereIsRoom) {
         return arguments;
     };
     make(study("whole", {}));
-    // Each time another file does not fit; sizes differ from run to run by the digits of times.
+    // Limits the size of files to half of each file's size, so that each time another file does not
+    // fit. Sizes vary, because times have different numbers of digits.
     std::set<rlim_t> limits;
     for (const auto& [name, bytes] : contents(out / "whole")) limits.insert(bytes.size() / 2);
     ASSERT_GT(limits.size(), 5u);
@@ -109,7 +111,7 @@ TEST_F(FaultsOfDisks, FoldersOfCrosschecksAndReproductions) {
         arguments.insert(arguments.end(), {"-o", out / "made", "--quiet"});
         expect_one_line(lamina_run(arguments, fill_the_disk), 1, {"made", "cannot write"});
         for (const auto& [name, bytes] : contents(out)) EXPECT_LE(bytes.size(), room) << name;
-        // A file stands where the folder should be.
+        // A file has the name of the folder.
         std::filesystem::remove_all(out / "made");
         write_bytes_to(out / "made", "old");
         expect_one_line(lamina_run(arguments), 1, {"made"});
@@ -153,7 +155,7 @@ TEST_F(FaultsOfDisks, WhatIsReadIsNotReplaced) {
     EXPECT_EQ(contents(folder.path()), before);
 }
 
-// Files that the scene's own files name, or that belong to them.
+// Files that the scene names, and files that belong to these, are inputs, too.
 TEST_F(FaultsOfDisks, NothingThatASceneIsMadeOfIsReplaced) {
     write_bytes_to(folder / "apart.nhdr",
                    "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"

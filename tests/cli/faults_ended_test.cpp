@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs that somebody ends, or whose folder goes away, while they work.
+// Programs that are stopped, or whose output folder is removed, while they work.
 #include <chrono>
 #include <random>
 #include <thread>
@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 class FaultsOfEnds : public FaultsTestCase {
   protected:
-    // Until the program has a file open in `out`: work has begun.
+    // Waits until the program has a file open in `out`: then its work has begun.
     void wait_for_output(const StartedProgram& program) const {
         const std::filesystem::path list = "/proc/" + std::to_string(program.id()) + "/fd";
         const auto is_output = [&](const std::filesystem::path& descriptor) {
@@ -56,7 +56,7 @@ TEST_F(FaultsOfEnds, SignalsLeaveTheOldFileAndSayTheirNumber) {
     }
 }
 
-// As nohup has it, and shells their background.
+// nohup ignores SIGHUP, and shells ignore SIGINT for background jobs.
 TEST_F(FaultsOfEnds, IgnoredSignalsStayIgnored) {
     for (const int signal : {SIGINT, SIGHUP}) {
         StartedProgram program(command(rendering(out / "a.exr", {"--frames", "50"})),
@@ -76,7 +76,7 @@ TEST_F(FaultsOfEnds, AFolderThatGoesAwayIsAFailure) {
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-// 25 times at random moments from its start to a little after its end.
+// Kills the program 25 times, at random moments from its start to a little after its end.
 TEST_F(FaultsOfEnds, KilledAtAnyMomentTheOldPictureOrTheNewOneIsThere) {
     const std::vector<std::string> samples[] = {{"--set", "render.slice.samples=40"},
                                                 {"--set", "render.slice.samples=60"}};
@@ -103,14 +103,14 @@ TEST_F(FaultsOfEnds, KilledAtAnyMomentTheOldPictureOrTheNewOneIsThere) {
         before = there;
     }
     EXPECT_GT(killed, 5);
-    // One may have been killed while its file had a name beside: the next one removes that.
+    // A kill may leave an unfinished file beside the output; the next run removes it.
     EXPECT_LE(contents(out).size(), 2u);
     make(rendering(out / "a.exr", samples[0]));
     EXPECT_EQ(contents(out).size(), 1u);
     EXPECT_EQ(read_bytes_of(out / "a.exr"), whole[0]);
 }
 
-// A mesh of two files: never of two runs.
+// The two files of a .node mesh always belong to the same mesh.
 TEST_F(FaultsOfEnds, KilledAtAnyMomentTwoFilesAreOneMesh) {
     make({"generate", "gaussians", "-o", folder / "other.nrrd", "--size", "15,15,15"});
     const auto meshing = [&](std::size_t i) {

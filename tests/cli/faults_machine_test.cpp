@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines that lack something, and environments that are not what one would expect.
+// Machines that lack libraries, drivers or folders, and unusual environments.
 #include <sys/stat.h>
 
 #include <clocale>
@@ -28,7 +28,7 @@ TEST_F(FaultsOfMachines, NoLibraryOfOpenGL) {
                     {"OSMesa", "libOSMesa.so.8", "install"});
     expect_one_line(lamina_run(drawing_by("egl"), broken), 1, {"EGL", "libEGL.so.1", "install"});
     EXPECT_TRUE(contents(out).empty());
-    EXPECT_EQ(lamina_run(drawing_by("auto"), broken).exit_code, 0);  // the cpu engine
+    EXPECT_EQ(lamina_run(drawing_by("auto"), broken).exit_code, 0);  // takes the cpu engine
 }
 
 TEST_F(FaultsOfMachines, NoDeviceOfEGL) {
@@ -38,7 +38,7 @@ TEST_F(FaultsOfMachines, NoDeviceOfEGL) {
     EXPECT_TRUE(contents(out).empty());
 }
 
-// OSMesa itself crashes then.
+// With an unknown driver OSMesa itself would crash.
 TEST_F(FaultsOfMachines, ADriverThatIsNone) {
     expect_one_line(lamina_run(drawing_by("osmesa"), with("GALLIUM_DRIVER", "abacus")), 1,
                     {"GALLIUM_DRIVER", "abacus", "llvmpipe"});
@@ -55,7 +55,7 @@ TEST_F(FaultsOfMachines, ShadersThatDoNotCompile) {
                     1, {"absent", "LAMINA_SHADER_DIR"});
 }
 
-// A copy of the program that has this beside it as lamina-tetrahedralize.
+// Copies the program and puts `script` beside it as lamina-tetrahedralize.
 TEST_F(FaultsOfMachines, TetrahedralizersThatAreNone) {
     const std::string program = folder / "lamina", tool = folder / "lamina-tetrahedralize";
     std::filesystem::copy_file(LAMINA_BINARY, program);
@@ -75,7 +75,7 @@ TEST_F(FaultsOfMachines, TetrahedralizersThatAreNone) {
     expect_one_line(mesh("#!/bin/sh\nexit 0\n"), 1, {volume, "gave no answer"});
     expect_one_line(mesh("#!/bin/sh\nhead -c 5000 /dev/zero | tr '\\0' x\n"), 1,
                     {volume, "promised"});
-    // One tet, all of its corners the first point.
+    // Answers with one tet whose corners are all the first point.
     expect_one_line(mesh("#!/bin/sh\nprintf '\\001'; head -c 39 /dev/zero\n"), 1,
                     {volume, "do not fill the box"});
     EXPECT_TRUE(contents(out).empty());
@@ -119,14 +119,15 @@ TEST_F(FaultsOfMachines, NamesOfEveryKind) {
     for (const std::string& name :
          {std::string("with space.exr"), std::string("ü☃.exr"), std::string("\xff.exr"),
           std::string("two\nlines.exr"), std::string("-x.exr"), std::string(251, 'n') + ".exr"}) {
-        for (int twice = 0; twice < 2; ++twice) {  // the second time it is there
+        for (int twice = 0; twice < 2; ++twice) {  // the second time it replaces the file
             make(rendering(out / name));
             EXPECT_EQ(read_bytes_of(out / name), expected) << name;
         }
         std::filesystem::copy_file(folder / "scene.json", out / (name.substr(0, 240) + ".json"));
         std::vector<std::string> arguments = rendering(out / name);
         arguments[1] = out / (name.substr(0, 240) + ".json");
-        expect_one_line(lamina_run(arguments), 1, {"volume.nrrd"});  // not beside this one
+        // The volume is not beside this copy of the scene.
+        expect_one_line(lamina_run(arguments), 1, {"volume.nrrd"});
         std::filesystem::remove_all(out);
         std::filesystem::create_directory(out);
     }
@@ -138,7 +139,7 @@ TEST_F(FaultsOfMachines, NamesOfEveryKind) {
     EXPECT_EQ(read_bytes_of(out / "-x.exr"), expected);
 }
 
-// Nobody writes into them: who opened one would wait for ever.
+// Nobody writes into these pipes: opening one would block forever.
 TEST_F(FaultsOfMachines, PipesInPlaceOfFiles) {
     const auto pipe_called = [&](const std::string& name) {
         const std::string path = folder / name;
@@ -170,9 +171,10 @@ TEST_F(FaultsOfMachines, PipesInPlaceOfFiles) {
     EXPECT_TRUE(contents(out).empty());
 }
 
-// As an index of the volume, beside it and in the cache folder: another one is made.
+// A pipe with the name of the volume's index, beside the volume: the index is made without it.
 TEST_F(FaultsOfMachines, PipesInPlaceOfAnIndex) {
-    const std::string volume = folder / "large.nrrd";  // stays in its file with the least memory
+    // Stays in its file if memory is limited to 1M.
+    const std::string volume = folder / "large.nrrd";
     make({"generate", "gaussians", "-o", volume, "--size", "128,128,128"});
     const std::string index = volume + ".lamina-index";
     ASSERT_EQ(mkfifo(index.c_str(), 0600), 0);

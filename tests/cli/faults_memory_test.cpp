@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits on the memory of the process: ulimit -v, ulimit -s.
+// Processes with limited memory: ulimit -v, ulimit -s.
 #include <sys/resource.h>
 
 #include "cli/faults_test_case.h"
@@ -8,7 +8,7 @@ namespace lamina {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool limits_work = false;  // sanitizers take terabytes of addresses for themselves
+constexpr bool limits_work = false;  // sanitizers reserve terabytes of addresses
 #else
 constexpr bool limits_work = true;
 #endif
@@ -32,7 +32,7 @@ class FaultsOfMemory : public FaultsTestCase {
 TEST_F(FaultsOfMemory, TooLittleIsOneLineForTheCpuEngine) {
     const std::string volume = folder / "volume.nrrd";
     make({"generate", "gaussians", "-o", volume, "--size", "32,32,32"});
-    rlim_t to_start = mebibyte;  // below, the system's loader has no room for libraries
+    rlim_t to_start = mebibyte;  // with less, the system's loader cannot load the libraries
     while (run_within(to_start, {"--version"}).exit_code != 0) to_start += mebibyte;
     const std::vector<std::string> works[] = {
         {"info", volume},
@@ -46,7 +46,8 @@ TEST_F(FaultsOfMemory, TooLittleIsOneLineForTheCpuEngine) {
     for (const std::vector<std::string>& arguments : works) {
         SCOPED_TRACE(arguments[0] + " " + arguments.back());
         int failed = 0;
-        // How threads share the memory differs from run to run: enough is what suffices twice.
+        // Threads share memory differently each time, so enough memory means that two sizes
+        // succeed.
         for (int done = 0, step = 0; done < 2; ++step) {
             ASSERT_LT(step, 100);
             const rlim_t bytes = to_start + static_cast<rlim_t>(step) * 2 * mebibyte;
@@ -64,7 +65,7 @@ TEST_F(FaultsOfMemory, TooLittleIsOneLineForTheCpuEngine) {
     }
 }
 
-// 64 KiB hold a tenth of what a picture takes, and threads of Mesa's would get as little.
+// A stack of 64 KiB is a tenth of what a picture needs; threads of Mesa would get as little.
 TEST_F(FaultsOfMemory, SmallStacksChangeNothing) {
     const auto drawing_by = [&](const char* context) {
         return std::vector<std::string>{"render",      folder / "scene.json", "-o",
@@ -93,7 +94,7 @@ TEST_F(FaultsOfMemory, SmallStacksChangeNothing) {
     }
 }
 
-// Mesa crashes where it gets no memory; so it is not even begun.
+// Mesa crashes without memory, so the program checks the limit before it starts Mesa.
 TEST_F(FaultsOfMemory, TooLittleForOpenGLIsSaidBefore) {
     for (const char* context : {"osmesa", "egl"}) {
         for (const rlim_t mebibytes : {200, 500, 900}) {
@@ -106,8 +107,8 @@ TEST_F(FaultsOfMemory, TooLittleForOpenGLIsSaidBefore) {
     }
 }
 
-// The decoder asked for a gigabyte, which the reading process may not take: 256 MiB beside what it
-// has (volume_files/isolated_process.cpp), of which the program takes less than 64.
+// The damaged file makes its decoder ask for a gigabyte. The reading process may take 256 MiB more
+// than it has (volume_files/isolated_process.cpp); the program itself takes less than 64 MiB.
 TEST_F(FaultsOfMemory, ADamagedImageOfAKilobyteTakesLittle) {
     const std::string image = folder / "image.dcm";
     std::filesystem::copy_file(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Standard streams that are full, closed, or that nobody reads.
+// Standard streams that are full, closed, or whose reader is gone.
 #include <fcntl.h>
 
 #include "cli/faults_test_case.h"
@@ -7,7 +7,7 @@
 namespace lamina {
 namespace {
 
-// In the new process: its descriptor `descriptor` is this.
+// Returns a function for the new process that opens `path` as `descriptor`.
 std::function<void()> leads_to(int descriptor, const char* path) {
     return [=] { dup2(open(path, O_WRONLY), descriptor); };
 }
@@ -70,7 +70,7 @@ TEST_F(FaultsOfStreams, MessagesThatDoNotArriveAreNone) {
     }
 }
 
-// The first file that is opened gets the lowest number that is free: it must not be stdout's.
+// If stdout is closed, its number is free, and the next file that is opened would get it.
 TEST_F(FaultsOfStreams, ClosedOnesDoNotLandInFiles) {
     make(rendering(folder / "a.exr"));
     const std::string expected = read_bytes_of(folder / "a.exr");

@@ -14,8 +14,8 @@
 
 namespace lamina {
 
-// Of programs that meet something they cannot help: a folder with a scene, the volume of that
-// scene, a list of segments and pictures to compare; outputs go into "out" below.
+// Base of tests of programs that fail through no fault of their own. It makes a folder with a
+// scene, its volume, a list of segments and a study; outputs go into its subfolder "out".
 class FaultsTestCase : public testing::Test {
   protected:
     void SetUp() override {
@@ -49,7 +49,7 @@ class FaultsTestCase : public testing::Test {
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return result;
     }
-    // By the cpu engine, quietly.
+    // Returns the arguments that render the scene with the cpu engine, without messages.
     std::vector<std::string> rendering(const std::filesystem::path& picture,
                                        const std::vector<std::string>& options = {}) const {
         std::vector<std::string> arguments{
@@ -58,7 +58,7 @@ class FaultsTestCase : public testing::Test {
         return arguments;
     }
 
-    // Failed, with one line on stderr that has all of `parts` in it.
+    // Expects a failure with one line on stderr that contains all of `parts`.
     static void expect_one_line(const ProgramResult& result, int exit_code,
                                 const std::vector<std::string>& parts) {
         EXPECT_EQ(result.exit_code, exit_code) << result.err;
@@ -68,7 +68,7 @@ class FaultsTestCase : public testing::Test {
             EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
     }
 
-    // All files below, with their bytes.
+    // Returns all files in the folder and its subfolders, with their bytes.
     static std::map<std::string, std::string> contents(const std::filesystem::path& path) {
         std::map<std::string, std::string> files;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {

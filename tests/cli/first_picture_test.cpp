@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A data file in place of a scene, as a new user runs it.
+// Pictures of data files without a scene: lamina chooses transfer function and camera.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using nlohmann::json;
 
 class FirstPicture : public testing::Test {
   protected:
-    // Runs and expects success. Returns what went to stderr.
+    // Runs lamina and expects success. Returns its stderr.
     std::string run(const std::vector<std::string>& arguments) {
         const ProgramResult result = lamina_run(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -52,11 +52,14 @@ class FirstPicture : public testing::Test {
     TemporaryFolder folder;
 };
 
-// What a picture shows, as shares.
+// Measures of how much a picture shows.
 struct Look {
-    double covered = 0;     // of all pixels: opacity of 8 / 255 or more
-    double saturated = 0;   // of those
-    std::size_t kinds = 0;  // hues, or greys where there is no hue, that a hundredth of them has
+    double covered = 0;  // share of all pixels with an opacity of 8 / 255 or more
+    // Share of the covered pixels that are full white in some channel: .9956 or more, which is
+    // full_light in render/warnings.cpp.
+    double saturated = 0;
+    // Number of distinct hues (or grey levels) that each cover at least 1 % of the shown pixels.
+    std::size_t kinds = 0;
 
     explicit Look(const Image& picture) {
         std::map<int, double> found;
@@ -73,7 +76,8 @@ struct Look {
         saturated /= std::max(covered, 1.);
         covered /= static_cast<double>(picture.rgba.size()) / 4;
     }
-    static int hue(const float* p, float most, float chroma) {  // in twelfths
+    // Returns the twelfth of the colour circle.
+    static int hue(const float* p, float most, float chroma) {
         const float sixth = most == p[0]   ? (p[1] - p[2]) / chroma + 6
                             : most == p[1] ? (p[2] - p[0]) / chroma + 2
                                            : (p[0] - p[1]) / chroma + 4;
@@ -96,7 +100,7 @@ TEST_F(FirstPicture, OfEveryGeneratedVolume) {
             EXPECT_NE(said.find("lamina: transfer function: "), std::string::npos) << said;
             EXPECT_NE(said.find("lamina: camera: "), std::string::npos) << said;
             EXPECT_EQ(said.find("warning"), std::string::npos) << said;
-            // What has one value, or one beside its background, has one colour.
+            // Data with one value, or one value beside the background, get one colour.
             const bool plain = name == "constant" || name == "sheets";
             expect_good(read_exr(folder / "p.exr"), name + " " + type, plain ? 1 : 3);
         }
@@ -138,7 +142,7 @@ TEST_F(FirstPicture, TheSceneThatIsWrittenDrawsTheSamePicture) {
     }
 }
 
-// So that a folder with both can be moved.
+// A path relative to the scene lets both be moved.
 TEST_F(FirstPicture, TheSceneNamesDataBelowItFromThere) {
     const std::string volume = generated("gaussians");
     const std::string name = std::filesystem::path(volume).filename();
@@ -192,7 +196,7 @@ TEST_F(FirstPicture, ShortcutsWorkForScenesToo) {
         render(scene, "other.exr", change);
         EXPECT_FALSE(same("plain.exr", "other.exr")) << change[0];
     }
-    // By definition the same as what they stand for.
+    // Each shortcut equals the settings that it stands for.
     render(scene, "a.exr", {"--range", "100,200"});
     render(scene, "b.exr",
            {"--set", "transfer_function.points.0.value=100", "--set",
@@ -267,7 +271,7 @@ TEST_F(FirstPicture, OddDataGiveAPictureOrOneLine) {
 }
 
 TEST_F(FirstPicture, ATurntableIsFittedAllAround) {
-    // A rod that is seen from its end first.
+    // A rod, seen from its end in the first view.
     std::string values;
     for (int z = 0; z < 12; ++z) {
         for (int y = 0; y < 12; ++y) {
@@ -312,7 +316,7 @@ TEST_F(FirstPicture, APictureThatShowsNothingSaysWhy) {
             const std::string said = warnings(changed, method);
             EXPECT_NE(said.find("lamina: warning: "), std::string::npos) << said;
             EXPECT_NE(said.find(message), std::string::npos) << said;
-            EXPECT_EQ(said.find("warning"), said.rfind("warning")) << said;  // one
+            EXPECT_EQ(said.find("warning"), said.rfind("warning")) << said;  // one warning only
         }
     };
     EXPECT_EQ(warnings(scene, "slice").find("warning"), std::string::npos);
@@ -357,6 +361,7 @@ TEST_F(FirstPicture, ColorsBesideTheDataAreSaid) {
         << said;
 }
 
+// An open scene leaves its transfer function or its camera to lamina.
 TEST_F(FirstPicture, OtherVerbsTakeDataFilesAndOpenScenes) {
     const std::string volume = generated("gaussians");
     run({"mesh", volume, "--kuhn", "-o", folder / "m.vtu", "--quiet"});
@@ -368,7 +373,7 @@ TEST_F(FirstPicture, OtherVerbsTakeDataFilesAndOpenScenes) {
     run({"crosscheck", volume, "-o", folder / "cross", "--set", "image.width=32", "--set",
          "image.height=24", "--set", "mesh={\"kuhn\": true}", "--samples", "16", "--quiet"});
     EXPECT_TRUE(std::filesystem::exists(folder / "cross" / "report.html"));
-    std::string samples(512, '\0');  // without a header
+    std::string samples(512, '\0');  // a file without a header
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<char>(i / 64 * 30);
     write_bytes_to(folder / "v.raw", samples);
     run({"crosscheck", folder / "v.raw", "--raw", "8,8,8,uint8", "-o", folder / "of_raw", "--set",

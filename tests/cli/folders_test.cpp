@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nothing that a command reads is replaced by what it writes, nor what somebody else put into its
-// folder.
+// Commands replace neither files that they read nor files that others put into their output folder.
 #include <nlohmann/json.hpp>
 
 #include "cli/faults_test_case.h"
@@ -10,7 +9,7 @@ namespace {
 
 class Folders : public FaultsTestCase {
   protected:
-    // With and without --force: refused, and nothing there is touched.
+    // Expects a refusal, with and without --force, and unchanged files.
     void expect_different(std::vector<std::string> arguments, const std::string& name) {
         const auto before = contents(folder.path());
         expect_one_line(lamina_run(arguments), 2, {name, "is read: expected different files"});
@@ -18,7 +17,7 @@ class Folders : public FaultsTestCase {
         expect_one_line(lamina_run(arguments), 2, {name, "is read: expected different files"});
         EXPECT_EQ(contents(folder.path()), before) << name;
     }
-    // A file of somebody else in the folder: refused, but for --force.
+    // Expects that a file which lamina did not write is replaced only with --force.
     void expect_own(const std::vector<std::string>& arguments, const std::string& name) {
         std::filesystem::remove_all(out);
         std::filesystem::create_directory(out);
@@ -31,7 +30,7 @@ class Folders : public FaultsTestCase {
         EXPECT_NE(read_bytes_of(out / name), "mine") << name;
         write_bytes_to(out / "notes.txt", "of the user");
         make(arguments.front() == "study" ? with(arguments, "--resume")
-                                          : arguments);  // its own now
+                                          : arguments);  // now it is lamina's own
         EXPECT_EQ(read_bytes_of(out / "notes.txt"), "of the user");
     }
     static std::vector<std::string> with(std::vector<std::string> arguments,
@@ -39,7 +38,7 @@ class Folders : public FaultsTestCase {
         arguments.push_back(option);
         return arguments;
     }
-    // A study whose scenes lie in the folder above it.
+    // Writes a study whose scenes lie in the folder above it, and returns its path.
     std::string study_at(const std::filesystem::path& path) const {
         auto study = nlohmann::json::parse(read_bytes_of(folder / "study.json"));
         study["scenes"] = {folder / "scene.json"};
@@ -83,7 +82,7 @@ TEST_F(Folders, AStudysDataAreNotReplaced) {
     const std::string volume = folder / "scene.json";
     name_in_scene("volume", "apart.nhdr");
     expect_different({"study", folder / "study.json", "-o", out}, "results.csv");
-    // Pictures, too, whatever name leads to them.
+    // Pictures, too, under any name that leads to the file.
     std::filesystem::create_directory(out / "pictures");
     std::filesystem::create_symlink(folder / "scene.json", out / "pictures" / "0123.exr");
     std::filesystem::remove(out / "results.csv");
@@ -97,7 +96,7 @@ TEST_F(Folders, OtherNamesOfAFileAreThatFile) {
     std::filesystem::remove(out / "budget.json");
     std::filesystem::create_symlink(folder / "volume.nrrd", out / "projected.exr");
     expect_different({"crosscheck", folder / "scene.json", "-o", out}, "projected.exr");
-    // The same for what writes single files.
+    // Commands that write single files refuse this, too.
     std::filesystem::create_hard_link(folder / "volume.nrrd", out / "a.exr");
     expect_one_line(lamina_run(rendering(out / "a.exr")), 2, {"a.exr", "is read"});
     expect_one_line(lamina_run(rendering(out / "b.exr", {"--stats", out / "b.exr"})), 2,
@@ -142,7 +141,7 @@ TEST_F(Folders, WhatAStudyDidNotWriteIsNotReplaced) {
     expect_one_line(lamina_run(study), 1, {"pictures", "not written by lamina study"});
     make(with(study, "--force"));
     EXPECT_EQ(read_bytes_of(out / "pictures" / "mine.exr"), "mine");
-    // Results of another folder are not those of this one.
+    // Results that were copied from another folder do not count as written here.
     std::filesystem::create_directory(folder / "merged");
     std::filesystem::copy_file(out / "report.html", folder / "merged" / "report.html");
     const std::vector<std::string> merge{"study", "--merge", out, "-o", folder / "merged"};
@@ -154,7 +153,7 @@ TEST_F(Folders, WhatAStudyDidNotWriteIsNotReplaced) {
 TEST_F(Folders, WhatAReproductionDidNotWriteIsNotReplaced) {
     for (const char* name : {"table3.csv", "lamar.json", "lamar.html"})
         expect_own({"reproduce", "lamar", "table3", "-o", out}, name);
-    write_bytes_to(out / "figure2.svg", "mine");  // of an item that is not asked for
+    write_bytes_to(out / "figure2.svg", "mine");  // belongs to an item that is not made here
     make({"reproduce", "lamar", "table3", "-o", out});
     expect_one_line(lamina_run({"reproduce", "lamar", "figure2", "-o", out}), 1, {"figure2.svg"});
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program is built with, read from its file: see LAMINA_HARDENED in
-// cmake/LaminaTargets.cmake.
+// Checks in the program's file that it was built with LAMINA_HARDENED (cmake/LaminaTargets.cmake).
 #include <gtest/gtest.h>
 #include <link.h>
 
@@ -13,8 +12,8 @@
 namespace lamina {
 namespace {
 
-// "ELF-64 Object File Format", version 1.5: a header, which says where segments are listed; one of
-// these is a list of what the loader has to know.
+// Reads an executable in ELF format ("ELF-64 Object File Format", version 1.5): its header says
+// where the segments are listed, and one segment is a list of entries for the loader.
 class Executable {
   public:
     explicit Executable(const std::string& path)
@@ -29,7 +28,8 @@ class Executable {
             if (segment.p_type == type) return true;
         return false;
     }
-    // Of a function that the loader must find, or of another word of its: `suffix` ends it.
+    // Tells whether a name in the file, such as that of a function to be linked, ends with
+    // `suffix`.
     bool names(const std::string& suffix) const {
         return bytes_.find(suffix + '\0') != std::string::npos;
     }
@@ -47,7 +47,7 @@ class Executable {
             found.push_back(at<ElfW(Phdr)>(header_.e_phoff + i * sizeof(ElfW(Phdr))));
         return found;
     }
-    // 0 where the list has no such entry.
+    // Returns the value of a loader entry, or 0 if there is none.
     std::uint64_t dynamic(std::int64_t tag) const {
         for (const auto& segment : segments()) {
             if (segment.p_type != PT_DYNAMIC) continue;

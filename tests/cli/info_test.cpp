@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina info: what it says of values and places. (What is wrong with meshes: mesh_files_test.cpp.)
+// lamina info: values and positions. (Faulty meshes: mesh_files_test.cpp.)
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using nlohmann::json;
 
 class Info : public testing::Test {
   protected:
-    // 3 x 2 x 2 samples of 0, 10, ..., 110, in steps of 2, 0.5 and 4.
+    // Writes 3 x 2 x 2 samples, 0, 10, ..., 110, with spacings 2, 0.5 and 4.
     void SetUp() override {
         write_bytes_to(folder / "a.nrrd",
                        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nencoding: ascii\n"
@@ -42,7 +42,7 @@ TEST_F(Info, SaysWhereSamplesLieAndHowValuesAreSpread) {
     const json found = info("a.nrrd");
     EXPECT_EQ(found["spacing"], json({2, 0.5, 4}));
     EXPECT_EQ(found["origin"], json({10, 20, 30}));
-    // Of twelve values the first is at least 8 %, the third 25 %, the sixth 50 %, and so on.
+    // One of the twelve values is 8 %, three are 25 %, six are 50 %, and so on.
     EXPECT_EQ(found["percentiles"],
               json::parse(R"({"0.1": 0, "1": 0, "5": 0, "25": 20, "50": 50, "75": 80, "95": 110,
                               "99": 110, "99.9": 110})"));
@@ -61,11 +61,11 @@ TEST_F(Info, TextHasPercentilesAndAHistogram) {
     EXPECT_NE(shown.find("0.1 %: 0, 1 %: 0, 5 %: 0, 25 %: 20, 50 %: 50, 75 %: 80"),
               std::string::npos)
         << shown;
-    // 16 lines, of all values together.
+    // The text has 9 percentiles and 16 rows of the histogram.
     EXPECT_EQ(std::count(shown.begin(), shown.end(), '%'), 9 + 16) << shown;
 }
 
-// Far from zero six digits would all be the same.
+// The values differ only beyond their sixth digit.
 TEST_F(Info, TextHasTheDigitsThatTellValuesApart) {
     std::string values;
     for (int i = 0; i < 64; ++i) values += fmt::format(" {}", 1000000 + .0625 * i);
@@ -73,7 +73,8 @@ TEST_F(Info, TextHasTheDigitsThatTellValuesApart) {
         folder / "far.nrrd",
         "NRRD0004\ntype: float\ndimension: 3\nsizes: 4 4 4\nencoding: ascii\n\n" + values + "\n");
     const std::string shown = text("far.nrrd");
-    // Sample 32 of 64, from 1: 1000000 + 31 / 16. Within a thousandth of the range of 3.94.
+    // The 32nd of 64 samples is 1000000 + 31 / 16. Text is exact to a thousandth of the range,
+    // 3.94.
     EXPECT_NE(shown.find("50 %: 1000001.94,"), std::string::npos) << shown;
     std::set<std::string> begins;
     std::size_t rows = 0;
@@ -84,7 +85,7 @@ TEST_F(Info, TextHasTheDigitsThatTellValuesApart) {
     EXPECT_EQ(begins.size(), rows) << shown;
 }
 
-// 17 whole numbers make nine rows, of two numbers each but for the last.
+// 17 whole numbers make nine rows; each has two numbers, the last one has one.
 TEST_F(Info, RowsOfTheHistogramAreAsWide) {
     std::string values;
     for (int i = 0; i < 17; ++i) values += fmt::format(" {}", i);
@@ -111,7 +112,7 @@ TEST_F(Info, OfAMeshItIsTheFirstScalarPointByPoint) {
     EXPECT_EQ(counts.back(), 1);
     EXPECT_EQ(found["histogram"]["edges"].front(), 1);
     EXPECT_EQ(found["histogram"]["edges"].back(), 10);
-    // A mesh without scalars has neither.
+    // A mesh without scalars has neither percentiles nor a histogram.
     write_bytes_to(folder / "n.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
     write_bytes_to(folder / "n.ele", "1 4 0\n0 0 1 2 3\n");
     EXPECT_TRUE(info("n.node")["percentiles"].is_null());
@@ -140,20 +141,20 @@ TEST_F(Info, NaNIsNotCounted) {
     EXPECT_EQ(lamina_run({"info", folder / "g.nrrd", "--png", folder / "g.png"}).exit_code, 0);
 }
 
-// Slices and histogram; along z, the longest axis with 8 of length, 256 pixels.
+// The picture has slices and a histogram. z, the longest axis with a length of 8, has 256 pixels.
 TEST_F(Info, PictureHasTheAspectOfTheWorld) {
     ASSERT_EQ(lamina_run({"info", folder / "a.nrrd", "--png", folder / "a.png"}).exit_code, 0);
     const CodedImage picture = read_png(folder / "a.png");
     EXPECT_GE(picture.width, 480);
     EXPECT_GT(picture.height, 256 + 160);
-    // In the slice of x and z a sample of z is 128 pixels high, and one of x 64 wide. It stands
-    // right of the slice of x and y, which is 192 wide.
+    // In the xz slice a sample is 64 pixels wide and 128 high. The slice is to the right of the xy
+    // slice, which is 192 wide.
     const int left = 8 + 192 + 8, bottom = 8 + 20 + 256 - 1;
     const auto grey = [&](int column, int row) {
         return picture.codes[static_cast<std::size_t>(3 * (row * picture.width + column))];
     };
     const auto code = [](int value) { return (255 * value + 55) / 110; };  // rounded
-    EXPECT_EQ(grey(left + 63, bottom), code(30));  // x 0, y 1 (the middle), z 0
+    EXPECT_EQ(grey(left + 63, bottom), code(30));  // x = 0, y = 1 (the middle), z = 0
     EXPECT_EQ(grey(left + 64, bottom), code(40));
     EXPECT_EQ(grey(left + 63, bottom - 127), code(30));
     EXPECT_EQ(grey(left + 63, bottom - 128), code(90));

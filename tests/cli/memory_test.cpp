@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --memory and lamina index: volumes that stay in their files.
+// --memory and lamina index: volumes that are larger than the memory limit.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using nlohmann::json;
 
 class Memory : public testing::Test {
   protected:
-    // Some balls in 200 x 150 x 100 bytes.
+    // Writes a volume of 200 x 150 x 100 bytes with some balls in it.
     void SetUp() override {
         std::string bytes = header;
         for (int z = 0; z < 100; ++z)
@@ -33,7 +33,7 @@ class Memory : public testing::Test {
         return lamina_run(std::move(arguments),
                           [&] { setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1); });
     }
-    // The picture's bytes.
+    // Returns the bytes of the picture.
     std::string render(const std::string& memory, std::vector<std::string> more = {}) const {
         std::vector<std::string> arguments{"render",   volume, "-o",     folder / "picture.exr",
                                            "--memory", memory, "--size", "80x60"};

@@ -25,7 +25,7 @@ std::string read(const std::string& file) {
 
 class MeshFiles : public testing::Test {
   protected:
-    // The unit cube with the scalar x + 2y + 4z: six tets along the diagonal.
+    // Writes the unit cube with the scalar x + 2y + 4z, as six tets around a diagonal.
     MeshFiles() {
         std::string nodes = "8 3 1 0\n";
         for (int i = 0; i < 8; ++i)
@@ -45,7 +45,7 @@ class MeshFiles : public testing::Test {
     void write(const std::string& name, const std::string& text) const {
         std::ofstream(path(name)) << text;
     }
-    // Looks along -z at a part of the cube's inside; extinction 2 everywhere.
+    // Writes a scene that looks along -z at a part of the cube; extinction is 2 everywhere.
     void write_scene(const std::string& name, const json& mesh, const json& volume = {}) const {
         json scene = {{"version", 1},
                       {"mesh", mesh},
@@ -86,8 +86,8 @@ TEST_F(MeshFiles, InfoDescribesAMesh) {
     EXPECT_TRUE(std::filesystem::exists(path("cube.png")));
 }
 
-// A .npy file is 128 bytes of header, then rows of doubles. Along z the cube is 1 long: alpha = 1 -
-// exp(-2), to the rounding of a few sums.
+// A .npy file has a header of 128 bytes and then doubles. The cube is 1 long along z, so alpha is
+// 1 - exp(-2), up to the rounding of a few sums.
 TEST_F(MeshFiles, AreTracedInDoublePrecision) {
     write_scene("s.json", "cube.node");
     const ProgramResult result =
@@ -150,7 +150,7 @@ TEST_F(MeshFiles, BadOnesAreOneLineAndLeaveNothing) {
     EXPECT_EQ(lamina_run({"info", path("s.json")}).exit_code, 1);
 }
 
-// What is not drawn as the file has it is said: the mid-edge points of a quadratic tet.
+// Mid-edge points of a quadratic tet are not drawn; the program warns and counts them.
 TEST_F(MeshFiles, WhatIsLeftOutIsCounted) {
     std::string nodes = "10 3 1 0\n1 0 0 0 0\n2 1 0 0 0\n3 0 1 0 0\n4 0 0 1 0\n";
     for (int i = 5; i <= 10; ++i) nodes += fmt("%d %g .5 .5 0\n", i, i / 20.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `lamina mesh`.
+// lamina mesh.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ bool with_tetgen() {
     return !std::string(LAMINA_TETRAHEDRALIZE_BINARY).empty();
 }
 
-// A folder with a volume of 12^3 samples and a scene that shows nothing of it.
+// Makes a volume of 12^3 samples, and a scene that shows nothing of it.
 class MeshVerb : public testing::Test {
   protected:
     void SetUp() override {
@@ -58,7 +58,7 @@ TEST_F(MeshVerb, KuhnNeedsNoTetGen) {
     EXPECT_EQ(mesh["conforming"], true);
     EXPECT_EQ(mesh["inverted"], 0);
     EXPECT_EQ(mesh["scalars"][0]["name"], "scalar");
-    // 6 * 11^3 is more than 5000: an error, and nothing is left behind.
+    // 6 * 11^3 tets are more than 5000: an error, and no file remains.
     std::filesystem::remove(vtu);
     const ProgramResult many =
         lamina_run({"mesh", volume, "-o", vtu, "--kuhn", "--max-tets", "5000"});

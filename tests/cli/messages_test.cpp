@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says: to people, on a terminal, about files whose names and contents may be
-// anything.
+// Messages of the program about files with any names and contents: safe to print on a terminal.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,13 +14,14 @@ namespace {
 
 using nlohmann::json;
 
-// Red letters, two lines, and a byte that is not UTF-8; as it stands in messages.
+// A name with an escape sequence for red, a line end, and a byte that is not UTF-8; and the text
+// that messages show for it.
 const std::string hostile = "a\x1b[31m\nb\xff";
 const std::string escaped = "a\\x1b[31m\\nb\\xff";
 
 class Messages : public testing::Test {
   protected:
-    // One line of printable ASCII, with these parts.
+    // Expects one line of printable ASCII with these parts.
     void expect_line(const std::string& err, std::initializer_list<std::string> parts) {
         EXPECT_EQ(std::ranges::count(err, '\n'), 1) << err;
         EXPECT_TRUE(std::ranges::all_of(err, [](char c) {
@@ -31,7 +31,7 @@ class Messages : public testing::Test {
             EXPECT_NE(err.find(part), std::string::npos) << part << " is not in " << err;
     }
 
-    // A scene of a volume of 4^3 samples of uint8 0 with `surplus` behind them.
+    // Writes a scene of a volume of 4^3 samples of type uint8, all 1, followed by `surplus`.
     std::string scene_with(const std::string& surplus) {
         write_bytes_to(folder / "v.nrrd",
                        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nspacings: 1 1 1\n"
@@ -91,7 +91,7 @@ TEST_F(Messages, StudiesAndCrosschecksOfAnyName) {
     EXPECT_TRUE(json::accept(read_bytes_of(home / "check" / "budget.json")));
 }
 
-// A mesh's arrays have names, too.
+// Names of a mesh's arrays are escaped, too.
 TEST_F(Messages, NamesInFilesAreEscaped) {
     write_bytes_to(
         folder / "a.vtk",
@@ -131,7 +131,7 @@ TEST_F(Messages, DataThatAreNotUsedAreSaidOnce) {
     EXPECT_EQ(lamina_run(render).err.find("warning"), std::string::npos);
 }
 
-// As without a tree: a warning, not an error, and of numbers that somebody wrote.
+// The program warns, as without a tree, and does not refuse the scene.
 TEST_F(Messages, AnAutomaticTreeIsNoReasonToRefuseFloat32) {
     json scene = gaussians_scene(12, 40, 30, 4);
     scene["render"] = {{"max_error", 1e-5}, {"slice", {{"tree", "auto"}}}};
@@ -147,7 +147,7 @@ TEST_F(Messages, AnAutomaticTreeIsNoReasonToRefuseFloat32) {
     }
 }
 
-// Where a mesh is made there is no file of it.
+// A mesh that is made from the volume has no file, so messages name the scene.
 TEST_F(Messages, AMeshThatIsMadeHasTheScenesName) {
     json scene = gaussians_scene(4, 8, 6, 4);
     scene["volume"] = "v.nrrd";
@@ -166,7 +166,7 @@ TEST_F(Messages, AMeshThatIsMadeHasTheScenesName) {
               "1 of 8 samples are NaN or infinite");
 }
 
-// Colours up to 900: exact segments claim .05 / 255 of colours up to 1.
+// Exact segments keep .05 / 255 for colours up to 1; here colours go up to 900.
 TEST_F(Messages, BrightColorsWhoseErrorIsTooLargeAreSaid) {
     json scene = gaussians_scene(12, 40, 30, 4);
     write_bytes_to(folder / "scene.json", scene.dump());
@@ -183,7 +183,7 @@ TEST_F(Messages, BrightColorsWhoseErrorIsTooLargeAreSaid) {
         << result.err;
 }
 
-// The file system takes no name of more than 255 bytes and no path of more than 4096.
+// File systems allow no name of more than 255 bytes and no path of more than 4096.
 TEST_F(Messages, PathsThatAreTooLongGetOneShortLine) {
     const std::string scene = scene_with("");
     std::string deep = folder.path();
@@ -236,7 +236,7 @@ TEST_F(Messages, ASceneThatIsNoObjectIsNamedBeforeItsKeysAreSet) {
     }
 }
 
-// The scene would name another file, which is not there.
+// JSON would change the name, so the scene would name another file.
 TEST_F(Messages, AScenesDataHaveNamesThatJsonCanHold) {
     scene_with("");
     const std::filesystem::path odd = folder / "b\xff.nrrd";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// --only-below: no file outside a folder is opened, whichever file names it and however. Files of
-// HDF5 are in tests/volume_files/array_oracle_test.cpp.
+// --only-below: no file outside the folder is opened, whichever file names it. HDF5 files are
+// tested in tests/volume_files/array_oracle_test.cpp.
 #include <fmt/format.h>
 
 #include <array>
@@ -40,7 +40,7 @@ class OnlyBelow : public FaultsTestCase {
         arguments.insert(arguments.end(), {"--only-below", up});
         return arguments;
     }
-    // Read without the option, so that it is the option that refuses; nothing is written.
+    // Expects that the option refuses a file that is read without it, and that nothing is written.
     void expect_refused(const fs::path& file) const {
         EXPECT_EQ(lamina_run({"info", file}).exit_code, 0) << file;
         expect_refused_by({"info", file});
@@ -75,7 +75,7 @@ TEST_F(OnlyBelow, DataFilesOfHeaders) {
     each("link.raw", false);
 }
 
-// A neighbour whose name begins as the folder's does is not below it.
+// A folder whose name begins with the folder's name is not below it.
 TEST_F(OnlyBelow, FilesThatAreNamedThemselves) {
     fs::create_directory(folder / "uploads2");
     fs::copy_file(folder / "volume.nrrd", folder / "uploads2/v.nrrd");
@@ -89,7 +89,7 @@ TEST_F(OnlyBelow, FilesThatAreNamedThemselves) {
 }
 
 TEST_F(OnlyBelow, HeadersOfPairs) {
-    std::string header(352, '\0');  // of NIfTI-1: sizeof_hdr, dim, datatype, bitpix, pixdim, magic
+    std::string header(352, '\0');  // NIfTI-1: sizeof_hdr, dim, datatype, bitpix, pixdim, magic
     const auto put = [&](std::size_t at, const auto& value) {
         std::memcpy(&header[at], &value, sizeof value);
     };
@@ -108,7 +108,7 @@ TEST_F(OnlyBelow, HeadersOfPairs) {
     expect_refused(up / "q.img");
 }
 
-// No file of a folder outside is looked at, nor is it said whether there is one.
+// No folder outside is searched, and messages do not tell whether a file outside exists.
 TEST_F(OnlyBelow, FoldersAndAbsentFiles) {
     fs::create_directories(folder / "inner/array");
     write_bytes_to(folder / "inner/array/.zarray", "{}");
@@ -121,14 +121,14 @@ TEST_F(OnlyBelow, FoldersAndAbsentFiles) {
     EXPECT_NE(absent.err.find("no such file"), std::string::npos) << absent.err;
 }
 
-// Pictures are lamina's own files, and may lie elsewhere.
+// Pictures are outputs of lamina, and may be outside.
 TEST_F(OnlyBelow, SeriesAreWrittenAnywhere) {
     fs::copy_file(folder / "volume.nrrd", up / "volume.nrrd");
     fs::copy_file(folder / "scene.json", up / "scene.json");
     const auto arguments = below({"render", up / "scene.json", "-o", out / "t_%04d.exr",
                                   "--turntable", "3", "--context", "cpu", "--quiet"});
     make(arguments);
-    make(arguments);  // it knows the pictures that it wrote
+    make(arguments);  // reads the pictures that it wrote, to keep them
     EXPECT_TRUE(fs::exists(out / "t_0002.exr"));
 }
 

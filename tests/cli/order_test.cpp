@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-// Two tets with a gap between them: one behind the other in some views.
+// Writes two tets with a gap between them; in some views one is behind the other.
 std::string two_tets(const TemporaryFolder& folder) {
     std::ofstream(folder.path() / "two.node") << "8 3 1 0\n0 0 0 0 1\n1 1 0 0 1\n2 0 1 0 1\n"
                                                  "3 0 0 1 1\n4 0 0 2 1\n5 1 0 2 1\n6 0 1 2 1\n"

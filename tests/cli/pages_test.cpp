@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manual pages and completions: the tools that read them judge them.
+// Manual pages and completions, checked by the programs that read them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::string shell(const std::string& command) {
 
 const std::string program = std::string("'") + LAMINA_BINARY + "'";
 
-// From --help: lines of two spaces and a word.
+// Returns the verbs that --help lists: lines of two spaces and a word.
 std::vector<std::string> verbs() {
     std::istringstream lines(lamina_run({"--help"}).out);
     std::vector<std::string> names;
@@ -38,7 +38,7 @@ std::vector<std::string> verbs() {
     return names;
 }
 
-// "-o,--output FILE" is a line of --help; the page has each of the names.
+// Expects every option of --help ("-o,--output FILE") on the page.
 void expect_options_of_help(const std::string& help, const std::string& page) {
     std::istringstream words(help);
     int found = 0;
@@ -88,7 +88,7 @@ TEST(Pages, BashCompletes) {
 
 TEST(Pages, ZshReadsItsScript) {
     shell("zsh -n <(" + program + " completion zsh)");
-    // What it offers for the verb, one a line, without compsys.
+    // Prints the words that the script offers for a verb, one in each line, without zsh's compsys.
     EXPECT_EQ(shell("zsh -fc '_describe() { print -rl -- ${(P)2}; }; CURRENT=2; words=(lamina re); "
                     "source <(" +
                     program + " completion zsh)' | wc -l"),

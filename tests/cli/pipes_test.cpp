@@ -24,7 +24,7 @@ class Pipes : public testing::Test {
         write_bytes_to(folder / "scene.json", gaussians_scene(24, 40, 30, 60).dump());
     }
 
-    // Runs in the folder with `input`, a file of it, as stdin.
+    // Runs lamina in the folder, with its file `input` as stdin.
     ProgramResult run(const std::vector<std::string>& arguments,
                       const std::string& input = "scene.json") {
         return lamina_run(arguments, [this, input] {
@@ -60,7 +60,7 @@ TEST_F(Pipes, StdoutGetsTheBytesOfTheFile) {
     }
 }
 
-// A pipe cannot seek, which OpenEXR needs.
+// OpenEXR seeks in its output, which a pipe cannot.
 TEST_F(Pipes, PipesOfAShellWork) {
     ASSERT_EQ(run({"render", "scene.json", "-o", "file.exr"}).exit_code, 0);
     const std::string command = std::string("cd ") + folder.path().string() +
@@ -87,13 +87,13 @@ TEST_F(Pipes, ExplanationsGoToStderr) {
     EXPECT_EQ(piped.out.substr(1, 5), "NUMPY");
 }
 
-// "-" is stdout wherever a text is written, and a file of this name nowhere.
+// "-" means stdout for every text output; no file of this name is written.
 TEST_F(Pipes, TextsGoToStdout) {
     ASSERT_EQ(run({"generate", "gaussians", "-o", "g.nrrd", "--size", "8,8,8"}).exit_code, 0);
     ASSERT_EQ(run({"scene", "g.nrrd", "-o", "g.json"}).exit_code, 0);
     const ProgramResult scene = run({"scene", "g.nrrd", "-o", "-"});
     EXPECT_EQ(scene.exit_code, 0) << scene.err;
-    // A file names data below it from there; stdout has no place.
+    // In a scene file, paths below the file are relative; on stdout they are absolute.
     std::string absolute = read_bytes_of(folder / "g.json");
     const std::string name = "\"g.nrrd\"";
     ASSERT_NE(absolute.find(name), std::string::npos);
@@ -115,7 +115,7 @@ TEST_F(Pipes, TextsGoToStdout) {
     EXPECT_EQ(integral.exit_code, 0) << integral.err;
     EXPECT_EQ(integral.out, run({"integrate", "cases.json"}).out);
     EXPECT_FALSE(std::filesystem::exists(folder / "-"));
-    // Two files in one pipe.
+    // Two outputs to one stdout are refused.
     for (const std::vector<std::string>& both :
          {std::vector<std::string>{"-o", "-", "--format", "png", "--stats", "-"},
           {"-o", "a.png", "--profile", "-", "--stats", "-"}}) {
@@ -129,7 +129,7 @@ TEST_F(Pipes, TextsGoToStdout) {
     }
 }
 
-// NPY holds the numbers of the EXR file, in float32; of the tracer in double precision.
+// NPY has the numbers of the EXR file in float32; for the tracer, in double precision.
 TEST_F(Pipes, NumpyFilesOfEveryMethod) {
     ASSERT_EQ(run({"render", "scene.json", "-o", "a.exr"}).exit_code, 0);
     ASSERT_EQ(run({"render", "scene.json", "-o", "a.npy"}).exit_code, 0);
@@ -156,7 +156,7 @@ TEST_F(Pipes, PathsAreRelativeToTheCurrentFolder) {
     scene["volume"] = "g.nrrd";
     write_bytes_to(folder / "relative.json", scene.dump());
     EXPECT_EQ(run({"render", "-", "-o", "a.png"}, "relative.json").exit_code, 0);
-    // What the scene reads is not replaced.
+    // A file that the scene reads is not replaced.
     const ProgramResult over =
         run({"render", "-", "-o", "a.png", "--stats", "g.nrrd"}, "relative.json");
     EXPECT_EQ(over.exit_code, 2);

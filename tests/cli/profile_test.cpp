@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina render --profile, as a user runs it.
+// lamina render --profile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,11 +23,12 @@ struct Event {
     json counts;
 };
 
-// Times are whole nanoseconds, written as microseconds in double precision: sums of two differ by
-// less than this.
+// Rounding, in microseconds: times are whole nanoseconds, written as microseconds in double
+// precision.
 constexpr double rounding = 1e-2;
-// OpenGL's clock is read between two looks at the host's, and its times are moved by the middle.
-// The shortest of five looks takes some microseconds; a frame takes more than twice this.
+// Error of OpenGL's clock against the host's, in microseconds. It is read between two reads of the
+// host's clock, the closest of five pairs, which are some microseconds apart. A frame takes more
+// than twice this.
 constexpr double clock_slack = 200;
 
 bool is_opengl(const std::string& row_name) {
@@ -48,7 +49,7 @@ class ProfileOption : public testing::Test {
         return lamina_run(arguments);
     }
 
-    // Runs it with two frames, checks what holds for every profile and keeps its events.
+    // Renders with two more frames, checks what holds for every profile, and keeps the events.
     void profile(const std::string& method, const std::string& context) {
         const ProgramResult result =
             render({"--method", method, "--context", context, "--frames", "2", "--profile",
@@ -82,7 +83,7 @@ class ProfileOption : public testing::Test {
         for (const Event& event : events) EXPECT_TRUE(rows.contains(event.row)) << event.name;
     }
 
-    // On a row two events are one in the other or one after the other.
+    // Expects that two events of a row are nested or disjoint.
     void check_rows() const {
         for (const Event& a : events) {
             for (const Event& b : events) {
@@ -105,7 +106,7 @@ class ProfileOption : public testing::Test {
         return found;
     }
 
-    // Directly inside `outer`, on its row.
+    // Returns the events directly inside `outer`, on its row.
     std::vector<Event> inside(const Event& outer) const {
         std::vector<Event> found;
         for (const Event& event : events) {
@@ -121,7 +122,8 @@ class ProfileOption : public testing::Test {
         return found;
     }
 
-    // The scene's own and two more, as long as the statistics say, and their stages within them.
+    // Expects three frames, the scene's own and two more, with the durations of the statistics and
+    // with their stages inside.
     void check_frames() const {
         const std::vector<Event> frames = named("frame");
         ASSERT_EQ(frames.size(), 3u);
@@ -146,7 +148,7 @@ class ProfileOption : public testing::Test {
         for (const std::string& name : names) EXPECT_FALSE(named(name).empty()) << name;
     }
 
-    // Each frame's draws by OpenGL's own clock, during the frame.
+    // Expects draws by OpenGL's own clock during each frame.
     void check_opengl() const {
         for (const Event& frame : named("frame")) {
             EXPECT_GT(frame.end - frame.begin, 2 * clock_slack);

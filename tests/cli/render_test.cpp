@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina render, as a user runs it.
+// lamina render.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ class Render : public testing::Test {
         return run_program(arguments);
     }
 
-    // One line on stderr that names all of `parts`, exit code `code`, and no new file.
+    // Expects one line on stderr with all of `parts`, the exit code `code`, and no new file.
     void expect_failure(const json& bad, const std::vector<std::string>& parts, int code = 1,
                         const std::vector<std::string>& more = {}) {
         write("bad.json", bad);
@@ -61,7 +61,8 @@ class Render : public testing::Test {
         return changed;
     }
 
-    // The stages that the method does one after the other are parts of its time.
+    // Expects that the time to the first picture includes the stages that are done one after the
+    // other.
     static void expect_first_picture_has_its_stages(const json& stats) {
         double sum = 0;
         for (const char* stage : {"load", "context", "measure", "plan", "set_up", "trace", "write"})
@@ -80,7 +81,7 @@ TEST_F(Render, SliceAndTraceAgree) {
     ASSERT_EQ(render({"-o", folder / "trace.npy", "--method", "trace"}).exit_code, 0);
     const Image slice = read_exr(folder / "slice.exr"), trace = read_exr(folder / "trace.exr");
     EXPECT_LT(image_error(slice, trace).all.linf, 1);
-    // Float32 against float64 of the same trace.
+    // The two files have the same picture in float32 and in float64.
     EXPECT_LT(image_error(trace, read_npy(folder / "trace.npy")).all.linf, 255 * 6e-8);
 }
 
@@ -106,7 +107,8 @@ TEST_F(Render, StatsHaveTheKeysOfTheDesign) {
     EXPECT_LE(stats["frame_ms"]["min"], stats["frame_ms"]["median"]);
     EXPECT_LE(stats["frame_ms"]["median"], stats["frame_ms"]["max"]);
     EXPECT_EQ(stats["samples"], 60);
-    EXPECT_GT(stats["fragments"], 100);  // one a pixel: it marches all slabs
+    // One fragment a pixel: its shader marches through all slabs.
+    EXPECT_GT(stats["fragments"], 100);
     EXPECT_GT(stats["bytes_gpu"], 40 * 30 * 16);
     ASSERT_EQ(render({"-o", folder / "t.png", "--stats", folder / "t.json", "--method", "trace"})
                   .exit_code,
@@ -200,7 +202,7 @@ TEST_F(Render, WhatCannotBeDrawnLitIsRefused) {
     expect_failure(with("/lighting", {{"power", 0}}), {"lighting.power: found 0", "1 to 1000"});
 }
 
-// The resolved scene has the smallest gradient, and its picture is the same.
+// The resolved scene has the smallest gradient that was chosen, and draws the same picture.
 TEST_F(Render, TracesLitScenes) {
     write("lit.json", with("/lighting", json::object()));
     write("unlit.json", scene);
@@ -220,7 +222,8 @@ TEST_F(Render, TracesLitScenes) {
     EXPECT_EQ(read_bytes_of(folder / "lit.npy"), read_bytes_of(folder / "resolved.npy"));
 }
 
-// The bound of tools/fuzz_scenes; the tracer's tolerance is 1e-5, and it is far better.
+// The tracer's tolerance is 1e-5; the plain twin's error is far smaller. tools/fuzz_scenes has the
+// same bound.
 TEST_F(Render, TracesPlainly) {
     const auto trace = [&](const std::string& name, const std::vector<std::string>& more) {
         std::vector<std::string> options{"--method", "trace",
@@ -276,7 +279,7 @@ TEST_F(Render, BadVolumesAreOneLineAndLeaveNothing) {
     transparent["nan"] = "transparent";
     write("nan.json", transparent);
     EXPECT_EQ(render({"-o", folder / "nan.exr"}, "nan.json").exit_code, 0);
-    EXPECT_NO_THROW(read_exr(folder / "nan.exr"));  // which refuses NaN
+    EXPECT_NO_THROW(read_exr(folder / "nan.exr"));  // read_exr() refuses NaN
 }
 
 }  // namespace

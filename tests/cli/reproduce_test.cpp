@@ -39,14 +39,14 @@ TEST(Reproduce, WritesOneItem) {
     EXPECT_NE(page.find("<li><a href=\"#table3\">table3</a>: Disagrees:"), std::string::npos);
 }
 
-// Sections 4.2 and 5 against what is measured.
+// Sections 4.2 and 5 of LaMar 2004.
 TEST(Reproduce, JudgesOrderAndDithering) {
     const TemporaryFolder folder;
     ASSERT_EQ(reproduce({"lamar", "order", "-o", folder / "order"}).exit_code, 0);
     const json order = json::parse(read_bytes_of(folder / "order/lamar.json"))["order"];
     EXPECT_EQ(order["agrees"], false);
     for (const json& row : order["values"]["equal_fragments"]) {
-        // White: over() and under() of equal codes are the same whole number.
+        // White fragments of equal codes: both orders of compositing give the same whole number.
         if (row["color"] == 1.0) {
             EXPECT_EQ(row["different_columns"], 0);
         }
@@ -55,7 +55,7 @@ TEST(Reproduce, JudgesOrderAndDithering) {
     const json dithering = json::parse(read_bytes_of(folder / "dithering/lamar.json"))["dithering"];
     EXPECT_EQ(dithering["agrees"], true) << dithering["note"];
     for (const json& row : dithering["values"]["periods"]) {
-        // A pattern that ends within the ray shows 1 / (255 P) a sample and more.
+        // If a period fits into the ray, dithering shows opacities from 1 / (255 P) in a sample.
         if (row["color"] == 1.0 && row["period"] <= row["samples"]) {
             EXPECT_EQ(row["first_column_shown"], row["first_column_predicted"]);
         }
@@ -66,7 +66,8 @@ TEST(Reproduce, BadNamesAreExitTwo) {
     const TemporaryFolder folder;
     const ProgramResult item = reproduce({"lamar", "figure99", "-o", folder / "x"});
     EXPECT_EQ(item.exit_code, 2);
-    EXPECT_NE(item.err.find("figure9,"), std::string::npos) << item.err;  // among the choices
+    // The message lists the items.
+    EXPECT_NE(item.err.find("figure9,"), std::string::npos) << item.err;
     const ProgramResult kraus = reproduce({"kraus", "figure9999", "-o", folder / "x"});
     EXPECT_EQ(kraus.exit_code, 2);
     EXPECT_NE(kraus.err.find("reproduce kraus figure9999: unknown item"), std::string::npos);
@@ -92,7 +93,7 @@ void without_data() {
     unsetenv("LAMINA_DATA");
 }
 
-// An item that needs a data set says so, on the line, in the report and on the page.
+// An item without its data set says so on stdout, in the report and on the page.
 TEST(Reproduce, ItemsWithoutTheirDataSetAreSkipped) {
     const TemporaryFolder folder;
     const ProgramResult result = run_program(
@@ -105,7 +106,8 @@ TEST(Reproduce, ItemsWithoutTheirDataSetAreSkipped) {
     EXPECT_NE(read_bytes_of(folder / "x/lamar.html").find(wanted), std::string::npos);
 }
 
-// Into a file, which is buffered as a pipe is. All items take minutes.
+// Writes stdout to a file, which is buffered like a pipe. The program is stopped early: all items
+// take minutes.
 TEST(Reproduce, ALineIsWrittenAsItsItemEnds) {
     const TemporaryFolder folder;
     StartedProgram program({"sh", "-c", "exec \"$0\" reproduce lamar -o \"$1\" > \"$2\"",

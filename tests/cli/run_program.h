@@ -9,8 +9,8 @@
 
 namespace lamina {
 
-// Runs the program arguments[0] (looked for in PATH) with an empty stdin, waits for its end, and
-// keeps what it wrote. Exit code 127: the program could not be started.
+// Runs the program arguments[0] (searched in PATH) with an empty stdin, waits for its end, and
+// returns its output. Exit code 127: it could not be started.
 inline ProgramResult run_program(const std::vector<std::string>& arguments,
                                  const std::function<void()>& prepare = {}) {
     return StartedProgram(arguments, prepare).wait();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line and the library say the same of data, plan and picture, word for word.
+// The command line and the library give the same warnings, word for word.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -20,7 +20,7 @@ using nlohmann::json;
 
 class SameWarnings : public testing::Test {
   protected:
-    // `part`: of one of the warnings.
+    // Expects equal warnings of both, one of which contains `part`.
     void expect_both_say(const json& scene, const std::string& part) const {
         SCOPED_TRACE(part);
         write_bytes_to(folder / "scene.json", scene.dump());
@@ -130,7 +130,7 @@ TEST_F(SameWarnings, OfTetsThatOverlap) {
 TEST_F(SameWarnings, OfMeshesThatStop) {
     const std::filesystem::path maker = LAMINA_TETRAHEDRALIZE_BINARY;
     if (maker.empty()) GTEST_SKIP() << "built without TetGen";
-    // The library looks for it in PATH.
+    // The library searches for lamina-tetrahedralize in PATH.
     setenv("PATH", (maker.parent_path().string() + ":" + std::getenv("PATH")).c_str(), 1);
     json scene = gaussians_scene(12, 24, 18, 4);
     scene["mesh"] = {{"tolerance", 1e-3}, {"max_tets", 60}};

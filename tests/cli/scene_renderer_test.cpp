@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A renderer whose scene changes against `lamina render` of the scenes that it saves: bit for bit.
+// A SceneRenderer whose scene changes, compared bit for bit with `lamina render` of the resolved
+// scenes.
 #include "render/scene_renderer.h"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@
 namespace lamina {
 namespace {
 
-// For the programs that a test starts.
+// Sets an environment variable for the programs that a test starts.
 class Environment {
   public:
     Environment(const char* name, const std::string& value) : name_(name) {
@@ -49,8 +49,8 @@ TEST(Selftest, WritesATableAndAReport) {
     EXPECT_NE(result.out.find(table), std::string::npos);
 }
 
-// The polynomial of opacity with its first coefficient off by 1 %: what programs of OpenGL draw is
-// wrong, what tracers make is not.
+// Changes the first coefficient of the shaders' opacity polynomial by 1 %: pictures of OpenGL are
+// then wrong, and those of the tracers are not.
 TEST(Selftest, FindsAMutatedShader) {
     const TemporaryFolder folder;
     std::string text =
@@ -75,7 +75,7 @@ TEST(Selftest, FindsAMutatedShader) {
         }
         if (each["verdict"] == "failed") ++failed;
     }
-    EXPECT_GE(failed, 40u);  // most of 68: not those that show nothing
+    EXPECT_GE(failed, 40u);  // most of 68; the others show nothing
 }
 
 TEST(Selftest, RefusesWhatIsUnknown) {

@@ -15,7 +15,7 @@
 namespace lamina {
 
 struct ProgramResult {
-    int exit_code = 0;  // minus the signal's number when a signal ended the program
+    int exit_code = 0;  // minus the signal's number if a signal ended the program
     std::string out;
     std::string err;
 };
@@ -31,9 +31,9 @@ inline std::string text_of(std::FILE* file) {
     return text;
 }
 
-// The program arguments[0] (looked for in PATH) as it runs, with an empty stdin. Exit code 127: it
-// could not be started. Someone must wait() for its end. `prepare`: called in the new process
-// before the program: limits, environment, descriptors.
+// A running program, arguments[0] (searched in PATH), with an empty stdin. wait() must be called
+// once. Exit code 127: it could not be started. `prepare`: called in the new process before the
+// program starts, to set limits, environment or descriptors.
 class StartedProgram {
   public:
     explicit StartedProgram(const std::vector<std::string>& arguments,
@@ -49,7 +49,7 @@ class StartedProgram {
             dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
             dup2(fileno(out_), STDOUT_FILENO);
             dup2(fileno(err_), STDERR_FILENO);
-            // As from a terminal, wherever the tests themselves run.
+            // Signals act as in a terminal, also if the tests were started with other settings.
             for (const int signal : {SIGINT, SIGHUP, SIGPIPE, SIGXFSZ})
                 std::signal(signal, SIG_DFL);
             if (prepare) prepare();
@@ -69,7 +69,7 @@ class StartedProgram {
         return info.si_pid == child_;
     }
 
-    // Waits for its end; what it wrote.
+    // Waits for the end of the program, and returns its output.
     ProgramResult wait() {
         int status = 0;
         waitpid(child_, &status, 0);

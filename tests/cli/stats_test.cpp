@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/stats.md has every key that --stats writes.
+// docs/stats.md documents every key that --stats writes.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const fs::path source = LAMINA_SOURCE_DIR;
 
-// What stands between backticks on the page.
+// Returns the words between backticks on the page.
 std::set<std::string> documented() {
     const std::string page = read_bytes_of(source / "docs" / "stats.md");
     const std::regex code("`([^`]+)`");
@@ -43,7 +43,7 @@ void add_keys(const json& value, std::set<std::string>& keys) {
 
 class Stats : public testing::Test {
   protected:
-    // The keys of the statistics of a scene with these settings.
+    // Adds the keys of the statistics of the scene, rendered with these settings.
     void add_render(const std::vector<std::string>& settings,
                     const std::vector<std::string>& options = {}) {
         write_bytes_to(folder / "scene.json", scene.dump());
@@ -80,7 +80,7 @@ TEST_F(Stats, EveryKeyThatIsWrittenIsDocumented) {
     add_render({"render.project.table={\"scalar\": 16, \"length\": 4}"}, {"--method", "project"});
     add_render({}, {"--method", "project", "--context", "osmesa"});
     add_render({"render.trace.of=mesh"}, {"--method", "trace"});
-    // These would be missed only if the runs above lost their point.
+    // These keys must be among them, or the scenes above do not test what they should.
     for (const char* key :
          {"kind", "rays", "tree", "emulate", "dither", "table", "upload", "order", "error_estimate",
           "mesh_error", "boundary_tree", "cycles", "kept_views"})
@@ -89,7 +89,7 @@ TEST_F(Stats, EveryKeyThatIsWrittenIsDocumented) {
     for (const std::string& key : keys) EXPECT_TRUE(known.contains(key)) << key;
 }
 
-// Keys that the scenes above do not have: as the sources write them.
+// Finds keys by their pattern in the source files, for those that no scene above has.
 TEST(StatsPage, HasTheKeysOfTheSources) {
     const std::set<std::string> known = documented();
     const std::regex key(
@@ -103,7 +103,7 @@ TEST(StatsPage, HasTheKeysOfTheSources) {
         for (std::sregex_iterator m(text.begin(), text.end(), key), end; m != end; ++m)
             found.insert((*m)[1].matched ? (*m)[1].str() : (*m)[2].str());
     }
-    found.erase("facts");  // a part of "measure" in the file
+    found.erase("facts");  // the file has it as a part of "measure"
     EXPECT_GT(found.size(), 60u);
     for (const std::string& each : found) EXPECT_TRUE(known.contains(each)) << each;
 }

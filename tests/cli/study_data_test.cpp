@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina study: its results are of one data set, and its folder's files are files.
+// lamina study: all results come from the same data, and special files in its folder are refused.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -30,7 +30,7 @@ class StudyDataSets : public StudyTestCase {
         for (const std::string& part : parts)
             EXPECT_NE(result.err.find(part), std::string::npos) << part << ": " << result.err;
     }
-    // What the list says of data of that name.
+    // Returns the hash in runs.json of the data set with this name.
     std::string content_of(const std::string& output, const std::string& name) const {
         const json list = document(output, "runs.json");
         for (const json& data : list["data"]) {
@@ -54,7 +54,7 @@ TEST_F(StudyDataSets, AVolumeThatChangedIsNotGoneOnWith) {
     use_volume();
     make_volume("gaussians");
     expect_refused_after("made.nrrd", [&] { make_volume("marschner-lobb"); });
-    // One sample is enough, and so is a place in the world.
+    // A change of one sample, or of the volume's position, is enough.
     const std::string file = folder / "made.nrrd", bytes = read_bytes_of(file);
     expect_refused_after("made.nrrd", [&] {
         std::string changed = bytes;
@@ -95,7 +95,7 @@ TEST_F(StudyDataSets, AMeshOrAColormapThatChangedIsNotGoneOnWith) {
     expect_refused_after("colors.json", [&] { write_colors("0.9"); });
 }
 
-// It is the same data, written in another way.
+// The file is written differently, but the volume is the same.
 TEST_F(StudyDataSets, WhatHoldsTheSameIsGoneOnWith) {
     use_volume();
     make_volume("gaussians");
@@ -118,7 +118,7 @@ TEST_F(StudyDataSets, ShardsOfDifferentDataDoNotMerge) {
         {"made.nrrd", content_of("a", "made.nrrd"), content_of("b", "made.nrrd"), "a/runs.json",
          "b/runs.json"});
     EXPECT_FALSE(std::filesystem::exists(folder / "merged"));
-    // Nor in one folder.
+    // One folder cannot have shards of different data, either.
     expect_one_line(run("a", {"--shard", "2/2"}), {"made.nrrd", "a/runs.json"});
 }
 
@@ -154,7 +154,7 @@ TEST_F(StudyDataSets, ADamagedReferenceIsMadeAgainAndThatIsSaid) {
     expect_mended(npy, [&] { write_bytes_to(npy, bytes.substr(0, bytes.size() / 2)); });
     expect_mended(npy, [&] { write_bytes_to(npy, ""); });
     expect_mended(npy, [&] { std::filesystem::remove(npy); });
-    expect_mended(npy, [&] {  // the number of a pixel, which no length shows
+    expect_mended(npy, [&] {  // a changed pixel; the length stays
         std::string changed = bytes;
         changed[changed.size() - 100] = static_cast<char>(changed[changed.size() - 100] ^ 1);
         write_bytes_to(npy, changed);
@@ -179,7 +179,7 @@ TEST_F(StudyDataSets, AMergeTakesTheReferenceThatIsWhole) {
     expect_every_run_once("merged");
 }
 
-// Opening a pipe waits for its other end.
+// Opening a pipe would wait for its other end.
 TEST_F(StudyDataSets, PipesAreRefused) {
     run_well("out");
     const auto expect_refused = [&](const std::filesystem::path& path, auto&& arguments) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina study: bad input is one clear line before anything runs.
+// lamina study: mistakes in the input are reported in one line before anything is drawn.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class StudyMistakes : public StudyTestCase {
     }
     void expect_bad(const char* key, const json& value, std::vector<std::string> parts) {
         const json kept = study;
-        // Rules of what is no longer swept, or of scenes that are gone, are mistakes of their own.
+        // Without the sweep or the scenes that they name, rules of `drop` would be mistakes, too.
         if (key == std::string("sweep") || key == std::string("scenes")) study.erase("drop");
         study[key] = value;
         parts.emplace_back("study.json");
@@ -87,7 +87,8 @@ TEST_F(StudyMistakes, TooManyRunsNeedAYes) {
     hundred.push_back(101);
     study["sweep"] = {{"image.width", hundred}, {"image.x", hundred}};
     expect_refused({"10201 runs", "--yes"});
-    expect_refused({"image.x", "unknown key"}, 1, {"--yes"});  // begins, and finds the next mistake
+    // --yes accepts the number of runs, and the next mistake is found.
+    expect_refused({"image.x", "unknown key"}, 1, {"--yes"});
 }
 
 TEST_F(StudyMistakes, MissingFilesAreNamed) {
@@ -154,7 +155,7 @@ TEST_F(StudyMistakes, ValuesAreChecked) {
     expect_bad("title", 5, {"title", "5"});
     expect_bad("base", {1}, {"base", "[1]"});
     expect_bad("reference", "picture", {"reference", "\"picture\"", "\"mesh\""});
-    // A value that no run of a scene can be drawn with.
+    // No run of a scene can have this value.
     expect_bad("sweep", {{"render.target", "fixed7"}, {"render.method", {"slice", "project"}}},
                {"no run can be drawn", "render.target", "\"fixed7\""});
 }

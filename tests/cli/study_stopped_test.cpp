@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina study in parts: stopped and gone on with, interrupted, in shards.
+// lamina study in parts: stopped and resumed, interrupted, and in shards.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,8 @@ using namespace std::chrono_literals;
 
 class StudyStopped : public StudyTestCase {
   protected:
-    // Six runs in three rounds, 24 records, that take some 10 ms each: time to stop it.
+    // Makes the study six runs in three rounds, 24 records of about 10 ms each, so that it can be
+    // stopped before its end.
     void be_slow() {
         study["scenes"] = {"blobs.json"};
         study["drop"] = json::array();
@@ -29,7 +30,7 @@ class StudyStopped : public StudyTestCase {
         study["rounds"] = 3;
         study["frames"] = 15;
     }
-    // Records of runs: not those of how a process began.
+    // Counts the records of runs, without those of how a process began.
     std::size_t count_records(const std::string& output) const {
         const std::vector<json> all = records(output);
         return static_cast<std::size_t>(std::count_if(
@@ -41,14 +42,15 @@ class StudyStopped : public StudyTestCase {
                (!std::filesystem::exists(folder / output) || count_records(output) < count))
             std::this_thread::sleep_for(1ms);
     }
-    // Nothing is measured twice, but for the baseline, which every session times for its ratios.
+    // Expects every record once, except for the baseline, which every session times.
     void expect_every_record_once(const std::string& output) const {
         const json list = document(output, "runs.json");
         std::set<std::string> baselines;
         for (const json& number : list["baselines"])
             baselines.insert(list["runs"][number.get<std::size_t>()]["id"]);
-        std::multiset<std::pair<std::string, int>> seen;       // run and round; -1: its picture
-        std::set<std::tuple<std::string, int, int>> sessions;  // of a baseline, and round
+        std::multiset<std::pair<std::string, int>> seen;  // run and round; round -1 is its picture
+        // Run, session and round of the timings of baselines.
+        std::set<std::tuple<std::string, int, int>> sessions;
         for (const json& record : records(output)) {
             if (!record.contains("run")) continue;
             EXPECT_FALSE(record.contains("failed")) << record;
@@ -67,7 +69,7 @@ class StudyStopped : public StudyTestCase {
                 EXPECT_EQ(seen.count({each["id"], round}), 1u) << each["name"] << round;
         }
     }
-    // Of results.csv, in its order: all that is no time and does not follow from times.
+    // Returns the rows of results.csv, in order, without times and what follows from them.
     std::vector<CsvRow> rows_without_times(const std::string& output) const {
         std::vector<CsvRow> rows = results(output);
         for (CsvRow& row : rows) {
@@ -99,12 +101,12 @@ TEST_F(StudyStopped, KilledAtFiveMomentsAndResumedEveryRunIsThereOnce) {
     EXPECT_NE(rest.err.find("6 of 6 runs"), std::string::npos) << rest.err;
     expect_every_run_once("out");
     expect_every_record_once("out");
-    // Its runs are those of a study that was left alone, but for times.
+    // The runs are those of a study that was not stopped, except for times.
     run_well("whole");
     EXPECT_EQ(rows_without_times("out"), rows_without_times("whole"));
 }
 
-// As after a power failure: the last record is half there, and done again.
+// After a power failure the last record may be incomplete: it is measured again.
 TEST_F(StudyStopped, ATornRecordIsMeasuredAgain) {
     run_well("out");
     const auto journal = folder / "out" / "journal-1-of-1.jsonl";
@@ -121,10 +123,10 @@ TEST_F(StudyStopped, AFinishedStudyIsNotMeasuredAgain) {
     const std::vector<CsvRow> before = results("out");
     const ProgramResult again = run_well("out", {"--resume"});
     EXPECT_NE(again.err.find("6 runs, 6 of them finished before"), std::string::npos) << again.err;
-    EXPECT_EQ(results("out"), before);  // times, too
+    EXPECT_EQ(results("out"), before);  // including times
 }
 
-// As of a version that did not time first pictures.
+// Earlier versions did not time first pictures.
 TEST_F(StudyStopped, JournalsWithoutTimesOfFirstPicturesAreRead) {
     run_well("out");
     const std::vector<CsvRow> before = results("out");
@@ -199,7 +201,7 @@ TEST_F(StudyStopped, InterruptedItSaysWhatIsKept) {
     study["rounds"] = 1;
     study["frames"] = 40;
     StartedProgram program(command("out"));
-    wait_for_records("out", 4, program);  // of two runs
+    wait_for_records("out", 4, program);  // records of two runs
     program.send(SIGINT);
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.exit_code, 130);
@@ -220,7 +222,7 @@ TEST_F(StudyStopped, MergedShardsAreTheWholeStudy) {
     run_well("whole");
     run_well("a", {"--shard", "1/2"});
     run_well("b", {"--shard", "2/2"});
-    // Of six runs three each; a shard without a scene's baseline times it, too.
+    // Each shard has three of the six runs, and also times the baselines that it lacks.
     EXPECT_EQ(results("a").size() + results("b").size(), 6u + 2);
     const ProgramResult merged =
         lamina_run({"study", "--merge", folder / "a", folder / "b", "-o", folder / "merged"});
@@ -237,7 +239,7 @@ TEST_F(StudyStopped, MergedShardsAreTheWholeStudy) {
         return bytes;
     };
     EXPECT_EQ(pictures("merged"), pictures("whole"));
-    // Whole studies merge, too, and again into the same folder.
+    // Folders that share shards can be merged, also into a folder that exists.
     const auto before = results("merged");
     ASSERT_EQ(lamina_run({"study", "--merge", folder / "b", folder / "a", "-o", folder / "merged"})
                   .exit_code,
@@ -257,13 +259,14 @@ TEST_F(StudyStopped, OneShardAloneSaysThatRunsAreMissing) {
 }
 
 TEST_F(StudyStopped, ShardsMayShareAFolder) {
-    const auto one_of_two = command("out", {"--shard", "1/2"});  // these write the scene files
+    // command() writes the files of the scenes and the study.
+    const auto one_of_two = command("out", {"--shard", "1/2"});
     const auto two_of_two = command("out", {"--shard", "2/2"});
     StartedProgram first(one_of_two), second(two_of_two);
     const ProgramResult one = first.wait(), two = second.wait();
     EXPECT_EQ(one.exit_code, 0) << one.err;
     EXPECT_EQ(two.exit_code, 0) << two.err;
-    expect_every_run_once("out");  // whichever was the last wrote the results of both
+    expect_every_run_once("out");  // the last one to end wrote the results of both
     run_well("whole");
     EXPECT_EQ(rows_without_times("out"), rows_without_times("whole"));
     const ProgramResult again = run("out", {"--shard", "2/2"});

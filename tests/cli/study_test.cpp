@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lamina study: what it writes.
+// lamina study: its results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,8 @@ class Study : public StudyTestCase {
         return read_exr(folder / "out" / "pictures" / (row.at("run") + ".exr"));
     }
 
-    // lamina render of the run's scene, then lamina compare with what --method trace writes.
+    // Returns the errors of the run's scene by lamina render and lamina compare with --method
+    // trace.
     json errors_by_hand(const CsvRow& row) {
         const std::string scene = folder / (row.at("scene") + ".json");
         const std::string of = row.at("render.method") == "project" ? "mesh" : "volume";
@@ -46,7 +47,8 @@ TEST_F(Study, WritesARowARunAndAReport) {
     const ProgramResult result = run_well("out");
     EXPECT_NE(result.err.find("2 runs left out: the ramp has no tets"), std::string::npos);
     EXPECT_NE(result.out.find("Pareto front"), std::string::npos);
-    // How much there is to do, before anything runs, and how long it takes once a round is done.
+    // The program says how much there is to do before it begins, and how long it takes after each
+    // first round.
     const std::size_t count =
         result.err.find("study.json: 6 runs of 2 scenes, each timed in 2 rounds of 6 frames");
     const std::size_t ramps = result.err.find("ramp: first round of 2 runs done: about ");
@@ -112,7 +114,7 @@ TEST_F(Study, ErrorsAreThoseOfRenderAndCompare) {
     for (const CsvRow& row : results("out")) {
         const json errors = errors_by_hand(row);
         for (const std::string norm : {"linf", "l1", "l2"}) {
-            // The same sums of the same pictures, printed with all digits: equal.
+            // Both compute the same sums of the same pictures and print all digits.
             EXPECT_EQ(number(row, norm), errors["all"][norm].get<double>())
                 << row.at("scene") << " " << row.at("name") << " " << norm;
             for (const std::string channel : {"R", "G", "B", "A"}) {
@@ -123,7 +125,7 @@ TEST_F(Study, ErrorsAreThoseOfRenderAndCompare) {
     }
 }
 
-// Computed anew from what the table says, in the plainest way.
+// Finds the Pareto front again, by comparing all pairs of rows.
 TEST_F(Study, ParetoColumnIsTheFrontOfTheTable) {
     study["sweep"]["render.slice.samples"] = {4, 8, 16, 32, 64};
     study["drop"].push_back(
@@ -159,7 +161,8 @@ TEST_F(Study, ARunThatFailsIsRecordedAndTheOthersFinish) {
     ASSERT_EQ(rows.size(), 6u);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const CsvRow& row = rows[i];
-        // The ramp is grey: fixed nodes can draw it. No scene can have a tree of that name.
+        // The ramp is grey, so fixed nodes can draw it. The third value is no valid tree for any
+        // scene.
         const bool fails = i == 2 || i == 4 || i == 5;
         EXPECT_EQ(row.at("failed").empty(), !fails) << i << row.at("failed");
         EXPECT_EQ(row.at("l2").empty(), fails);
@@ -179,13 +182,14 @@ TEST_F(Study, ARunThatFailsIsRecordedAndTheOthersFinish) {
 TEST_F(Study, ReferencesAreKeptForLaterStudies) {
     run_well("out");
     const auto before = contents(folder / "out" / "references");
-    EXPECT_EQ(before.size(), 2u * 3);  // a picture and its facts: ramp, blobs, the mesh of blobs
+    // A picture and its facts for each of: ramp, blobs, the mesh of blobs.
+    EXPECT_EQ(before.size(), 2u * 3);
     const json report = document("out", "results.json");
     for (const json& comparison : report["comparisons"]) {
         for (const json& reference : comparison["references"])
             EXPECT_GE(reference["error_estimate"], 0);
     }
-    // Traced once: the files with the time that it took stay as they are.
+    // Files that contain the time of tracing stay as they are, so nothing is traced again.
     run_well("out", {"--resume"});
     EXPECT_EQ(contents(folder / "out" / "references"), before);
 }
@@ -217,7 +221,7 @@ TEST_F(Study, ContextsAreSwept) {
     for (const CsvRow& row : rows) {
         EXPECT_EQ(row.at("failed"), "");
         EXPECT_EQ(row.at("renderer").starts_with("cpu"), row.at("context") == "cpu");
-        // Bytes of OpenGL's are in the one, the host's alone in the other.
+        // OpenGL's bytes are counted in bytes_gpu, which is 0 for the cpu engine.
         EXPECT_EQ(number(row, "bytes_gpu") > 0, row.at("context") == "osmesa");
     }
 }
@@ -226,7 +230,7 @@ ProgramResult run_without_data(const std::vector<std::string>& arguments) {
     return run_program(arguments, [] { unsetenv("LAMINA_DATA"); });
 }
 
-// The other scene runs, and the page says what is skipped and what to set.
+// The other scene is drawn, and the page says which scene is skipped and what to set.
 TEST_F(Study, ScenesWithoutTheirDataSetAreSkipped) {
     blobs["volume"] = "${LAMINA_DATA}/bonsai.nrrd";
     const std::string wanted =

@@ -17,7 +17,7 @@
 namespace lamina {
 
 // Two small scenes in a folder, ramp.json (a grey volume one voxel deep) and blobs.json (a coloured
-// one of 16^3 and its mesh), and a study of them, drawn by the cpu engine.
+// volume of 16^3 samples and its mesh), and a study of them with the cpu engine.
 class StudyTestCase : public testing::Test {
   protected:
     using json = nlohmann::json;
@@ -53,7 +53,7 @@ class StudyTestCase : public testing::Test {
         write_bytes_to(folder / "blobs.json", blobs.dump());
         write_bytes_to(folder / "study.json", study.dump());
     }
-    // The arguments of a run of the study as it stands now.
+    // Writes the files, and returns the arguments that run the study.
     std::vector<std::string> command(const std::string& output,
                                      const std::vector<std::string>& options = {}) {
         write_files();
@@ -78,7 +78,7 @@ class StudyTestCase : public testing::Test {
     json document(const std::string& output, const std::string& file) const {
         return json::parse(read_bytes_of(folder / output / file));
     }
-    // Of all journals, complete lines.
+    // Returns the complete records of all journals.
     std::vector<json> records(const std::string& output) const {
         std::vector<json> found;
         for (const auto& entry : std::filesystem::directory_iterator(folder / output)) {
@@ -90,7 +90,7 @@ class StudyTestCase : public testing::Test {
         }
         return found;
     }
-    // All files below, with their bytes.
+    // Returns all files in the folder and its subfolders, with their bytes.
     static std::map<std::string, std::string> contents(const std::filesystem::path& path) {
         std::map<std::string, std::string> files;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
@@ -99,8 +99,8 @@ class StudyTestCase : public testing::Test {
         return files;
     }
 
-    // Every run of runs.json is in the results exactly once, with rounds * frames times of each
-    // kind.
+    // Expects that every run of runs.json is in the results exactly once, with rounds * frames
+    // times of each kind.
     void expect_every_run_once(const std::string& output) {
         std::map<std::string, int> wanted, rows, reported;
         const json list = document(output, "runs.json"), report = document(output, "results.json");

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-// A blob in 9 x 8 x 7 samples, whose largest value is 40 (step + 1).
+// Returns 9 x 8 x 7 samples of a blob whose largest value is 40 (step + 1).
 std::string blob(int step) {
     std::string samples;
     for (int i = 0; i < 9 * 8 * 7; ++i) {
@@ -40,7 +40,7 @@ class TimeSeriesRun : public ::testing::Test {
     void write(const std::string& name, const std::string& bytes) {
         write_bytes_to(folder / name, bytes);
     }
-    // A scene of 30 x 20 pixels with a camera and a transfer function of its own.
+    // Writes a scene of 30 x 20 pixels; unless `open`, with a camera and a transfer function.
     void write_scene(json data, bool open = false) {
         data["version"] = 1;
         data["image"] = {{"width", 30}, {"height", 20}};
@@ -77,7 +77,7 @@ class TimeSeriesRun : public ::testing::Test {
     std::vector<float> picture(const std::string& name) {
         return read_exr(std::string(folder / name)).rgba;
     }
-    // What `lamina render` makes of the scene with these settings.
+    // Returns the picture that `lamina render` makes of the scene with these settings.
     std::vector<float> single(const std::vector<std::string>& settings) {
         std::vector<std::string> arguments{"render", folder / "scene.json", "-o",
                                            folder / "one.exr"};
@@ -103,14 +103,14 @@ TEST_F(TimeSeriesRun, EachStepIsThePictureOfItsFile) {
     }
 }
 
-// What is chosen for the first step is kept: a step of its own would be drawn brighter.
+// The choices for the first step are kept: choices for a later step would make it brighter.
 TEST_F(TimeSeriesRun, AllStepsLookAsTheFirst) {
     const std::string said = run_well("v_%02d.nrrd", "0:2", "those of step 0", {"--size", "30x20"});
     EXPECT_NE(said.find("wrote 3 of 3"), std::string::npos) << said;
     write_scene({{"volume", "v_00.nrrd"}, {"nan", "transparent"}}, true);
     EXPECT_EQ(picture("out/p_00.exr"), single({}));
     EXPECT_NE(picture("out/p_02.exr"), single({"volume=v_02.nrrd"}));
-    // The scene in each file makes that picture again.
+    // The attributes of each file have the scene of its own step.
     const std::string bytes = read_bytes_of(folder / "out/p_02.exr");
     EXPECT_NE(bytes.find("v_02.nrrd"), std::string::npos);
 }

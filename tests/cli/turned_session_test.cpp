@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session of the library, turned right round while it changes, against `lamina render` of each
-// resolved scene: bit for bit.
+// A session of the library that is turned all around while it changes, compared bit for bit with
+// `lamina render` of each resolved scene.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 using test::knot;
 
-// Every sixth view something changes: transfer function, target or method, by turns.
+// Changes transfer function, target or method, in turn; called for every sixth view.
 void change(Session& session, int number) {
     Scene scene = session.scene();
     switch (number % 4) {

@@ -74,7 +74,7 @@ TEST_F(TurntableRun, ViewsAreTurnedByEqualAngles) {
                       .exit_code,
                   0);
         EXPECT_EQ(read_exr(file).rgba, read_exr(std::string(folder / "one.exr")).rgba) << view;
-        // The scene in the file is the view's own.
+        // The attributes of the file have the scene with the view's camera.
         EXPECT_NE(read_bytes_of(file).find(json(camera.eye.x).dump()), std::string::npos);
     }
     const auto views = files();
@@ -137,7 +137,7 @@ TEST_F(TurntableRun, ViewsOfAnotherSceneAreDrawnAgain) {
         0);
     turn_well("v_%d.png", "wrote 4 of 4 views");
     EXPECT_NE(turn("5", "v_%d.png").err.find("wrote 5 of 5 views"), std::string::npos);
-    // A record that cannot be read is as good as none.
+    // A record that cannot be read counts as none.
     write_bytes_to(folder / "v_turntable.json", "{");
     turn_well("v_%d.png", "wrote 4 of 4 views");
 }
@@ -174,7 +174,7 @@ TEST_F(TurntableRun, StoppedAndContinued) {
     EXPECT_FALSE(stopped.contains("s_299.png"));
     const ProgramResult rest = turn("300", "s_%03d.png");
     ASSERT_EQ(rest.exit_code, 0) << rest.err;
-    // All that was finished: every file but the scene, the record and the list.
+    // Finished views are kept: all files but the scene, the record and the list of lamina's files.
     const std::string kept = std::to_string(stopped.size() - 3) + " were there and are kept";
     EXPECT_NE(rest.err.find(kept), std::string::npos) << rest.err << kept;
     for (const auto& [name, bytes] : stopped) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every verb, and the small verbs themselves.
+// Rules that hold for every verb, and tests of the small verbs.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opacity and colours mean what they mean in VTK: its pictures beside ours, where Debian's
-// python3-vtk9 and xvfb are installed.
+// Opacities and colours mean the same as in VTK: compares pictures, if Debian's python3-vtk9 and
+// xvfb are installed.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -11,9 +11,9 @@
 namespace lamina {
 namespace {
 
-// The program says what it compares. 1.5 codes are what is asked of the mean: VTK samples a ray
-// every .05 voxels, looks values up in tables of some thousand entries, stops a ray at an opacity
-// of .996 (1 code), and rounds to 8 bits, as we do.
+// The Python script prints what it compares. The mean must be within 1.5 codes: VTK samples a ray
+// every .05 voxels, looks values up in tables of some thousand entries, ends a ray at an opacity of
+// .996 (1 code), and, like lamina, rounds to 8 bits.
 TEST(VtkPictures, AreOursWithinCodes) {
     const TemporaryFolder folder;
     const ProgramResult result =

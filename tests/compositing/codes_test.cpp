@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opacities become codes of n bits.
+// Rounding of opacities to codes of n bits, and its random numbers.
 #include "compositing/codes.h"
 
 #include <gtest/gtest.h>
@@ -32,13 +32,14 @@ TEST(Codes, RoundAsTheirNamesSay) {
     EXPECT_EQ(rounded(AlphaRounding::nearest, 255 * .5), 128u);
 }
 
-// The values of a palette are codes already, and stay so through double arithmetic.
+// Opacities that are codes already, as in a palette, are the same codes after double arithmetic.
 TEST(Codes, OpacityOfACodeIsThatCode) {
     for (int bits = 1; bits <= max_code_bits; ++bits) {
         const std::uint32_t largest = largest_code(bits);
         for (std::uint32_t k = 0; k <= largest; ++k) {
             const double scaled = opacity_over(static_cast<double>(k) / largest, 1) * largest;
-            // 2^-20: opacities are to be good to far less than a code.
+            // The random number is 2^-16 of its range, so an error of more than 2^-16 codes would
+            // show in stochastic rounding.
             for (const double noisy : {scaled, scaled * (1 - 0x1p-52), scaled * (1 + 0x1p-52)}) {
                 if (noisy > largest) continue;
                 ASSERT_EQ(rounded(AlphaRounding::truncate, noisy), k);
@@ -49,13 +50,14 @@ TEST(Codes, OpacityOfACodeIsThatCode) {
     }
 }
 
-// A composited pair of halves is the whole again: 1 - (1 - A)^(1/2) twice.
+// The opacities of equal pieces of a ray, composited, give that of the ray.
 TEST(Codes, OpacityOverSharesMultipliesTransmittance) {
     for (const double unit : {1e-12, 1e-6, .1, .5, .999, 1 - 1e-12}) {
         for (const double share : {.5, .25, 1e-3}) {
             const double part = opacity_over(unit, share);
-            // log1p, a product and expm1 of one unit in the last place each, and what those are of
-            // the transmittance: its logarithm, at most 28, times as much.
+            // log1p, a product and expm1 have errors of one unit in the last place each. The first
+            // two, relative to the logarithm of the transmittance, at most 28, become errors of the
+            // transmittance.
             EXPECT_NEAR(opacity_over(part, 1 / share), unit, unit * 4e-15 + 28 * 4e-16 * (1 - unit))
                 << unit << " " << share;
         }
@@ -65,7 +67,8 @@ TEST(Codes, OpacityOverSharesMultipliesTransmittance) {
     EXPECT_EQ(opacity_over(.3, 1), .3);
 }
 
-// The hash of Jarzynski and Olano, computed from the paper's text by another program.
+// The values are of the hash of Jarzynski and Olano, computed from the paper's text by another
+// program.
 TEST(Codes, RandomBitsAreThoseOfPcg4d) {
     EXPECT_EQ(random_bits(0, 0, 0, 0), 0xd32548eau);
     EXPECT_EQ(random_bits(1, 2, 3, 4), 0x2b94c2fu);
@@ -84,7 +87,7 @@ TEST(Codes, StochasticRoundingHasNoBias) {
                 }
             }
         }
-        // The mean of `count` choices between 7 and 8 has this standard deviation; five of them.
+        // The tolerance is five standard deviations of the mean of `count` choices between 7 and 8.
         EXPECT_NEAR(sum / count, 7 + rest, 5 * std::sqrt(rest * (1 - rest) / count)) << rest;
     }
 }
@@ -105,7 +108,7 @@ TEST(Codes, StochasticRoundingIsReproducibleAndDiffersByPlaceAndSeed) {
     EXPECT_EQ(pixels(1), pixels(1));
     EXPECT_NE(pixels(1), pixels(2));
     const std::vector<std::uint32_t> alphas = pixels(1);
-    // 50 choices with probability .31 a pixel: 40 equal counts would not be random.
+    // Each pixel has 50 choices with probability .31: 40 equal counts would not be random.
     EXPECT_GT(std::set(alphas.begin(), alphas.end()).size(), 4u);
 }
 

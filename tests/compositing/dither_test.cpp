@@ -12,7 +12,7 @@
 namespace lamina {
 namespace {
 
-// Published first outputs of splitmix64 for seed 0.
+// The values are the published first outputs of splitmix64 for seed 0.
 TEST(Dither, RandomNumbersAreThoseOfSplitMix64) {
     SplitMix64 random(0);
     EXPECT_EQ(random.next(), 0xe220a8397b1dcdafu);
@@ -38,7 +38,7 @@ TEST(Dither, RanksAreThePermutationOfNumerics) {
     EXPECT_NE(dither_ranks(16, 1), dither_ranks(16, 2));
 }
 
-// Of the period's slabs floor(P f) show the code above and the others the code below.
+// floor(P f) of the P slabs of a period show the code above a value, and the others the code below.
 TEST(Dither, ShowsTheCodeAboveAsOftenAsTheRestSays) {
     for (const int period : {1, 4, 10, 11, 64, 256}) {
         const std::vector<std::uint32_t> ranks = dither_ranks(period, 5);
@@ -60,7 +60,8 @@ TEST(Dither, ShowsTheCodeAboveAsOftenAsTheRestSays) {
     }
 }
 
-// The paper's example: 1.4 with period 10 is six 1s and four 2s. 1.4 - 1 is a little less than .4.
+// The paper's example: 1.4 with period 10 is six 1s and four 2s, although in double precision 1.4 -
+// 1 is a little less than .4.
 TEST(Dither, GivesThePapersExample) {
     int sum = 0;
     for (std::uint32_t rank = 0; rank < 10; ++rank) {
@@ -99,8 +100,8 @@ TEST(Dither, KeepsTheEnds) {
     }
 }
 
-// A ray of N = P slabs too faint for 8 bits: undithered nothing, dithered floor(P f) codes of 1,
-// and a second permutation for colour.
+// A ray of N = 2 P slabs that are too faint for 8 bits: it has nothing if undithered, and floor(P
+// f) codes of 1 in each period if dithered. Colour has a permutation of its own.
 TEST(Dither, RaysFollowThePattern) {
     constexpr int period = 64;
     const std::vector<RaySample> ray(2 * period, {.3, .25 / 255});
@@ -120,7 +121,7 @@ TEST(Dither, RaysFollowThePattern) {
         alpha = oracle::over(false, 255, t, alpha, 255);
     }
     const FixedPixel pixel = composite_straight(ray, emulation, dither);
-    EXPECT_EQ(pixel.alpha, 32u);  // 2 * 16 codes of 1: below 128 none is lost
+    EXPECT_EQ(pixel.alpha, 32u);  // 2 * 16 codes of 1; OVER loses none below code 128
     EXPECT_EQ(pixel.alpha, alpha);
     EXPECT_EQ(pixel.color, color);
 }

@@ -24,12 +24,13 @@ TEST(NodeCode, DecodesWhatItEncodes) {
                 ASSERT_GE(value, previous) << "codes rise with depth";
                 ASSERT_LE(value, 1);
                 previous = value;
-                // A value near 1 knows its distance from 1 only to 2^-53 and some rounding: as much
-                // of e^-S, or of e^-sigma for phi, and the slope is its inverse. Full / e of the
-                // minimax code's logarithm lies between: 8.
+                // A value near 1 is rounded by 2^-53 and a little more, and so is its distance from
+                // 1: e^-S, or e^-sigma for phi. The error of the depth is that times the slope of
+                // the decoder, the inverse of this distance. For minimax another factor, its
+                // divisor times e, is at most 8.
                 const double exponent = code == NodeCode::phi ? depth / share : depth;
                 const double slope = code == NodeCode::phi ? share : 1;
-                if (exponent > 30) continue;  // equal to 1 but for rounding
+                if (exponent > 30) continue;  // the value is 1, except for rounding
                 EXPECT_NEAR(decode_depth(code, value, share), depth,
                             depth * 1e-13 + slope * std::exp(exponent) * 4e-15)
                     << static_cast<int>(code) << " " << share;
@@ -44,7 +45,7 @@ TEST(NodeCode, HasItsEnds) {
             EXPECT_EQ(encode_depth(code, 0, share), 0);
             EXPECT_EQ(decode_depth(code, 0, share), 0);
             EXPECT_EQ(decode_depth(code, 1, share), opaque_node_depth);
-            // 1 - e^-37 is 1 in double, but for the last place in minimax's division.
+            // 1 - e^-37 is 1 in double; minimax's division may change the last place.
             EXPECT_NEAR(encode_depth(code, opaque_node_depth, share), 1, 4e-16);
             EXPECT_LE(encode_depth(code, opaque_node_depth, share), 1);
             for (double value = 0; value <= 1; value += 1.0 / 4096) {
@@ -55,7 +56,7 @@ TEST(NodeCode, HasItsEnds) {
     }
 }
 
-// With all of the ray in the node there is nothing to balance: minimax is the paper's code.
+// If a node holds the entire ray, minimax has nothing to balance and equals the paper's code.
 TEST(NodeCode, MinimaxOfAWholeRayIsPhi) {
     for (double depth = 1e-9; depth < 50; depth *= 1.3) {
         const double phi = encode_depth(NodeCode::phi, depth, 1);
@@ -63,7 +64,7 @@ TEST(NodeCode, MinimaxOfAWholeRayIsPhi) {
     }
 }
 
-// The three parts meet, with one slope (docs/numerics.md, section 4).
+// The three pieces of the minimax code meet, with equal slopes (docs/numerics.md, section 4).
 TEST(NodeCode, MinimaxIsSmooth) {
     for (const double share : {.5, 1.0 / 32, 1.0 / 1024}) {
         for (const double joint : {share, 1.0}) {
@@ -73,14 +74,15 @@ TEST(NodeCode, MinimaxIsSmooth) {
             };
             const double before = (value(joint) - value(joint - step)) / step;
             const double after = (value(joint + step) - value(joint)) / step;
-            // Slopes 1e-5 of the joint apart differ by that times the curvature, which is as large
-            // as the slope over the joint.
+            // Slopes at places that are 1e-5 of the joint apart differ by this distance times the
+            // curvature, which is as large as the slope over the joint.
             EXPECT_NEAR(before, after, 2e-5 * before) << share << " " << joint;
         }
     }
 }
 
-// The formulas of docs/numerics.md, section 4, written as what each part adds to the one before.
+// The formulas of docs/numerics.md, section 4, with each piece written as its addition to the one
+// before.
 TEST(NodeCode, MinimaxIsTheFormula) {
     constexpr double e = std::numbers::e;
     for (const double w : shares) {
@@ -92,15 +94,15 @@ TEST(NodeCode, MinimaxIsTheFormula) {
                 expected = ((1 - 1 / e) + std::log(1 / w) / e + (1 - std::exp(1 - w * sigma)) / e);
                 expected /= y;
             }
-            // Some ten operations of numbers up to y.
+            // The bound is for some ten operations on numbers up to y.
             EXPECT_NEAR(encode_depth(NodeCode::minimax, w * sigma, w), expected, 2e-15);
         }
     }
 }
 
-// The worst change of a ray's opacity, in 1/255, by one value's rounding in 8 bits. The value
-// describes a part of the ray between this one node (the rest transparent) and all of it (every
-// node alike).
+// Returns the worst change of a ray's opacity, in 1/255, by rounding one value to 8 bits. The value
+// is that of one node of the given share. The rounded depth counts once (the rest of the ray is
+// transparent), or up to 1 / share times (all nodes are alike).
 double worst_effect(NodeCode code, double share) {
     double worst = 0;
     const auto compare = [&](double value, double rounded) {
@@ -119,8 +121,9 @@ double worst_effect(NodeCode code, double share) {
     return 255 * worst;
 }
 
-// The table of docs/numerics.md, section 4, and what is in it: phi's last half code, of one node;
-// alpha's first, of all nodes; minimax's everywhere.
+// The numbers are those of the table of docs/numerics.md, section 4. Each code is worst elsewhere:
+// phi at its last half code, with one node; alpha at its first, with all nodes; minimax is equally
+// bad everywhere.
 TEST(NodeCode, WorstEffectOfARoundingIsThatOfNumerics) {
     EXPECT_NEAR(worst_effect(NodeCode::phi, 1.0 / 32), 210, .5);
     EXPECT_NEAR(worst_effect(NodeCode::alpha, 1.0 / 32), 15.5, .05);
@@ -132,7 +135,8 @@ TEST(NodeCode, WorstEffectOfARoundingIsThatOfNumerics) {
         EXPECT_NEAR(worst_effect(NodeCode::phi, share), 255 * std::pow(510, -share), 1e-9);
         EXPECT_NEAR(worst_effect(NodeCode::alpha, share),
                     255 * (1 - std::pow(1 - 1 / 510.0, 1 / share)), 1e-9);
-        // To first order in half a code: the next order is 1/510 of it, and its sign is not known.
+        // The formula is right to first order in half a code; the next order is 1/510 of it, of
+        // unknown sign.
         const double y = 1 + std::log(1 / share) / std::numbers::e;
         EXPECT_NEAR(worst_effect(NodeCode::minimax, share), y / 2, y / 510);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point compositing written down a second time from LaMar 2004 and docs/numerics.md, sections
-// 2 and 3, in exact fractions and long double and without anything of src/compositing.
+// A second implementation of fixed-point compositing, from LaMar 2004 and docs/numerics.md,
+// sections 2 and 3, in exact fractions and long double. It uses nothing of src/compositing.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@ namespace lamina::oracle {
 
 using Wide = std::uint64_t;  // holds 65535^3
 
-// numerator / denominator to the nearest whole number. A tie would be a defect of the caller: M is
-// odd.
+// Returns numerator / denominator, rounded to the nearest whole number. There are no ties, because
+// M is odd.
 inline std::uint32_t nearest(Wide numerator, Wide denominator) {
     const Wide below = numerator / denominator, rest = numerator % denominator;
     return static_cast<std::uint32_t>(2 * rest > denominator ? below + 1 : below);
@@ -34,8 +34,8 @@ inline std::uint32_t under(bool fused, Wide color, Wide alpha, std::uint32_t abo
     return above + nearest(Wide{nearest(color * alpha, largest)} * (largest - opacity), largest);
 }
 
-// The permutation of docs/numerics.md, section 2, with splitmix64 as Steele, Lea and Flood print
-// it.
+// Returns the permutation of docs/numerics.md, section 2, with splitmix64 as Steele, Lea and Flood
+// print it.
 inline std::vector<int> permutation(int period, std::uint64_t seed) {
     std::uint64_t x = seed;
     const auto next = [&x] {
@@ -57,18 +57,19 @@ inline std::vector<int> permutation(int period, std::uint64_t seed) {
     return order;
 }
 
-// 1 - (1 - A)^share
+// Returns 1 - (1 - A)^share.
 inline long double opacity(long double unit_opacity, long double share) {
     return unit_opacity >= 1 ? 1.0L : -std::expm1(share * std::log1p(-unit_opacity));
 }
 
-// Whole part and rest of M * opacity; 1e-9 below a whole number counts as that number.
+// Splits M * opacity into a whole number and the rest; 1e-9 below a whole number counts as that
+// number.
 inline std::pair<std::uint32_t, long double> parts(long double scaled) {
     const long double whole = std::floor(scaled + 1e-9L);
     return {static_cast<std::uint32_t>(whole), std::fmax(scaled - whole, 0.0L)};
 }
 
-// Random per-unit opacities that stay away from opaque.
+// Returns random per-unit opacities up to `most`.
 inline std::vector<double> random_ray(int samples, double most, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::vector<double> ray;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OVER on n-bit codes: LaMar 2004, Tables 2 and 3, and exact fractions.
+// OVER on n-bit codes, compared with LaMar 2004, Tables 2 and 3, and with exact fractions.
 #include "compositing/codes.h"
 
 #include <gtest/gtest.h>
@@ -23,8 +23,8 @@ std::uint32_t over4(std::uint32_t f, std::uint32_t b) {
     return over(OverRounding::separate, 15, f, b, 15);
 }
 
-// The paper prints each row of Table 2 as a run of wide cells: as f goes from 0 to 15 the values
-// b, b + 1, ..., 15 follow each other and none is left out.
+// The paper prints each row of Table 2 as wide cells: as f goes from 0 to 15 the values b, b + 1,
+// ..., 15 follow each other and none is left out.
 TEST(Over, GivesTheCellsOfTable2) {
     for (std::uint32_t b = 0; b <= 15; ++b) {
         EXPECT_EQ(over4(0, b), b);
@@ -41,8 +41,8 @@ TEST(Over, GivesTheCellsOfTable2) {
     }
 }
 
-// Repeated compositions of f over 0. Row 4 is what the arithmetic gives: 4 + 9 * 11 / 15 = 10.6;
-// the paper prints 10 as its fourth entry (docs/numerics.md, "Where the papers are wrong").
+// Rows are repeated compositions of f over 0. Row 4 is what the arithmetic gives: 4 + 9 * 11 / 15 =
+// 10.6; the paper prints 10 as its fourth entry (docs/numerics.md, "Where the papers are wrong").
 TEST(Over, GivesTable3) {
     struct Row {
         std::uint32_t f;
@@ -86,7 +86,7 @@ class OverBits : public testing::TestWithParam<int> {};
 TEST_P(OverBits, IsTheExactFractionRounded) {
     const std::uint32_t largest = largest_code(GetParam());
     std::mt19937 random(7);
-    // Every fourth operand is one of the ends, where sums and products are largest.
+    // Every fourth operand is 0 or the largest code, with which sums and products are extreme.
     const auto code = [&] {
         const auto choice = static_cast<std::uint32_t>(random());
         if (choice % 8 == 0) return largest;
@@ -106,7 +106,7 @@ TEST_P(OverBits, IsTheExactFractionRounded) {
     }
 }
 
-// Whatever fragments come, associated colour stays under opacity and both under M.
+// For any fragments, associated colour is at most the opacity, and both are at most M.
 TEST_P(OverBits, AccumulatesColorBelowOpacity) {
     const std::uint32_t largest = largest_code(GetParam());
     std::mt19937 random(11);
@@ -124,7 +124,7 @@ TEST_P(OverBits, AccumulatesColorBelowOpacity) {
     }
 }
 
-// M * t / M has nothing to round, so that both ways round the same product once.
+// M * t / M needs no rounding, so both kinds of rounding round the same product once.
 TEST_P(OverBits, SeparateIsFusedForAlpha) {
     const std::uint32_t largest = largest_code(GetParam());
     std::mt19937 random(13);
@@ -141,7 +141,7 @@ TEST_P(OverBits, SeparateIsFusedForAlpha) {
 
 INSTANTIATE_TEST_SUITE_P(All, OverBits, testing::Values(1, 2, 6, 8, 10, 12, 16));
 
-// Of 16 bits (2 x + M) / (2 M) would overflow (docs/numerics.md, section 2).
+// With 16 bits, (2 x + M) / (2 M) would overflow (docs/numerics.md, section 2).
 TEST(Over, HoldsTheLargestProductOf16Bits) {
     for (const OverRounding rounding : both_roundings) {
         EXPECT_EQ(over(rounding, 65535, 65535, 65535, 65535), 65535u);
@@ -151,8 +151,8 @@ TEST(Over, HoldsTheLargestProductOf16Bits) {
     }
 }
 
-// Weight rounding (section 4.3): Figure 3's curves of colour 0.5, code 128, over rising opacity
-// also fall; with fused rounding none does (docs/numerics.md, section 2).
+// The weight-rounding error (LaMar 2004, section 4.3): Figure 3's curves of colour 0.5, code 128,
+// over rising opacity also fall; with fused rounding none does (docs/numerics.md, section 2).
 TEST(Over, OnlySeparateHasTheWeightRoundingError) {
     for (const int samples : {16, 64, 256}) {
         for (const OverRounding rounding : both_roundings) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shaders/compositing gives what src/compositing gives: bit for bit, but for the codes of optical
-// depth, which are float32 there.
+// shaders/compositing computes the same numbers as src/compositing, bit for bit, except for the
+// codes of optical depth, which it computes in float32.
 #include <array>
 #include <cmath>
 #include <string>
@@ -14,7 +14,7 @@ namespace {
 
 using ShaderTwins = gl::GlTest;
 
-// Pixel i, row by row from the bottom, gets i as its index.
+// Size of the target. Pixels have indices, row by row from the bottom.
 constexpr int edge = 256, pixels = edge * edge;
 
 gl::Program program_of(const std::string& include, const std::string& body,
@@ -35,6 +35,7 @@ std::string include_of(const std::string& name) {
     return "#include \"compositing/" + name + ".glsl\"\n";
 }
 
+// A program's results, by the index of the pixel.
 class Results {
   public:
     explicit Results(gl::Program& program) {
@@ -136,7 +137,7 @@ class ShaderTwinsOfBits : public gl::ContextTest<testing::TestWithParam<int>> {
     void SetUp() override { make_context(gl::ContextKind::osmesa); }
 };
 
-// Random operands; every fourth is an end of the codes, where sums are largest.
+// Operands are random; every fourth is 0 or the largest code, with which sums are extreme.
 TEST_P(ShaderTwinsOfBits, OverOfRandomOperands) {
     const std::uint32_t largest = largest_code(GetParam());
     const auto operand = [&](std::uint32_t i, std::uint32_t which) {
@@ -170,9 +171,9 @@ TEST_P(ShaderTwinsOfBits, OverOfRandomOperands) {
     }
 }
 
-// Scaled values, of operations that round in the same way in either language. Of four: two anywhere
-// in 0..M, one at or beside a whole number by up to 2^-27 or 2^-33 (the noise is 1e-9, 2^-29.9),
-// one at or beside a half.
+// GLSL for scaled values, from operations that round alike in C++ and in GLSL. Of four, two are
+// anywhere in 0..M, one is at or beside a whole number by up to 2^-27 or 2^-33 (code_noise is 1e-9,
+// 2^-29.9), and one at or beside a half.
 constexpr const char* scaled_value =
     "const double exp2_minus_32 = 1.0LF / 4294967296.0LF;\n"
     "double scaled_value(uint index) {\n"
@@ -192,7 +193,8 @@ double scaled_value_of(std::uint32_t index, std::uint32_t largest) {
     return std::fmax(code + beside / ((index & 8) != 0 ? 4 : 256), 0);
 }
 
-// `size` numbers; every second the one where a comparison with the value's rest turns.
+// GLSL for numbers from 0 to `size`, alternating every 16 indices between random ones and the one
+// at which a comparison with the value's rest changes.
 constexpr const char* chosen_number =
     "uint chosen_number(uint index, double scaled, double size) {\n"
     "    if ((index & 16u) != 0u) return uint((scaled - floor(scaled)) * size);\n"
@@ -250,8 +252,9 @@ gl::Program depth_program(NodeCode code, const std::string& body) {
     return program_of(include_of("node_code"), body, defines);
 }
 
-// GLSL's logarithm: 2^-21 absolute between 1/2 and 2, elsewhere 3 units in the last place, of
-// ln 1024 then 3 * 2^-21; its exp(x): 3 + 2 |x| units (GLSL 4.50, section 4.7.1).
+// Error that GLSL allows for logarithms here: 2^-21 absolute between 1/2 and 2, elsewhere 3 units
+// in the last place, which for ln 1024 are 3 * 2^-21. It allows 3 + 2 |x| units for exp(x) (GLSL
+// 4.50, section 4.7.1).
 constexpr double log_error = 3 * 0x1p-21;
 
 TEST_F(ShaderTwins, DepthFromOpacity) {
@@ -263,8 +266,9 @@ TEST_F(ShaderTwins, DepthFromOpacity) {
     const Results results(program);
     for (std::uint32_t i = 0; i < pixels; ++i) {
         const double value = results[i][0], expected = -std::log1p(-value);
-        // Below 1/4 some ten roundings of 2^-24, of which the largest are of the result itself, and
-        // 2e-8 of truncation; above it the logarithm's error and the rounding of 1 - value.
+        // Below 1/4 there are some ten roundings of 2^-24, of which the largest are of the result
+        // itself, and 2e-8 of truncation. Above 1/4 there are the logarithm's error and the
+        // rounding of 1 - value.
         const double tolerance = value < .25 ? expected * 4e-7 : 0x1p-21 + expected * 4e-7;
         ASSERT_NEAR(results[i][1], expected, tolerance) << value;
     }
@@ -286,9 +290,10 @@ TEST_P(DepthTwins, EncodeDepth) {
     const Results results(program);
     for (std::uint32_t i = 0; i < pixels; ++i) {  // depths from 1e-8 to 1e4
         const double expected = encode_depth(code, results[i][0], share);
-        // Relative: the series' 4e-7 (tests/slicing/twins_test.cpp), and as much for the division
-        // by 1 + ln(1 / share) / e. Absolute above depth or sigma 1/4: two logarithms over e, and
-        // the exponential, 3 units and what 2 x exp(-x) < .74 adds.
+        // The relative error is the series' 4e-7 (tests/slicing/twins_test.cpp), and as much for
+        // the division by 1 + ln(1 / share) / e. The absolute error, if depth or sigma is above
+        // 1/4, is that of two logarithms over e, and of the exponential, 3 units and at most .74
+        // more for 2 x exp(-x).
         const double steep = results[i][0] / (code == NodeCode::alpha ? 1 : share);
         const double absolute = steep < .25 ? 0 : 2 * log_error / std::exp(1.) + 4 * 0x1p-24;
         ASSERT_NEAR(results[i][1], expected, expected * 8e-7 + absolute) << results[i][0];
@@ -309,13 +314,13 @@ TEST_P(DepthTwins, DecodeDepth) {
     const Results results(program);
     for (std::uint32_t i = 0; i < pixels; ++i) {
         const double value = results[i][0], expected = decode_depth(code, value, share);
-        // The logarithm's 2^-21 of a depth of at least .28 (DepthFromOpacity) and the other
-        // roundings' 8e-7. Minimax takes exp() of up to ln 1024, 6.9, from numbers u <= 3.6 known
-        // to log_error / e: their e-fold, three roundings of such numbers (2^-22) and 17 units of
-        // exp() itself.
+        // The relative error is the logarithm's 2^-21 of a depth of at least .28 (DepthFromOpacity)
+        // and 8e-7 of other roundings. Minimax takes exp() of up to ln 1024, 6.9, from numbers u <=
+        // 3.6 with an error of log_error / e: the exponential has e times this error, three
+        // roundings of such numbers (2^-22) and 17 units of exp() itself.
         double relative = 0x1p-21 / .28 + 8e-7;
         if (code == NodeCode::minimax) relative += log_error + 3 * 0x1p-22 + 17 * 0x1p-24;
-        // Beyond depth 1 minimax's transmittance is a difference of such numbers.
+        // Beyond depth 1, minimax's transmittance is a difference of numbers with such errors.
         const double absolute =
             code == NodeCode::minimax && expected > 1 ? 2 * log_error * std::exp(expected) : 0;
         ASSERT_NEAR(results[i][1], expected, expected * relative + absolute) << value;

@@ -77,7 +77,7 @@ TEST(TreeShape, CountsAreThoseOfARecursion) {
             EXPECT_EQ(tree.leaf_count(), counts.leaves) << to_text(factors) << " of " << samples;
             EXPECT_EQ(counts.samples, samples);
             if (tree.levels() > 0) {
-                // Unless a single sample: no leaf is wider than the last factor.
+                // No leaf has more samples than the last factor.
                 EXPECT_LE(counts.deepest_leaf, tree.factor(tree.levels() - 1));
             }
         }
@@ -146,7 +146,7 @@ TEST(TreeShape, RefusesWhatAreNoFactors) {
     expect_error([] { parse_factors("2^10x2^7"); }, {"2^10x2^7", "17 levels", "16"});
 }
 
-// docs/numerics.md, section 3 once more.
+// A second implementation of docs/numerics.md, section 3.
 struct Tree {
     std::vector<double> ray;
     Factors factors;
@@ -170,7 +170,7 @@ struct Tree {
         return whole + (rank < std::floor(dither->period * rest + 1e-9L) ? 1 : 0);
     }
 
-    // Samples begin .. end - 1.
+    // Returns the code of a node with the samples begin .. end - 1.
     std::uint32_t node(std::size_t level, int begin, int end) const {
         const int n = end - begin;
         std::vector<std::uint32_t> alphas;  // from the front
@@ -233,7 +233,7 @@ TEST_P(TreeFactors, CodesAreThoseOfARecursion) {
 
 INSTANTIATE_TEST_SUITE_P(Some, TreeFactors, testing::ValuesIn(some_factors));
 
-// The straight ray is the tree of one level.
+// Straight compositing is a tree of one level.
 TEST(Tree, OfOneLevelIsStraightCompositing) {
     const std::vector<double> ray = oracle::random_ray(200, .999, 5);
     std::vector<RaySample> samples;
@@ -270,8 +270,8 @@ TEST(Tree, EqualFragmentsGiveTheSameInEitherOrder) {
     }
 }
 
-// LaMar 2004, Table 1 (docs/numerics.md, "Where the papers are wrong"): what an 8-bit buffer holds
-// of nine opacities after 64 samples.
+// LaMar 2004, Table 1 (docs/numerics.md, "Where the papers are wrong"): the values of an 8-bit
+// buffer for nine opacities after 64 samples.
 TEST(Tree, StraightRaysHoldWhatNumericsSaysOfTable1) {
     const std::vector<std::uint32_t> expected = {0, 0, 64, 64, 96, 136, 183, 220, 255};
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -283,7 +283,8 @@ TEST(Tree, StraightRaysHoldWhatNumericsSaysOfTable1) {
 
 using Weight = std::function<double(int child, int node, int children)>;
 
-// Phi of a node in double precision.
+// Returns the Phi of a node (the opacity of the whole ray if all of it were like the node), in
+// double precision.
 double phi_of(const std::vector<double>& ray, const TreeShape& tree, const Weight& weight,
               int level, const SampleSpan& node) {
     const bool leaf = tree.is_leaf(level, node);
@@ -307,7 +308,7 @@ double by_number(int, int, int children) {
     return 1.0 / children;
 }
 
-// The exact opacity, from the mean optical depth.
+// Returns the exact opacity, from the mean optical depth.
 double exact_opacity(const std::vector<double>& ray) {
     long double depth = 0;
     for (const double unit : ray) depth -= std::log1p(-static_cast<long double>(unit));
@@ -319,9 +320,10 @@ TEST(Tree, IsTheStraightRayForEverySplit) {
         for (const int samples : {1, 16, 1000, 1021, 1024, 4096}) {
             const std::vector<double> ray = oracle::random_ray(samples, .9, 3);
             const TreeShape tree(factors, samples);
-            // A node of k children multiplies k transmittances in 2 k roundings of 2^-53 at most; a
-            // level of them adds that to its Phi, and the mean over children keeps it. In fact they
-            // cancel: a random walk, of five standard deviations (2^-53 / sqrt 3 each).
+            // A node of k children multiplies k transmittances in 2 k roundings of 2^-53 at most. A
+            // level of nodes adds these errors to its Phi, and the mean over children keeps them.
+            // They cancel in part, as in a random walk: the tolerance is five standard deviations
+            // (2^-53 / sqrt 3 each).
             double steps = 0;
             for (int level = 0; level < tree.levels(); ++level) steps += 3 * tree.factor(level);
             EXPECT_NEAR(phi_of(ray, tree, by_share, 0, tree.root()), exact_opacity(ray),
@@ -331,7 +333,8 @@ TEST(Tree, IsTheStraightRayForEverySplit) {
     }
 }
 
-// What 1 / (number of children) gets wrong of unequal ones; equal children do not show it.
+// Weights of 1 / (number of children) are wrong for children of unequal sizes; equal samples do not
+// show it.
 TEST(Tree, NeedsTheWeightsOfUnequalChildren) {
     std::vector<double> ray(5, 0.0);
     ray[0] = ray[1] = .999;  // the smaller of two children

@@ -13,7 +13,7 @@ namespace {
 
 using test::knot;
 
-// Something changes from 100 to 104 only: transparent before, constant after.
+// A function that changes visibly only from 100 to 104: it is transparent below and constant above.
 TransferFunction narrow() {
     return TransferFunction::linear({knot(0, {1, 0, 0}, 0), knot(100, {0, 1, 0}, 0),
                                      knot(102, {0, 1, 0}, 3), knot(104, {1, 1, 1}, 1),
@@ -24,8 +24,9 @@ TEST(ExactRange, IsAPowerOfTwoAroundWhatChanges) {
     const ValueRange range = exact_range(narrow(), {-3, 60000}, SampleType::uint16);
     EXPECT_LT(range.lo, 100);
     EXPECT_GT(range.hi, 104);
-    // Of three halves of an interval, side by side and overlapping, one holds what is shorter than
-    // a quarter of it less two margins; so the width ends at most at four times 4, and its margins.
+    // One of three overlapping halves of an interval (lower, middle, upper) holds whatever is
+    // shorter than a quarter of the interval less two margins. So halving the range stops at less
+    // than four times the length of 4 with its margins.
     EXPECT_LE(range.hi - range.lo, 32);
     EXPECT_EQ(std::exp2(std::round(std::log2(range.hi - range.lo))), range.hi - range.lo);
     EXPECT_EQ(range.lo, std::floor(range.lo));
@@ -45,7 +46,7 @@ TEST(ExactRange, EndsAtTheDistanceOfFloats) {
         TransferFunction::linear({knot(1000, {1, 1, 1}, 0), knot(1000, {1, 1, 1}, 1)});
     const ValueRange floats = exact_range(step, {-1e9, 1e9}, SampleType::float32);
     EXPECT_GE(floats.hi - floats.lo, 1000 * 0x1p-24);
-    // 2^-28 of the range is 8; the width ends within a factor of 2 of that.
+    // The width is at least 2^-28 of the range, which is 8, and at most twice that.
     EXPECT_LE(floats.hi - floats.lo, 16);
     EXPECT_LT(floats.lo, 1000);
     EXPECT_GT(floats.hi, 1000);
@@ -77,7 +78,7 @@ TEST(MeshWindow, IsTheRangeIfNothingChangesThere) {
     EXPECT_EQ(mesh_window(one, field, {0, 10}), (ValueRange{0, 10}));
 }
 
-// A step has no width: the values around it say how far they are apart.
+// A step has no width of its own, so the distance of the values around it sets the width.
 TEST(MeshWindow, OfAStepIsAsWideAsTheValuesNearIt) {
     const auto step = TransferFunction::linear({knot(.5, {1, 1, 1}, 0), knot(.5, {1, 1, 1}, 1)});
     const ValueRange window = mesh_window(step, field, {.1, 9.97e36});

@@ -50,7 +50,7 @@ TEST(Facts, TransferFunctionIsJudgedOverTheVolumesRangeOnly) {
     EXPECT_EQ(facts.max_extinction, 1);
     EXPECT_EQ(facts.occupied_share, 1);
     EXPECT_EQ(facts.max_color, 1);
-    // Both sides of steps are met, at the ends of the range, too.
+    // Both sides of a step count, also if it lies at an end of the range (255).
     const auto step_at = [&](double value, double before, double behind) {
         auto& points = document["transfer_function"]["points"];
         points[1]["value"] = points[2]["value"] = value;
@@ -63,10 +63,12 @@ TEST(Facts, TransferFunctionIsJudgedOverTheVolumesRangeOnly) {
         EXPECT_EQ(step_at(value, 9, 1), 9);
         EXPECT_EQ(step_at(value, 1, 9), 9);
     }
+    // The colour at 255, the largest value, is halfway from 0 (at value 0) to 9 (at value 510).
     EXPECT_EQ(step_at(510, 9, 1), 4.5);
 }
 
-// A sheet in x, on the common border of bricks 3 and 4 of twelve: both show it.
+// The only samples above 0 form the plane x = 16, the common border of bricks 3 and 4 of twelve:
+// both bricks are visible.
 TEST(Facts, OccupiedBricksAreThoseThatShowSomething) {
     const Volume volume =
         test::volume_of<float>(test::grid_of({49, 17, 33}, Centering::node),
@@ -87,8 +89,8 @@ TEST(Facts, OccupiedBricksAreThoseThatShowSomething) {
     EXPECT_TRUE(bricks.any_in({-7, -2, 0}, {12.1, 20, 40}));
 }
 
-// Bricks of the very value from which on something shows are empty, however steeply it rises, but
-// where roundings would show it, above all at a step. The box's diagonal is 32.03 long.
+// A brick whose largest value is exactly where extinction starts to rise counts as empty, unless
+// float32 rounding could make it show: steep rises and steps. The box's diagonal is 32.03 long.
 TEST(Facts, BricksThatEndWhereSomethingBeginsAreEmpty) {
     const Volume volume =
         test::volume_of<float>(test::grid_of({33, 2, 2}, Centering::node),
@@ -99,18 +101,21 @@ TEST(Facts, BricksThatEndWhereSomethingBeginsAreEmpty) {
             {test::knot(.25, {1, 1, 1}, 0), test::knot(value, {1, 1, 1}, extinction)});
         return measure(scene, volume, measure_bricks(volume)).occupied_share;
     };
-    // .75e-6 beyond .25 and 32.03 long, extinction that rises by 4 .. 5 shows a depth of 1e-4.
+    // Rounding may reach .75e-6 (1e-6 of the range .25 .. 1) beyond .25. Along 32.03, extinction
+    // that rises by 4 to 5 per unit of the value then adds an optical depth of 1e-4, the limit; the
+    // slopes here are 3.6 and 4.8.
     EXPECT_EQ(share(.5, .9), .5);
     EXPECT_EQ(share(.5, 1.2), 1);
     EXPECT_EQ(share(.25, 1e-3), 1);
     EXPECT_EQ(share(.25, 1e-12), 1);
-    // Where it begins at the volume's largest value, nothing shows at all.
+    // If extinction starts to rise at the volume's largest value, nothing shows at all.
     scene.transfer_function =
         TransferFunction::linear({test::knot(1, {1, 1, 1}, 0), test::knot(1.1, {1, 1, 1}, 1e6)});
     EXPECT_EQ(measure(scene, volume, measure_bricks(volume)).occupied_share, 0);
 }
 
-// In float32 codes of 16 bits, from 32768 on, are good to 2^-24 of them, .002 each rounding.
+// int16 is shifted by 32768, and float32 holds such codes to 32768 * 2^-24 = .002: the value 40 may
+// show if extinction rises from 40.004 on, but not from 41 on.
 TEST(Facts, IntegersKeepAMarginOfTheirCodes) {
     const auto samples = std::make_shared<std::vector<std::int16_t>>(33 * 2 * 2);
     for (std::size_t i = 0; i < samples->size(); ++i) (*samples)[i] = i % 33 > 16 ? 100 : 40;

@@ -48,7 +48,7 @@ std::int64_t distance_between(const Place& a, const Place& b) {
     return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-// By a loop over all that are shown.
+// Compares with the least distance over all visible bricks.
 TEST(OccupiedBricks, DistancesAreThoseToTheNearest) {
     std::mt19937 random(1);
     for (const Place& count :
@@ -66,7 +66,7 @@ TEST(OccupiedBricks, DistancesAreThoseToTheNearest) {
     }
 }
 
-// Boxes of any size, also of more bricks than distances reach.
+// Tests boxes of any size, also longer than the largest distance.
 TEST(OccupiedBricks, AnyOfABoxIsFound) {
     std::mt19937 random(4);
     const Place count{200, 9, 90};
@@ -109,10 +109,10 @@ TEST(OccupiedBricks, WhatIsEmptyAroundAPointShowsNothing) {
             EXPECT_LE(min[axis], point[axis]);
             EXPECT_GE(max[axis], point[axis]);
         }
-        const glm::dvec3 inside(1e-9);  // bricks share their borders
+        const glm::dvec3 inside(1e-9);  // because neighbouring bricks share their borders
         EXPECT_EQ(bricks.any_in(min + inside, max - inside), !empty);
         if (!empty) continue;
-        // A brick more on each side would hold one that is shown.
+        // With one more brick on each side, the box would hold a visible brick.
         EXPECT_TRUE(bricks.any_in(min - 4.0, max + 4.0));
     }
 }

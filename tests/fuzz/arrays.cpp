@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zarr, hdf5, dicom: what holds arrays in a way of its own.
+// The targets zarr, hdf5 and dicom: formats that store arrays in folders or containers.
 #include <filesystem>
 
 #include "input_parts.h"
@@ -24,7 +24,7 @@ std::filesystem::path scratch_in(const std::string& folder, const std::string& n
 
 void run_zarr(std::string_view input) {
     const InputParts array = parts_of(input), rest = parts_of(array.second);
-    if (!stays_in_folder(rest.first)) return;  // attributes name folders
+    if (!stays_in_folder(rest.first)) return;  // attributes may name folders
     std::filesystem::remove_all(scratch_folder() / "volume.zarr");
     scratch_in("volume.zarr/0", ".zarray", array.first);
     scratch_in("volume.zarr/0", "0.0.0", rest.second);

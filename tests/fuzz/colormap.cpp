@@ -8,7 +8,7 @@
 namespace lamina::fuzz {
 namespace {
 
-// What is read is in order and finite: knots made of it are.
+// Throws Violation unless knots made of a colour map are in order and finite.
 void check_knots(std::vector<TransferKnot> knots) {
     try {
         TransferFunction::linear(std::move(knots));

@@ -13,7 +13,7 @@ namespace lamina::fuzz {
 inline const std::filesystem::path corpus_folder =
     std::filesystem::path(LAMINA_SOURCE_DIR) / "tests/fuzz/corpus";
 
-// Sorted.
+// Lists the files or folders in a folder, sorted.
 inline std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder) {
     const std::filesystem::directory_iterator first(folder);
     std::vector<std::filesystem::path> entries(begin(first), end(first));
@@ -21,7 +21,7 @@ inline std::vector<std::filesystem::path> entries_of(const std::filesystem::path
     return entries;
 }
 
-// For the names of tests.
+// Lets GoogleTest print a target by its name.
 inline void PrintTo(const FuzzTarget& target, std::ostream* stream) {
     *stream << target.name;
 }

@@ -6,19 +6,20 @@
 
 namespace lamina::fuzz {
 
-// What is tried with inputs of any kind: a reader, and what its results go into. Errors of type
-// lamina::Error are what bad input is to end in; run() lets all else through: other exceptions,
-// Violation (violation.h) among them, are findings, and so are whatever sanitizers report.
+// A fuzzed reader, with the code that uses its results. Bad input must end in a lamina::Error,
+// which run() catches. Other exceptions, Violation (violation.h) included, propagate and count as
+// findings, and so do reports of sanitizers.
 struct FuzzTarget {
-    const char* name;  // of its folder in corpus/
+    const char* name;  // the target's folder in corpus/
     void (*run)(std::string_view input);
-    // Mutations of its corpus in the ordinary tests.
+    // Number of mutated corpus inputs that the ordinary tests try (mutations_test.cpp).
     int mutations = 2000;
 };
 
-// Of readers that start a process for each input, which takes some 30 ms.
+// FuzzTarget::mutations for readers that start a process per input (30 ms).
 constexpr int few_mutations = 100;
 
+// Lists all targets (fuzz_target.cpp).
 std::span<const FuzzTarget> fuzz_targets();
 
 }  // namespace lamina::fuzz

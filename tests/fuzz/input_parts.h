@@ -5,11 +5,12 @@
 
 namespace lamina::fuzz {
 
-// On a line of its own between the two files of an input.
+// Separates the two files of an input; it is a line of its own.
 inline constexpr std::string_view part_mark = "\n=====\n";
 
+// The two files of an input (runs.h says which).
 struct InputParts {
-    std::string_view first, second;  // the second is empty where there is no mark
+    std::string_view first, second;  // `second` is empty if there is no mark
 };
 
 inline InputParts parts_of(std::string_view input) {

@@ -23,6 +23,8 @@ void check_integral(const IntegrationCase& segment) {
 
 }  // namespace
 
+// Reads and integrates cases. The second part of the input is the colour map that they may name,
+// map.json.
 void run_integrate(std::string_view input) {
     const InputParts parts = parts_of(input);
     const auto file = scratch_file("cases.json", parts.first);

@@ -9,8 +9,8 @@
 
 namespace lamina::fuzz {
 
-// Whether all strings in a document that load_json() took stay in the scratch folder, if they are
-// paths.
+// Tells whether all strings of a document, taken as paths, stay in the scratch folder. load_json()
+// must have accepted it.
 inline bool paths_stay_in_folder(const nlohmann::json& document) {
     if (document.is_string()) return stays_in_folder(document.get_ref<const std::string&>());
     if (!document.is_structured()) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// node_ele, pvd, vtk, vtu: meshes, put in visibility order and planned.
+// The targets node_ele, pvd, vtk and vtu: meshes are read, sorted in visibility order and planned.
 #include <algorithm>
 #include <set>
 
@@ -15,6 +15,7 @@
 namespace lamina::fuzz {
 namespace {
 
+// Largest number of tets of a mesh that is sorted and planned.
 constexpr std::size_t most_drawn = 200;
 
 void check_sizes(const MeshData& data) {
@@ -64,7 +65,7 @@ void check_mesh(MeshData data) {
     check_project_plans(scene, mesh);
 }
 
-// Whether no file that an index names lies elsewhere.
+// Tells whether all files that an index (.pvd, .pvtu) names are in the scratch folder.
 bool names_stay_in_folder(std::string_view index) {
     for (const char* const attribute : {"file=\"", "Source=\"", "file='", "Source='"}) {
         for (std::size_t at = index.find(attribute); at != index.npos;
@@ -74,7 +75,7 @@ bool names_stay_in_folder(std::string_view index) {
             if (!stays_in_folder(index.substr(from, end - from))) return false;
         }
     }
-    return index.find("&#") == index.npos;  // another way to write a slash
+    return index.find("&#") == index.npos;  // a character reference, which may stand for a slash
 }
 
 void run_mesh(const char* name, std::string_view input) {

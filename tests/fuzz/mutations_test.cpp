@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A short run of every fuzz target in the ordinary tests: some thousand inputs made from its corpus
-// by chance, the same ones every time. tools/fuzz searches for longer, and knows what is new.
+// Fuzzes every target for a short time in the ordinary tests, with FuzzTarget::mutations random
+// mutations of its corpus, the same ones every time. tools/fuzz searches longer, guided by
+// coverage.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,13 +17,14 @@
 namespace lamina::fuzz {
 namespace {
 
-// Numbers that readers are wrong about, in text.
+// Texts that readers are likely to handle wrongly: extreme numbers, and marks of syntax.
 constexpr std::array<std::string_view, 14> words{
     "0",          "-1",     "4294967296", "18446744073709551615",
     "1e308",      "1e-320", "nan",        "-1e39",
     "2147483647", "65536",  "\"",         "}",
     " ",          "\n"};
 
+// Makes random mutations of the inputs of a corpus.
 class Mutator {
   public:
     Mutator(const std::vector<std::string>& corpus, std::uint64_t seed)
@@ -37,7 +39,7 @@ class Mutator {
   private:
     std::size_t below(std::size_t count) { return bits_.next() % count; }
 
-    // A place in the input, its end among them.
+    // Returns a random place in the input, or its end.
     std::size_t place(const std::string& input) { return below(input.size() + 1); }
 
     void mutate(std::string& input) {

@@ -13,7 +13,8 @@
 namespace lamina::fuzz {
 namespace {
 
-// Whether no line that may be the field `data file` names a path.
+// Tells whether every line that may be the field `data file` names only files in the scratch
+// folder.
 bool data_file_stays_in_folder(std::string_view header) {
     std::string lower(header);
     std::ranges::transform(lower, lower.begin(),
@@ -21,7 +22,7 @@ bool data_file_stays_in_folder(std::string_view header) {
     for (const char* const field : {"data file", "datafile"}) {
         for (std::size_t at = lower.find(field); at != lower.npos; at = lower.find(field, at + 1)) {
             const std::size_t end = std::min(lower.find('\n', at), lower.size());
-            // After LIST all lines are names.
+            // After LIST all lines are names of files.
             const bool list =
                 std::string_view(lower).substr(at, end - at).find("list") != lower.npos;
             const std::size_t length = list ? lower.npos : end - at;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// exr, npy, png: pictures as `lamina compare` reads them, each compared with itself.
+// The targets exr, npy and png: pictures are read as by `lamina compare`, and compared with
+// themselves.
 #include <variant>
 
 #include "image/picture.h"

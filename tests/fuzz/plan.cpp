@@ -17,12 +17,13 @@
 namespace lamina::fuzz {
 namespace {
 
+// Largest size of a volume along an axis, and largest number of tets.
 constexpr std::int64_t longest_axis = 12;
 constexpr std::int64_t most_tets = 600;
-// A table as large as scenes may ask for takes seconds to fill.
+// Largest size of a table: one as large as scenes may ask for takes seconds to fill.
 constexpr int most_nodes = 32, most_layers = 4;
 
-// The data that the scene asks for, but small ones: the plan is what is tried.
+// Makes the data and tables that a scene asks for small, because only the plan is tested.
 void shrink(Scene& scene) {
     const auto* const asked = std::get_if<GeneratorRequest>(&scene.volume);
     GeneratorRequest volume = asked != nullptr ? *asked : GeneratorRequest{"gaussians", {}, {}};

@@ -13,7 +13,8 @@
 namespace lamina::fuzz {
 namespace {
 
-// As tiles/cpu_capabilities.h and, of OpenGL, Mesa's and a GPU's.
+// Returns the capabilities of the cpu engine (tiles/cpu_capabilities.h), of Mesa's OpenGL and of a
+// GPU.
 std::array<Capabilities, 3> usual_capabilities() {
     constexpr int any = std::numeric_limits<int>::max();
     Capabilities native, mesa, gpu;
@@ -62,7 +63,8 @@ void check_projection(const ProjectPlan& plan) {
     require_finite(plan.table.request.max_length, "the table's length");
 }
 
-// What slicing/slab_trials.h would find by drawing pictures: halved errors for twice the slabs.
+// Returns results as slicing/slab_trials.h would find them by drawing pictures: twice the slabs
+// have half the error.
 std::vector<SlabTrial> made_up_trials(const Scene& scene, const Facts& facts) {
     std::vector<SlabTrial> trials;
     double error = 64;
@@ -93,7 +95,8 @@ void check_facts(const Facts& facts) {
     }
 }
 
-// Each plan may fail by itself.
+// Calls make_plan_for(capabilities, omissions) for all usual contexts, with omissions and without.
+// Each call may throw Error.
 template <typename MakePlan>
 void for_all_contexts(const MakePlan& make_plan_for) {
     for (const Capabilities& capabilities : usual_capabilities()) {

@@ -8,14 +8,14 @@
 
 namespace lamina::fuzz {
 
-// Measures and plans for the cpu engine and for what OpenGL typically can do, with omissions and
-// without; throws Error where nothing can be planned, and Violation where a number of facts or plan
-// is none or beyond its limits.
+// Measure the data and plan for the cpu engine and for typical OpenGL contexts, with omissions and
+// without. Throw Error if the data cannot be measured, and Violation if a number of the facts or of
+// a plan is not finite or beyond its limits.
 void check_slice_plans(const Scene& scene, const Volume& volume);
 void check_project_plans(const Scene& scene, const SceneMesh& mesh);
 
-// A scene without a choice of its own around data that come from a file: drawn with `method`, the
-// eye before the box, extinction where the scalars are.
+// The box of data; scene_around() returns a simple scene of data in this box: drawn with `method`,
+// the eye in front of the box, and extinction over the range lowest .. highest of the scalars.
 struct Box {
     glm::dvec3 min{0}, max{0};
 };

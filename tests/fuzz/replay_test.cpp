@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The corpus of every fuzz target through the target's own function, without libFuzzer: what once
-// failed stays mended.
+// Passes the corpus of every fuzz target to the target's function, without libFuzzer, so that
+// inputs that once failed do not fail again.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// FuzzTarget::run of every target, each in a file of its name. Inputs in two parts are cut at
-// part_mark (input_parts.h).
+// FuzzTarget::run of every target. Comments say what an input is; inputs of several parts are cut
+// at part_mark (input_parts.h).
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@ namespace lamina::fuzz {
 
 void run_colormap(std::string_view input);  // a ParaView preset
 void run_dicom(std::string_view input);     // a slice, another slice
-void run_exr(std::string_view input);       // pictures, as `lamina compare` reads them
+void run_exr(std::string_view input);       // a picture, as `lamina compare` reads it
 void run_hdf5(std::string_view input);
 void run_integrate(std::string_view input);  // cases of `lamina integrate`
 void run_metaimage(std::string_view input);  // the file, its data file
@@ -19,7 +19,7 @@ void run_npy(std::string_view input);
 void run_npy_volume(std::string_view input);
 void run_nrrd(std::string_view input);   // the file, the data file of a detached header
 void run_plan(std::string_view input);   // a scene; its volume is replaced by a small one
-void run_png(std::string_view input);    // see run_exr
+void run_png(std::string_view input);    // a picture, as in run_exr()
 void run_scene(std::string_view input);  // a scene, its colour map
 void run_study(std::string_view input);  // a study, its scene
 void run_pvd(std::string_view input);    // a .pvd or .pvtu, the .vtu that it may name ("mesh.vtu")
@@ -27,6 +27,6 @@ void run_tiff(std::string_view input);
 void run_vti(std::string_view input);
 void run_vtk(std::string_view input);
 void run_vtu(std::string_view input);
-void run_zarr(std::string_view input);  // .zarray, .zattrs (or none), a chunk: parts of parts
+void run_zarr(std::string_view input);  // .zarray, then .zattrs (may be empty), then a chunk
 
 }  // namespace lamina::fuzz

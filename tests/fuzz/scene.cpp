@@ -11,6 +11,8 @@
 
 namespace lamina::fuzz {
 
+// Reads a scene, writes and reads it again, and makes the first and the last ray of the top row.
+// The second part of the input is the colour map that the scene may name, map.json.
 void run_scene(std::string_view input) {
     const InputParts parts = parts_of(input);
     const auto file = scratch_file("scene.json", parts.first);

@@ -9,7 +9,8 @@
 namespace lamina::fuzz {
 namespace {
 
-// Each takes the time of a scene file.
+// Largest number of runs of a study that is listed, and of its runs that are read: reading a run
+// takes as long as reading a scene file.
 constexpr std::uint64_t most_listed = 500;
 constexpr std::size_t most_read = 16;
 

@@ -9,7 +9,7 @@
 
 namespace lamina::fuzz {
 
-// Something that holds for every input did not.
+// Thrown if something that must hold for every input does not hold: a finding.
 class Violation : public std::logic_error {
   public:
     using std::logic_error::logic_error;
@@ -23,7 +23,7 @@ inline void require_finite(double number, const std::string& what) {
     require(std::isfinite(number), what + " is " + std::to_string(number));
 }
 
-// Runs `action`, which may fail, but not without a reason that can be printed.
+// Calls `action`, which may throw Error, but only with a message that can be printed.
 template <typename Action>
 void may_fail(const Action& action) {
     try {

@@ -8,6 +8,7 @@
 namespace lamina::fuzz {
 namespace {
 
+// Largest number of samples of a volume that is planned.
 constexpr std::int64_t most_planned = 4096;
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace lamina::fuzz {
 
-// Measures a volume that was read, and plans its picture where it is small.
+// Measures a volume that was read and, if it is small, plans its picture.
 void check_volume(const Volume& volume);
 
 }  // namespace lamina::fuzz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// metaimage, nifti, npy_volume, tiff, vti: volumes, measured and planned.
+// The targets metaimage, nifti, npy_volume, tiff and vti: volumes are read, measured and planned.
 #include <algorithm>
 
 #include "input_parts.h"
@@ -12,8 +12,8 @@
 namespace lamina::fuzz {
 namespace {
 
-// Whether no line that may be the field ElementDataFile names a path; after LIST all lines are
-// names.
+// Tells whether every line that may be the field ElementDataFile names only files in the scratch
+// folder. After LIST all lines are names of files.
 bool data_file_stays_in_folder(std::string_view header) {
     constexpr std::string_view field = "ElementDataFile";
     for (std::size_t at = header.find(field); at != header.npos; at = header.find(field, at + 1)) {

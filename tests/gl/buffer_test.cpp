@@ -56,8 +56,8 @@ TEST_F(BufferTest, CountsItsBytesAlsoWhenMoved) {
     EXPECT_EQ(bytes_allocated(), 28);
 }
 
-// Two triangles over the left half and the right half of the target, each with an integer of its
-// own, by indices.
+// Draws two triangles, which cover the left and the right half of the target, with indices and a
+// different integer for each.
 TEST_F(BufferTest, FeedsVertexAttributesAndIndices) {
     struct Vertex {
         float x, y;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program that draws with OpenGL itself finds its own context as it left it.
+// Tests that the current context of a program that uses OpenGL itself is the same before and after
+// it uses lamina.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -19,7 +20,7 @@ namespace {
 constexpr unsigned color_buffer_bit = 0x4000, rgba = 0x1908, unsigned_byte = 0x1401;
 constexpr unsigned floating = 0x1406;
 
-// What the program calls.
+// OpenGL's functions that the program (the test) calls itself.
 struct CallersFunctions {
     void (*clear_color)(float, float, float, float);
     void (*clear)(unsigned);
@@ -41,7 +42,7 @@ struct CallersFunctions {
     }
 };
 
-// Of lamina, one in the other.
+// Draws in contexts of lamina, one current while another is current further out.
 void draw_in_contexts() {
     for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl}) {
         if (kind == ContextKind::egl && !has_egl()) continue;
@@ -84,7 +85,8 @@ TEST(CallersContext, OfOsmesaStays) {
     destroy(context);
 }
 
-// OpenGL ES, which lamina never binds, with surfaces of two sizes.
+// The program has a context of OpenGL ES, an API that lamina never binds, with surfaces of two
+// sizes.
 class CallersEgl : public testing::Test {
   protected:
     void SetUp() override {

@@ -24,7 +24,7 @@ namespace {
 using AnyContext = EveryContextTest;
 INSTANTIATE_TEST_SUITE_P(Contexts, AnyContext, both_contexts, context_name);
 
-// What a fresh context draws: a clear to a value that RGBA32F holds exactly.
+// Clears a new target to a value that RGBA32F holds exactly, and returns what it reads back.
 float cleared_value(float value) {
     Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 3, 2));
     target.clear(glm::vec4(value));
@@ -35,7 +35,7 @@ TEST_P(AnyContext, DescribesItself) {
     const std::string prefix = GetParam() == ContextKind::osmesa ? "OSMesa: " : "EGL: ";
     EXPECT_EQ(capabilities().renderer.rfind(prefix, 0), 0u) << capabilities().renderer;
     EXPECT_GT(capabilities().renderer.size(), prefix.size());
-    // What OpenGL 4.5 guarantees at least (table 23.53).
+    // OpenGL 4.5 guarantees these sizes (table 23.53).
     EXPECT_GE(capabilities().max_texture_size, 16384);
     EXPECT_GE(capabilities().max_3d_texture_size, 2048);
     if (GetParam() == ContextKind::osmesa) {
@@ -50,24 +50,25 @@ TEST_P(AnyContext, HasNoErrorToBeginWith) {
 TEST_P(AnyContext, MeasuresTheFloatFilter) {
     const double error = measure_filter_error(TextureFormat::r32f).found;
     EXPECT_EQ(capabilities().exact_float_filter, error <= 1e-6);
-    // Weights and sums in float32: three nested interpolations of values below 1, each with at most
-    // 3 roundings of 2^-24, gives 9 * 2^-24 = 5.4e-7. A GPU's 8-bit weights are off by up to 1/512
-    // of a step an axis: 6e-3.
+    // Software computes in float32: three nested interpolations of values below 1, each with at
+    // most 3 roundings of 2^-24, give 9 * 2^-24 = 5.4e-7. The 8-bit weights of a GPU are off by up
+    // to 1/512 along each axis: 3 / 512 = 6e-3.
     EXPECT_LE(error, capabilities().software ? 5.4e-7 : 6e-3);
-    // Even correctly rounded float32 results are off by up to 2^-25 each: no error at all means
-    // nothing was measured.
+    // Even correctly rounded float32 results have errors up to 2^-25, so an error of 0 would mean
+    // that nothing was measured.
     EXPECT_GT(error, 0.0);
 }
 
-// Software rounds the results of bytes to codes, too, perhaps at each of three steps: by half of
-// one among 7, each. That is no filter that a picture's error could be told of beforehand.
+// On an r8 texture software also rounds results to codes, perhaps at each of three interpolations,
+// each time by up to half a code where values span 7 codes. The error of a picture cannot be
+// predicted with such a filter.
 TEST_P(AnyContext, MeasuresTheFiltersOfCodes) {
     const FilterError bytes = measure_filter_error(TextureFormat::r8);
     const FilterError words = measure_filter_error(TextureFormat::r16);
     for (const FilterError& error : {bytes, words}) {
         EXPECT_GT(error.found, 0.0);
-        // Weights are off by up to 1/512 of a step along each axis: a third of that all in all, as
-        // the places are scattered.
+        // Weights of 8 bits are off by up to 1/512 along each axis, so the error is at most 3 /
+        // 512. At scattered positions some error is about a third of that.
         EXPECT_LE(error.eight_bit, 3. / 512);
         EXPECT_GE(error.eight_bit, 1. / 512 * .8);
     }
@@ -76,13 +77,13 @@ TEST_P(AnyContext, MeasuresTheFiltersOfCodes) {
     if (!bytes.as_good_as_eight_bits()) {
         EXPECT_FALSE(capabilities().eight_bit_filter);
     }
-    // A filter of truncated weights is off by twice as much, and not taken.
+    // A filter with truncated weights has nearly twice the error, and is refused.
     EXPECT_TRUE((FilterError{bytes.eight_bit, bytes.eight_bit}).as_good_as_eight_bits());
     EXPECT_FALSE((FilterError{1.8 * bytes.eight_bit, bytes.eight_bit}).as_good_as_eight_bits());
 }
 
 TEST_P(AnyContext, TurnsErrorsIntoExceptions) {
-    api().Enable(GL_TEXTURE_2D);  // not in the core profile
+    api().Enable(GL_TEXTURE_2D);  // an error in the core profile
     try {
         check("testing");
         FAIL() << "no exception";
@@ -97,7 +98,7 @@ TEST_P(AnyContext, TurnsErrorsIntoExceptions) {
 TEST(Context, TakesNoSoftwareForAGpu) {
     try {
         EXPECT_FALSE(Context::create(ContextKind::gpu)->capabilities().software);
-    } catch (const Error& error) {  // none here
+    } catch (const Error& error) {  // no context is current here
         EXPECT_NE(std::string(error.what()).find("--context cpu"), std::string::npos);
     }
 }
@@ -114,8 +115,8 @@ TEST(Context, AlternatesBetweenOsmesaAndEgl) {
     }
 }
 
-// Draws picture after picture, each another, and counts the pixels that are not what they must be:
-// sums of small integers, which float32 holds exactly.
+// Draws many different pictures and counts their wrong pixels. Pixels are sums of small integers,
+// which float32 holds exactly.
 int wrong_pixels(Context& context, int first_value, std::barrier<>& together) {
     const CurrentContext current(context);
     Program program = full_screen_program(
@@ -151,7 +152,7 @@ TEST(Context, TwoInTwoThreadsDrawWhatEachIsToldTo) {
         std::barrier together(2);
         int others_wrong = -1;
         std::thread other([&] {
-            const auto own = Context::create(other_kind);  // while this thread draws nothing
+            const auto own = Context::create(other_kind);  // made while this thread draws nothing
             others_wrong = wrong_pixels(*own, 5000, together);
         });
         EXPECT_EQ(wrong_pixels(*context, 0, together), 0);
@@ -177,7 +178,7 @@ TEST(Context, GoesFromThreadToThread) {
     texture.reset();
 }
 
-// Objects of both have the same numbers.
+// Objects of the two contexts have the same ids, so a mix-up would show.
 TEST(Context, SomeTakeTurnsInOneThread) {
     const auto outer = Context::create(ContextKind::osmesa);
     const auto inner = Context::create(has_egl() ? ContextKind::egl : ContextKind::osmesa);
@@ -209,7 +210,7 @@ TEST(Context, AutomaticNeverTakesSoftwareThroughEglWhileOsmesaIsThere) {
     EXPECT_EQ(through_osmesa, capabilities.software) << capabilities.renderer;
 }
 
-// In a process of its own, because Mesa reads its environment once.
+// A death test, in a process of its own, because Mesa reads the environment only once.
 TEST(ContextDeathTest, SaysWhatWasTriedAndWhatToDo) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     const auto create_on_old_mesa = [] {

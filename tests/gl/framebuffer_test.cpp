@@ -31,9 +31,9 @@ Image draw_ramp(TextureFormat format) {
     return target.read_back();
 }
 
-// Every target's codes: rounded to the nearest of `levels` steps and clamped to 1, or, for half
-// floats, to 11 bits of mantissa. Read-back may divide by multiplying with a rounded reciprocal:
-// within 2^-23 relative, so codes are compared after multiplication with `levels`.
+// Expects draw_ramp() rounded to codes of `levels` steps and clamped to 1. Read-back may divide by
+// multiplication with a rounded reciprocal, a relative error of 2^-23, so values are multiplied by
+// `levels` before they are compared with codes.
 void expect_codes(const Image& image, double levels) {
     for (int row = 0; row < height; ++row) {
         for (int x = 0; x < width; ++x) {
@@ -64,7 +64,7 @@ TEST_P(FramebufferTest, Float32HoldsExactValues) {
             const float* const pixel = image.pixel(x, row);
             EXPECT_EQ(pixel[0], static_cast<float>(x) / 65536.0f);
             EXPECT_EQ(pixel[1], static_cast<float>(height - 1 - row) / 4.0f);
-            EXPECT_NEAR(pixel[2], 1.0 / 3.0, 3e-8);  // half a step of float32 at 1/3 is 1.5e-8
+            EXPECT_NEAR(pixel[2], 1.0 / 3.0, 3e-8);  // twice the rounding of float32 at 1/3, 1.5e-8
             EXPECT_EQ(pixel[3], 1.5f);
         }
     }
@@ -78,7 +78,7 @@ TEST_P(FramebufferTest, Float16HoldsElevenBits) {
             const float* const pixel = image.pixel(x, row);
             EXPECT_EQ(pixel[0], static_cast<float>(x) / 65536.0f);
             EXPECT_EQ(pixel[1], static_cast<float>(height - 1 - row) / 4.0f);
-            // 1/3 = 1365.33 * 2^-12. OpenGL leaves rounding to the driver: down or to nearest, both
+            // 1/3 = 1365.33 * 2^-12. OpenGL lets drivers round down or to the nearest; both give
             // 1365.
             EXPECT_EQ(pixel[2], 1365.0f / 4096.0f);
             EXPECT_EQ(pixel[3], 1.5f);
@@ -104,7 +104,8 @@ TEST_P(FramebufferTest, DrawsIntoSeveralTexturesAtOnce) {
     EXPECT_EQ(target.read_back(1).pixel(0, 0)[0], 6.0f);
 }
 
-// Opacity alone: x/65536 fits into 11 bits, as above; the other channels do not exist.
+// A target of one channel, for opacity: x/65536 with x < 37 fits into 11 bits. The other channels
+// do not exist.
 TEST_P(FramebufferTest, Float16OfOneChannelHoldsElevenBits) {
     const Image image = draw_ramp(TextureFormat::r16f);
     for (int x = 0; x < width; ++x) {
@@ -114,7 +115,7 @@ TEST_P(FramebufferTest, Float16OfOneChannelHoldsElevenBits) {
     }
 }
 
-// Texel (x, y) of layer z of a texture that is read back as RGBA.
+// Returns the first channel of texel (x, y) of layer z.
 float first_channel(const Texture& array, int x, int y, int z) {
     const std::vector<float> texels = array.read_rgba();
     return texels[4 * static_cast<std::size_t>((z * array.height() + y) * array.width() + x)];
@@ -133,11 +134,11 @@ TEST_P(FramebufferTest, LayersOfArraysAreDrawnAndClearedOneByOne) {
     LayerFramebuffer target;
     target.bind({&color, &alpha}, 1);
     draw_full_screen(program);
-    for (int layer = 0; layer < 3; ++layer) {  // code / 255 and code / 65535, to float32
+    for (int layer = 0; layer < 3; ++layer) {  // expected: code / 255 and code / 65535 in float32
         EXPECT_NEAR(first_channel(color, 1, 2, layer), layer == 1 ? 0.4f : 0.2f, 1e-7f);
         EXPECT_NEAR(first_channel(alpha, 1, 2, layer), layer == 1 ? 0.6f : 0.2f, 1e-7f);
     }
-    target.bind({&color}, 2);  // now the second output goes nowhere
+    target.bind({&color}, 2);  // the second output is no longer stored
     target.clear();
     EXPECT_EQ(first_channel(color, 0, 0, 2), 0.0f);
     draw_full_screen(program);

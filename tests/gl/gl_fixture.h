@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixtures for tests that draw. Every test begins with a context of its own and must leave no GPU
-// memory behind.
+// Fixtures for tests that draw. Every test gets a context of its own, and must free all GPU memory.
 #pragma once
 
 #include <dlfcn.h>
@@ -38,14 +37,14 @@ class ContextTest : public Base {
     std::optional<CurrentContext> current_;
 };
 
-// With an OSMesa context, which draws the same everywhere.
+// A test with an OSMesa context, which draws the same on every machine.
 class GlTest : public ContextTest<testing::Test> {
   protected:
     void SetUp() override { make_context(ContextKind::osmesa); }
 };
 
-// A test for INSTANTIATE_TEST_SUITE_P(..., both_contexts, context_name): once under OSMesa, once
-// under EGL where the machine has it.
+// A test for INSTANTIATE_TEST_SUITE_P(..., both_contexts, context_name): once with OSMesa, once
+// with EGL if the machine has it.
 class EveryContextTest : public ContextTest<testing::TestWithParam<ContextKind>> {
   protected:
     void SetUp() override {
@@ -60,7 +59,7 @@ inline std::string context_name(const testing::TestParamInfo<ContextKind>& info)
     return info.param == ContextKind::osmesa ? "osmesa" : "egl";
 }
 
-// Shaders that a test brings along, by name, before those of shaders/.
+// Returns a finder that finds the shaders of a test, by name, before those of shaders/.
 inline ShaderFinder with_shaders(std::map<std::string, std::string> texts) {
     return [texts = std::move(texts)](const std::string& name) -> std::optional<std::string> {
         const auto found = texts.find(name);
@@ -68,8 +67,8 @@ inline ShaderFinder with_shaders(std::map<std::string, std::string> texts) {
     };
 }
 
-// A program that runs `fragment`, the text of a fragment shader, for every pixel: for
-// draw_full_screen().
+// Returns a program for draw_full_screen() that runs `fragment`, the text of a fragment shader, for
+// every pixel.
 inline Program full_screen_program(const std::string& fragment, const Defines& defines = {}) {
     return Program(compose_shader("gl/full_screen.vert"),
                    compose_shader("test.frag", defines, with_shaders({{"test.frag", fragment}})));

@@ -46,7 +46,7 @@ TEST_P(ProgramTest, SetsEveryKindOfUniform) {
     program.set("whole_pair", glm::ivec2(3, 4));
     program.set("whole_triple", glm::ivec3(5, 6, 7));
     glm::mat4 matrix(0.0f);
-    matrix[1] = glm::vec4(0.25f, 0.5f, 0.75f, 1);  // glm's columns are GLSL's
+    matrix[1] = glm::vec4(0.25f, 0.5f, 0.75f, 1);  // glm and GLSL both index columns
     program.set("matrix", matrix);
     draw_full_screen(program);
     const Image image = target.read_back();
@@ -115,8 +115,8 @@ TEST_P(ProgramTest, CompileErrorsNameShaderFileLineAndDefines) {
     EXPECT_EQ(main.find('\n'), std::string::npos);
 }
 
-// A file included twice is compiled once, also where the first include is under an #if that is not
-// taken.
+// A file that is included twice is compiled once, also if the first include is under an #if that is
+// not taken.
 TEST_P(ProgramTest, CompilesIncludedFilesOnce) {
     const std::map<std::string, std::string> texts{
         {"test.frag",
@@ -167,7 +167,7 @@ TEST_P(ProgramTest, ProgramsOfOneTextAreCompiledOnceAndHaveUniformsOfTheirOwn) {
         EXPECT_EQ(drawn_by(first), glm::vec4(1, 2, 3, 4));
         EXPECT_EQ(drawn_by(second), glm::vec4(5, 0, 0, 0));
     }
-    first.set("value", 7.f);  // while OpenGL has the other's
+    first.set("value", 7.f);  // while OpenGL holds the other Program's values
     EXPECT_EQ(drawn_by(first), glm::vec4(7, 2, 3, 4));
     EXPECT_EQ(drawn_by(full_screen_program(constant_shader)), glm::vec4(0));
     EXPECT_EQ(drawn_by(second), glm::vec4(5, 0, 0, 0));
@@ -185,7 +185,8 @@ TEST_P(ProgramTest, TheProgramUsedLongestAgoIsForgotten) {
         full_screen_program(constant_shader, Defines{}.set("NUMBER", 1));
     }
     EXPECT_EQ(cache.compiled(), before + most);
-    EXPECT_EQ(drawn_by(kept), glm::vec4(6, 0, 0, 0));  // whoever has it keeps it
+    // A Program keeps its linked program even if the cache has dropped it.
+    EXPECT_EQ(drawn_by(kept), glm::vec4(6, 0, 0, 0));
     full_screen_program(constant_shader, Defines{}.set("NUMBER", 1));
     EXPECT_EQ(cache.compiled(), before + most);
     full_screen_program(constant_shader, Defines{}.set("NUMBER", 0));

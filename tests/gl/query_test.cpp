@@ -16,7 +16,7 @@ INSTANTIATE_TEST_SUITE_P(Contexts, QueryTest, both_contexts, context_name);
 TEST_P(QueryTest, CountsFragmentsExactly) {
     const Framebuffer target(Texture::make_2d(TextureFormat::rgba8, 61, 43));
     target.bind();
-    // Fragments that are discarded are not counted: every third column remains, 0, 3, ..., 60.
+    // Discarded fragments are not counted; the columns 0, 3, ..., 60 remain.
     const Program all = full_screen_program(
         "#version 450 core\nout vec4 color;\nvoid main() { color = vec4(1); }\n");
     const Program thirds = full_screen_program(R"(#version 450 core

@@ -33,7 +33,7 @@ std::string message_of(const Texts& texts, const std::string& name) {
     return "no error";
 }
 
-// "a.frag:1 a.frag:2 ...": where the lines of the text come from.
+// Returns the origins of the lines of a composed shader: "a.frag:1 a.frag:2 ...".
 std::string places(const ShaderSource& source) {
     std::string text;
     for (const ShaderLine& line : source.lines) {
@@ -106,8 +106,9 @@ TEST(ShaderSource, TranslatesCompilerLogsOfEveryDriver) {
     EXPECT_EQ(readable_log("0(2) : error C1008: no\n", source),
               "b.glsl:12: error C1008: no");  // NVIDIA
     EXPECT_EQ(readable_log("ERROR: 0:1: 'x' : no\nmore\n", source),
-              "a.frag:1: 'x' : no more");                                         // glslang
-    EXPECT_EQ(readable_log("0:3(1): error: no\n", source), "0:3(1): error: no");  // past the end
+              "a.frag:1: 'x' : no more");  // glslang
+    // A line beyond the end of the text.
+    EXPECT_EQ(readable_log("0:3(1): error: no\n", source), "0:3(1): error: no");
 }
 
 TEST(ShaderFiles, AreEmbeddedAsTheyAreOnDisk) {
@@ -135,13 +136,14 @@ TEST(ShaderFiles, ComeFromTheDirectoryOfTheEnvironmentFirst) {
     const std::string embedded = *find_shader("gl/full_screen.vert");
     setenv("LAMINA_SHADER_DIR", directory.c_str(), 1);
     EXPECT_EQ(find_shader("gl/full_screen.vert"), "changed");
-    EXPECT_TRUE(find_shader("gl/filter_probe.frag").has_value());  // not there: the embedded one
+    // Not in the folder, so the embedded one.
+    EXPECT_TRUE(find_shader("gl/filter_probe.frag").has_value());
     unsetenv("LAMINA_SHADER_DIR");
     EXPECT_EQ(find_shader("gl/full_screen.vert"), embedded);
     std::filesystem::remove_all(directory);
 }
 
-// An independent compiler accepts what is composed.
+// glslangValidator, an independent compiler, accepts composed shaders.
 TEST(ShaderSource, PassesTheReferenceCompiler) {
     const std::string validator = GLSLANG_VALIDATOR;
     if (validator.empty()) GTEST_SKIP() << "no glslangValidator";

@@ -18,8 +18,8 @@ namespace {
 using TextureTest = EveryContextTest;
 INSTANTIATE_TEST_SUITE_P(Contexts, TextureTest, both_contexts, context_name);
 
-// A grid of components in memory out of which boxes are cut: component c of texel (x, y, z) is a
-// different value each.
+// A grid of texels in host memory, out of which boxes are cut. Every component of every texel has a
+// different value.
 template <typename T>
 struct Source {
     int width, height, depth, channels;
@@ -41,9 +41,10 @@ struct Source {
     }
 };
 
-// Fills the texture with zeros, uploads the source's box at (1, 2, 1) with the source's strides to
-// the texture's box at (2, 1, 1), and compares every texel. `scale`: what a component of 1 reads
-// as. Division by 255 or 65535 may be done by a rounded reciprocal: 2^-23 relative.
+// Fills the texture with zeros, uploads the box at (1, 2, 1) of a Source, with the Source's
+// strides, to the box at (2, 1, 1) of the texture, and compares every texel. `scale`: the value as
+// which a component of 1 is read. Drivers may divide by 255 or 65535 with a rounded reciprocal, a
+// relative error of 2^-23.
 template <typename T>
 void expect_sub_box(Texture texture, int channels, double scale) {
     const TexelBox box{2, 1, 1, 3, texture.height() > 1 ? 2 : 1, texture.depth() > 1 ? 2 : 1};
@@ -94,12 +95,12 @@ TEST_P(TextureTest, UploadsBoxesOfTables) {
 TEST_P(TextureTest, UploadsBoxesOfImages) {
     expect_sub_box<std::uint8_t>(Texture::make_2d(TextureFormat::rgba8, 7, 5), 4, 1 / 255.0);
     expect_sub_box<std::uint16_t>(Texture::make_2d(TextureFormat::rgba16, 7, 5), 4, 1 / 65535.0);
-    // 240 components of whole numbers below 2^11: exact in half floats.
+    // The components are integers below 2^11, which half floats hold exactly.
     expect_sub_box<float>(Texture::make_2d(TextureFormat::rgba16f, 7, 5), 4, 1);
     expect_sub_box<float>(Texture::make_2d_array(TextureFormat::r16f, 7, 5, 4), 1, 1);
 }
 
-// More floats than are read at a time (2^24).
+// The texture has more floats than read_rgba() reads at a time (2^24).
 TEST_P(TextureTest, ReadsLargeTexturesInBands) {
     const int width = 4001, height = 1100;
     std::vector<std::uint8_t> codes(static_cast<std::size_t>(width) * height);
@@ -114,8 +115,8 @@ TEST_P(TextureTest, ReadsLargeTexturesInBands) {
     EXPECT_EQ(wrong, 0u);
 }
 
-// A linear ramp at texel centres 0, 1, 2, 3: outside the centres the value is clamped, halfway
-// between them it is the mean.
+// The texels 0, 1, 2, 3 are a ramp: halfway between two centres the value is their mean, beyond the
+// outermost centres it is clamped.
 TEST_P(TextureTest, FiltersAndClampsToTheEdge) {
     Texture ramp = Texture::make_1d(TextureFormat::r32f, 4);
     ramp.upload({.width = 4}, std::vector<float>{0, 1, 2, 3});
@@ -168,7 +169,7 @@ TEST_P(TextureTest, RefusesSizesThatItCannotHave) {
                    "texture height 1000000");
     expect_refused([] { Texture::make_3d(TextureFormat::r8, 4, 4, 100'000); },
                    "texture depth 100000");
-    // One slice over a GiB: refused before the driver is asked.
+    // One slice more than 1 GiB: refused before the driver is asked.
     expect_refused([] { Texture::make_3d(TextureFormat::r32f, 1024, 1024, 257); },
                    "takes 1077936128 bytes, at most 1073741824 are allowed");
 }

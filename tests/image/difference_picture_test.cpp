@@ -15,7 +15,8 @@ Rgb pixel(const CodedImage& image, int column, int row) {
     return {image.codes[at], image.codes[at + 1], image.codes[at + 2]};
 }
 
-// The number of dark dots of the text below the bar in these columns.
+// Returns the number of dark dots in these columns, from `first_row` down: those of the text below
+// the bar.
 int ink(const CodedImage& image, int first_row, int first, int end) {
     int dots = 0;
     for (int row = first_row; row < image.height; ++row)
@@ -33,14 +34,16 @@ TEST(DifferencePicture, HasTheColoursAboveAndTheirBarBelow) {
         for (int column = 0; column < 3; ++column)
             EXPECT_EQ(pixel(whole, column, row), pixel(colors, column, row));
     EXPECT_EQ(pixel(whole, 3, 0), (Rgb{255, 255, 255}));
-    // Column c of the bar, which begins 6 pixels below, shows the difference of its middle.
+    // The bar begins 6 pixels below the picture. Each of its columns shows the difference at the
+    // middle of the column.
     for (const int column : {0, 17, 80, 159})
         EXPECT_EQ(pixel(whole, column, 2 + 6 + 4), false_color_of((2 * column + 1) / 160.0 - 1));
     const int text = 2 + 6 + 10 + 3;
     EXPECT_GT(ink(whole, text, 0, 20), 0);
     EXPECT_GT(ink(whole, text, 75, 85), 0);
     EXPECT_GT(ink(whole, text, 130, 160), 0);
-    // "<=" has 7 + 10 dots more than nothing, and the rest of the text is the same.
+    // The text of a clipped end begins with "<=", which has 7 + 10 dots; the rest of the text is
+    // the same.
     const CodedImage clipped = difference_picture(difference, 7.99999);
     EXPECT_EQ(ink(clipped, text, 0, 40) - ink(whole, text, 0, 40), 7 + 10);
 }

@@ -27,8 +27,8 @@ void write(const std::filesystem::path& path, const Image& image,
     file.commit();
 }
 
-// A file of half-float channels with the given names; channel k of pixel i holds i + 10 k, exact in
-// half.
+// Writes a file of half-float channels with the given names. Channel k of pixel i is i + 10 k,
+// which a half float holds exactly.
 void write_half(const std::filesystem::path& path, const std::vector<std::string>& names,
                 const Imath::Box2i& window) {
     Imf::Header header(Imath::Box2i({0, 0}, {99, 99}), window);
@@ -51,7 +51,8 @@ const Imath::Box2i two_by_three({-5, 40}, {-4, 42});
 
 TEST(Exr, KeepsEveryBit) {
     const TemporaryFolder folder;
-    const Image image = random_image(37, 19);  // not a multiple of ZIP's 16 lines
+    // The height is no multiple of 16, the lines of a ZIP block.
+    const Image image = random_image(37, 19);
     write(folder / "a.exr", image);
     const Image back = read_exr(folder / "a.exr");
     ASSERT_EQ(back.width, 37);
@@ -124,20 +125,21 @@ TEST(Exr, DamagedFilesAreErrors) {
     const TemporaryFolder folder;
     write(folder / "a.exr", random_image(3, 2));
     const std::string bytes = read_bytes_of(folder / "a.exr");
-    // A flip of the magic number, of sizes, types and offsets is refused; one of a pixel cannot be
-    // noticed.
+    // Flipped bits in the magic number, in sizes, types and offsets are refused; those in a pixel
+    // cannot be noticed.
     EXPECT_GT(refusals_of_damaged(bytes, folder / "b.exr", read_exr), 50);
 }
 
 TEST(Exr, PromisedSizesAreCheckedBeforeMemoryIsTaken) {
     const TemporaryFolder folder;
     write(folder / "a.exr", random_image(3, 2));
-    // Zeros at the end pass for the table of lines (8 bytes for 16 lines), so that OpenEXR itself
-    // has no objection.
+    // Zeros at the end take the place of the table of lines (8 bytes for 16 lines), so that OpenEXR
+    // itself accepts the header.
     const std::string bytes = read_bytes_of(folder / "a.exr") + std::string(10240, '\0');
     const auto with_window = [&](std::int32_t width, std::int32_t height) {
         std::string changed = bytes;
-        // The attribute: its name, its type "box2i", the length 16, and xMin, yMin, xMax, yMax.
+        // The value of the attribute (xMin, yMin, xMax, yMax) follows its name, its type "box2i"
+        // and the length 16.
         const std::size_t value = changed.find("dataWindow") + 11 + 6 + 4;
         const std::int32_t corners[4] = {0, 0, width - 1, height - 1};
         std::memcpy(changed.data() + value, corners, sizeof corners);
@@ -151,12 +153,12 @@ TEST(Exr, PromisedSizesAreCheckedBeforeMemoryIsTaken) {
     EXPECT_NE(with_window(0, 2), "");
 }
 
-// OpenEXR takes memory on an attribute's word, and for a table of tiles.
+// OpenEXR allocates as much memory as the length of an attribute, or the number of tiles, asks for.
 TEST(Exr, AttributesThatPromiseTooMuchAreErrors) {
     const TemporaryFolder folder;
     write(folder / "a.exr", random_image(3, 2));
     const std::string good = read_bytes_of(folder / "a.exr");
-    // In place of an attribute, name, type, size and value.
+    // Replaces an attribute (name, type, size and value) by another.
     const std::string head("screenWindowWidth\0float\0\4\0\0\0", 28);
     const std::size_t at = good.find(head), rest = at + head.size() + 4;
     ASSERT_NE(at, std::string::npos);
@@ -178,7 +180,7 @@ TEST(Exr, AttributesThatPromiseTooMuchAreErrors) {
     const std::string window("\0\0\0\0\0\0\0\0\xff\x3f\0\0\xff\x3f\0\0", 16);
     const std::string tiled = std::string("dataWindow\0box2i\0\x10\0\0\0", 21) + window;
     expect_error(with_attribute("tiles", "tiledesc", 9, four + four + '\0' + tiled),
-                 {"268435456 tiles"});  // 16384 x 16384, of a pixel each
+                 {"268435456 tiles"});  // 16384 x 16384 tiles of one pixel
 }
 
 TEST(Exr, WhatIsNotAnImageFileIsAnError) {

@@ -35,8 +35,8 @@ TEST(FalseColor, SizeReadsAsDarknessAndSignAsHue) {
             const Codes rgb = color_of(side == 0 ? -i : i, 100);
             EXPECT_LT(luminance(rgb), lighter[side]) << i;
             lighter[side] = luminance(rgb);
-            // Who cannot tell red from green still tells yellow from blue: that difference must
-            // have e's sign.
+            // People who cannot distinguish red from green still distinguish yellow from blue:
+            // yellow minus blue must have the sign of e.
             const int yellow = (rgb[0] + rgb[1]) / 2 - rgb[2];
             if (i >= 3) {
                 EXPECT_GT(side == 0 ? -yellow : yellow, 0) << i;

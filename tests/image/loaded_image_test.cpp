@@ -67,7 +67,7 @@ TEST_F(LoadedImageTest, LinearLightIsNotComparedWithDisplayValues) {
     EXPECT_EQ(color_space_of_exr(folder / "a.exr"), ImageColorSpace::linear);
     EXPECT_EQ(color_space_of_exr(folder / "b.exr"), ImageColorSpace::display);
     EXPECT_EQ(linf("b.exr", "c.exr"), 0);
-    EXPECT_EQ(linf("b.exr", "a.npy"), 0);  // which does not say what it holds
+    EXPECT_EQ(linf("b.exr", "a.npy"), 0);  // NPY files do not say which colour space they have
     for (const auto& [a, b] : {std::pair("a.exr", "b.exr"), {"b.exr", "a.exr"}})
         expect_error([&] { linf(a, b); }, {a, b, "linear light", "display values", "color_space"});
 }

@@ -21,8 +21,7 @@ TEST(Metrics, RampHasTheClosedFormsOfItsSums) {
         }
     }
     const ImageError error = measure(difference);
-    // All sums are integers below 2^53, so they are exact; what is left is one division and one
-    // root.
+    // All sums are integers below 2^53, so they are exact; only one division and one root round.
     EXPECT_EQ(error.channels, difference.channels);
     EXPECT_DOUBLE_EQ(error.of_channel[0].linf, n - 1);
     EXPECT_DOUBLE_EQ(error.of_channel[0].mean, (n - 1) / 2.0);
@@ -63,7 +62,7 @@ TEST(Metrics, SmallErrorsOfDoubleImagesAreNotLostInFloat) {
     PreciseImage a(1, 1), b(1, 1);
     a.rgba = {1 + 1e-12, 1, 1, 1};
     b.rgba = {1, 1, 1, 1};
-    // 1 + 1e-12 is rounded to a multiple of 2^-52.
+    // 1 + 1e-12 is rounded to a multiple of 2^-52, an error of up to 2^-53.
     EXPECT_NEAR(image_error(a, b).all.linf, 255e-12, 255 * 0x1p-53);
 }
 

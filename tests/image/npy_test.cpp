@@ -31,7 +31,7 @@ void write(const std::filesystem::path& path, const RgbaImage<Real>& image) {
     file.commit();
 }
 
-// A file made from its parts by hand.
+// Returns the bytes of a file with this header and `data_bytes` bytes of data.
 std::string npy_bytes(const std::string& header, std::size_t data_bytes, char version = 1) {
     std::string bytes = std::string("\x93NUMPY") + version + '\0';
     const auto length = static_cast<std::uint32_t>(header.size());
@@ -122,7 +122,8 @@ TEST(Npy, DamagedFilesAreErrors) {
     const TemporaryFolder folder;
     write(folder / "a.npy", precise_image(2, 2));
     const std::string bytes = read_bytes_of(folder / "a.npy");
-    // At least the magic number (6), version, length, and the digits of the shape are noticed.
+    // Damage is noticed at least in the magic number (6 bytes), the version, the length, and the
+    // digits of the shape.
     EXPECT_GT(refusals_of_damaged(bytes, folder / "b.npy", read_npy), 12);
     write_bytes_to(folder / "longer.npy", bytes + "x");
     expect_error([&] { read_npy(folder / "longer.npy"); }, {"129 bytes", "expected 128"});
@@ -159,7 +160,7 @@ TEST(Npy, HeadersThatDoNotFitAreErrors) {
 TEST(Npy, RefusesToWriteWhatIsNotFinite) {
     const TemporaryFolder folder;
     PreciseImage image(2, 2);
-    image.pixel(1, 0)[2] = 1e300;  // beyond float32: nothing that a renderer means
+    image.pixel(1, 0)[2] = 1e300;  // beyond float32, so it cannot come from a renderer
     expect_error([&] { write(folder / "a.npy", image); },
                  {"a.npy", "(1, 0)", "channel B", "1e+300"});
     EXPECT_TRUE(folder.empty());

@@ -9,7 +9,8 @@
 namespace lamina {
 namespace {
 
-// The dots of a text as lines of '#' and '.', with dots of `dot` pixels read at their first pixel.
+// Draws a text and returns its dots as lines of '#' and '.'. Dots of `dot` x `dot` pixels are read
+// at their first pixel.
 std::string dots_of(const std::string& text, int dot = 1) {
     CodedImage image(text_width(text, dot), text_dots_high * dot, 3, 8);
     draw_text(image, 0, 0, text, dot, {9, 9, 9});

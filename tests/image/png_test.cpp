@@ -52,7 +52,8 @@ std::string chunk(const std::string& type, const std::string& data) {
            big_endian(static_cast<std::uint32_t>(crc));
 }
 
-// A PNG from its parts, independent of libpng: `rows` are the filter bytes and packed codes.
+// Makes a PNG from its parts, independently of libpng. `before_data`: chunks in front of the data.
+// `rows`: the filter byte and packed codes of each row.
 std::string png_bytes(std::uint32_t width, std::uint32_t height, char depth, char color_type,
                       char interlace, const std::string& before_data, const std::string& rows) {
     std::string packed(compressBound(rows.size()), ' ');
@@ -69,13 +70,12 @@ std::string png_bytes(std::uint32_t width, std::uint32_t height, char depth, cha
 using Codes = std::vector<std::uint16_t>;
 
 TEST(Srgb, KnownValues) {
-    // IEC 61966-2-1: 0.5 -> 0.735357, 0.18 -> 0.461356 (printed in many tables, 6 digits), linear
-    // part 12.92 x.
+    // Values of IEC 61966-2-1, as in many tables (6 digits). Near 0 the curve is 12.92 x.
     EXPECT_NEAR(srgb_from_linear(0.5), 0.735357, 5e-7);
     EXPECT_NEAR(srgb_from_linear(0.18), 0.461356, 5e-7);
     EXPECT_DOUBLE_EQ(srgb_from_linear(0.001), 0.01292);
     EXPECT_DOUBLE_EQ(srgb_from_linear(1), 1);
-    // Codes are those of the formula on both sides of each of their 255 borders.
+    // On both sides of each of the 255 borders between codes, the code is that of the formula.
     for (int code = 1; code < 256; ++code) {
         const double border = linear_from_srgb((code - .5) / 255);
         EXPECT_EQ(display_code(border * (1 + 1e-12), ImageColorSpace::linear), code);
@@ -100,14 +100,14 @@ TEST(Png, BackgroundThenCurveThenNearestCode) {
     ASSERT_EQ(back.height, 1);
     ASSERT_EQ(back.channels, 3);
     ASSERT_EQ(back.bit_depth, 8);
-    // 255 * .735357 = 187.5 (187.516), 255 * .461356 = 117.6, 255 * .01292 = 3.3. Second pixel: .25
-    // + .5 * .5 = .5, .5 * .36 = .18, .5 (188 again). Third: the background itself; .36 -> .634524
-    // (161.8).
+    // First pixel: 255 * .735357 = 187.516, 255 * .461356 = 117.6, 255 * .01292 = 3.3. Second
+    // pixel: .25 + .5 * .5 = .5 (188), .5 * .36 = .18 (118) and .5 (188). Third pixel: the
+    // background itself; .36 -> .634524 (161.8).
     EXPECT_EQ(back.codes, (Codes{188, 118, 3, 188, 118, 188, 188, 162, 255}));
 }
 
-// 255 (.25 + .5 * .5) = 127.5 rounds up; 255 * .1 = 25.5, too, but .1f is a little more. Beyond 1
-// is clamped.
+// 255 (.25 + .5 * .5) = 127.5 rounds up, and so does 255 * .1 = 25.5, as .1f is a little more than
+// .1. Values above 1 are clamped.
 TEST(Png, DisplayValuesAreStoredAsTheyAre) {
     const TemporaryFolder folder;
     const Image image = row_of({{0.25f, 0, 0.1f, 0.5f}, {1, 0.2f, 1.5f, 1}});
@@ -132,8 +132,8 @@ TEST(Png, EveryCodeComesBack) {
 
 TEST(Png, CountsPixelsThatWereClamped) {
     const TemporaryFolder folder;
-    // Clamped: 1.5 and -.5 in one pixel (counts once), 1.01. Roundings below 1/510 = .00196: not
-    // counted.
+    // Two pixels count as clamped: that with 1.5 and -.5, which counts once, and that with 1.01.
+    // Excesses below 1/510 = .00196 are not counted.
     const Image image = row_of({{1.5f, -0.5f, 0, 1}, {0, 0, 1.01f, 1}, {1.001f, -0.001f, 0, 1}});
     EXPECT_EQ(write(folder / "a.png", image), 2u);
     EXPECT_EQ(read_png(folder / "a.png").codes, (Codes{255, 0, 0, 0, 0, 255, 255, 0, 0}));
@@ -175,19 +175,20 @@ TEST(Png, ExpandsPalettesSmallDepthsAndTransparency) {
         write_bytes_to(folder / "a.png", bytes);
         return read_png(folder / "a.png");
     };
-    // 2-bit palette, pixels 2 1 0 = 10 01 00 (..).
+    // A palette of 2 bits: the pixels 2, 1, 0 are the bits 10 01 00.
     const std::string palette = chunk("PLTE", "\x01\x02\x03\x04\x05\x06\x07\x08\x09"s);
     EXPECT_EQ(read(png_bytes(3, 1, 2, 3, 0, palette, "\0\x90"s)).codes,
               (Codes{7, 8, 9, 4, 5, 6, 1, 2, 3}));
-    // 1-bit grey, pixels 1 0 1.
+    // Grey of 1 bit: the pixels 1, 0, 1.
     EXPECT_EQ(read(png_bytes(3, 1, 1, 0, 0, "", "\0\xA0"s)).codes, (Codes{255, 0, 255}));
-    // RGB with the transparent colour 1, 2, 3.
+    // RGB with the transparent colour (1, 2, 3).
     const std::string transparent = chunk("tRNS", "\0\x01\0\x02\0\x03"s);
     const CodedImage rgba =
         read(png_bytes(2, 1, 8, 2, 0, transparent, "\0\x01\x02\x03\x01\x02\x04"s));
     EXPECT_EQ(rgba.channels, 4);
     EXPECT_EQ(rgba.codes, (Codes{1, 2, 3, 0, 1, 2, 4, 255}));
-    // Adam7, 2 x 2 grey: pass 1 has (0,0), pass 6 (1,0), pass 7 the row below.
+    // Grey of 2 x 2 pixels, interlaced by Adam7: pass 1 has (0, 0), pass 6 has (1, 0), pass 7 the
+    // row below.
     EXPECT_EQ(read(png_bytes(2, 2, 8, 0, 1, "", "\0\x0A\0\x14\0\x1E\x28"s)).codes,
               (Codes{10, 20, 30, 40}));
 }
@@ -196,8 +197,8 @@ TEST(Png, DamagedFilesAreErrors) {
     const TemporaryFolder folder;
     write(folder / "a.png", random_image(3, 2));
     const std::string bytes = read_bytes_of(folder / "a.png");
-    // Every chunk has a checksum; only the ancillary sRGB chunk (13 bytes) may be damaged without
-    // harm to the codes.
+    // Every chunk has a checksum, so all damage is refused, except perhaps in the ancillary sRGB
+    // chunk (13 bytes), which does not change codes.
     EXPECT_GE(refusals_of_damaged(bytes, folder / "b.png", read_png),
               static_cast<int>(bytes.size()) - 13);
 }

@@ -14,8 +14,8 @@
 
 namespace lamina {
 
-// Components of every magnitude that float32 has between 2^-140 (subnormal) and 2^100, both signs,
-// and zeros.
+// Returns an image whose components have both signs and magnitudes from 2^-140 (subnormal) to
+// 2^100, or are 0.
 inline Image random_image(int width, int height) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> mantissa(-1, 1);
@@ -28,7 +28,7 @@ inline Image random_image(int width, int height) {
 
 // Calls read(path) with every shortened version of the file `bytes`, which must throw Error, and
 // with one bit of every byte inverted, which may throw Error and nothing else. Returns how many of
-// the inverted ones were refused.
+// the files with an inverted bit were refused.
 template <typename Read>
 int refusals_of_damaged(const std::string& bytes, const std::filesystem::path& path,
                         const Read& read) {

@@ -26,7 +26,8 @@ TEST(Auto, ComparesWithValuesAndWithAutomatic) {
     const Auto<Filter> open, given = Filter::exact;
     EXPECT_TRUE(open == automatic && given != automatic);
     EXPECT_TRUE(given == Filter::exact && given != Filter::hardware);
-    EXPECT_FALSE(open == Filter::exact);  // the enum's first value is no default
+    // An automatic value equals no enum value, not even the first.
+    EXPECT_FALSE(open == Filter::exact);
     EXPECT_TRUE(open != given && open == Auto<Filter>());
 }
 

@@ -16,7 +16,7 @@ TEST(LibraryColormaps, AreListedWithTheirColours) {
         const Colormap map = load_colormap(name, ImageColorSpace::display);
         ASSERT_GE(map.colors.size(), 2u) << name;
         EXPECT_LT(map.colors.front().value, map.colors.back().value) << name;
-        // Ends are the preset's own, converted alone.
+        // The ends of a map are the preset's own colours, converted one by one.
         const Colormap linear = load_colormap(name);
         EXPECT_EQ(color_of_display(map.colors.front().color), linear.colors.front().color) << name;
     }

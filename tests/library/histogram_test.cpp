@@ -26,11 +26,12 @@ TEST(Histogram, OfAVolumeCountsItsSamples) {
         test::grid_of({4, 4, 4}, Centering::node),
         [](double i, double j, double) { return j == 0 ? 40 : 10 * i; });
     Session session(automatic_scene(), volume, native);
-    // Whole numbers from 0 to 40: 41 in at most 5 intervals are 9 in each.
+    // The samples are whole numbers from 0 to 40: 5 intervals of 9 numbers each.
     const ValueHistogram histogram = session.histogram(5);
     EXPECT_EQ(histogram.lo, -.5);
     EXPECT_EQ(histogram.hi, 44.5);
-    // 0; 10; 20; 30; 40, each of the first four in 3 of 16 columns. Counts of 64 are exact.
+    // The intervals contain 0, 10, 20, 30 and 40; each of the first four values is in 3 of 16
+    // columns. Counts of 64 samples are exact.
     EXPECT_EQ(histogram.shares, (std::vector<double>{3. / 16, 3. / 16, 3. / 16, 3. / 16, 4. / 16}));
     EXPECT_EQ(session.histogram(1000).shares.size(), 41u);
     expect_error([&] { session.histogram(0); }, {"found 0"});
@@ -50,12 +51,13 @@ TEST(Histogram, LeavesOutWhatIsNotFinite) {
     EXPECT_EQ(histogram.lo, 1);
     EXPECT_EQ(histogram.hi, 3);
     ASSERT_EQ(histogram.shares.size(), 2u);
-    // A third is 1; 2 belongs to the upper interval. One rounding of a division.
+    // A third of the samples is 1; the value 2 is counted in the upper interval. Tolerance:
+    // rounding of one division.
     EXPECT_NEAR(histogram.shares[0], 1. / 3, 1e-16);
     EXPECT_NEAR(histogram.shares[1], 2. / 3, 2e-16);
 }
 
-// The field is x: each cell has a fourth of the volume and of the values.
+// The field is x, so each of the four intervals gets a fourth of the volume.
 TEST(Histogram, OfAMeshCountsVolumes) {
     Scene scene = automatic_scene();
     scene.method = Method::project;
@@ -63,7 +65,7 @@ TEST(Histogram, OfAMeshCountsVolumes) {
                     native);
     const ValueHistogram histogram = session.histogram(4);
     ASSERT_EQ(histogram.shares.size(), 4u);
-    // Sums of 4 x 96 weights, each within one rounding of the same volume.
+    // Each share is a sum of 4 x 96 weights of equal volume, each rounded once.
     for (const double share : histogram.shares) EXPECT_NEAR(share, .25, 384 * 2.3e-16);
 }
 

@@ -31,8 +31,8 @@ TEST(PictureComparison, HasNormsByChannelAndTheWorstPixel) {
     expect_error([&] { compare(a, PreciseImage(1, 2)); }, {"2 x 1", "1 x 2"});
 }
 
-// The ends and the middle of the map are colours of its definition; a picture of one pixel on top
-// of its bar says that difference_png() has the same.
+// The first and last colours and the middle one are those that the colour map is defined by. A
+// picture of one pixel, above its colour bar, shows that difference_png() uses the same colours.
 TEST(DifferenceCodes, AreThoseOfTheDifferencePicture) {
     const std::vector<float> differences = {-9, -2, 0, 1, 2};
     const std::vector<std::uint8_t> codes = difference_codes(differences, 2);
@@ -99,7 +99,7 @@ TEST(Session, DrawsIntoTheCallersPicture) {
     EXPECT_GT(session.trace_statistics().trace_error, 0);
     EXPECT_LT(session.trace_statistics().trace_error, 255e-5);
     EXPECT_EQ(session.trace_statistics().drawn_by, "reference tracer");
-    EXPECT_EQ(session.statistics().trace_error, 0);  // of the picture that was drawn
+    EXPECT_EQ(session.statistics().trace_error, 0);  // statistics() are those of the drawn picture
 }
 
 TEST(Study, RunsIntoAnEmptyFolder) {

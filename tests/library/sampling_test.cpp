@@ -17,7 +17,7 @@ namespace {
 
 const glm::dvec3 slope(1.5, -2, .25);
 
-// A linear field: value 3 at the origin.
+// A linear field with the value 3 at the origin.
 double linear(const glm::dvec3& p) {
     return 3 + glm::dot(slope, p);
 }
@@ -28,8 +28,8 @@ glm::dvec3 random_point(std::mt19937& random, const glm::dvec3& lowest, const gl
     return lowest + at * (highest - lowest);
 }
 
-// A turned grid with the field of linear(), whose samples are exact in float32: multiples of 1/64
-// below 2^10.
+// Returns a turned grid with the field of linear(). Its samples are multiples of 1/64 below 2^10,
+// which float32 holds exactly.
 Volume linear_volume(Centering centering) {
     Grid grid = test::grid_of({5, 4, 6}, centering);
     grid.origin = {1, -2, 3};
@@ -42,7 +42,7 @@ Volume linear_volume(Centering centering) {
     return {grid, SampleType::float32, {samples, samples->data()}};
 }
 
-// Coordinates below 16 and slopes below 2: some 30 roundings of numbers below 64.
+// Coordinates are below 16 and slopes below 2: about 30 roundings of numbers below 64.
 constexpr double tolerance = 30 * 64 * std::numeric_limits<double>::epsilon();
 
 void expect_linear(const FieldSampler& field, const glm::dvec3& p) {
@@ -67,7 +67,7 @@ TEST(Sampling, OfAMeshMatchesALinearField) {
     std::mt19937 random(2);
     for (int i = 0; i < 200; ++i)
         expect_linear(field, random_point(random, glm::dvec3(0), {3, 2, 4}));
-    // Corners, faces, edges, points of the mesh, and its middle.
+    // Corners, faces, edges and points of the mesh, and its middle.
     for (const glm::dvec3& p : {glm::dvec3(0, 0, 0), glm::dvec3(3, 2, 4), glm::dvec3(1.5, 0, 2.25),
                                 glm::dvec3(3, 0, 1), glm::dvec3(1, 1, 2), glm::dvec3(1.5, 1, 2)})
         expect_linear(field, p);
@@ -81,7 +81,7 @@ TEST(Sampling, OfPlacesOutsideIsNothing) {
         EXPECT_FALSE(volume.at(p));
     for (const glm::dvec3& p : {glm::dvec3(1.001, .5, .5), glm::dvec3(100, 0, 0), no_place})
         EXPECT_FALSE(mesh.at(p));
-    // Inside the mesh's box but in no tet: the half of the box that one tet leaves empty.
+    // A point inside the mesh's bounding box but in no tet.
     MeshData one;
     one.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     one.tets = {{0, 1, 2, 3}};
@@ -90,7 +90,7 @@ TEST(Sampling, OfPlacesOutsideIsNothing) {
     EXPECT_FALSE(FieldSampler(one).at({.6, .6, .6}));
 }
 
-// On a `cell` axis the box is half a voxel wider at each end, and the border repeats there.
+// On a `cell` axis the box is half a voxel longer at each end, where the border value is repeated.
 TEST(Sampling, RepeatsTheBorderInHalfVoxels) {
     const Volume volume = linear_volume(Centering::cell);
     const Grid& grid = volume.grid();
@@ -113,8 +113,8 @@ TEST(Sampling, HasNoNumberBesideANan) {
     EXPECT_EQ(field.at(1.5 * step)->value, 1);
 }
 
-// Holds the segments of a ray against the field: they follow each other from `begin` to `end`, the
-// field between their ends lies in their bounds, and there is a segment for each cell.
+// Expects segments of a ray that follow each other from `begin` to `end` and whose bounds contain
+// the field, one for each cell.
 void expect_covered(const FieldSampler& field, const glm::dvec3& origin,
                     const glm::dvec3& direction, double begin, double end) {
     const std::vector<RaySegment> segments = field.along(origin, 3.0 * direction);
@@ -136,7 +136,7 @@ void expect_covered(const FieldSampler& field, const glm::dvec3& origin,
 }
 
 TEST(Sampling, FollowsARayThroughCellsAndTets) {
-    // The grid's x axis is the world's y: 4 cells of .5 from y = -2 on.
+    // The grid's x axis points along the world's y axis: 4 cells of .5 from y = -2 on.
     const FieldSampler volume(linear_volume(Centering::node));
     const glm::dvec3 y(0, 1, 0);
     expect_covered(volume, {.7, -3, 5.5}, y, 1, 3);
@@ -144,7 +144,7 @@ TEST(Sampling, FollowsARayThroughCellsAndTets) {
     expect_covered(volume, {.7, -1.2, 5.5}, y, 0, 1.2);  // from inside
     EXPECT_TRUE(volume.along({.7, 3, 5.5}, y).empty());
     const FieldSampler mesh(test::kuhn_box({2, 2, 2}, linear));
-    // From x = -1 to the box 0..2 and through it.
+    // The ray starts at x = -1 and crosses the box from 0 to 2.
     const glm::dvec3 slanted(1, .2, .3);
     const double length = glm::length(slanted);
     expect_covered(mesh, {-1, .45, .35}, slanted / length, length, 3 * length);

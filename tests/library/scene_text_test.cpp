@@ -45,7 +45,7 @@ TEST(SceneText, NamesItselfAndStartsPathsAtItsFolder) {
 
 TEST(SceneText, NeedsNoNamesForDataInMemory) {
     const Volume volume = ramp(8);
-    // The map is stretched over the volume's own range, 0 to 7.
+    // The colour map is stretched over the volume's values, 0 to 7.
     const std::string text =
         R"({"version": 1, "transfer_function": {"colormap": "greys",
             "points": [{"value": 0, "extinction": 1}]}})";

@@ -46,19 +46,20 @@ TEST(Session, DrawsAVolumeInMemoryWithoutACopy) {
     Session session(scene_for(volume.grid().bounds()), volume, native);
     const Image picture = session.draw();
     ASSERT_EQ(picture.width, 50);
-    // Exact segments, which need one slab, claim .05 / 255; trace() is good to 1e-5, .003 / 255.
+    // Exact segments claim an error of .05 / 255, and trace() one of 1e-5, which is .003 / 255.
     EXPECT_LE(error_of(picture, session.trace()).linf, .053);
     EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
     EXPECT_EQ(session.plan().slabs, 1);
     EXPECT_EQ(session.plan().error.kind, ErrorKind::derived);
-    EXPECT_GT(session.plan().error.value, .05);  // roundings come on top
+    EXPECT_GT(session.plan().error.value, .05);  // rounding is added to the claim
     EXPECT_LT(session.plan().error.value, .06);
     EXPECT_NE(session.explanation().find("slabs"), std::string::npos);
     EXPECT_EQ(session.statistics().drawn_by.substr(0, 4), "cpu:");
     EXPECT_TRUE(session.take_warnings().empty());
 }
 
-// Of what the scene states itself, nothing is measured; what it leaves open has a bound that holds.
+// The predicted error, if there is one, bounds the error. Some settings that a scene states have
+// none; automatic settings have one, within max_error.
 TEST(Session, SaysWhatErrorIsExpectedWhereThatIsKnown) {
     const Volume volume = waves(12);
     Scene scene = scene_for(volume.grid().bounds());
@@ -99,11 +100,11 @@ TEST(Session, DrawsAMeshInMemory) {
     scene.method = Method::project;
     Session session(scene, std::move(box), native);
     const Image picture = session.draw();
-    // Opacity in closed form, colour by weights good to 1 / 255 in all but rounding.
+    // Opacity is in closed form, and colour weights are good to 1 / 255.
     EXPECT_LE(error_of(picture, session.trace()).linf, 1);
     EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
     EXPECT_LE(session.plan().error.known().value(), 1);
-    // The order of a convex mesh is resolved to mpvo, which is right for it.
+    // The automatic order of a convex mesh is resolved to mpvo, which is right for it.
     Camera moved = *scene.camera;
     moved.eye.x += .1;
     session.set_camera(moved);
@@ -121,7 +122,7 @@ TEST(Session, ClipsAreSetAndTakenBack) {
     clip.planes = {{{5, 6, 4}, {.2, -1, 3}}};
     session.set_clip(clip);
     const Image cut = session.draw();
-    EXPECT_LE(error_of(cut, session.trace()).linf, .053);  // as above
+    EXPECT_LE(error_of(cut, session.trace()).linf, .053);  // .05 + .003, as in the first test
     EXPECT_GT(error_of(cut, whole).linf, 20);
     EXPECT_EQ(session.resolved_scene().clip, clip);
     session.set_clip({});
@@ -146,7 +147,7 @@ TEST(Session, GoesFromMethodToMethodOfOneVolume) {
     session.set_scene(scene);
     EXPECT_EQ(session.draw().rgba, sliced.rgba);
     EXPECT_LE(error_of(sliced, traced).linf, 1.003);
-    // Tets are linear between samples, cells trilinear: the pictures are alike, not equal.
+    // Tets are linear between samples and cells are trilinear, so the pictures differ a little.
     EXPECT_LT(error_of(projected, traced).linf, 60);
     EXPECT_GT(error_of(projected, traced).linf, 0);
     EXPECT_EQ(session.trace().rgba.size(), traced.rgba.size());
@@ -230,8 +231,8 @@ TEST(Session, TracesTileByTile) {
     EXPECT_EQ(truth.rgba, session.trace().rgba);
 }
 
-// Values are 2 x, extinction is 1: half of the opacity of a depth d is reached at -log((1 +
-// exp(-d)) / 2). Rounding is some epsilons of the distance.
+// Values are 2 x and the extinction is 1, so half of the opacity of the optical depth d is reached
+// at the depth -log((1 + exp(-d)) / 2). Tolerance: some roundings of the distance.
 TEST(Session, FindsThePointThatIsSeen) {
     const auto ramp = [](const glm::dvec3& p) { return 2 * p.x; };
     Scene scene;
@@ -242,7 +243,7 @@ TEST(Session, FindsThePointThatIsSeen) {
     Session session(scene, test::kuhn_box({3, 2, 2}, ramp), native);
     EXPECT_EQ(session.bounds().max, glm::dvec3(3, 2, 2));
     const PointProbe probe = session.probe();
-    session.set_camera(orbit(session.bounds(), 0, 0));  // the probe keeps its own
+    session.set_camera(orbit(session.bounds(), 0, 0));  // the probe keeps its own camera
     const auto point = probe.seen(2, 2);
     ASSERT_TRUE(point);
     EXPECT_NEAR(point->position.x, -std::log((1 + std::exp(-3.)) / 2), 1e-13);
@@ -279,7 +280,7 @@ TEST(Session, RefusesWhatCannotBeDrawn) {
     expect_error([&] { session.plan(); }, {"\"trace\" has no plan"});
 }
 
-// The samples are one apart; the range is that of the waves.
+// The smallest gradient is .01 of the range of values, about 1, over the distance of samples, 1.
 TEST(Session, TracesALitSceneAndChoosesItsSmallestGradient) {
     const Volume volume = waves(12);
     Scene scene = scene_for(volume.grid().bounds());
@@ -306,12 +307,12 @@ TEST(Session, ChoosesWhatASceneLeavesOpen) {
     open.camera = automatic;
     Session session(open, volume, native);
     const Image picture = session.draw();
-    EXPECT_TRUE(session.scene().camera.is_automatic());  // as asked for
+    EXPECT_TRUE(session.scene().camera.is_automatic());  // the scene as given
     const Scene resolved = session.resolved_scene();
     EXPECT_FALSE(resolved.transfer_function.is_automatic() || resolved.camera.is_automatic());
     EXPECT_EQ(Session(resolved, volume, native).draw().rgba, picture.rgba);
     EXPECT_EQ(session.explanation().find("chosen\n  transfer function: "), 0u);
-    // It is chosen once, and again on request.
+    // Automatic values are chosen once, and again on request.
     session.set_camera(orbit(volume.grid().bounds(), 40, -10));
     EXPECT_EQ(session.resolved_scene().transfer_function, resolved.transfer_function);
     EXPECT_FALSE(session.scene().camera.is_automatic());
@@ -319,7 +320,7 @@ TEST(Session, ChoosesWhatASceneLeavesOpen) {
     EXPECT_NE(session.resolved_scene().transfer_function, resolved.transfer_function);
     session.set_scene(open);
     EXPECT_EQ(session.draw().rgba, picture.rgba);
-    // A mesh that is made from the volume follows what the volume suggests.
+    // If the mesh is made from the volume, the transfer function is chosen for the volume.
     open.mesh = MeshSettings{.kuhn = true};
     open.method = Method::project;
     session.set_scene(open);

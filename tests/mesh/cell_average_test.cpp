@@ -19,7 +19,7 @@ TEST(CellAverage, IsTheMeanOverTheTetsAroundAPoint) {
     EXPECT_NEAR(mean.values[3], 3, 1e-15 * 3);
     EXPECT_EQ(mean.values[4], 4);
     EXPECT_EQ(mean.values[5], 6);
-    EXPECT_EQ(mean.values[6], 1);  // no tet: a value that there is
+    EXPECT_EQ(mean.values[6], 1);  // no tet around it: the first finite value
 }
 
 TEST(CellAverage, NaNReachesItsOwnPointsOnlyAndLargeValuesDoNotOverflow) {
@@ -33,8 +33,8 @@ TEST(CellAverage, NaNReachesItsOwnPointsOnlyAndLargeValuesDoNotOverflow) {
     for (const double value : two.values) EXPECT_EQ(value, 1.7e308);
 }
 
-// On a grid of cubes, each cut alike, the centre values of a linear field give the field back at
-// inner points: what lies on one side of a point lies, mirrored, on the other.
+// If all cubes of a grid are cut in the same way, the centre values of a linear field give the
+// field back at inner points: the tets on one side of a point mirror those on the other.
 TEST(CellAverage, KeepsALinearFieldInsideARegularGrid) {
     constexpr int side = 4;
     const auto at = [](int x, int y, int z) {
@@ -45,7 +45,7 @@ TEST(CellAverage, KeepsALinearFieldInsideARegularGrid) {
     MeshScalar centres{"f", {}};
     for (int cube = 0; cube < 27; ++cube) {
         const int x = cube % 3, y = cube / 3 % 3, z = cube / 9;
-        for (const auto& step : steps) {  // Kuhn's split
+        for (const auto& step : steps) {  // the cubes of a Kuhn mesh
             Tet tet{at(x, y, z), 0, 0, 0};
             int bits = 0;
             double f = 4.0 * (2 * x - 3 * y + z);

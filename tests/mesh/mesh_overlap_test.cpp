@@ -38,7 +38,7 @@ TEST(MeshOverlap, NoneWherePartsAreApartOrTouch) {
     EXPECT_EQ(overlapping(test::three_sticks({.3, .2, .25})), 0);
     EXPECT_EQ(overlapping(test::needle_soup(60, 3, 1, .03)), 0);
     EXPECT_EQ(overlapping(both(tet_at({0, 0, 0}, 1), tet_at({1, 0, 0}, 1))), 0);  // at a point
-    // The same face in two copies of its points.
+    // Two tets that share a face, with two copies of its points.
     MeshData behind = tet_at({0, 0, 0}, 1);
     behind.points[3].z = -1;
     EXPECT_EQ(overlapping(both(tet_at({0, 0, 0}, 1), behind)), 0);

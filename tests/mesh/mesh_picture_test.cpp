@@ -21,9 +21,9 @@ constexpr int side = 64;
 constexpr int room = 8;
 constexpr Codes paper{255, 255, 255}, lowest{68, 1, 84}, highest{253, 231, 37};
 
-// A box 4 x 2 x 2 with the scalar x: the cut across x shows its middle value everywhere, the cuts
-// across y and z run from the lowest colour at the left to the highest at the right, and fill twice
-// as many columns as rows.
+// The mesh is a box 4 x 2 x 2 with the scalar x. The cut across x shows its middle value
+// everywhere. The cuts across y and z run from the lowest colour at the left to the highest at the
+// right, and fill twice as many columns as rows.
 TEST(MeshPicture, CutsShowTheScalar) {
     const TetMesh mesh(test::kuhn_box({4, 2, 2}, [](const glm::dvec3& p) { return p.x; }), "box");
     const CodedImage image = mesh_picture(mesh, mesh.point_scalars()[0].values, {0, 4}, side);
@@ -38,7 +38,8 @@ TEST(MeshPicture, CutsShowTheScalar) {
         }
         EXPECT_EQ(columns, side);
         EXPECT_EQ(rows, side / 2);
-        // Half a pixel from the edge: a 128th of the range, up to 8 codes a channel.
+        // The pixel's centre is half a pixel from the edge: a 128th of the range, up to 8 codes a
+        // channel.
         const Codes first = pixel(image, left, top + side / 2 + 3);
         const Codes last = pixel(image, left + side - 1, top + side / 2 + 3);
         for (std::size_t c = 0; c < 3; ++c) {

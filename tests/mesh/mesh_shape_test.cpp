@@ -31,13 +31,13 @@ TEST(MeshShape, ConvexMeshes) {
     EXPECT_EQ(convexity_of(test::twisted_prism(-20)), Convexity::exact);
 }
 
-// Turned by an irrational angle, the sides of a box are flat to some 1e-16 only.
+// The sides of a box that is turned by an irrational angle are flat only up to 1e-16.
 TEST(MeshShape, RoundedCoordinates) {
     MeshData turned = box({5, 5, 5});
     for (glm::dvec3& p : turned.points)
         p = {std::cos(1.) * p.x - std::sin(1.) * p.y, std::sin(1.) * p.x + std::cos(1.) * p.y, p.z};
     EXPECT_EQ(convexity_of(turned), Convexity::within_rounding);
-    // A dent of 1e-9 is one.
+    // A dent of 1e-9 counts.
     MeshData dented = box({2, 2, 2});
     dented.points[4].z += 1e-9;  // the middle of the side z = 0
     EXPECT_EQ(convexity_of(dented), Convexity::none);

@@ -15,13 +15,13 @@ std::vector<glm::dvec3> gradients_of(const TetMesh& mesh) {
     return point_gradients(mesh, mesh.point_scalars()[0].values);
 }
 
-// Each tet's gradient is g, |g| = 7.6. A tet's volume times its gradient is a sum of three products
-// of a difference of values and a normal, which is a cross product of two edges. In units of u =
-// 2^-53: stored values (up to 14) have errors of 45 (three products, three sums), so their
+// Each tet's gradient is g, |g| = 7.6. The error: a tet's volume times its gradient is a sum of
+// three products of a difference of values and a normal, a cross product of two edges. In units of
+// u = 2^-53: stored values (up to 14) have errors of 45 (three products, three sums), so their
 // differences have 104; a normal has 8 of the product of its edges, which a difference multiplies
 // by 14 at most. That makes 216 in each direction, 375 in space, and the volume's own error 8
-// sqrt(3) |g| = 106: less than 500 u for each product of two edges. Around some points there are
-// slivers alone.
+// sqrt(3) |g| = 106: less than 500 u for each product of two edges. Some points have only slivers
+// around them.
 TEST(PointGradients, OfALinearFieldAreItsGradient) {
     const glm::dvec3 g(3, -.5, 7);
     for (const double least : {.1, 1e-6}) {
@@ -49,7 +49,7 @@ TEST(PointGradients, OfALinearFieldAreItsGradient) {
 }
 
 // Two tets share point 0: one of volume 1/6 with gradient (1, 0, 0), one of volume 1/3 with (0, 0,
-// -4). In the far corner of each there is its own gradient alone.
+// -4). The points of only one tet have its gradient.
 TEST(PointGradients, AreMeansByVolume) {
     MeshData data;
     data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -2}};
@@ -74,7 +74,7 @@ TEST(PointGradients, FlatTetsAndThoseWithoutAValueDoNotCount) {
     for (const std::size_t point : {4, 5, 6}) EXPECT_EQ(found[point], glm::dvec3(0)) << point;
 }
 
-// The world's size is no matter.
+// Gradients scale with the size of the world.
 TEST(PointGradients, ScaleWithTheWorld) {
     MeshData data = test::kuhn_box({2, 2, 2}, [](const glm::dvec3& p) { return p.x * p.y + p.z; });
     const std::vector<glm::dvec3> expected = gradients_of(TetMesh(data, "test"));

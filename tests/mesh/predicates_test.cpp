@@ -21,7 +21,8 @@ glm::dvec3 to_point(const Whole& w, double scale, const glm::dvec3& offset) {
            offset;
 }
 
-// Differences of whole numbers below 2^32 give a determinant below 6 * 2^99: exact in 128 bits.
+// Computes the sign with 128-bit integers. It is exact: differences of whole numbers below 2^32
+// give a determinant below 6 * 2^99.
 int sign_by_integers(const Whole& a, const Whole& b, const Whole& c, const Whole& d) {
     const Wide ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
     const Wide vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
@@ -39,7 +40,7 @@ TEST(Predicates, AgreeWithIntegersOnNearlyCoplanarPoints) {
         const Whole a{large(random), large(random), large(random)};
         const Whole b{large(random), large(random), large(random)};
         const std::int64_t n = small(random), m = small(random);
-        // c and d near the line and the plane of the others, by a few units.
+        // c is near the line of a and b, and d near the plane of all, by a few units.
         const Whole c{a.x + small(random), a.y + small(random), a.z + small(random)};
         Whole d{a.x + n * (b.x - a.x) / 4 + m * (c.x - a.x),
                 a.y + n * (b.y - a.y) / 4 + m * (c.y - a.y),
@@ -53,11 +54,11 @@ TEST(Predicates, AgreeWithIntegersOnNearlyCoplanarPoints) {
         zeros += expected == 0;
         positive += expected > 0;
     }
-    EXPECT_GT(zeros, 10000);  // the test meets what it is for
+    EXPECT_GT(zeros, 10000);  // enough points were exactly coplanar
     EXPECT_GT(positive, 10000);
 }
 
-// Differences that are no doubles: the second component of each must count.
+// The differences of these coordinates are no doubles: the second component of each must count.
 TEST(Predicates, SeeTheLastBitOfFarApartCoordinates) {
     const double tiny = 0x1p-60;
     const glm::dvec3 a(1, 1, 1), b(2, 1, 1), c(1, 2, 1);

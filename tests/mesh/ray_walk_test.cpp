@@ -16,7 +16,7 @@ double slope(const glm::dvec3& p) {
     return 3 * p.x - 2 * p.y + p.z;
 }
 
-// What every line through a mesh without overlaps must fulfil: segments join, and each crossing
+// Expects for a line through a mesh without overlaps that segments join, and that each crossing
 // lies on the line and on the face.
 void expect_walk_right(const TetMesh& mesh, const RayWalk& walk, const glm::dvec3& origin,
                        const glm::dvec3& direction, double tolerance) {
@@ -38,10 +38,10 @@ void expect_walk_right(const TetMesh& mesh, const RayWalk& walk, const glm::dvec
     }
 }
 
-// However bad the tets are. Places seen from 7 units (in the 1-norm) are good to 8 epsilon * 7 =
-// 1.2e-14; a crossing that rounding puts on the wrong side of a short edge of a needle is moved
-// there by a multiple of that, which grows with the needle: 1.3e-13 was met at 1e-6, 1.1e-12 at
-// 1e-9.
+// Lines pass meshes with very bad tets. Places seen from 7 units (in the 1-norm) have errors of 8
+// epsilon * 7 = 1.2e-14. A crossing that rounding puts on the wrong side of a short edge of a
+// needle is moved onto the edge by a multiple of that, which grows as the needle gets thinner:
+// 1.3e-13 was measured at 1e-6, 1.1e-12 at 1e-9.
 TEST(RayWalk, PassesSliversAndNeedles) {
     for (const double least : {.1, 1e-3, 1e-6, 1e-9}) {
         const TetMesh mesh(test::split_box(7, 3000, least, slope), "splits");
@@ -52,7 +52,7 @@ TEST(RayWalk, PassesSliversAndNeedles) {
         std::int64_t passed = 0;
         for (int i = 0; i < 2000; ++i) {
             const glm::dvec3 origin(uniform(random) * 4 - 2, uniform(random) * 4 - 2, -2);
-            // Half of them through points of the mesh, where the needles are.
+            // Half of the lines go through points of the mesh, where the needles are.
             glm::dvec3 aim(uniform(random), uniform(random), uniform(random));
             if (i % 2 == 0) aim = mesh.points()[random() % mesh.points().size()];
             const glm::dvec3 direction = aim - origin;
@@ -67,8 +67,8 @@ TEST(RayWalk, PassesSliversAndNeedles) {
     }
 }
 
-// Whole-numbered lines through whole-numbered points: every step is a tie that only the
-// infinitesimal displacement decides.
+// Lines and points are whole-numbered: every step is a tie that only the infinitesimal displacement
+// decides.
 TEST(RayWalk, PassesEdgesPointsAndFacePlanes) {
     const TetMesh mesh(test::kuhn_box({4, 4, 4}, slope), "box");
     const FaceTree tree(mesh, mesh.open_faces());
@@ -89,7 +89,8 @@ TEST(RayWalk, PassesEdgesPointsAndFacePlanes) {
                     inside += inner;
                     if (inner) {
                         ASSERT_EQ(walk.entries().size(), 1u);
-                    } else {  // in a face of the box, or touching it: inside or outside, once
+                    } else {  // in a face of the box, or touching it: passes inside once, or
+                              // outside
                         ASSERT_LE(walk.entries().size(), 1u);
                     }
                     ASSERT_FALSE(HasFailure());

@@ -19,7 +19,7 @@ double height(const glm::dvec3& p) {
     return p.z;
 }
 
-// Neighbours found the slow way.
+// Compares the neighbours with those found through a map of all faces.
 void expect_neighbors_right(const TetMesh& mesh) {
     std::map<std::array<std::int32_t, 3>, std::vector<std::int32_t>> tets_of;
     const auto key = [&](std::size_t tet, std::size_t face) {
@@ -102,7 +102,7 @@ TEST(TetMesh, CountsWhatIsWrong) {
     add(data.tets[2]);                                                          // 6: a duplicate,
     add({data.tets[3][1], data.tets[3][0], data.tets[3][2], data.tets[3][3]});  // 7: turned as well
     add({0, 0, 1, 2});                                                          // 8: a corner twice
-    data.points.emplace_back(9, 9, NAN);                                        // used by nobody
+    data.points.emplace_back(9, 9, NAN);                                        // used by no tet
     const TetMesh mesh(data, "bad");
     EXPECT_EQ(mesh.findings().tets_read, 9);
     EXPECT_EQ(mesh.tets().size(), 6u);
@@ -115,7 +115,7 @@ TEST(TetMesh, CountsWhatIsWrong) {
     EXPECT_TRUE(std::isfinite(mesh.bounds().max.z));
 }
 
-// As many copies as a file may hold: found by sorting, not pair by pair.
+// A file may hold very many copies of a tet: these are found by sorting, not pair by pair.
 TEST(TetMesh, DropsManyCopies) {
     MeshData data = test::kuhn_box({1, 1, 1}, height);
     data.tets.insert(data.tets.end(), 300000, data.tets[4]);
@@ -125,7 +125,7 @@ TEST(TetMesh, DropsManyCopies) {
     EXPECT_EQ(mesh.findings().boundary_faces, 12);
 }
 
-// Two tets on one side of their common face, and three on one face.
+// The mesh has two tets on one side of their common face, and three tets on one face.
 TEST(TetMesh, CutsFoldedAndNonmanifoldFaces) {
     MeshData data;
     data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.2, .2, 2}, {.1, .1, -1}};
@@ -142,8 +142,8 @@ TEST(TetMesh, CutsFoldedAndNonmanifoldFaces) {
     EXPECT_EQ(three.open_faces().size(), 12u);
 }
 
-// The four corners of a square as a tet, between two halves that see its two sides with crossed
-// diagonals: it connects them, whichever way its corners are listed.
+// A flat tet with the corners of a square lies between two halves of a mesh that cut the square
+// along different diagonals. It connects them, in whichever order its corners are listed.
 TEST(TetMesh, KeepsFlatTetsAsConnections) {
     for (const bool mirrored : {false, true}) {
         MeshData data;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of bad mesh files have in common.
+// The fixture of the tests of bad mesh files.
 #pragma once
 
 #include "mesh_files.h"
@@ -13,12 +13,13 @@ class BadMeshFiles : public MeshFiles {
         const auto path = write(name, bytes);
         SCOPED_TRACE(bytes.substr(0, 300));
         const std::string message = error_of([&] { read_mesh(path); });
-        const std::string stem = name.substr(0, name.find('.') + 1);  // of the pair either
+        const std::string stem =
+            name.substr(0, name.find('.') + 1);  // a message may name either of two files
         expect_error([&] { throw Error(message); }, {stem});
         expect_error([&] { throw Error(message); }, parts);
     }
 
-    // Either a mesh or an Error: never anything else.
+    // Expects that a file gives a mesh with valid indices or an Error of one line.
     void expect_survives(const std::string& name, const std::string& bytes) {
         const auto path = write(name, bytes);
         try {

@@ -25,7 +25,7 @@ const std::vector<glm::dvec3> unit_wedge{{0, 0, 0}, {0, 1, 0}, {1, 0, 0},
 const std::vector<glm::dvec3> unit_pyramid{
     {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3, 0.4, 1}};
 
-// The faces of each shape, from the figures of "VTK File Formats"; the sense does not matter here.
+// The quadrilateral faces of each shape, from the figures of "VTK File Formats", in either sense.
 using Quads = std::vector<std::array<std::size_t, 4>>;
 const Quads cube_quads{{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
@@ -47,8 +47,8 @@ void count_faces(const Tet& tet, std::map<Triangle, int>& faces) {
     for (std::size_t face = 0; face < 4; ++face) ++faces[sorted(corners_of_face(tet, face))];
 }
 
-// Whether the tets fill the cell: all positive, with the volume of the cell, every inner face
-// shared by two of them, and every quadrilateral cut through its least index.
+// Checks that the tets fill the cell: all are positive, have the volume of the cell together, share
+// every inner face between two, and cut every quadrilateral through its least index.
 void expect_good_split(std::int64_t type, const std::vector<glm::dvec3>& corners,
                        const Quads& quads, const std::vector<std::int32_t>& numbers,
                        double expected_volume, std::size_t expected_count) {
@@ -66,14 +66,15 @@ void expect_good_split(std::int64_t type, const std::vector<glm::dvec3>& corners
         sum += v;
         count_faces(cell.tets[i], faces);
     }
-    // Products of a few numbers below 1: each rounds by 1e-16 or so.
+    // The volumes are products of a few numbers below 1, each rounded by 1e-16 or so.
     ASSERT_NEAR(sum, expected_volume, 1e-15);
     int boundary = 0;
     for (const auto& [face, count] : faces) {
         ASSERT_LE(count, 2);
         boundary += count == 1;
     }
-    // Two for each quadrilateral, and the triangles of a wedge (2) or pyramid (4).
+    // Boundary triangles: two for each quadrilateral, and the triangles of a wedge (2) or pyramid
+    // (4).
     const int triangles = type == wedge ? 2 : type == pyramid ? 4 : 0;
     ASSERT_EQ(boundary, 2 * static_cast<int>(quads.size()) + triangles);
     for (const auto& quad : quads) {
@@ -114,14 +115,14 @@ TEST(CellSplit, VoxelsAreHexahedraInTheOrderOfTheAxes) {
     expect_good_split(voxel, corners, quads, {5, 1, 7, 3, 0, 2, 4, 6}, 1, 6);
 }
 
-// gmsh and others number wedges the other way round than VTK: both are whole wedges.
+// gmsh and others number wedges in the sense opposite to VTK's. Both must give positive tets.
 TEST(CellSplit, WedgesOfEitherSense) {
     const std::vector<glm::dvec3> other{{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
                                         {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
     try_all_numberings(wedge, other, wedge_quads, 0.5, 3);
 }
 
-// Any other cell stays as it was meant: inside out.
+// Cells other than wedges are not turned: an inverted one gives inverted tets.
 TEST(CellSplit, AnInvertedHexahedronGivesInvertedTets) {
     std::vector<glm::dvec3> mirrored = unit_cube;
     for (auto& point : mirrored) point.z = -point.z;
@@ -130,8 +131,8 @@ TEST(CellSplit, AnInvertedHexahedronGivesInvertedTets) {
     for (std::size_t i = 0; i < cell.count; ++i) EXPECT_LT(volume(cell.tets[i], mirrored), 0);
 }
 
-// The volume of a hexahedron with these (bent) faces by the divergence theorem over the triangles
-// that the rule demands: an oracle that knows nothing of the inside.
+// Returns the volume of a hexahedron with bent faces by the divergence theorem over the triangles
+// into which split_cell()'s rule cuts its faces. It does not depend on how the inside is cut.
 double volume_by_faces(const std::vector<glm::dvec3>& points, const Quads& outward) {
     double sum = 0;
     for (const auto& quad : outward) {
@@ -155,13 +156,13 @@ TEST(CellSplit, VolumesOfBentHexahedraAddUp) {
             split_cell(hexahedron, std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}, points);
         double sum = 0;
         for (std::size_t i = 0; i < cell.count; ++i) sum += volume(cell.tets[i], points);
-        // 12 terms of products of three numbers below 2, each exact to some 1e-15.
+        // The sums have 12 products of three numbers below 2, each rounded by some 1e-15.
         ASSERT_NEAR(sum, volume_by_faces(points, outward), 2e-14);
     }
 }
 
-// 4 x 4 x 4 cubes with randomly numbered points, each cube starting from a random corner in either
-// kind of cell: hexahedra, pairs of wedges, six pyramids around a point of their own.
+// Grids of 4 x 4 x 4 cubes with randomly numbered points. Cubes are cells of different kinds:
+// hexahedra, pairs of wedges, or six pyramids around a point in the middle.
 TEST(CellSplit, MixedGridsWithRandomNumbersConform) {
     constexpr int n = 4, side = n + 1;
     std::mt19937_64 random(3);
@@ -202,9 +203,9 @@ TEST(CellSplit, MixedGridsWithRandomNumbersConform) {
                         c.push_back(at(x + static_cast<int>(p.x), y + static_cast<int>(p.y),
                                        z + static_cast<int>(p.z)));
                     }
-                    // Wedges cut the cube along the diagonal 0-2 of its bottom and top, and a
-                    // hexahedron above or below would cut these by their indices: wedges only in
-                    // whole columns.
+                    // Wedges cut the bottom and top of a cube along the diagonal 0-2, while a
+                    // hexahedron would cut them by their indices. So wedges fill whole columns
+                    // along z.
                     if (x == 1 && y == 1 && round % 2 == 0) {
                         add(wedge, {c[0], c[2], c[1], c[4], c[6], c[5]});
                         add(wedge, {c[0], c[3], c[2], c[4], c[7], c[6]});
@@ -238,8 +239,8 @@ TEST(CellSplit, MixedGridsWithRandomNumbersConform) {
     }
 }
 
-// A hexahedron with two corners in one place (a wedge, as solvers write them) still meets its
-// neighbours: the tets that keep four corners fill it.
+// A hexahedron whose corners coincide in pairs is a wedge, as some solvers write it. Its tets with
+// four different corners fill it, so that it meets its neighbours.
 TEST(CellSplit, CollapsedHexahedraFillTheirWedge) {
     std::vector<std::int32_t> numbers{0, 1, 2, 3, 4, 5};
     const std::vector<glm::dvec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0},

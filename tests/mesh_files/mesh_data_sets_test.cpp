@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real meshes, as their README describes them, in every format.
+// Checks real meshes against their README, in every format.
 #include <algorithm>
 #include <set>
 
@@ -21,18 +21,18 @@ struct DataSet {
     const char* name;
     std::size_t points, tets;
     const char* scalar;
-    double lo, hi, half_digit;  // of the README's numbers
+    double lo, hi, half_digit;  // half a unit of the last digit in the README
 
     friend void PrintTo(const DataSet& set, std::ostream* stream) { *stream << set.name; }
 };
 
 class MeshDataSets : public ::testing::TestWithParam<DataSet> {};
 
-// How many digits agree: the .node files have 9 significant digits (torso 6, as its source), the
-// .vtu Float32. All coordinates, and the values of three sets, are the very float that the text
-// rounds to. The speed of can was printed from doubles: 63 of 6,724 of its values round to the
-// neighbouring float, so that the two differ by half a float's spacing (2^-24) and half a unit of
-// the ninth digit (5e-9).
+// The two formats agree in these digits: the .node files have 9 significant ones (torso 6, as its
+// source), the .vtu are Float32. All coordinates, and the values of three sets, are the float to
+// which the text rounds. The speed of can was printed from doubles: 63 of 6,724 of its values round
+// to the neighbouring float, so that the two differ by half a float's spacing (2^-24) and half a
+// unit of the ninth digit (5e-9).
 TEST_P(MeshDataSets, AreTheSameInBothFormats) {
     const DataSet& expected = GetParam();
     const auto vtu = data_folder() / (std::string(expected.name) + ".vtu");
@@ -112,11 +112,11 @@ TEST_F(CanFiles, AreTheSameInEveryCoding) {
     expect_equal(read_mesh(node.path()), expected);
 }
 
-// can.vtu was cut from hexahedra by the rule that split_cell follows: put together again, its
-// hexahedra give the same tets.
+// can.vtu was cut from hexahedra by the rule of split_cell(). Groups of six tets are joined to
+// hexahedra again, and split_cell() must give the same tets.
 TEST_F(CanFiles, ItsHexahedraAreCutAsOursAre) {
     ASSERT_EQ(can_.tets.size() % 6, 0u);
-    for (std::size_t first = 0; first < can_.tets.size(); first += 96) {  // every 16th
+    for (std::size_t first = 0; first < can_.tets.size(); first += 96) {  // every 16th hexahedron
         std::set<std::int32_t> corners;
         std::set<std::set<std::int32_t>> tets;
         for (std::size_t i = first; i < first + 6; ++i) {
@@ -124,8 +124,8 @@ TEST_F(CanFiles, ItsHexahedraAreCutAsOursAre) {
             tets.insert({can_.tets[i].begin(), can_.tets[i].end()});
         }
         ASSERT_EQ(corners.size(), 8u);
-        // Which of the numberings of a hexahedron with these corners it was: one of them gives
-        // these tets. The least point is in all of the six.
+        // The file does not say how the hexahedron was numbered, so all numberings of its corners
+        // are tried: one must give these tets. All six tets have the least point.
         std::vector<std::int32_t> order(corners.begin(), corners.end());
         for (const auto& tet : tets) ASSERT_TRUE(tet.contains(order[0]));
         bool found = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kind of bad mesh file: one line that names the file, what was found and what was expected.
+// Bad mesh files of every kind. Each error is one line that names the file, what was found and what
+// was expected.
 #include <sys/resource.h>
 
 #include <random>
@@ -74,7 +75,7 @@ TEST_F(MeshErrors, Cells) {
     both(grid, {"no points"});
 }
 
-// A small file may promise what it likes: memory is taken for what can be there.
+// Takes no memory for what a small file promises but cannot hold.
 TEST_F(MeshErrors, ABillionTetsInASmallFile) {
     rusage before{}, after{};
     getrusage(RUSAGE_SELF, &before);
@@ -106,7 +107,7 @@ TEST_F(MeshErrors, ABillionTetsInASmallFile) {
         expect_bad("a.node", count + " 3 0 0\n1 0 0 0\n", {"line 1", count});
     }
     getrusage(RUSAGE_SELF, &after);
-    // In kilobytes: a billion tets would take more than ten million.
+    // In kilobytes; a billion tets would take more than ten million.
     EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 1'000'000);
 }
 
@@ -182,7 +183,7 @@ TEST_F(MeshErrors, TetGen) {
     expect_bad("a.node", nodes, {"a.ele", "no such file", "a.node"});
 }
 
-// Cut off anywhere: an error, or all that matters was there already.
+// A file that is cut off anywhere gives an error, or is read if only scalars are missing.
 TEST_F(MeshErrors, TruncatedAnywhere) {
     for (const VtuStyle& style : {VtuStyle{"ascii"}, VtuStyle{"raw", true}, VtuStyle{"base64"}}) {
         const std::string good = make_vtu(mixed_grid(), style);
@@ -194,7 +195,7 @@ TEST_F(MeshErrors, TruncatedAnywhere) {
     }
     for (const bool binary : {false, true}) {
         const std::string good = VtkMaker(binary, binary).file(mixed_grid());
-        // Whole without its cell data, which come last.
+        // The file is valid without its cell data, which come last.
         const std::size_t end = good.find("CELL_DATA"), points = good.find("POINT_DATA");
         for (std::size_t length = 0; length < end; length += end / 61) {
             const std::string some = good.substr(0, length);
@@ -207,7 +208,7 @@ TEST_F(MeshErrors, TruncatedAnywhere) {
     }
 }
 
-// Bytes changed at random, in every format: an Error or a mesh with valid indices.
+// A file of any format with random bytes changed gives an Error, or a mesh with valid indices.
 TEST_F(MeshErrors, DamagedAnywhere) {
     std::mt19937 random(4);
     std::vector<std::pair<std::string, std::string>> files;
@@ -229,7 +230,7 @@ TEST_F(MeshErrors, DamagedAnywhere) {
             expect_survives(name, bad);
         }
     }
-    EXPECT_GT(refused_, 100);  // the damage was felt, and not always
+    EXPECT_GT(refused_, 100);  // some files are refused, some still read
     EXPECT_GT(read_, 20);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of mesh files have in common.
+// The fixture and helpers of the tests of mesh files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ class MeshFiles : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-// Bit for bit, but NaN equals NaN.
+// Expects scalars of equal names and values, where NaN equals NaN.
 inline void expect_equal(const std::vector<MeshScalar>& a, const std::vector<MeshScalar>& b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {

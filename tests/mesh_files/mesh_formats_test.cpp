@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same mesh in every format and coding is the same mesh, bit for bit.
+// A mesh that is written in every format and coding is read as the same mesh, bit for bit.
 #include <algorithm>
 
 #include "mesh_files.h"
@@ -66,7 +66,7 @@ TEST_F(MeshFormats, EveryTypeOfNumber) {
     }
 }
 
-// A Float32 array's text is a float's, so that it reads as the binary array does: 0.1f, not 0.1.
+// The text of a Float32 array is rounded to float32 like binary values: 0.1f, not 0.1.
 TEST_F(MeshFormats, TextOfFloatsIsRoundedToFloats) {
     TestGrid grid = mixed_grid();
     grid.points_type = "Float32";
@@ -81,7 +81,7 @@ TEST_F(MeshFormats, PiecesAreJoined) {
     const TestGrid one = mixed_grid();
     TestGrid two = mixed_grid();
     for (auto& point : two.points) point.x += 10;
-    std::swap(two.point_arrays[0], two.point_arrays[3]);  // arrays go by name
+    std::swap(two.point_arrays[0], two.point_arrays[3]);  // arrays are matched by name
     const MeshData first = expected_mesh(one), second = expected_mesh(two);
     for (const VtuStyle& style : all_vtu_styles()) {
         SCOPED_TRACE(style.name());
@@ -104,7 +104,8 @@ TEST_F(MeshFormats, PiecesAreJoined) {
 
 TEST_F(MeshFormats, VtuOddities) {
     const MeshData expected = expected_mesh(mixed_grid());
-    // CDATA, comments and information keys among the numbers; a declaration; a comment before.
+    // CDATA, comments and information keys stand among the numbers, and a declaration and a comment
+    // before the root element.
     std::string text = make_vtu(mixed_grid());
     const auto replace = [&](const std::string& from, const std::string& to) {
         ASSERT_NE(text.find(from), std::string::npos) << from;
@@ -114,13 +115,13 @@ TEST_F(MeshFormats, VtuOddities) {
     replace("10 5 12 13", "<!-- types --><InformationKey name=\"X\"/>10 5<![CDATA[ 12 13]]>");
     expect_equal(read("a.vtu", text), expected);
 
-    // Arrays of strings and of bits have no place among scalars.
+    // Arrays of strings and of bits become no scalars.
     replace("<PointData>",
             "<PointData><Array type=\"String\" Name=\"s\">97 0</Array>"
             "<DataArray type=\"Bit\" Name=\"b\">1</DataArray>");
     expect_equal(read("a.vtu", text), expected);
 
-    // An array without a name gets its number.
+    // An array without a name is named by its number.
     replace("Name=\"pressure\"", "");
     EXPECT_EQ(read("a.vtu", text).point_scalars[0].name, "array 2");
 }
@@ -159,13 +160,14 @@ TEST_F(MeshFormats, NumbersInEverySpelling) {
     const MeshData mesh = read("a.vtk", text);
     EXPECT_EQ(mesh.points[0], glm::dvec3(1.5, -0.5, 5));
     EXPECT_EQ(mesh.points[1], glm::dvec3(1e-3, 100, 0));
-    EXPECT_EQ(mesh.points[2], glm::dvec3(0, 0, 4.9e-324));  // too small for a double: 0
+    EXPECT_EQ(mesh.points[2],
+              glm::dvec3(0, 0, 4.9e-324));  // numbers too small for a double become 0
     EXPECT_TRUE(std::signbit(mesh.points[2].y));
     EXPECT_EQ(mesh.points[3].x, 1e308);
-    EXPECT_TRUE(std::isinf(mesh.points[3].z));  // for TetMesh to reject, where a tet uses it
+    EXPECT_TRUE(std::isinf(mesh.points[3].z));  // TetMesh rejects it if a tet uses it
 }
 
-// What else may stand in a legacy file.
+// Reads or skips every other kind of attribute that a legacy file may have.
 TEST_F(MeshFormats, LegacyAttributesOfEveryKind) {
     const std::string text = std::string(text_points) + "0 0 0 1 0 0 0 1 0 0 0 1\n" + text_cells +
                              "cell_data 1\nscalars c int\nlookup_table default\n7\n"

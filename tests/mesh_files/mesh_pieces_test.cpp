@@ -17,7 +17,7 @@ class MeshPieces : public testing::BadMeshFiles {
     std::vector<std::string>& warnings_ = heard_.texts;
 };
 
-// A cube at x, with the value 10 x at its points.
+// Returns a unit cube from x on, whose points have the value 10 times their x.
 TestGrid cube_at(double x) {
     TestGrid grid;
     for (int i = 0; i < 8; ++i) grid.points.emplace_back(x + (i & 1), i >> 1 & 1, i >> 2);
@@ -69,7 +69,8 @@ TEST_F(MeshPieces, OtherValuesAtASharedPointAreSaid) {
         EXPECT_EQ(mesh.point_scalars[0].values[i], 10 * mesh.points[i].x);
 }
 
-// Two points of one piece at one place are the two sides of a crack: neither is another piece's.
+// Two points of one piece at one place are the two sides of a crack. Neither is merged with a point
+// of another piece.
 TEST_F(MeshPieces, PointsOfACrackStayApart) {
     TestGrid cracked = cube_at(0);
     const TestGrid more = cube_at(1);
@@ -81,7 +82,7 @@ TEST_F(MeshPieces, PointsOfACrackStayApart) {
     TestGrid above = cube_at(1);
     for (auto& point : above.points) point.z += 1;
     const MeshData mesh = read("a.vtu", VtuMaker({"raw"}).file({cracked, above}));
-    EXPECT_EQ(mesh.cells.merged_points, 2);  // at x = 2; at x = 1 there are two of each
+    EXPECT_EQ(mesh.cells.merged_points, 2);  // at x = 2; each place at x = 1 has two points
     EXPECT_EQ(read("b.vtu", VtuMaker({"raw"}).file({above, cracked})).cells.merged_points, 2);
     EXPECT_EQ(read("c.vtu", make_vtu(cracked)).points.size(), 16u);
 }
@@ -118,7 +119,7 @@ TEST_F(MeshPieces, PvtuNamesItsFiles) {
     expect_bad("b.pvtu", pvtu_of({}), {"no <Piece>"});
     expect_bad("b.pvtu", pvtu_of({"one.vtu", "./one.vtu"}), {"one.vtu", "twice"});
     expect_bad("b.pvtu", pvtu_of({"one.vtu", ""}), {"Piece 2", "Source"});
-    write("b.pvtu", pvtu_of({std::string(300, 'a')}));  // longer than names may be
+    write("b.pvtu", pvtu_of({std::string(300, 'a')}));  // too long for a file name
     expect_error([&] { read_mesh(folder() / "b.pvtu"); }, {"aaa", "no such file"});
     expect_bad("b.pvtu", pvtu_of({"one.vtu"}).substr(0, 80), {"XML"});
     write("b.pvtu", pvtu_of({"one.vtu", "none.vtu"}));

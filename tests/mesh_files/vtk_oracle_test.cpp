@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTK's own readers and writers, where Debian's python3-vtk9 is installed, against ours.
+// Compares lamina's readers and writers of meshes with VTK's own, if Debian's python3-vtk9 is
+// installed.
 #include <sys/wait.h>
 
 #include <string>
@@ -25,7 +26,7 @@ T next(TextReader& reader) {
     return value;
 }
 
-// A dump of vtk_oracle.py.
+// Reads the text in which vtk_oracle.py prints a grid.
 TestGrid read_dump(const std::filesystem::path& path) {
     const std::string text = read_bytes_of(path);
     TextReader reader(text);
@@ -86,7 +87,7 @@ TEST_F(VtkOracle, ReadsWhatWeReadAndWhatWeWrite) {
         EXPECT_EQ(mesh.cells.split, expected.cells.split);
         EXPECT_EQ(mesh.cells.skipped, expected.cells.skipped);
         EXPECT_EQ(mesh.cells.straightened, expected.cells.straightened);
-        // VTK puts the arrays of a file in an order of its own.
+        // VTK changes the order of a file's arrays.
         const auto by_name = [](const MeshScalar& a, const MeshScalar& b) {
             return a.name < b.name;
         };

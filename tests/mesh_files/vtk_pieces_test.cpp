@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that VTK's own writers cut into pieces are the whole mesh again.
+// Meshes that VTK's writers cut into pieces are joined to the original mesh.
 #include <sys/wait.h>
 
 #include <glm/geometric.hpp>
@@ -48,7 +48,7 @@ TEST_F(VtkPieces, MakeTheWholeMesh) {
     const TetMesh whole_mesh(MeshData(whole), "whole");
     EXPECT_EQ(whole.cells.merged_points, 0);
     ASSERT_TRUE(whole_mesh.findings().conforming());
-    // The surface of 4 x 4 x 4 cubes, two triangles a square.
+    // The surface of 4 x 4 x 4 cubes, with two triangles a square.
     ASSERT_EQ(whole_mesh.findings().boundary_faces, 6 * 16 * 2);
     for (const char* const name : {"ghosts.pvtu", "plain.pvtu", "pieces.vtu"}) {
         SCOPED_TRACE(name);
@@ -58,7 +58,8 @@ TEST_F(VtkPieces, MakeTheWholeMesh) {
         EXPECT_GT(mesh.cells.merged_points, 50);
         EXPECT_EQ(mesh.cells.ghosts > 0, std::string_view(name) == "ghosts.pvtu");
         EXPECT_EQ(mesh.cells.split, whole.cells.split);
-        // Coordinates up to 4 are off by 2.4e-7 at most in float32, in each of three factors.
+        // In float32, coordinates up to 4 are off by 2.4e-7 at most, in each of three factors of a
+        // volume.
         EXPECT_NEAR(volume_of(mesh) / volume_of(whole), 1, 1e-6);
         EXPECT_EQ(values_by_place(mesh), values_by_place(whole));
         ASSERT_EQ(mesh.cell_scalars.size(), 1u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kind of bad .vtu: one line that names the file, what was found and what was expected.
+// Bad .vtu files of every kind. Each error is one line that names the file, what was found and what
+// was expected.
 #include "bad_mesh_files.h"
 
 namespace lamina {
@@ -73,7 +74,8 @@ TEST_F(VtuErrors, PiecesThatDoNotGoTogether) {
     other.point_arrays.clear();
     expect_bad("a.vtu", VtuMaker(VtuStyle()).file({mixed_grid(), other}),
                {"Piece 2", "0 scalars", "expected 6"});
-    // An index into the next piece is out of range, though there is such a point.
+    // An index beyond the points of its own piece is out of range, even if the next piece has such
+    // a point.
     other = mixed_grid();
     other.cells[0].corners[0] = 30;
     expect_bad("a.vtu", VtuMaker(VtuStyle()).file({other, mixed_grid()}),
@@ -93,13 +95,13 @@ TEST_F(VtuErrors, AppendedData) {
                {"Points", "expected base64"});
 }
 
-// A small file would fill any memory with arrays that are read from the same bytes.
+// Arrays must not share their bytes: a small file could fill any memory with them.
 TEST_F(VtuErrors, ArraysThatShareTheirBytes) {
     for (const VtuStyle& style : {VtuStyle{"raw"}, VtuStyle{"raw", true}, VtuStyle{"base64"}}) {
         const std::string good = make_vtu(mixed_grid(), style);
         const auto begin = good.find("<DataArray"), end = good.find("/>", begin) + 2;
         std::string bad = good;
-        // The grid also has arrays that are not read, and leave their bytes to others.
+        // Adds many copies of an array: a few could use the bytes of arrays that are not read.
         for (int i = 0; i < 50; ++i) bad.insert(end, good.substr(begin, end - begin));
         expect_bad("a.vtu", bad, {"offset", "bytes of appended data, the file has"});
     }
@@ -121,7 +123,7 @@ TEST_F(VtuErrors, Compressors) {
         expect_bad("a.vtu", with(zlib, "vtkZLibDataCompressor", "vtk" + name + "DataCompressor"),
                    {"damaged " + name + " data in block 1 of"});
     }
-    // In a file of text no compressor is at work, whatever the first line says.
+    // The compressor does not matter in a file whose arrays are all text.
     read("a.vtu", with(make_vtu(mixed_grid()), "byte_order", "compressor=\"zip\" byte_order"));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// More in a .vtu than it speaks of: the mesh is read, and a warning counts what is not used.
+// A .vtu with more bytes than its arrays need is read, and a warning counts what is not used.
 #include "bad_mesh_files.h"
 #include "support/heard_warnings.h"
 
@@ -14,7 +14,7 @@ using testing::with;
 
 class VtuSurplus : public testing::MeshFiles {
   protected:
-    // Of reading a file with the usual mesh.
+    // Returns the warnings of reading a file, and checks that it holds mixed_grid().
     std::vector<std::string> warnings_of(const std::string& bytes) {
         warnings_.clear();
         const MeshData mesh = read("a.vtu", bytes);

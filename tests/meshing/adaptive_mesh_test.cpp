@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-// The program is where the build has put it, and not there where TetGen was not found.
+// Skips the tests if there was no TetGen when the build made lamina-tetrahedralize.
 class AdaptiveMesh : public testing::Test {
   protected:
     void SetUp() override {
@@ -63,13 +63,13 @@ TEST_F(AdaptiveMesh, KeepsTheToleranceWithFarFewerTetsThanKuhn) {
     EXPECT_TRUE(report.within_tolerance);
     EXPECT_FALSE(report.stopped_by_max_tets);
     EXPECT_LE(report.error, 0.02 * report.range);
-    // The points sampled here know nothing of how it was measured.
+    // The error is sampled at points that InterpolationError does not know.
     EXPECT_LE(sampled_error(mesh, in_index_space(volume), 10), report.error + 1e-10);
     EXPECT_LT(mesh.tets.size(), 6u * 23 * 23 * 23 / 3);
     expect_fills_box(mesh, index_grid(volume));
 }
 
-// Noise needs points inside its cells; cells of half a sample, axes of one.
+// Noise needs points inside cells. Tests cells of half a sample and axes of one sample, too.
 TEST_F(AdaptiveMesh, FollowsNoise) {
     for (const auto& size : {std::array<std::int64_t, 3>{5, 4, 6}, {1, 7, 5}, {1, 1, 4}}) {
         for (const Centering centering : {Centering::node, Centering::cell}) {
@@ -114,7 +114,7 @@ TEST_F(AdaptiveMesh, StopsAtMaxTetsAndSaysWhatWasReached) {
     EXPECT_GT(report.error, 0.02 * report.range);
     const double sampled = sampled_error(mesh, volume, 50);
     EXPECT_LE(sampled, report.error);
-    EXPECT_GT(sampled, 0.5 * report.error);  // a certificate of something that is there
+    EXPECT_GT(sampled, 0.5 * report.error);  // the bound is not far above the true error
     expect_fills_box(mesh, volume.grid());
 
     settings.max_tets = 5;
@@ -135,7 +135,7 @@ TEST_F(AdaptiveMesh, LeavesCoarseWhatCannotBeSeen) {
     const MeshData everything = make(volume, {}, all);
     EXPECT_LT(mesh.tets.size(), everything.tets.size());
     EXPECT_EQ(make(volume, {}, none, &nothing).points.size(), 8u);
-    // Where either field or mesh is seen, the tolerance holds.
+    // If the field or the mesh shows something at a place, the tolerance holds there.
     double worst = 0;
     const Volume index = in_index_space(volume);
     for (const Tet& tet : mesh.tets) {
@@ -159,7 +159,7 @@ TEST_F(AdaptiveMesh, IsTheSameEveryTime) {
     EXPECT_EQ(first.points, second.points);
 }
 
-// What make_volume_mesh adds: the world.
+// Tests the conversion to world space, which make_volume_mesh() adds.
 TEST_F(AdaptiveMesh, FillsTurnedAndMirroredBoxes) {
     Grid grid = grid_of({8, 9, 7}, Centering::cell);
     grid.origin = {100, -3, 7};
@@ -184,7 +184,7 @@ TEST_F(AdaptiveMesh, FillsTurnedAndMirroredBoxes) {
     expect_fills_box(mesh, grid);
 }
 
-// Answers that no Delaunay program may give.
+// Tests answers that no Delaunay program may give.
 TEST(AdaptiveMeshFailures, AWrongAnswerIsRecognised) {
     const Volume volume = noise(grid_of({3, 3, 3}, Centering::node), 3);
     const TrilinearField field(volume);

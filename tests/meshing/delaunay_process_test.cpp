@@ -28,7 +28,7 @@ namespace {
 
 const std::vector<glm::dvec3> tetrahedron{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-// A program that says and does what a test wants.
+// Writes a shell script that takes the place of lamina-tetrahedralize.
 std::filesystem::path script(const TemporaryFolder& folder, const std::string& commands) {
     const std::filesystem::path path = folder / "lamina-tetrahedralize";
     write_bytes_to(path, "#!/bin/sh\n" + commands);
@@ -50,9 +50,9 @@ TEST(DelaunayProcess, FailuresOfTheProgramAreClear) {
     has(run("exit 3"), "exit code 3");
     has(run("kill -SEGV $$"), "ended by signal 11");
     has(run("exit 0"), "gave no answer");
-    has(run("printf 12345678"), "promised");  // a count beyond all memory
+    has(run("printf 12345678"), "promised");  // a count of tets beyond all memory
     has(run("head -c 40 /dev/zero"), "promised 0 tets");
-    // One tet, corner 4 of four points.
+    // The answer: one tet, with corner 4 although there are four points.
     has(run("printf '\\001\\0\\0\\0\\0\\0\\0\\0'; printf '\\004\\0\\0\\0'; head -c 28 /dev/zero"),
         "index 4 is out of range");
     expect_error([&] { delaunay_by_process(folder / "absent", tetrahedron); },
@@ -73,7 +73,7 @@ TEST(DelaunayProcess, IsFoundInThePath) {
     setenv("PATH", path.c_str(), 1);
 }
 
-// An empty entry is no way to run what lies in the current folder.
+// An empty entry of PATH must not make programs in the current folder run.
 TEST(DelaunayProcess, EmptyEntriesOfThePathAreNoFolder) {
     const TemporaryFolder folder;
     script(folder, "exit 0");
@@ -88,7 +88,7 @@ TEST(DelaunayProcess, EmptyEntriesOfThePathAreNoFolder) {
     setenv("PATH", path.c_str(), 1);
 }
 
-// TMPDIR while it lives.
+// Sets TMPDIR while the object exists.
 class TemporaryFilesIn {
   public:
     explicit TemporaryFilesIn(const std::filesystem::path& folder) {
@@ -128,7 +128,7 @@ TEST(DelaunayProcess, FoldersForTemporaryFilesThatAreNone) {
                  {"absent: cannot write temporary files: No such file", "TMPDIR"});
 }
 
-// The question does not fit.
+// The points do not fit into the folder.
 TEST(DelaunayProcess, AFullFolderForTemporaryFilesIsNamed) {
     const TemporaryFolder folder;
     const auto tool = script(folder, "exit 0");
@@ -144,7 +144,7 @@ TEST(DelaunayProcess, ManyMessagesDoNotStopTheProgram) {
     expect_error([&] { delaunay_by_process(tool, tetrahedron); }, {"the end (exit code 1)"});
 }
 
-// A terminal sends Ctrl-C to both processes: that is no failure of the program.
+// A terminal sends Ctrl-C to both processes, which is no failure of the program.
 TEST(DelaunayProcess, EndedWithWhoAskedItIsAnInterrupt) {
     const TemporaryFolder folder;
     const auto tool = script(folder, "kill -TERM $PPID $$; sleep 20");
@@ -174,8 +174,7 @@ TEST_F(Tetrahedralize, OneTetIsPositive) {
     EXPECT_EQ(mesh.neighbors[0], (std::array<std::int32_t, 4>{-1, -1, -1, -1}));
 }
 
-// The question fits, the answer does not: tets take more bytes than the points, of which each has
-// six and more.
+// The points fit, but the tets do not: they take more bytes, since each point has six or more.
 TEST_F(Tetrahedralize, AnAnswerWithoutRoomSaysWhere) {
     const TemporaryFolder folder;
     std::vector<glm::dvec3> points;
@@ -188,8 +187,8 @@ TEST_F(Tetrahedralize, AnAnswerWithoutRoomSaysWhere) {
                                         "File too large", "TMPDIR"});
 }
 
-// As when lamina is killed: this reads a question without end, and is past its first steps once it
-// has read more than a pipe holds.
+// The program ends when its parent is killed. It is reading an endless question, and has started up
+// once it has read more than a pipe holds.
 TEST_F(Tetrahedralize, EndsWithWhoAskedIt) {
     std::signal(SIGPIPE, SIG_IGN);
     int question[2], answer[2];
@@ -199,7 +198,7 @@ TEST_F(Tetrahedralize, EndsWithWhoAskedIt) {
     if (asking == 0) {
         dup2(question[0], STDIN_FILENO);
         dup2(answer[1], STDOUT_FILENO);
-        // A shell gives its background an empty stdin, but not this one.
+        // A shell gives background processes an empty stdin unless it is redirected, as here.
         const std::string command = "exec 3<&0; \"" LAMINA_TETRAHEDRALIZE_BINARY
                                     "\" --parent $$ <&3 & exec 3<&- </dev/null >/dev/null; wait";
         execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
@@ -216,7 +215,7 @@ TEST_F(Tetrahedralize, EndsWithWhoAskedIt) {
     }
     kill(asking, SIGKILL);
     waitpid(asking, nullptr, 0);
-    // The end of its answer: nobody has that pipe open any more.
+    // The end of its stdout: no process has the pipe's other end open any more.
     pollfd ended{answer[0], POLLIN, 0};
     constexpr int patience = 20'000;
     EXPECT_EQ(poll(&ended, 1, patience), 1);
@@ -237,7 +236,7 @@ TEST_F(Tetrahedralize, AParentThatIsGoneIsNotServed) {
     expect_error([&] { delaunay_by_process(tool, tetrahedron); }, {"has ended (exit code 1)"});
 }
 
-// Cospherical, on planes and lines, in numbers: what lattices are.
+// Many points of a lattice lie on common spheres, planes and lines.
 TEST_F(Tetrahedralize, LatticesGiveNoFlatTets) {
     std::vector<glm::dvec3> points;
     std::mt19937 random(1);
@@ -256,7 +255,7 @@ TEST_F(Tetrahedralize, LatticesGiveNoFlatTets) {
         for (std::size_t i = 0; i < 4; ++i) {
             const std::int32_t neighbor = mesh.neighbors[t][i];
             if (neighbor < 0) continue;
-            // The neighbour has all corners but the one that it lies opposite of.
+            // The neighbour must have all corners of the tet but the opposite one.
             int shared = 0;
             for (std::size_t corner = 0; corner < 4; ++corner) {
                 const auto& other = mesh.tets[neighbor];
@@ -279,7 +278,7 @@ TEST_F(Tetrahedralize, WhatHasNoVolumeIsAnError) {
         }
     }
     expect_error([&] { run(plane); }, {"25 points", "one plane"});
-    expect_error([&] { run(oblique); }, {"25 points"});  // TetGen crashes: seen from outside
+    expect_error([&] { run(oblique); }, {"25 points"});  // TetGen crashes
     expect_error([&] { run({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}); }, {"3 points", "expected 4"});
     expect_error([&] { run({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, NAN}}); }, {"finite"});
 }

@@ -22,7 +22,7 @@ Grid cube(std::int64_t n) {
     return grid_of({n, n, n}, Centering::node);
 }
 
-// A field and its measurement.
+// A volume with its InterpolationError.
 struct Measured {
     Volume volume;
     TrilinearField field{volume};
@@ -37,7 +37,7 @@ struct Measured {
     }
 };
 
-// Visits the points with barycentric coordinates that are multiples of 1/n.
+// Visits the points of a tet whose barycentric coordinates are multiples of 1/n.
 void for_each_point(const Corners& corners, int n,
                     const std::function<void(const glm::dvec3&, const std::array<double, 4>&)>& f) {
     for (int a = 0; a <= n; ++a)
@@ -81,7 +81,7 @@ TEST(CellPieces, ClippingKeepsTheVolumeInside) {
         const auto& p = piece.corners;
         return std::abs(glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0])) / 6;
     };
-    // The cells -1..2 along each axis hold the whole tet: their parts add up to it.
+    // The cells -1..2 along each axis contain all of the tet: the parts of it add up to its volume.
     for (int turn = 0; turn < 50; ++turn) {
         Corners corners = random_tet(random, 3, 3);
         if (turn % 2 == 0) corners[0] = glm::round(corners[0]);  // planes through corners
@@ -102,7 +102,7 @@ TEST(CellPieces, ClippingKeepsTheVolumeInside) {
                 }
             }
         }
-        // Some hundred pieces of coordinates near 1.
+        // Rounding: some hundred pieces with coordinates near 1.
         EXPECT_NEAR(sum, volume_of_piece(whole), 1e-13);
     }
 }
@@ -115,7 +115,7 @@ TEST(CellPieces, BernsteinFormIsTheDifference) {
     const TrilinearPolynomial polynomial(corners);
     CellPiece piece{random_tet(random, 1, 1), {0.3, -0.2, 0.9, 0.1}};
     const BernsteinCubic cubic(polynomial, piece);
-    // Bernstein polynomials of degree 3: 1, 3 or 6 times the product of three weights.
+    // The Bernstein polynomials of degree 3: 1, 3 or 6 times the product of three weights.
     for_each_point(piece.corners, 5, [&](const glm::dvec3& p, const std::array<double, 4>& w) {
         double trilinear = 0, difference = 0;
         const auto add = [&](std::size_t i, double weight) {
@@ -160,8 +160,8 @@ TEST(CellRanges, CoverTheirBlocks) {
     EXPECT_EQ(ranges.of_block(4, {0, 0, 0}).hi, field.range().hi);
 }
 
-// f = xy on the tet of the corner: the linear function is 0, and xy largest in the middle of the
-// edge from (1, 0, 0) to (0, 1, 0).
+// The field is f = xy, on the tet at the corner: the linear function is 0, and xy is largest in the
+// middle of the edge from (1, 0, 0) to (0, 1, 0).
 TEST(InterpolationError, ClosedFormInOneCell) {
     const Measured measured{volume_of(cube(2), [](double i, double j, double) { return i * j; })};
     const Corners corners{glm::dvec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -173,7 +173,8 @@ TEST(InterpolationError, ClosedFormInOneCell) {
     EXPECT_NEAR(error.place.x * error.place.y, error.found, 1e-15);
 }
 
-// xyz on a tet around the diagonal: (0,0,0), (1,1,0), (1,0,1), (1,1,1), linear: its last weight.
+// The field is xyz on the tet (0,0,0), (1,1,0), (1,0,1), (1,1,1), on which the linear function is
+// the last corner's weight.
 TEST(InterpolationError, ToleranceIsDecidedNearTheTruth) {
     const Measured measured{
         volume_of(cube(2), [](double i, double j, double k) { return i * j * k; })};
@@ -184,7 +185,7 @@ TEST(InterpolationError, ToleranceIsDecidedNearTheTruth) {
     EXPECT_LE(below.found, truth * 1.001);  // the brute force misses the maximum by (1/60)^2
     EXPECT_TRUE(std::isinf(below.bound));
     EXPECT_GE(below.found, 0.97 * truth);
-    // 1 % below the tolerance may go either way (0.98), but a bound holds.
+    // An error 1 % below the tolerance may be decided either way (0.98), but the bound must hold.
     EXPECT_GE(above.bound, truth);
     const TetError clear = measured.measure(corners, 1.05 * truth, ErrorGoal::decide);
     EXPECT_LE(clear.bound, 1.05 * truth);
@@ -196,7 +197,8 @@ struct Case {
     Volume volume;
 };
 
-// Noise, steps, flat parts: the bound holds at every sampled point, and is near what was found.
+// For noise, steps and constant regions the bound holds at every sampled point, and is near the
+// largest difference found.
 TEST(InterpolationError, HoldsAgainstBruteForce) {
     std::vector<Case> cases{
         {"noise", noise(cube(9), 4)},
@@ -222,7 +224,7 @@ TEST(InterpolationError, HoldsAgainstBruteForce) {
             EXPECT_TRUE(exact.bound <= 1e-3 * range || exact.found >= 0.98 * exact.bound - rounding)
                 << test.name << " " << exact.bound << " " << exact.found;
             EXPECT_LE(exact.found, exact.bound);
-            // The place is one of the tet where the difference is what it is said to be.
+            // At `place`, which is in the tet, the difference is `found`.
             if (exact.found > 0) {
                 double linear = 0;
                 const glm::dvec3 b = corners[1] - corners[0], c = corners[2] - corners[0];
@@ -254,7 +256,7 @@ TEST(InterpolationError, HoldsAgainstBruteForce) {
     }
 }
 
-// Integer samples make differences that equal the tolerance exactly, on whole edges.
+// Integer samples make differences that equal the tolerance exactly, all along edges.
 TEST(InterpolationError, EndsWhereTheErrorIsTheTolerance) {
     const Measured measured{volume_of(cube(4), [](double i, double, double) { return i == 1; })};
     const Corners corners{glm::dvec3{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 0, 2}};
@@ -281,7 +283,8 @@ TEST(InterpolationError, ThinTetsAreMeasuredToo) {
 
 TEST(InterpolationError, InvisibleDifferencesDoNotCount) {
     const Measured measured{noise(cube(9), 10)};
-    // Shows 100..150 alone; between, what crosses either end counts whole.
+    // Only 100..150 shows. A difference counts in full if the values between the two functions
+    // touch this range.
     const auto transfer_function = TransferFunction::linear(
         {{100, {{1, 1, 1}, 0}}, {125, {{1, 1, 1}, 5}}, {150, {{1, 1, 1}, 0}}});
     const auto nothing = TransferFunction::linear({{0, {{1, 1, 1}, 0}}});

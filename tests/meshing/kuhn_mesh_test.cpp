@@ -43,7 +43,7 @@ TEST(TrilinearField, IsTheDefinition) {
                 const double share = i < 64 ? ((i >> 2 * axis) & 3) / 3.0 : uniform(random);
                 place[axis] = field.min()[axis] + share * (field.max() - field.min())[axis];
             }
-            // Values up to 255, three roundings an axis: 255 * 9 * 2^-53 is 3e-13.
+            // Rounding: values up to 255, three roundings an axis: 255 * 9 * 2^-53 is 3e-13.
             EXPECT_NEAR(field.at(place), trilinear_at(volume, place), 1e-12);
         }
     }
@@ -79,8 +79,8 @@ TEST(KuhnMesh, FillsTheBoxOfEveryKindOfGrid) {
         EXPECT_EQ(report.kuhn_tets, report.tets);
         expect_fills_box(mesh, grid);
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-            // World to index and back costs some roundings of coordinates near 10, times slopes of
-            // up to 255 a sample: 255 * 10 * 1e-15.
+            // Rounding: converting to index space and back costs some roundings of coordinates near
+            // 10, times slopes of up to 255 a sample: 255 * 10 * 1e-15.
             EXPECT_NEAR(mesh.point_scalars[0].values[i],
                         trilinear_at(volume, grid.to_index(mesh.points[i])), 1e-10);
         }
@@ -94,19 +94,20 @@ TEST(KuhnMesh, IsExactForLinearFields) {
     MeshReport report;
     const MeshData mesh = make_volume_mesh(volume, kuhn(), nullptr, report);
     EXPECT_LT(sampled_error(mesh, volume, 10), 1e-12);  // values up to 40
-    EXPECT_LE(report.error, 1e-4 * report.range);       // as closely as it is measured
+    // Errors below 1e-4 of the range are not told apart.
+    EXPECT_LE(report.error, 1e-4 * report.range);
     EXPECT_TRUE(report.within_tolerance);
 }
 
-// In one cell with f = xy the tets around the diagonal interpolate min(x, y) where xy is: the
-// difference is largest in the middle, 1/2 - 1/4.
+// In one cell with f = xy, the tets around the diagonal interpolate min(x, y). The difference from
+// xy is largest in the middle: 1/2 - 1/4.
 TEST(KuhnMesh, KnowsItsError) {
     const Volume volume = volume_of(grid_of({2, 2, 2}, Centering::node),
                                     [](double i, double j, double) { return i * j; });
     MeshReport report;
     make_volume_mesh(volume, kuhn(), nullptr, report);
     EXPECT_GE(report.error, 0.25 - 1e-12);
-    EXPECT_LE(report.error, 0.25 / 0.98);  // how far a bound may be from what was found
+    EXPECT_LE(report.error, 0.25 / 0.98);  // 0.98: ratio of found to bound
     EXPECT_FALSE(report.within_tolerance);
 }
 

@@ -22,7 +22,8 @@ TEST(Color, HexAndNamesAreDisplayValues) {
 }
 
 TEST(Color, IsDecodedForLinearLight) {
-    // IEC 61966-2-1: ((v + .055) / 1.055)^2.4 above .04045, v / 12.92 below; up to rounding.
+    // Expected (IEC 61966-2-1): ((v + .055) / 1.055)^2.4 above .04045, v / 12.92 below; up to
+    // rounding.
     const glm::dvec3 orange = color_of("#ff8005");
     EXPECT_EQ(orange.r, 1);
     EXPECT_NEAR(orange.g, std::pow((128 / 255.0 + .055) / 1.055, 2.4), 1e-15);
@@ -30,7 +31,8 @@ TEST(Color, IsDecodedForLinearLight) {
     EXPECT_EQ(color_of_display({1, 0, 5 / 255.0}).b, orange.b);
 }
 
-// pow() to the 2.4 multiplies what 1 / 2.4 rounded by 2.4; the numbers are up to 1.
+// Colours of up to 1 come back up to rounding: pow() with 2.4 multiplies by 2.4 the rounding of
+// pow() with 1 / 2.4.
 TEST(Color, DisplayValuesComeBack) {
     for (int code = 0; code <= 255; ++code) {
         const glm::dvec3 display(code / 255.0, 1 - code / 255.0, .5);

@@ -50,7 +50,8 @@ TEST_F(ColormapTest, RgbIsStraightInSrgbNotInLinearLight) {
     const auto map = read(
         R"([{"Name": "ramp", "ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 10, 1, 0.5, 0]}])");
     for (double x = 0; x <= 1; x += 1 / 64.0) {
-        // Twice the sampler's tolerance, since it looks at three places a segment.
+        // 5e-4 is twice the tolerance of SegmentSampler, which tests only three places of each
+        // segment.
         expect_near(color_at(map, 10 * x), linear_from_srgb(glm::dvec3(x, x / 2, 0)), 5e-4);
     }
     EXPECT_EQ(color_at(map, 20), linear_from_srgb(glm::dvec3(1, 0.5, 0)));
@@ -71,7 +72,7 @@ TEST(ColorSpaceTest, HsvGoesThroughTheHues) {
     const glm::dvec3 red(1, 0, 0), blue(0, 0, 1), violet(1, 0, 0.5);
     expect_near(interpolate_srgb(ColorSpace::hsv, red, blue, 0.25), glm::dvec3(1, 1, 0), 1e-12);
     expect_near(interpolate_srgb(ColorSpace::hsv, red, blue, 0.5), glm::dvec3(0, 1, 0), 1e-12);
-    // Hue 11/12 to 0: the long way round through cyan, or wrapped to 23/24.
+    // From hue 11/12 to hue 0: the long way round through cyan, or wrapped to 23/24.
     expect_near(interpolate_srgb(ColorSpace::hsv, violet, red, 0.5), glm::dvec3(0, 1, 0.75), 1e-12);
     expect_near(interpolate_srgb(ColorSpace::hsv_wrapped, violet, red, 0.5), glm::dvec3(1, 0, 0.25),
                 1e-12);
@@ -95,24 +96,24 @@ TEST(ColorSpaceTest, LabAndDivergingKeepTheEndsAndGraysGray) {
 }
 
 TEST(ColorSpaceTest, LabOfRedIsThePublishedOne) {
-    // Red is L* 53.24, a* 80.09, b* 67.20, black is 0, 0, 0: half way lies L* 26.62, Y = ((26.62 +
-    // 16) / 116)^3.
+    // Red is L* 53.24, a* 80.09, b* 67.20, and black is 0, 0, 0: in the middle L* is 26.62, Y =
+    // ((26.62 + 16) / 116)^3.
     const glm::dvec3 half = linear_from_srgb(
         interpolate_srgb(ColorSpace::lab, glm::dvec3(0), glm::dvec3(1, 0, 0), 0.5));
-    // The published values have four digits, and a little blue below 0 is clipped.
+    // Tolerance: published values have four digits, and a little blue below 0 is clipped.
     EXPECT_NEAR(0.2126 * half.r + 0.7152 * half.g + 0.0722 * half.b, std::pow(42.62 / 116.0, 3),
                 2e-3);
     EXPECT_GT(half.r, 5 * half.g);
 }
 
 TEST(ColorSpaceTest, CoolToWarmHasMorelandsWhite) {
-    // Moreland 2009, table: the middle of the cool-warm map (59, 76, 192) .. (180, 4, 38) is (221,
-    // 221, 221).
+    // Moreland 2009, table: the middle of the cool-warm map from (59, 76, 192) to (180, 4, 38) is
+    // (221, 221, 221).
     const glm::dvec3 middle =
         255.0 * interpolate_srgb(ColorSpace::diverging, glm::dvec3(59, 76, 192) / 255.0,
                                  glm::dvec3(180, 4, 38) / 255.0, 0.5);
     expect_near(middle, glm::dvec3(221), 1);
-    // Same table, 1/4 of the way: (141, 176, 254).
+    // In this table, the colour at 1/4 is (141, 176, 254).
     const glm::dvec3 quarter =
         255.0 * interpolate_srgb(ColorSpace::diverging, glm::dvec3(59, 76, 192) / 255.0,
                                  glm::dvec3(180, 4, 38) / 255.0, 0.25);
@@ -165,7 +166,8 @@ TEST_F(ColormapTest, ErrorsNameFileAndKey) {
     EXPECT_THROW(read_paraview_colormap("no_such_file.json"), Error);
 }
 
-// Messages show what they found, and would need a stack as deep.
+// A preset nested so deeply that a recursive reader, or a message that shows it, would overflow the
+// stack.
 TEST_F(ColormapTest, DeepNestingIsAnError) {
     const std::string lists = std::string(100000, '[') + std::string(100000, ']');
     for (const std::string& preset : {"{\"ColorSpace\": " + lists + ", \"RGBPoints\": [0,0,0,0]}",

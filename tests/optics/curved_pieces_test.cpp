@@ -20,8 +20,9 @@ double extinction_at(const CurvedPiece& piece, double value) {
     return line + u * (1 - u) * (piece.bend[0] + u * piece.bend[1]);
 }
 
-// Pieces meet, and are within the tolerance of the function (and of `slope`, the extinction that
-// its points stand for, within what is left of it beside that of the straight pieces).
+// Expects that pieces meet and are within curve_tolerance of the function. `slope` is the
+// extinction that the function's points approximate; the pieces must be within the tolerance of it,
+// too.
 template <typename Slope>
 void expect_followed(const std::vector<CurvedPiece>& pieces, const TransferFunction& function,
                      const Slope& slope) {
@@ -36,8 +37,8 @@ void expect_followed(const std::vector<CurvedPiece>& pieces, const TransferFunct
             ++piece;
         }
         const double wanted = function.at(value).extinction;
-        // Between the places at which a piece is compared with straight ones it may be a tenth
-        // farther from them.
+        // Curves are compared with straight pieces at some places only, and may be a tenth farther
+        // away between them.
         EXPECT_NEAR(extinction_at(*piece, value), wanted, 1.1 * curve_tolerance * wanted) << value;
         const double exact = slope(value);
         EXPECT_NEAR(extinction_at(*piece, value), exact, curve_tolerance * exact) << value;
@@ -85,7 +86,7 @@ TEST(CurvedPieces, ACutRangeIsFollowedFromItsEnds) {
     expect_followed(pieces, function, [](double value) { return -std::log1p(-.95 * value); });
 }
 
-// Given extinction means straight lines, however near they are to a curve.
+// Points given by extinction mean straight lines, even if these are near a curve.
 TEST(CurvedPieces, OnlySmoothPointsAreFollowed) {
     for (const bool smooth : {false, true}) {
         std::vector<TransferKnot> knots;
@@ -104,7 +105,7 @@ TEST(CurvedPieces, OnlySmoothPointsAreFollowed) {
     }
 }
 
-// Steps, bends of colour and parts that show nothing stay what they are.
+// Steps, bends of colour and transparent intervals stay as they are.
 TEST(CurvedPieces, CornersEndThem) {
     const auto smooth = [](double value, const glm::dvec3& color, double extinction) {
         return TransferKnot{value, {color, extinction}, true};

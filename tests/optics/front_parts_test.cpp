@@ -14,7 +14,8 @@ namespace {
 using test::peak_and_step;
 using test::smooth;
 
-// Simpson's rule over the root of the optical depth, in which the place is smooth.
+// Integrates by Simpson's rule over the root of the optical depth, of which the place is a smooth
+// function.
 double moment_by_depth(double p, double q) {
     const double depth = p / 2 + q / 2, end = std::sqrt(std::min(depth, 40.));
     const auto integrand = [&](double s) {
@@ -42,7 +43,7 @@ TEST(FrontParts, MomentAgreesWithAnIntegralOverDepth) {
     EXPECT_EQ(front_moment(0, 0), 0);
 }
 
-// Of two places one in front of the other, with one extinction: int (1 - x) D exp(-D x) dx.
+// With one extinction the integral is int (1 - x) D exp(-D x) dx.
 TEST(FrontParts, HomogeneousSegmentHasAClosedForm) {
     const glm::dvec3 color(.2, 1, 3);
     const auto f = TransferFunction::linear({{0, {color, 2.5}}});
@@ -57,9 +58,9 @@ TEST(FrontParts, HomogeneousSegmentHasAClosedForm) {
     }
 }
 
-// Many short segments one behind the other, each under the light of its middle: off by a 24th of
-// the square of their share of the length times the light's second difference, which is 0, and by
-// the product of what light and colour change in one, 1 / 4000 each.
+// Composites many short segments, each under the light of its middle. The error is a 24th of the
+// square of their share of the length times the light's second difference, which is 0, plus the
+// product of the changes of light and of colour in one segment, 1 / 4000 each.
 TEST(FrontParts, AgreesWithManyShortSegments) {
     constexpr int count = 4000;
     for (const auto& f : {smooth(), peak_and_step()}) {

@@ -12,8 +12,8 @@
 namespace lamina {
 namespace {
 
-// Worst difference from piece_weights() over p and q from 0 to `most`, evenly in the table's own
-// coordinates.
+// Returns the worst difference from piece_weights() over p and q from 0 to `most`, evenly in the
+// table's own coordinates.
 double worst(double most) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -28,7 +28,8 @@ double worst(double most) {
     return worst;
 }
 
-// Worst difference of a polynomial, whose largest error is at the triangle's corners and sides.
+// Returns the worst difference of a polynomial, whose largest error is at the corners and sides of
+// the triangle of p and q.
 template <typename Weight>
 double worst_below(double depth, const Weight& weight) {
     double worst = 0;
@@ -41,7 +42,7 @@ double worst_below(double depth, const Weight& weight) {
     return worst;
 }
 
-// The header's promises.
+// Measures the errors that optics/segment_integral.h promises.
 TEST(ThinFrontWeight, IsAsGoodAsPromised) {
     EXPECT_LE(worst_below(faint_depth, faint_front_weight), 3e-7);
     const double worst = worst_below(thin_depth, thin_front_weight);
@@ -49,17 +50,18 @@ TEST(ThinFrontWeight, IsAsGoodAsPromised) {
     EXPECT_EQ(thin_front_weight(0, 0), 0);
 }
 
-// What the header promises, measured: bilinear interpolation is off by up to h^2 / 8 times the
-// second derivatives, of order 1 where p and q are small (h = 1 / 255: 2e-6 times their sum), and
-// by less than a cell's worth of the fall to 1 anywhere else.
+// Measures the errors that optics/segment_integral.h promises. Bilinear interpolation is off by up
+// to h^2 / 8 times the second derivatives, which are of order 1 where p and q are small (h = 1 /
+// 255: 2e-6 times their sum); elsewhere by less than the change of the weight over one cell of the
+// table.
 TEST(FrontWeightTable, IsAsGoodAsPromised) {
     EXPECT_LE(worst(20), 2e-5);
     EXPECT_LE(worst(1e12), 5e-4);
 }
 
-// In the first cell the weight, about p / 3 + q / 6, is interpolated from its corners, whose slopes
-// are off by half of the second derivatives (.54 in x = p, .8 in y = q / 2) times h = 1 / 255: by
-// .27 h p + .2 h q, at most .54 h = 2.12e-3 of the opacity, (p + q) / 2.
+// In the first cell of the table the weight, about p / 3 + q / 6, is interpolated from its corners,
+// whose slopes are off by half of the second derivatives (.54 in x = p, .8 in y = q / 2) times h =
+// 1 / 255: by .27 h p + .2 h q, at most .54 h = 2.12e-3 of the opacity, (p + q) / 2.
 TEST(FrontWeightTable, KeepsItsDigitsInFaintPieces) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> exponent(-14, -2.5);

@@ -11,14 +11,14 @@
 namespace lamina {
 namespace {
 
-constexpr double below = -1e-9, above = 1e-9;  // beside a point, in scalars
+constexpr double below = -1e-9, above = 1e-9;  // distances of scalars just beside a point
 
 double extinction_at(const TransferFunction& f, double value) {
     return f.at(value).extinction;
 }
 
-// -log1p(-opacity) / unit_length, to the tolerance; rounding adds 1e-10 at most (see
-// opacity_slope_test.cpp).
+// Expects the extinction -log1p(-opacity) / unit_length, to opacity_slope_tolerance; rounding adds
+// 1e-10 at most (see opacity_slope_test.cpp).
 void expect_curve(const TransferFunction& f, double value, double opacity, double unit_length) {
     const double wanted = -std::log1p(-opacity) / unit_length;
     EXPECT_NEAR(extinction_at(f, value), wanted, wanted * (opacity_slope_tolerance + 1e-10))
@@ -50,7 +50,8 @@ TEST(GivenPoints, ASlopeToOneEndsAtTheSteepestDepthAndIsOpaqueBeyond) {
         expect_curve(f, 1 - clear, 1 - clear, unit_length);
     EXPECT_EQ(extinction_at(f, 1 - 1e-15), steepest_optical_depth / unit_length);
     EXPECT_EQ(extinction_at(f, 1 + 1e-15), opaque_optical_depth / unit_length);
-    // Colour stays; nothing but the step exceeds the steepest depth.
+    // The colour is the same everywhere, and only the step at the end exceeds
+    // steepest_optical_depth.
     EXPECT_TRUE(f.single_color(-1, 2));
     EXPECT_EQ(f.max_extinction(0, std::nextafter(1, 0)), steepest_optical_depth / unit_length);
 }
@@ -67,7 +68,7 @@ TEST(GivenPoints, OneOverAnIntervalIsOpaque) {
         {{0, {1, 1, 1}, 0}, {4, {1, 1, 1}, 1}, {6, {1, 1, 1}, 1}, {9, {1, 1, 1}, 0}}, 2);
     EXPECT_EQ(extinction_at(f, 4 + above), opaque_optical_depth / 2);
     EXPECT_EQ(extinction_at(f, 6 + below), opaque_optical_depth / 2);
-    // 1e-9 of 4, or of 3, is less than the cap leaves clear, 4e-8.
+    // At 1e-9 beside the points, opacity lacks less of 1 than steepest_optical_depth leaves, 4e-8.
     EXPECT_EQ(extinction_at(f, 4 + below), steepest_optical_depth / 2);
     EXPECT_EQ(extinction_at(f, 6 + above), steepest_optical_depth / 2);
 }

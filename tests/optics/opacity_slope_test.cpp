@@ -22,7 +22,7 @@ std::vector<OpacitySlopeKnot> with_ends(double from, double to) {
     return knots;
 }
 
-// Lowest and highest error of a piece, of the curve's own value.
+// Returns the lowest and the highest error of a piece, as shares of the curve's own value.
 std::pair<double, double> errors_of(double from, double to, const OpacitySlopeKnot& a,
                                     const OpacitySlopeKnot& b) {
     constexpr int places = 400;
@@ -48,8 +48,8 @@ TEST(OpacitySlope, IsWithinItsToleranceEverywhere) {
         const auto knots = with_ends(from, to);
         for (std::size_t i = 1; i < knots.size(); ++i) {
             const auto [low, high] = errors_of(from, to, knots[i - 1], knots[i]);
-            // Near 1, opacity is known to 2^-54 of at least 4e-8 that are missing, which the depth
-            // divides by its 17: 1e-10 in all.
+            // Rounding: near 1, opacity has an error of 2^-54, relative to 1 - opacity of at least
+            // 4e-8; divided by the depth of 17 this makes 1e-10.
             EXPECT_GE(low, -opacity_slope_tolerance - 1e-10) << from << " " << to << " piece " << i;
             EXPECT_LE(high, opacity_slope_tolerance + 1e-10) << from << " " << to << " piece " << i;
         }
@@ -67,31 +67,32 @@ TEST(OpacitySlope, KnotsAscendInsideTheSlope) {
     }
 }
 
-// A piece from opacity o on can be as long as h with f'' h^2 / 8 = 2 e f, for it may be off by e f
-// on both sides; f'' = 1 / (1 - o)^2. So there are the integral of do / h = df / (4 sqrt(e f)),
-// that is (sqrt(f1) - sqrt(f0)) / (2 sqrt(e)) pieces. Short slopes and those from 0 differ a
-// little: both ends are on the curve itself, where a piece is up to sqrt(2) times shorter, and near
-// 0 the tolerance permits an o of 4 e. Together these are less than 2 pieces.
+// A piece from opacity o on can have a length h with f'' h^2 / 8 = 2 e f, since it may be off by e
+// f on both sides; f'' = 1 / (1 - o)^2. The number of pieces is the integral of do / h = df / (4
+// sqrt(e f)), that is (sqrt(f1) - sqrt(f0)) / (2 sqrt(e)). Short slopes, and those from 0, differ:
+// both ends are on the curve itself, where a piece is up to sqrt(2) times shorter, and near 0 the
+// tolerance permits an o of 4 e. Together this makes less than 2 pieces.
 TEST(OpacitySlope, HasAsManyPiecesAsTheToleranceTakes) {
     for (const auto& [from, to] : slopes) {
         const double wanted = std::abs(std::sqrt(curve(to)) - std::sqrt(curve(from))) /
                               (2 * std::sqrt(opacity_slope_tolerance));
         const double pieces = static_cast<double>(follow_opacity(from, to).size()) + 1;
-        EXPECT_LE(pieces, wanted + 3) << from << " " << to;  // one more is at the cap
+        EXPECT_LE(pieces, wanted + 3) << from << " " << to;  // one more at steepest_optical_depth
         EXPECT_GE(pieces, std::floor(wanted)) << from << " " << to;
     }
 }
 
-// All pieces but the first and the last, whose ends are on the curve, rise as far above it as they
-// fall below it, and as far as the others.
+// All pieces but the first and the last, whose ends are on the curve, rise as far above the curve
+// as they fall below it, and as far as the other pieces.
 TEST(OpacitySlope, PiecesShareTheError) {
     const auto knots = with_ends(.05, .95);
     ASSERT_GT(knots.size(), 10u);
     const double all = errors_of(.05, .95, knots[2], knots[3]).second;
     for (std::size_t i = 2; i + 1 < knots.size(); ++i) {
         const auto [low, high] = errors_of(.05, .95, knots[i - 1], knots[i]);
-        // Of a parabola from -e over e to -e, whose top lies up to 1/800 from a place that is
-        // looked at, 2 (2/800)^2 = 1.25e-5 of e are missed; twice that for the cubic part.
+        // The error of a piece is nearly a parabola from -e over e to -e. Its top lies up to 1/800
+        // from a sampled place, so 2 (2/800)^2 = 1.25e-5 of e are missed; twice that for the cubic
+        // part.
         EXPECT_NEAR(high, all, 2.5e-5 * all) << i;
         EXPECT_NEAR(-low, all, 2.5e-5 * all) << i;
     }
@@ -111,7 +112,8 @@ TEST(OpacitySlope, ASlopeThatIsNoneHasNoKnots) {
     EXPECT_TRUE(follow_opacity(.3, .3).empty());
     EXPECT_TRUE(follow_opacity(1, 1).empty());
     EXPECT_TRUE(follow_opacity(1 - 1e-9, 1).empty());  // all of it is at the steepest depth
-    EXPECT_TRUE(follow_opacity(0, 1e-4).empty());      // off by o / 2 of itself
+    // A straight line is off by only o / 2 of the curve.
+    EXPECT_TRUE(follow_opacity(0, 1e-4).empty());
 }
 
 }  // namespace

@@ -20,9 +20,9 @@ Lighting two_lights() {
     return lighting;
 }
 
-// docs/numerics.md, section 10, with the eye along z and the gradient (3, 0, 4): q = (.6, 0, .8),
-// w = 25 / 29. First light: q.l = .64; l + v = (0, .6, 1.8), q.h = 1.44 / sqrt(3.6). Headlight: q.l
-// = q.h = .8.
+// The formula of docs/numerics.md, section 10, with the eye along z and the gradient (3, 0, 4): q =
+// (.6, 0, .8), w = 25 / 29. First light: q.l = .64; l + v = (0, .6, 1.8), q.h = 1.44 / sqrt(3.6).
+// Headlight: q.l = q.h = .8.
 TEST(RayLights, FollowTheFormula) {
     const RayLights lights(two_lights(), {0, 0, 7});
     const RayLights::Effect effect = lights.effect({3, 0, 4});
@@ -50,7 +50,8 @@ TEST(RayLights, ALightBehindHasNoHighlight) {
     EXPECT_GT(lights.effect({1, 5, 2}).change.x, lighting.ambient - 1);
 }
 
-// Neither overflow nor 0 / 0: the whole range of gradients against the whole range of the smallest.
+// Results are finite over the full range of gradients and of smallest gradients: no overflow and no
+// 0 / 0.
 TEST(RayLights, ExtremesAreNumbers) {
     Lighting lighting = two_lights();
     for (const double smallest : {1e-150, 1e-30, 1., 1e150}) {

@@ -13,7 +13,7 @@
 namespace lamina {
 namespace {
 
-// What `lamina integrate` promises for every component (README.md).
+// Relative error that `lamina integrate` promises for every component (README.md).
 constexpr double promised = 1e-12;
 
 double relative_error(double found, double expected) {
@@ -44,7 +44,7 @@ TransferFunction random_transfer_function(std::mt19937& random, const glm::dvec3
     return TransferFunction::linear(knots);
 }
 
-// Expected values: make_integral_cases.py, 50 digits, another formula.
+// Compares with make_integral_cases.py, which computes another formula with 50 digits.
 TEST(SegmentIntegral, AgreesWithFiftyDigits) {
     std::ifstream file(std::string(LAMINA_SOURCE_DIR) + "/tests/optics/integral_cases.json");
     const auto cases = nlohmann::json::parse(file);
@@ -99,8 +99,8 @@ TEST(SegmentIntegral, HalvesComposeToTheWhole) {
     std::uniform_int_distribution<int> eighth(-8, 40);
     for (int i = 0; i < 500; ++i) {
         const auto f = random_transfer_function(random);
-        // Multiples of 1/8: the middle is exact. A middle on a step of the function goes to its
-        // later side only where the segment has no length, so it does not matter.
+        // Ends are multiples of 1/8, so the middle is exact. If it is on a step, its later side
+        // counts only where the segment has no length, so this does not matter.
         const double a = eighth(random) / 8., b = eighth(random) / 8., length = 0.5;
         const auto whole = integrate_segment(f, a, b, 2 * length);
         const auto near = integrate_segment(f, a, (a + b) / 2, length);

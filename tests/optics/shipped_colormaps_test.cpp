@@ -16,7 +16,7 @@ glm::dvec3 color_at(const Colormap& colormap, double value) {
     return TransferFunction::linear(combine(colormap, {{0, 1}})).at(value).color;
 }
 
-// Entries 0, 15, .. 255 of 256 of the original maps (matplotlib 3.6).
+// Entries 0, 15, .. 255 of the 256 of an original map (matplotlib 3.6).
 struct Original {
     const char* name;
     std::array<glm::dvec3, 18> entries;
@@ -81,8 +81,8 @@ const Original originals[] = {
        {0.995737, 0.909344, 0.217772}}}},
 };
 
-// The shipped points are 33 of the 256, chosen so that straight lines between them are within .42
-// codes of all of them, in four digits.
+// The shipped maps have 33 of the 256 points, in four digits, chosen so that straight lines between
+// them are within .42 codes of all 256.
 TEST(ShippedColormaps, AreTheirOriginals) {
     for (const Original& original : originals) {
         const Colormap map = load_colormap(original.name, ImageColorSpace::display);
@@ -103,7 +103,8 @@ TEST(ShippedColormaps, AreInLinearLightUnlessToldOtherwise) {
     const Colormap display = load_colormap("viridis", ImageColorSpace::display);
     for (double x = 0; x <= 1; x += 1 / 64.0) {
         const glm::dvec3 expected = linear_from_srgb(color_at(display, x));
-        // Twice the sampler's tolerance, since it looks at three places a segment.
+        // 5e-4 is twice the tolerance of SegmentSampler, which tests only three places of each
+        // segment.
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(color_at(linear, x)[c], expected[c], 5e-4) << x;
     }
 }

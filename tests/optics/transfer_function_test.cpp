@@ -68,8 +68,8 @@ TEST(TransferFunction, NearestOfNeighbouringDoublesHasAtMostTwoKnotsAtAValue) {
     EXPECT_EQ(f.at(2).extinction, 8);
 }
 
-// In colour and extinction; both to a few roundings of their own value, so that nothing faint is
-// lost; of steps, the height.
+// A point is left out if colour and extinction both are on the line, to a few roundings of their
+// own value, so that nothing faint is lost. Steps keep their height.
 TEST(TransferFunction, PointsOnTheLineBetweenTheirNeighboursAreLeftOut) {
     const auto count = [](const std::vector<TransferKnot>& points) {
         return TransferFunction::linear(points).knots().size();

@@ -50,13 +50,13 @@ TEST(CsvOfRows, QuotesCommasAndLeavesNullEmpty) {
 
 TEST(LinePlot, EscapesNamesAndKeepsLinesInside) {
     LinePlot plot{"a < b", {"x", 0, 1}, {"y", 1, 16, true}};
-    plot.add("R&D", {0, 0.5, 1}, {1, 4, 0});  // 0 has no logarithm: clamped to 1
+    plot.add("R&D", {0, 0.5, 1}, {1, 4, 0});  // 0 has no logarithm, so it is clamped to 1
     const std::string svg = plot.svg();
     EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
     EXPECT_NE(svg.find("R&amp;D"), std::string::npos);
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("inf"), std::string::npos);
-    // 4 is half of the way from 1 to 16, and lies between the two ends, which are equal.
+    // On the logarithmic axis 4 is halfway between 1 and 16; both ends of the line are at 1.
     const std::size_t at = svg.find("points=\"") + 8;
     double x[3], y[3];
     ASSERT_EQ(

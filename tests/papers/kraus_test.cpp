@@ -51,7 +51,7 @@ double volume(const TetMesh& mesh) {
 TEST(GridMesh, BoxFillsTheUnitCube) {
     const SceneMesh box = make_box_mesh({3, 4, 5});
     EXPECT_EQ(box.mesh.tets().size(), 6u * 3 * 4 * 5);
-    EXPECT_NEAR(volume(box.mesh), 1, 1e-12);  // 360 terms, each rounded to 1e-16 or so
+    EXPECT_NEAR(volume(box.mesh), 1, 1e-12);  // sum of 360 terms, each rounded by about 1e-16
     EXPECT_TRUE(convex(box.mesh));
     const auto [low, high] = std::ranges::minmax(box.scalar.values);
     EXPECT_GE(low, 0);
@@ -62,7 +62,8 @@ TEST(GridMesh, GradedHasTheRatioAskedFor) {
     for (const double bump : {0.0, 0.25}) {
         const SceneMesh graded = make_graded_mesh(5, 20, 1e4, bump);
         EXPECT_EQ(graded.mesh.tets().size(), 6u * 5 * 5 * 20);
-        // The first layer is exact; it moves the longest edge, far above, by 1e-4 of itself or so.
+        // The first layer is exact. It changes the longest edge, in the outermost layer, by about
+        // 1e-4 of it.
         EXPECT_NEAR(edge_lengths(graded.mesh).ratio(), 1e4, 10);
         EXPECT_TRUE(graded.mesh.findings().conforming());
         EXPECT_EQ(graded.mesh.findings().inverted, 0);
@@ -94,7 +95,7 @@ TEST(Panels, AreTakenOutOfAResultWhereverTheyAre) {
     EXPECT_EQ(panels[0]["width"], 3);
     EXPECT_EQ(panels[0]["height"], 2);
     EXPECT_EQ(result["values"], Json::parse(R"({"meshes": [{}]})"));
-    // The plots among the files come after the panels; errors of curves are the table.
+    // Plots (.svg) among the files come after the panels; errors of curves become the table.
     const TemporaryFolder folder;
     write_bytes_to(folder / "f.svg", "<svg/>");
     result["values"] = {{"files", {"f.csv", "f.svg"}},
@@ -112,8 +113,8 @@ TEST(Panels, AreTakenOutOfAResultWhereverTheyAre) {
     EXPECT_EQ(section["caption"], "Two curves.");
 }
 
-// The keys of a result without data sets, and its files.
-// And nothing is written but what the item says beforehand.
+// Expects the keys of a result without data sets, its files, and no file that the item does not
+// name.
 void expect_complete(const std::string& name, const Json& result, const TemporaryFolder& folder) {
     const auto item = std::find_if(kraus_items().begin(), kraus_items().end(),
                                    [&](const KrausItem& each) { return each.name == name; });
@@ -123,7 +124,7 @@ void expect_complete(const std::string& name, const Json& result, const Temporar
     }
     for (const char* key : {"values", "paper", "verdict", "agrees", "note", "checks", "own"})
         ASSERT_TRUE(result.contains(key)) << key;
-    EXPECT_TRUE(result["agrees"].is_null());  // the paper's statements are about real meshes
+    EXPECT_TRUE(result["agrees"].is_null());  // the paper's statements are about measured meshes
     EXPECT_EQ(result["note"].get<std::string>().find("Set LAMINA_DATA to a folder that holds"), 0u);
     EXPECT_FALSE(result["checks"].empty() && result["own"].empty());
     for (const Json& check : result["checks"])
@@ -140,14 +141,14 @@ class Kraus : public gl::GlTest {};
 TEST_F(Kraus, TransferFunctionsGiveTheOpacityWanted) {
     KrausStage stage(capabilities(), small_sizes(), {});
     KrausSubject& box = stage.subject("bluntfin");
-    EXPECT_EQ(box.name, "box");  // which stands in
+    EXPECT_EQ(box.name, "box");  // the stand-in for a missing data set
     const auto largest = [&](Scene scene) {
-        scene.width /= 4;  // as the coarse picture that told the factor
+        scene.width /= 4;  // size of the coarse picture that the factor was measured on
         scene.height /= 4;
         return largest_opacity(box.mesh.exact(scene));
     };
-    // Beer's law: the depth is proportional to extinction, to the tracer's 1e-12 over a depth of
-    // 1e-3.
+    // Optical depth is proportional to extinction (Beer's law). The tracer's error is 1e-12 at a
+    // depth of 1e-3.
     EXPECT_NEAR(largest(box.smooth), 0.48, 1e-8);
     EXPECT_NEAR(largest(box.dense), 0.95, 1e-8);
     EXPECT_NEAR(largest(box.isosurface), 0.98, 1e-8);
@@ -170,11 +171,11 @@ TEST_F(Kraus, DrawsWhatTheTracerSees) {
     KrausSubject& box = stage.subject("box");
     const Image image = plain_picture(with_default_integration(box.dense), box.mesh.data(),
                                       capabilities(), box.tables);
-    // Default settings keep the default of render.max_error (docs/scene.md).
+    // With default settings the error is below the default of render.max_error (docs/scene.md).
     EXPECT_LE(image_error(image, box.mesh.exact(box.dense)).all.linf, 1);
 }
 
-// Where there is no data set. Figure 10 and the artifacts are below.
+// Draws all items but figure 10 and the artifacts, whose tests are below, without data sets.
 TEST_F(Kraus, EveryItemHasItsKeysAndWritesItsFiles) {
     KrausStage stage(capabilities(), small_sizes(), {});
     for (const KrausItem& item : kraus_items()) {
@@ -185,7 +186,7 @@ TEST_F(Kraus, EveryItemHasItsKeysAndWritesItsFiles) {
     }
 }
 
-// The paper's Figure 10: with equally spaced lengths thin cells get a fraction of their opacity.
+// Figure 10 of the paper: with equally spaced lengths, thin cells lose most of their opacity.
 TEST_F(Kraus, Figure10LinearLengthsAreTooDark) {
     KrausStage stage(capabilities(), small_sizes(), {});
     const TemporaryFolder folder;
@@ -195,7 +196,7 @@ TEST_F(Kraus, Figure10LinearLengthsAreTooDark) {
     EXPECT_EQ(plate["mesh"], "plate");
     EXPECT_NEAR(plate["edge_ratio"].get<double>(), 1e4, 10);
     EXPECT_LT(plate["rows"][0]["l1"], 0);
-    // Some tens against some units.
+    // Their L2 is some tens against some units.
     EXPECT_GT(plate["rows"][0]["l2"], 5 * plate["rows"][1]["l2"].get<double>());
     EXPECT_GT(plate["rows"][0]["l2"], 5 * plate["rows"][2]["l2"].get<double>());
 }

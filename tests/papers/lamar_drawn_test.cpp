@@ -34,18 +34,18 @@ TEST_F(LamarDrawn, Figure10OnASmallPicture) {
         linf[name] = row["linf"];
     }
     EXPECT_EQ(linf.size(), 20u);
-    // Every opacity is below one code, .0014 of full scale at most: nothing is drawn, and the error
-    // is the largest opacity, .765 or less (mixing_scene.h).
+    // Opacities are below one code, at most .0014, so the straight picture shows nothing, and its
+    // error is the largest opacity, at most .765 (mixing_scene() in papers/lamar.h).
     const double nothing = linf.at("fixed straight truncate white");
     EXPECT_GT(nothing, 150);
     EXPECT_LT(nothing, 195.1);
     EXPECT_LT(linf.at("fixed 2^10 nearest white"), 0.2 * nothing);
-    // The bound of 32x32 at N = 1024 in tests/slicing/tree_test.cpp.
+    // Bound for 32x32 at N = 1024 in tests/slicing/tree_test.cpp.
     EXPECT_LE(linf.at("shader 32x32 minimax white"), 2.2);
     EXPECT_LE(linf.at("shader 32x32 minimax green to red"), 2.2);
 }
 
-// The paper's data are not to be had, so that its numbers cannot be tested.
+// The paper's data are not available, so its numbers cannot be tested.
 TEST_F(LamarDrawn, WhatIsOnlyTrueOfThePapersDataIsNotJudged) {
     const TemporaryFolder folder;
     LamarStage stage(capabilities(), 32);
@@ -57,7 +57,7 @@ TEST_F(LamarDrawn, WhatIsOnlyTrueOfThePapersDataIsNotJudged) {
     }
 }
 
-// The picture of 512 slabs has lost most of the leaves, and that of 64 slabs has not.
+// With 512 slabs most of the leaves are lost, with 64 slabs hardly any.
 TEST_F(LamarDrawn, DitheringLosesTheLeavesOfFigure1) {
     if (std::getenv("LAMINA_DATA") == nullptr) GTEST_SKIP() << "LAMINA_DATA is not set";
     const TemporaryFolder folder;
@@ -66,15 +66,15 @@ TEST_F(LamarDrawn, DitheringLosesTheLeavesOfFigure1) {
     EXPECT_EQ(figure["verdict"], "disagrees");
     std::map<std::string, Json> rows;
     for (const Json& row : figure["values"]["rows"]) rows[row["picture"]] = row;
-    // The claims of the figure: most of the pixels, or next to none.
+    // Claims of the figure: nearly all leaf pixels are kept, or most are lost.
     EXPECT_LT(rows.at("hardware with dithering")["leaves_kept"], 0.5);
     EXPECT_GT(rows.at("hardware with dithering")["leaves_black"], 0.5);
     EXPECT_GT(rows.at("hardware with dithering, 64 slabs")["leaves_kept"], 0.99);
     EXPECT_GT(rows.at("8-bit tree 16x32 of shader nodes")["leaves_kept"], 0.99);
-    // A leaf's 2 codes times its blue of .05 round to 0, and the note says 0 %. Some of the pixels
-    // also see brighter wood.
+    // A leaf's opacity of 2 codes times its blue of .05 rounds to 0. Some of the pixels also show
+    // brighter wood.
     EXPECT_LT(rows.at("hardware with dithering")["leaves_blue"], 0.005);
-    // Red is rounded up more often than green is, which makes the leaves olive.
+    // Red is rounded up more often than green, so the leaves look olive.
     EXPECT_GT(rows.at("hardware with dithering")["leaves_red"],
               rows.at("hardware with dithering")["leaves_green"]);
 }

@@ -78,8 +78,8 @@ TEST(Findings, AreCountedInOneLine) {
               "statements, 1 agrees, 2 disagree, 1 cannot be tested here.");
 }
 
-// The long items, `order` and `dithering`, run in the test of the command line; one that draws, in
-// lamar_drawn_test.cpp.
+// Draws all items but `order` and `dithering`, which take long (tests/cli/reproduce_test.cpp), and
+// items that draw (lamar_drawn_test.cpp).
 TEST(Lamar, EveryItemHasItsKeysAndWritesItsFiles) {
     for (const LamarItem& item : lamar_items()) {
         ASSERT_NE(item.reproduce == nullptr, item.draw == nullptr) << item.name;
@@ -89,7 +89,7 @@ TEST(Lamar, EveryItemHasItsKeysAndWritesItsFiles) {
         for (const char* key : {"values", "paper", "verdict", "agrees", "note", "checks", "own"}) {
             EXPECT_TRUE(result.contains(key)) << item.name << " " << key;
         }
-        // A figure says what it shows.
+        // A figure has a caption.
         EXPECT_EQ(result["values"].contains("panels"), result["values"].contains("caption"))
             << item.name;
         EXPECT_TRUE(result["agrees"].is_boolean());
@@ -127,7 +127,7 @@ TEST(Lamar, Table2IsThePapers) {
     for (std::size_t f = 0; f < 16; ++f)
         EXPECT_EQ(rows[0][std::string("f").append(std::to_string(f))], f);
     EXPECT_EQ(rows[8]["b"], 8);
-    EXPECT_EQ(rows[8]["f1"], 8);  // the paper: [8,1] => 8
+    EXPECT_EQ(rows[8]["f1"], 8);  // the paper's example: [8,1] => 8
 }
 
 TEST(Lamar, Table3HasOneMisprint) {

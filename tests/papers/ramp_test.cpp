@@ -21,7 +21,7 @@ TEST(Ramp, OneSampleIsItsOwnOpacity) {
     for (int x = 0; x < ramp_width; ++x) EXPECT_EQ(ramp[static_cast<std::size_t>(x)], x);
 }
 
-// An independent loop in whole numbers, colour 1: fragment t over b is
+// Repeats OVER in whole numbers with colour 1: fragment t over b is
 // round(t) + round(b (255 - t) / 255).
 TEST(Ramp, IsTheOperatorAppliedNTimes) {
     constexpr int samples = 64;
@@ -42,7 +42,7 @@ TEST(Ramp, OneLevelOfTreeIsNoTree) {
 TEST(Ramp, SixteenBitsAreInTheSameUnits) {
     RampSetting setting{.samples = 1};
     setting.emulation = {.bits = 16, .alpha = AlphaRounding::nearest};
-    // 257 sixteen-bit codes are one of 8 bits, so that x/255 is held exactly.
+    // 257 codes of 16 bits are one code of 8 bits, so x/255 is represented exactly.
     EXPECT_EQ(composite_ramp(setting), exact_ramp(1));
 }
 
@@ -62,14 +62,14 @@ TEST(CurveShape, CountsFallsLevelsAndTheFirstShown) {
     EXPECT_EQ(first_shown(Curve(ramp_width, 0.0)), ramp_width);
 }
 
-// Section 5.2: a code of .1 with period 10 is rounded up once in 10 slabs; 9 slabs miss it at one
-// place of ten, and first meet it 0 .. 8 slabs late, all equally often.
+// Section 5.2: with a code of .1 and period 10, one slab in 10 is rounded up. Nine slabs miss it at
+// one place in ten, and at the others meet it 0 .. 8 slabs late, equally often.
 TEST(DitherSpans, ThePapersExample) {
     const SpanLoss loss = span_loss({0.1, 9, Dither{.period = 10}});
     EXPECT_DOUBLE_EQ(loss.lost, 0.1);
     EXPECT_DOUBLE_EQ(loss.mean_shift, 4);
     EXPECT_EQ(loss.largest_shift, 8);
-    // The sum is 1 at nine places and 0 at one, where .9 is right.
+    // The sum of codes is 1 at nine places and 0 at one; .9 would be right.
     EXPECT_NEAR(loss.sum_error, std::sqrt(0.9 * 0.01 + 0.1 * 0.81), 1e-15);
     EXPECT_EQ(span_loss({0.1, 9, Dither{.period = 9}}).lost, 1);
 }

@@ -16,7 +16,7 @@ TEST(ActiveRuns, AreAllPixelsThatShowSomething) {
             std::vector<bool> shown(static_cast<std::size_t>(width));
             int before = -1;
             for (auto run = runs.begin(row); run != runs.end(row); ++run) {
-                EXPECT_GT(run->first, before);  // runs do not touch
+                EXPECT_GT(run->first, before);  // runs are separated by hidden pixels
                 before = run->end;
                 for (int column = run->first; column < run->end; ++column)
                     shown[static_cast<std::size_t>(column)] = true;

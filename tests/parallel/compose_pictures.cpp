@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Composites random pictures of the ranks and says how far that is from compositing them in double
-// on one rank, in 1/255. Arguments: wire, most ranks in a group, seed.
+// Composites random pictures of several ranks and prints the largest difference, in 1/255, from
+// compositing them in double precision on one rank. Arguments: wire, most ranks in a group, seed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -39,7 +39,8 @@ int main(int argc, char** argv) {
         std::shuffle(order.begin(), order.end(), std::mt19937(seed));
         PictureComposer composer(ranks, wire_of(argv[1]), std::atoi(argv[2]));
         double largest = 0;
-        for (int frame = 0; frame < 2; ++frame) {  // the second has the first one's memory
+        // The second frame reuses the memory of the first.
+        for (int frame = 0; frame < 2; ++frame) {
             Image picture = picture_of(ranks.number(), seed);
             composer.compose(order, picture);
             if (!ranks.leads()) continue;

@@ -14,7 +14,7 @@ namespace {
 constexpr int width = 300, height = 40;
 constexpr RowSpan rows{5, 33};
 
-// The picture behind nothing, as another rank has it.
+// Returns the picture as another rank receives it: encoded, decoded, and composited behind nothing.
 Image sent(const Image& picture, FragmentFormat format, std::size_t* size = nullptr) {
     std::vector<std::byte> bytes;
     encode_rows(picture, ActiveRuns(picture, {0, height}), rows, format, bytes);
@@ -43,20 +43,20 @@ TEST(FragmentCode, OfFloatsLosesNothing) {
     EXPECT_EQ(largest_error(picture, FragmentFormat::float32, true), 0);
 }
 
-// Halves have 11 bits: in [.5, 1] half a step is 2^-12.
+// Half has 11 bits: half a step in [.5, 1] is 2^-12.
 TEST(FragmentCode, OfHalvesIsOffByHalfAStep) {
     const Image picture = random_picture(width, height, 2);
     EXPECT_LE(largest_error(picture, FragmentFormat::half, false), 255 * 0x1p-12);
     EXPECT_LE(largest_error(picture, FragmentFormat::half, true), 255 * 0x1p-12);
 }
 
-// Half a code, and a few roundings of float32.
+// Errors are half a code and a few roundings of float32.
 TEST(FragmentCode, OfCodesIsOffByHalfACode) {
     constexpr double code16 = 255 * .5 / 65535, roundings = 255 * 4 * 6e-8;
     const Image picture = random_picture(width, height, 3);
     for (const bool opacity : {false, true})
         EXPECT_LE(largest_error(picture, FragmentFormat::fixed16, opacity), code16 + roundings);
-    // The colour as a code times the opacity as a code.
+    // The colour is an 8-bit code times the 16-bit code of opacity.
     EXPECT_LE(largest_error(picture, FragmentFormat::fixed8, false), .5 + code16 + roundings);
     EXPECT_LE(largest_error(picture, FragmentFormat::fixed8, true), code16 + roundings);
 }
@@ -69,8 +69,8 @@ TEST(FragmentCode, OfCodesScalesLargeColours) {
     EXPECT_GT(error, 1);
 }
 
-// What a pixel takes, and at most 3 bytes a run (of less than 128 pixels, or after as many) and 1
-// a row.
+// A picture takes the bytes of its pixels, and at most 3 for each run (its length or the gap before
+// it is below 128 pixels) and 1 for each row.
 TEST(FragmentCode, SendsOnlyWhatShows) {
     const Image picture = random_picture(width, height, 5);
     const ActiveRuns runs(picture, rows);

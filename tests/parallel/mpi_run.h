@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// The command that runs a program on `ranks` ranks, more than there are processors, too.
+// Returns the command that starts a program on `ranks` ranks, even if there are fewer processors.
 inline std::vector<std::string> on_ranks(int ranks, const std::vector<std::string>& program) {
     std::vector<std::string> command{
         MPIRUN, "--oversubscribe",    "--mca", "mpi_yield_when_idle", "1",
@@ -19,15 +19,15 @@ inline std::vector<std::string> on_ranks(int ranks, const std::vector<std::strin
     return command;
 }
 
-// Containers run tests as root, which Open MPI does not do unless it is asked twice.
+// Lets Open MPI run as root, as tests do in containers.
 inline void allow_root() {
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
 }
 
-// In rare cases Open MPI 4 says of a rank that ended well that it was "exiting improperly", because
-// it learns of the end before it learns of MPI_Finalize (open-mpi/ompi issues 7833 and 9389). Such
-// a run is repeated, twice at most.
+// Runs a program on several ranks. In rare cases Open MPI 4 reports a rank that ended well as
+// "exiting improperly", because it sees the end before it sees MPI_Finalize (open-mpi/ompi issues
+// 7833 and 9389). Then the program is run again, at most twice.
 inline ProgramResult mpi_run(int ranks, const std::vector<std::string>& program) {
     for (int attempt = 0;; ++attempt) {
         ProgramResult result = run_program(on_ranks(ranks, program), allow_root);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that ranks draw together.
+// Pictures that several ranks draw together.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ double error_of_composing(int ranks, const std::string& wire, int most_in_group,
     return std::atof(result.out.c_str());
 }
 
-// A rounding of float32 at each of N - 1 steps of OVER, twice in a group and among groups.
+// float32 rounds once in each of N - 1 steps of OVER, in a group and again among groups.
 TEST(ComposedPictures, AreThoseOfOneRank) {
     for (const int ranks : {2, 3, 7}) {
         EXPECT_LE(error_of_composing(ranks, "float32", 64, ranks), 255 * 2.4e-7 * ranks);
@@ -32,7 +32,7 @@ TEST(ComposedPictures, AreThoseOfOneRank) {
     }
 }
 
-// docs/cluster.md: half a code of 8 bits, and one of 16 bits on each later way.
+// docs/cluster.md: half a code of 8 bits, and one code of 16 bits for each later transfer.
 TEST(ComposedPictures, OfCodesAreOffByHalfACode) {
     for (const int group : {64, 3}) {
         const double error = error_of_composing(8, "coded", group, 1);
@@ -41,14 +41,15 @@ TEST(ComposedPictures, OfCodesAreOffByHalfACode) {
     }
 }
 
-// Four halves: half a step of each fragment where it is largest, 2^-12, and again of the sum.
+// Four halves: each fragment is off by at most half a step of the largest values, 2^-12, and so is
+// the sum.
 TEST(ComposedPictures, OfHalvesAreOffByLittle) {
     EXPECT_LE(error_of_composing(4, "half", 64, 1), 255 * 3 * 0x1p-12);
 }
 
 class RankPictures : public testing::Test {
   protected:
-    // Some balls in 60 x 50 x 40 bytes.
+    // Writes a volume of 60 x 50 x 40 bytes with some balls in it.
     void SetUp() override {
         std::string bytes =
             "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 60 50 40\nencoding: raw\n\n";
@@ -85,8 +86,8 @@ class RankPictures : public testing::Test {
     std::filesystem::path volume = folder / "balls.nrrd";
 };
 
-// The promise of docs/cluster.md. (tests/slicing/volume_shares_test.cpp has tighter bounds, of
-// many more scenes, without processes.)
+// Largest difference that docs/cluster.md allows, in 1/255. tests/slicing/volume_shares_test.cpp
+// tests tighter bounds with many more scenes in one process.
 constexpr double wanted = .01;
 
 TEST_F(RankPictures, AreThoseOfOneProcess) {
@@ -111,7 +112,7 @@ TEST_F(RankPictures, OfTheSceneAreWrittenWhateverIsTimedThen) {
     EXPECT_LE(difference(render_alone(timed), render(2, timed)), wanted);
 }
 
-// A name in Latin-1 is no UTF-8.
+// A file name in Latin-1, which is no UTF-8.
 TEST_F(RankPictures, OfFilesWithAnyName) {
     const std::filesystem::path renamed = folder / "caf\xe9.nrrd";
     std::filesystem::rename(volume, renamed);

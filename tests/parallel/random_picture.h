@@ -8,7 +8,8 @@
 
 namespace lamina {
 
-// Runs of pixels that show nothing, and of some that show colours up to `largest`.
+// Returns a picture of alternating runs of pixels that show nothing and that show colours up to
+// `largest`.
 inline Image random_picture(int width, int height, std::uint32_t seed, float largest = 1) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> uniform(0, 1);

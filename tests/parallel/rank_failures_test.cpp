@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ranks that fail end the job with one message, and leave nothing behind.
+// If a rank fails, the job ends with one message and leaves no files.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -80,8 +80,8 @@ TEST_F(RankFailures, FilesThatAreCutShortAreNamed) {
     expect_refused({}, 1, "noise.nrrd");
 }
 
-// The limit holds for the ranks alone: Open MPI's mpiexec keeps files of its own, and may hang
-// where these cannot grow.
+// Only the ranks get the limit on file sizes: Open MPI's mpiexec writes files, too, and may hang if
+// they cannot grow.
 TEST_F(RankFailures, AFullDiskLeavesNothing) {
     Arguments program{"sh", "-c", "trap '' XFSZ; ulimit -f 40; exec \"$0\" \"$@\""};  // 20 KiB
     const Arguments render{LAMINA_MPI_BINARY, "render",  volume,   "-o",
@@ -101,7 +101,7 @@ std::vector<pid_t> children_of(pid_t parent) {
     return children;
 }
 
-// Ends a job that would go on for minutes, by `end`, once its ranks are there.
+// Starts a job that would take minutes, calls end() once its ranks run, and expects it to end soon.
 template <typename End>
 void expect_end(const Arguments& command, const std::filesystem::path& picture, const End& end) {
     StartedProgram program(command, allow_root);
@@ -133,7 +133,7 @@ TEST_F(RankFailures, SignalsEndAll) {
     }
 }
 
-// Each rank has the file open and looks at it after every frame.
+// Each rank has the file open and checks it after every frame.
 TEST_F(RankFailures, AFileThatChangesMeanwhileIsNamed) {
     StartedProgram program(command(3, {"--memory", "1M", "--frames", "3000"}),
                            [] { allow_root(); });

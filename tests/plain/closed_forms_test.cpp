@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plain tracer against closed forms: it must be right by itself before it judges the tracer.
+// Tests the plain tracer against closed forms: it must be right by itself before it can check the
+// reference tracer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,8 +21,8 @@ using namespace plain_test;
 
 const Grid unit_box = make_grid({2, 2, 2}, Centering::node);
 
-// Looks along z at all of the unit box, so that rays pass it from z = 0 to z = 1. No ray meets an
-// edge of a tet.
+// Returns a camera that looks along z at all of the unit box, so that rays pass it from z = 0 to z
+// = 1. No ray meets an edge of a tet.
 Camera along_z() {
     Camera camera;
     camera.projection = Projection::orthographic;
@@ -39,19 +40,19 @@ void expect_pixels(const PreciseImage& image, const glm::dvec4& expected, double
                     << column << " " << row << " " << c;
 }
 
-// Draws a volume and a mesh whose scalar is z, in the unit box.
+// Draws a volume and a mesh whose scalar is z, in the unit box, and compares all pixels.
 void expect_of_both(const TransferFunction& function, const glm::dvec4& expected) {
     const Scene scene = scene_of(function, along_z(), 11, 11);
     const auto z = [](const glm::dvec3& p) { return p.z; };
     const Volume volume = test::volume_of(unit_box, [](double, double, double k) { return k; });
-    // Integrals are good to 1e-7 of the opacity by their own estimate, and far better in fact: six
+    // Integrals have errors of 1e-7 of the opacity by their own estimate, and far less in fact: six
     // points of Gauss are off by 1e-12 where the depth is 1.
     expect_pixels(trace_plainly(scene, volume).image, expected, 1e-11);
     expect_pixels(trace_plainly(scene, mesh_of(test::split_box(3, 40, .1, z))).image, expected,
                   1e-11);
 }
 
-// Depths are sums of some 100 roundings below 1e-15.
+// Rounding: depths are sums of some 100 roundings below 1e-15.
 TEST(PlainTracer, ConstantExtinctionHasTheOpacityOfTheChordThatTheClipKeeps) {
     const TransferFunction function = constant_function(1.5, {.25, 1, 3});
     Grid cells = make_grid({4, 3, 5}, Centering::cell, {.25, 1. / 3, .2});
@@ -79,7 +80,7 @@ TEST(PlainTracer, ConstantExtinctionHasTheOpacityOfTheChordThatTheClipKeeps) {
     }
 }
 
-// docs/numerics.md, section 5, with p = q: G is (1 - exp(-D)) / D.
+// G (docs/numerics.md, section 5) is (1 - exp(-D)) / D if p = q.
 TEST(PlainTracer, AColourThatIsLinearAlongTheRayHasItsClosedForm) {
     for (const double depth : {1e-6, .3, 5., 80., 1e6}) {
         const double t = std::exp(-depth), g = -std::expm1(-depth) / depth;
@@ -90,7 +91,7 @@ TEST(PlainTracer, AColourThatIsLinearAlongTheRayHasItsClosedForm) {
     }
 }
 
-// docs/numerics.md, section 5, with p = 0: G is an error function.
+// G (docs/numerics.md, section 5) is an error function if p = 0.
 TEST(PlainTracer, AnExtinctionThatIsLinearAlongTheRayHasItsClosedForm) {
     for (const double depth : {1e-3, .3, 5., 80.}) {
         const double root = std::sqrt(depth), t = std::exp(-depth);
@@ -102,8 +103,8 @@ TEST(PlainTracer, AnExtinctionThatIsLinearAlongTheRayHasItsClosedForm) {
     }
 }
 
-// Two layers, with a step between them that is a sample's value. At the value itself the later knot
-// counts.
+// Two layers with a step between them, whose value some samples have. At the value itself the later
+// knot counts.
 TEST(PlainTracer, KnotsThatCoincideMakeLayers) {
     const double a = .7, b = 1.9, step = .5;
     expect_of_both(TransferFunction::linear({{step, {{1, 0, 0}, a}}, {step, {{0, 1, 0}, b}}}),
@@ -117,8 +118,8 @@ TEST(PlainTracer, KnotsThatCoincideMakeLayers) {
                   1e-11);
 }
 
-// docs/numerics.md, section 10: a linear field has one gradient. Integrals of lit colours, up to 10
-// times the opacity, are good to 1e-11 as above.
+// A linear field has one gradient, hence one factor (docs/numerics.md, section 10). Integrals of
+// lit colours, up to 10 times the opacity, have errors of 1e-11.
 TEST(PlainTracer, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     const glm::dvec3 gradient(.5, .25, -.125);
     const auto field = [&](const glm::dvec3& p) { return .25 + glm::dot(gradient, p); };
@@ -150,8 +151,8 @@ TEST(PlainTracer, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     }
 }
 
-// What is not resolved counts as an error: of light through this fog 60 halvings leave depths of
-// 1e12. The colour in the middle of the first part is right to 1e-12 nevertheless.
+// Depths that are not resolved count as errors: in this fog 60 halvings still leave depths of 1e12.
+// The colour in the middle of the first part is right to 1e-12 nevertheless.
 TEST(PlainTracer, SaysHowMuchHalvingHasLeftOver) {
     const TransferFunction fog =
         TransferFunction::linear({{0, {{1, 0, .5}, 1e30}}, {1, {{0, 1, .5}, 1e30}}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes for the tests of the plain tracer.
+// Makes scenes for the tests of the plain tracer.
 #pragma once
 
 #include <vector>
@@ -29,7 +29,7 @@ inline SceneMesh mesh_of(MeshData data) {
     return {TetMesh(std::move(data), "test"), std::move(scalar), false, {}};
 }
 
-// Views of the grid's box from outside, near it and inside, in both projections.
+// Returns views of the grid's box from outside, near it and inside, in both projections.
 inline std::vector<Camera> views_of(const Grid& grid) {
     std::vector<Camera> views;
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference tracer and its plain twin draw the same pictures.
+// Tests that the reference tracer and its twin, the plain tracer, draw the same pictures.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,9 +24,9 @@ namespace {
 
 using namespace plain_test;
 
-// Each is as far off as it says. `rounding`: of double precision beside that; functions of these
-// tests are up to 1e4 times as steep as the numbers that round. The twin must beat 1e-5 in all
-// scenes.
+// Expects that the two pictures differ by no more than both error estimates and `rounding`.
+// Functions of these tests are up to 1e4 times as steep as the numbers that round. The twin's
+// estimate must be below 1e-5 in all scenes.
 template <typename Data>
 void expect_same(const Scene& scene, const Data& data, const std::string& what,
                  double rounding = 1e-11) {
@@ -38,7 +38,7 @@ void expect_same(const Scene& scene, const Data& data, const std::string& what,
     EXPECT_LE(plain.error_estimate, 1e-6) << what;
 }
 
-// Noise of the unit box with as many samples on each axis; cells or nodes.
+// Returns noise in the unit box, between `low` and `high`, on cells or nodes.
 template <typename Sample>
 Volume noise_of(Centering centering, double low, double high) {
     constexpr std::array<std::int64_t, 3> size{5, 4, 3};
@@ -101,7 +101,7 @@ TEST(TracerAndTwin, AgreeOnTurnedGridsAndThinOnes) {
     }
 }
 
-// Cells with such a corner show nothing, and gradients come from the other neighbours.
+// Cells with such a corner show nothing, and gradients come from the finite neighbours.
 TEST(TracerAndTwin, AgreeOnSamplesThatAreNoNumbers) {
     constexpr float nan = NAN, infinite = INFINITY;
     Random random(5);
@@ -120,7 +120,7 @@ TEST(TracerAndTwin, AgreeOnSamplesThatAreNoNumbers) {
     }
 }
 
-// Colours are composited as they are given, in light or in display values, and may exceed 1.
+// Colours are composited as given, in linear light or in display values, and may exceed 1.
 TEST(TracerAndTwin, AgreeInBothColourSpaces) {
     for (const char* space : {"linear", "display"}) {
         nlohmann::json document = with("/image/color_space", space);
@@ -169,7 +169,7 @@ TEST(TracerAndTwin, AgreeOnClips) {
     }
 }
 
-// Steps lie on values of samples, of plateaus among them.
+// Steps lie at values that samples, and plateaus of samples, have.
 TEST(TracerAndTwin, AgreeOnKnotsThatCoincide) {
     Random random(11);
     const Volume volume =
@@ -188,7 +188,7 @@ TEST(TracerAndTwin, AgreeOnKnotsThatCoincide) {
     }
 }
 
-// A peak of 1e-5 of the range, a step to what is opaque, and many knots of linear opacity.
+// Functions: a peak of 1e-5 of the range, a step to opaque, and many knots of linear opacity.
 TEST(TracerAndTwin, AgreeOnSteepFunctions) {
     const TransferFunction peak = TransferFunction::linear({{.3, {{1, 0, 0}, 0}},
                                                             {.300005, {{1, 1, 0}, 1e4}},
@@ -213,8 +213,8 @@ TEST(TracerAndTwin, AgreeOnSteepFunctions) {
     }
 }
 
-// Heights of needles, of 1e-6 of an edge and less, have lost as many digits, and so have scalars in
-// them.
+// The heights of needles, 1e-6 of an edge and less, have lost six digits or more, and so have
+// scalars in them.
 TEST(TracerAndTwin, AgreeOnMeshesWithNeedles) {
     for (const double least : {.1, 1e-3, 1e-6}) {
         const SceneMesh mesh = waves(100, least);
@@ -223,7 +223,7 @@ TEST(TracerAndTwin, AgreeOnMeshesWithNeedles) {
     }
 }
 
-// Every second ray runs in faces of tets, some in those of the box.
+// Every second ray lies in faces of tets, some of which are faces of the box.
 TEST(TracerAndTwin, AgreeOnRaysInFaces) {
     const SceneMesh mesh = mesh_of(test::kuhn_box(
         {3, 3, 3}, [](const glm::dvec3& p) { return .1 * p.x * p.y + .2 * p.z + .05 * p.x; }));

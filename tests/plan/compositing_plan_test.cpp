@@ -16,7 +16,7 @@ Capabilities usual() {
     return capabilities;
 }
 
-// The minimal scene, of one colour, with 40 slabs and this "render".
+// Returns the minimal scene, of one colour, with 40 slabs and this "render".
 nlohmann::json scene_with(const nlohmann::json& render) {
     nlohmann::json document = with("/render", render);
     document["render"]["slice"]["samples"] = 40;
@@ -70,7 +70,7 @@ TEST(CompositingPlan, EmulatedTargetsAreBlendedByTheProgram) {
     EXPECT_EQ(slice_of(document, capabilities).blending, Blending::fetch);
     capabilities.cpu = true;
     EXPECT_EQ(slice_of(document, capabilities).blending, Blending::tiles);
-    // Other targets never need it.
+    // Other targets never need a programmable blend.
     slice = slice_of(scene_with({{"target", "fixed8"}}), capabilities);
     EXPECT_EQ(slice.blending, Blending::native);
     EXPECT_FALSE(slice.emulation.has_value());
@@ -153,7 +153,8 @@ TEST(CompositingPlan, AutomaticTreesKeepToMaxError) {
     EXPECT_LE(slice_of(document).error_bound.value(), 0.1);
 }
 
-// On a driver that ends long loops: no factors are named where the scene has none.
+// On a driver that ends long loops, the message for an automatic tree names no factors, because the
+// scene has none.
 TEST(CompositingPlan, AutomaticTreesSayThatTheirNodeIsTooLong) {
     nlohmann::json document = rendered("fixed16", {{"tree", "auto"}});
     document["render"]["slice"]["samples"] = 65536;
@@ -163,7 +164,8 @@ TEST(CompositingPlan, AutomaticTreesSayThatTheirNodeIsTooLong) {
                  {"scene.json: render.slice.tree: found \"auto\"", "65536 slabs", "at most"});
 }
 
-// What cannot be seen is not composited; what several textures hold is composited in parts.
+// The bound counts only slabs that show. Slabs that lie in several textures are composited in
+// several draws and count for each.
 TEST(CompositingPlan, AutomaticTreesCountVisibleSlabs) {
     nlohmann::json document = rendered("float16", {{"tree", "auto"}});
     const double all = slice_of(document).error_bound.value();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light does to the choices of targets and trees.
+// The choices of targets and trees depend on light, which makes colours brighter.
 #include "plan/plan.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
@@ -16,7 +16,8 @@ Capabilities native() {
     return capabilities;
 }
 
-// The minimal scene, of white, with 40 slabs; light makes it up to .8 + .2 + .2 * 1 at most.
+// Returns the minimal scene, in white, with 40 slabs; light makes a colour at most .8 + .2 + .2 *
+// 1.
 nlohmann::json lit(const nlohmann::json& target, const nlohmann::json& tree) {
     nlohmann::json document = with("/lighting", {{"smallest_gradient", 1}});
     document["render"] = {{"target", target},
@@ -31,7 +32,7 @@ Plan planned(const nlohmann::json& document) {
     return make_plan(scene, measure(scene, volume, measure_bricks(volume)), native(), {});
 }
 
-// Fixed-point targets hold colours up to 1.
+// Fixed-point targets hold only colours up to 1, which a highlight exceeds.
 TEST(LitPlan, AutomaticTargetsHoldWhatLightAdds) {
     for (const nlohmann::json& tree : {nlohmann::json(), nlohmann::json("auto")}) {
         nlohmann::json document = lit("auto", tree);
@@ -48,7 +49,7 @@ TEST(LitPlan, AutomaticTreesSayWhatTheTargetClamps) {
     EXPECT_NO_THROW(planned(document));
 }
 
-// Even of one colour, under a headlight.
+// A scene of one colour is refused, too: even a headlight makes many colours of it.
 TEST(LitPlan, FixedNodesAreRefusedBecauseOfLight) {
     const nlohmann::json document = lit("fixed8", {{"factors", {8, 5}}, {"nodes", "fixed"}});
     expect_error([&] { planned(document); },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes with meshes: what is read, chosen and refused.
+// Scenes with meshes: they are read, their scalar is chosen, and contradictions are refused.
 #include <cmath>
 #include <fstream>
 
@@ -13,8 +13,8 @@
 namespace lamina {
 namespace {
 
-// A tet as .node/.ele, with two point attributes and one of the tet; names as
-// mesh_files/mesh_formats.h has them.
+// Writes a tet as .node/.ele, with two attributes of points and one of the tet, whose names are
+// those of mesh_files/mesh_formats.h. Returns the path.
 std::string write_tet(const TemporaryFolder& folder, const std::string& value) {
     std::ofstream(folder / "t.node")
         << "4 3 2 0\n1 0 0 0 5 1\n2 1 0 0 6 2\n3 0 1 0 7 3\n4 0 0 1 8 " << value << "\n";
@@ -43,7 +43,7 @@ TEST(MeshScene, ReadsFilesAndRequests) {
     made["render"] = {{"method", "trace"}, {"trace", {{"of", "mesh"}}}};
     EXPECT_TRUE(read_scene(made, "s.json").draws_mesh());
     made["render"] = {{"method", "trace"}};
-    EXPECT_FALSE(read_scene(made, "s.json").draws_mesh());  // the volume is the first
+    EXPECT_FALSE(read_scene(made, "s.json").draws_mesh());  // by default the volume is traced
 }
 
 TEST(MeshScene, RefusesWhatCannotBe) {

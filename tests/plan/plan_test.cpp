@@ -43,7 +43,8 @@ TEST(Plan, FloatTexturesAreFilteredOnlyWhereThatWasMeasuredExact) {
               VolumeSampling::hardware);
 }
 
-// With trials as slicing/slab_trials.h makes them: 60 slabs of exact scalars, or 80 filtered ones.
+// The trials are as slicing/slab_trials.h makes them: 60 slabs with exact scalars, or 80 with
+// filtered ones, keep the goal of an error of 1.
 TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
     Scene scene = read_scene(with("/render/slice/filter", "auto"), "s");
     const Volume volume = load_volume(scene);
@@ -67,7 +68,7 @@ TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
 
     trials.hardware.back().error = 1.01;
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);
-    // Of a given number of slabs the trial is that of the filter alone; trees leave it its part.
+    // If the scene gives the number of slabs, the trial has the error of the filter alone.
     scene.slice.samples = 60;
     trials.exact.clear();
     trials.hardware = {{60, .5, 100, 1}};
@@ -76,7 +77,7 @@ TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
     EXPECT_EQ(plan_for().slice.filter_error, .5);
 }
 
-// Of the length of rays: a hundredth in tiles, a fifth in OpenGL.
+// A hundredth of the rays' length must be empty with the cpu engine, a fifth with OpenGL.
 TEST(Plan, EmptyBricksAreLeaptOverWhereEnoughIsEmpty) {
     Scene scene = read_scene(minimal_scene(), "s");
     const Volume volume = load_volume(scene);
@@ -116,8 +117,8 @@ TEST(Plan, RaysAreDoubleInSoftwareAndForThinBoxes) {
     EXPECT_TRUE(plan_of(ramp, gpu).slice.precise_rays);
 }
 
-// llvmpipe ends the loops of a fragment after 65535 rounds. With a table a slab takes 2 + 4 + 4, or
-// 10 with one knot in a cell of the search: with n more knots there, 4 n more.
+// llvmpipe ends the loops of a fragment after 65535 rounds. With a table a slab takes 2 + 4 + 4 =
+// 10 rounds or more: with n further knots in one cell of the search, 4 n more.
 TEST(Plan, InSoftwareAFragmentMarchesNoMoreSlabsThanItsLoopsCan) {
     nlohmann::json document =
         with("/render/slice", {{"samples", 65536}, {"classification", "preintegrated"}});

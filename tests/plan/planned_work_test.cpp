@@ -24,8 +24,8 @@ struct Case {
     Plan plan;
 };
 
-// The ramp's box, along the picture's rows, fills a view of 10 slabs. Below the first visible value
-// nothing shows; 0: all does.
+// Returns a ramp whose values rise along the picture's rows and whose box fills a view of 10 slabs.
+// Values below `first_visible` show nothing; if it is 0, all values show.
 Case ramp_case(double first_visible, double extinction) {
     nlohmann::json document = minimal_scene();
     document["volume"] = {{"generate", "ramp"}, {"size", {65, 9, 9}}};
@@ -59,7 +59,7 @@ double saved(const Plan& plan, const std::string& name) {
     return 0;
 }
 
-// A box that the picture is full of: every slab of every pixel, of which nothing is left out.
+// If a box fills the picture and all of it shows, the work is every slab of every pixel.
 TEST(PlannedWork, IsAllSlabsOfAFullPicture) {
     const Case faint = ramp_case(0, 1e-3);
     const double all = 10.0 * faint.scene.width * faint.scene.height;
@@ -68,9 +68,9 @@ TEST(PlannedWork, IsAllSlabsOfAFullPicture) {
     EXPECT_EQ(saved(faint.plan, "empty_space"), 0);
 }
 
-// Values rise from 0 to 255 along the picture: where the last quarter shows something, three are
-// saved, but for a brick of 4 of its 64 cells at the edge; of each row of 32 rays one more or less
-// may lie there.
+// Values rise from 0 to 255 along the picture, and show in its last quarter, so three quarters are
+// saved. The tolerances are for a brick at the border, 4 of 64 cells, and for one of the 32 rays of
+// a row, which may lie on either side.
 TEST(PlannedWork, EmptySpaceSavesItsShare) {
     const Case sparse = ramp_case(191, 1e-3);
     const double all = 10.0 * sparse.scene.width * sparse.scene.height;
@@ -78,7 +78,7 @@ TEST(PlannedWork, EmptySpaceSavesItsShare) {
     EXPECT_DOUBLE_EQ(saved(sparse.plan, "empty_space") + sparse.plan.work.segments, all);
 }
 
-// As opaque as nothing else, rays end in the first of the steps in which they are followed.
+// If everything is nearly opaque, rays end in the first of the steps in which facts follow them.
 TEST(PlannedWork, RaysThatEndEarlySaveTheRest) {
     const Case opaque = ramp_case(0, 1e6);
     const double all = 10.0 * opaque.scene.width * opaque.scene.height;
@@ -86,7 +86,7 @@ TEST(PlannedWork, RaysThatEndEarlySaveTheRest) {
     EXPECT_DOUBLE_EQ(saved(opaque.plan, "early_termination") + opaque.plan.work.segments, all);
 }
 
-// What an omission is said to save is the work of a plan that keeps it, less that of the plan.
+// The stated saving of an omission is the work of a plan without it minus that of the plan.
 TEST(PlannedWork, SavingsAreDifferencesOfPlans) {
     const Case sparse = ramp_case(127, 1e6);
     ASSERT_GE(sparse.plan.omitted.size(), 3U);

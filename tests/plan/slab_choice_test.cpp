@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-// The minimal scene, as if these numbers of slabs had been tried.
+// A scene's facts with trials, as if these numbers of slabs had been tried.
 struct Tried {
     Facts facts;
     SampleTrials trials;
@@ -56,22 +56,22 @@ TEST(SlabChoice, SlabsGetWhatCompositingLeavesOfTheError) {
     Scene scene = automatic_scene("fixed8", 1);
     const double all = static_cast<double>(scene.width) * scene.height;
     const auto goal = [&](double share = 1) { return slab_error_goal(scene, 1, 100, share * all); };
-    // Compositing is as asked, whatever it costs; a little is for the picture to compare with, more
-    // for rays that are not tried.
+    // The scene gives the compositing, so the slabs may use nearly all of max_error: less a little
+    // for errors of the pictures that trials compare with, and more if not all rays are tried.
     EXPECT_LT(goal(), 1);
     EXPECT_GT(goal(), .9);
     EXPECT_EQ(goal(2), goal());
     EXPECT_NEAR(goal(1. / 16), goal() / 2, 1e-9);
     scene.slice.tree = automatic;
-    // The root of one level is rounded to a code once.
+    // The root of a tree of one level is rounded to a code once.
     EXPECT_LT(goal(), .5);
     EXPECT_GT(goal(), .45);
-    scene.max_error = .5;  // not to be kept: the tree says so
+    scene.max_error = .5;  // the choice of the tree will refuse this
     EXPECT_GT(goal(), 0);
 }
 
-// As they are here for twice, three times the slabs: a quarter and a ninth; of steps, half and a
-// third; up and down.
+// Errors of second order fall to a quarter and a ninth with twice and three times the slabs. Errors
+// at steps fall to a half and a third, or go up and down.
 TEST(SlabChoice, ErrorsOfSecondOrderAreTold) {
     EXPECT_TRUE(are_of_second_order({{100, 9, 1}, {300, 1, 1}, {200, 2.2, 1}}));
     EXPECT_TRUE(are_of_second_order({{100, 9, 1}}));
@@ -81,7 +81,8 @@ TEST(SlabChoice, ErrorsOfSecondOrderAreTold) {
     EXPECT_FALSE(are_of_second_order({{100, 0, 1}, {110, 0, 1}}));
 }
 
-// Of 16 bits hardly anything, of 8 half a code: the target that so many slabs would get.
+// Slabs get max_error minus the rounding of the target that is chosen for so many slabs: hardly
+// anything with 16 bits, half a code with 8.
 TEST(SlabChoice, SlabsGetWhatTheChosenTargetLeaves) {
     EXPECT_GT(slab_error_goal(automatic_scene("auto", 1), 1, 100, 1e6), .9);
     const Scene coarse = automatic_scene("auto", 4);

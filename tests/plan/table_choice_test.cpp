@@ -18,7 +18,7 @@ namespace {
 
 using test::knot;
 
-// Colours and extinctions that go up and down from point to point.
+// Returns colours and extinctions that go up and down from point to point.
 TransferFunction zigzag(int points) {
     std::vector<TransferKnot> knots;
     for (int i = 0; i < points; ++i) {
@@ -40,7 +40,7 @@ Scene scene_of(const TransferFunction& transfer_function) {
     return scene;
 }
 
-// The table before its choice, over the range that is drawn.
+// Returns a table request before anything is chosen, over the range of scalars that is drawn.
 TablePlan table_of(const Scene& scene, const Facts& facts, double max_length) {
     const ValueRange range = drawn_range(*scene.transfer_function, facts.range);
     TablePlan table;
@@ -71,7 +71,8 @@ TEST(TableChoice, ManyPointsGetMoreNodesUntilTheErrorIsKept) {
     refine_table(scene, facts, 200, depth, chosen, tables);
     EXPECT_GT(chosen.request.scalar_nodes, coarse.request.scalar_nodes);
     EXPECT_LE(chosen.error, table_share * scene.max_error);
-    // Two cells a piece became 17: the error of linear interpolation falls with the square.
+    // A piece had two cells and now has 17: the error of linear interpolation falls with the square
+    // of their number.
     EXPECT_LE(chosen.error, error / 16);
 }
 
@@ -87,7 +88,7 @@ TEST(TableChoice, FewPointsKeepTheCoarsestTable) {
     EXPECT_LE(chosen.error, table_share * scene.max_error);
 }
 
-// Long segments of a single linear piece need a table, too, and its layers are far apart.
+// Long segments need a table even of a single linear piece, and its layers are far apart.
 TEST(TableChoice, OfOnePieceTheErrorOfLongSegmentsIsFoundOnRays) {
     Scene scene =
         scene_of(TransferFunction::linear({knot(0, {1, .2, 0}, 0), knot(1, {0, .9, 1}, 40)}));
@@ -106,8 +107,8 @@ TEST(TableChoice, OfOnePieceTheErrorOfLongSegmentsIsFoundOnRays) {
     TablePlan table = table_of(scene, facts, longest);
     TableCache tables;
     refine_table(scene, facts, 2, facts.max_extinction * longest, table, tables);
-    // Segments of the largest length lie on a layer, where no error of lengths is: rays alone have
-    // shorter ones.
+    // Without rays only segments of the largest length are tried. These lie on a layer, so lengths
+    // are not interpolated and make no error.
     Facts without_rays = facts;
     without_rays.scalar_rays.rays.clear();
     EXPECT_GT(table.error, 4 * table_error(scene, without_rays, 2, table));

@@ -42,7 +42,7 @@ TEST(TreeChoice, BoundsGrowWithSlabsAndStayBelowFullScale) {
     }
 }
 
-// In float32, where nothing is gained by storing less often, either may be the smaller.
+// Returns the smaller bound. In float32 it may be either, because storing less often gains nothing.
 double best_bound(const TreeQuestion& question) {
     return std::min(one_level_error_bound(question), straight_error_bound(question));
 }
@@ -62,10 +62,10 @@ TEST(TreeChoice, OneLevelMeetsTheErrorOrAnErrorSaysWhatCouldBeKept) {
             expect_one_node(question, choose_tree(question));
             EXPECT_LE(choose_tree(question).error_bound, max_error);
         }
-        // A thousandth of what one rounding to the target costs.
+        // A thousandth of the error of one rounding to the target.
         const double too_little = one_level_error_bound(question_of(target, 1)) / 1000;
         const TreeQuestion question = question_of(target, 1024, too_little);
-        if (target == Target::float32) {  // the best there is
+        if (target == Target::float32) {  // no target is more exact
             expect_one_node(question, choose_tree(question));
             continue;
         }
@@ -75,7 +75,8 @@ TEST(TreeChoice, OneLevelMeetsTheErrorOrAnErrorSaysWhatCouldBeKept) {
     }
 }
 
-// What slabs were found to miss is no reason to refuse a target that could keep max_error.
+// If slabs leave too little of max_error, the target is still accepted if compositing by itself
+// keeps max_error.
 TEST(TreeChoice, SlabsThatMissTheErrorLeaveCompositingItsBest) {
     for (const double slab_error : {.9, 1., 7.}) {
         for (const Target target : {Target::float32, Target::float16, Target::fixed8}) {
@@ -89,7 +90,7 @@ TEST(TreeChoice, SlabsThatMissTheErrorLeaveCompositingItsBest) {
     }
 }
 
-// Each remedy that a message names keeps max_error, and one that does not is not named.
+// Each remedy that a message names keeps max_error, and no other is named.
 TEST(TreeChoice, RemediesHelp) {
     const auto message = [](const TreeQuestion& question) -> std::string {
         try {
@@ -111,7 +112,7 @@ TEST(TreeChoice, RemediesHelp) {
     EXPECT_TRUE(message(bright).ends_with("take a larger max_error, or target float32"));
     bright.target = Target::emulated;
     bright.emulation.bits = 12;
-    // Of 16 bits 4 roundings of half a code a slab are .78 / 255 (100 * 2 / 65535 * 255), but
+    // With 16 bits, 4 roundings of half a code a slab are .78 / 255 (100 * 2 / 65535 * 255), but
     // colours stay clamped.
     EXPECT_TRUE(message(bright).ends_with(": take target float32")) << message(bright);
     bright.max_error = 1;
@@ -130,7 +131,8 @@ TEST(TreeChoice, OneSlabNeedsNoTree) {
     EXPECT_EQ(choice.error_bound, straight_error_bound(question_of(Target::fixed8, 1)));
 }
 
-// But where blending it rounds more than a node that is rounded once.
+// A single slab has a node if blending rounds more often than max_error allows: a node is rounded
+// once.
 TEST(TreeChoice, OneSlabHasANodeWhereBlendingMissesTheError) {
     const TreeQuestion question = question_of(Target::fixed8, 1, 1);
     ASSERT_GT(straight_error_bound(question), 1);
@@ -160,7 +162,7 @@ TEST(TreeChoice, ColoursAboveOneAreCutOffByFixedPoint) {
                 1.5 * one_level_error_bound(question_of(Target::float16, 1024)), 1e-12);
 }
 
-// One ray in double precision: colour and opacity.
+// Returns colour and opacity of one ray in double precision.
 std::pair<double, double> exact(const std::vector<RaySample>& samples) {
     double color = 0, transmittance = 1;
     for (const RaySample& sample : samples) {
@@ -182,7 +184,8 @@ std::vector<RaySample> random_ray(std::mt19937& random, int samples) {
     return ray;
 }
 
-// Largest error of random rays in codes of the question's emulation, as a share of its bound.
+// Returns the largest error of random rays in codes of the question's emulation, as a share of its
+// bound.
 double share_of_bound(const TreeQuestion& question) {
     std::mt19937 random(5);
     const double codes = largest_code(question.emulation.bits);
@@ -198,8 +201,7 @@ double share_of_bound(const TreeQuestion& question) {
     return 255 * largest / straight_error_bound(question);
 }
 
-// The bound is never exceeded, and is no more than some times too large: a bound without content
-// would pass the former.
+// The bound is never exceeded, and it is not trivially large: an error of a quarter of it occurs.
 TEST(TreeChoice, CodesStayUnderTheStraightBound) {
     double closest = 0;
     for (const Order order : {Order::back_to_front, Order::front_to_back}) {
@@ -221,7 +223,7 @@ TEST(TreeChoice, CodesStayUnderTheStraightBound) {
     EXPECT_GT(closest, .25);
 }
 
-// Colour and opacity of a ray, front to back, as nodes store them in 8 bits.
+// A piece of a ray, with its optical depth and its colour, which is not associated.
 struct RayPart {
     double depth = 0, color = 0;
 };
@@ -242,7 +244,8 @@ RayPart composited(const std::vector<RayPart>& parts) {
     return {depth, alpha > 0 ? color / alpha : 0};
 }
 
-// A node of a tree in double precision but for what it stores (docs/numerics.md, section 4).
+// Evaluates a node of a tree in double precision, except for the numbers that it stores
+// (docs/numerics.md, section 4).
 RayPart node_of(const std::vector<RayPart>& ray, const TreeShape& shape, int level, SampleSpan node,
                 int alpha_bits) {
     std::vector<RayPart> parts;
@@ -262,8 +265,9 @@ RayPart node_of(const std::vector<RayPart>& ray, const TreeShape& shape, int lev
     return {decode_depth(NodeCode::minimax, stored, share), rounded(found.color, 255)};
 }
 
-// Rays that a bound has to hold for: equal parts of any density, dense and thin parts in turns with
-// the brightest and the darkest colour, and random ones.
+// Returns a ray of one of three kinds for which the bound must hold: equal samples of any density;
+// runs of dense and of thin samples in turns, with the brightest and the darkest colour; and random
+// samples.
 std::vector<RayPart> hard_ray(int samples, int kind, std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 1);
     std::vector<RayPart> ray(static_cast<std::size_t>(samples));
@@ -305,7 +309,7 @@ TEST(RoundingBound, HoldsForTreesOfTheMinimaxCode) {
             }
         }
     }
-    EXPECT_GT(closest, .2);  // it says something
+    EXPECT_GT(closest, .2);  // the bound is not trivially large
     EXPECT_LE(closest, 1);
 }
 

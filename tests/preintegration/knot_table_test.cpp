@@ -38,7 +38,7 @@ double color_error(const SegmentIntegral& a, const SegmentIntegral& b) {
     return worst;
 }
 
-// What the table stores for two of its nodes and one of its lengths.
+// Returns what the table stores for two of its nodes and one of its lengths.
 SegmentIntegral entry(const KnotTable& table, std::size_t front, std::size_t back,
                       std::size_t layer) {
     const std::size_t count = table.nodes.size(), i = back * count + front;
@@ -52,7 +52,7 @@ SegmentIntegral entry(const KnotTable& table, std::size_t front, std::size_t bac
     return result;
 }
 
-// Within one linear piece, or from point to point of the transfer function.
+// Tells whether both nodes are in one linear piece, or both are points of the transfer function.
 bool is_looked_up(const KnotTable& table, std::size_t front, std::size_t back) {
     const auto is_anchor = [&](std::size_t node) {
         return std::ranges::find(table.anchors, static_cast<int>(node), &KnotTable::Anchor::node) !=
@@ -72,14 +72,15 @@ TEST(KnotTable, IsExactAtItsNodes) {
         const std::size_t count = table.nodes.size();
         for (std::size_t front = 0; front < count; ++front) {
             for (std::size_t back = 0; back < count; ++back) {
-                // The two nodes of a step stand for its sides, a segment between them for neither.
+                // The two nodes of a step stand for its sides; a segment from one to the other
+                // stands for neither.
                 if (table.nodes[front] == table.nodes[back]) continue;
                 if (!is_looked_up(table, front, back)) continue;
                 for (std::size_t layer = 0; layer < table.lengths.size(); ++layer) {
                     const auto found = entry(table, front, back, layer);
                     const auto expected = integrate_segment(
                         f, table.nodes[front], table.nodes[back], table.lengths[layer]);
-                    // Two floats of 6e-8 each and a few roundings.
+                    // Rounding: two floats of 6e-8 each and a few roundings.
                     EXPECT_NEAR(found.alpha, expected.alpha, 2e-7);
                     EXPECT_LE(color_error(found, expected), 5e-7)
                         << table.nodes[front] << " " << table.nodes[back] << " " << layer;
@@ -110,9 +111,9 @@ TEST(KnotTable, MeanExtinctionIsExactWithinALinearPiece) {
         for (int i = 0; i < 1000; ++i) {
             const double front = inside(random), back = inside(random);
             const double expected = integrate_segment(f, front, back, 1.5).optical_depth;
-            // Floats (6e-8) of numbers up to the cell's largest corner, which near extinction 0 is
-            // not small compared to the result: hence the second term, one float rounding of
-            // extinction 1 times the length.
+            // Rounding: floats (6e-8) of numbers up to the cell's largest corner, which near
+            // extinction 0 is not small compared with the result. Hence the second term: one float
+            // rounding of extinction 1 times the length.
             EXPECT_NEAR(table.lookup(front, back, 1.5).optical_depth, expected,
                         1e-6 * expected + 1e-7);
         }
@@ -175,7 +176,7 @@ TEST(KnotTable, NoRangeOfScalarsNoLengthAndOneColor) {
     EXPECT_EQ(found.color.g, found.alpha);
 }
 
-// Largest errors over random segments that are short in scalars, as slabs have them, in 1/255.
+// Largest errors, in 1/255, over random segments with small ranges of scalars, as slabs have them.
 struct WorstErrors {
     double alpha = 0, color = 0;
 };
@@ -201,12 +202,13 @@ TEST(KnotTable, IsGoodAcrossKnotsToo) {
     const WorstErrors of_smooth = worst_errors(smooth());
     const WorstErrors of_peak = worst_errors(narrow_peak());
     const WorstErrors of_step = worst_errors(step());
-    // Opacity has only the floats' errors: three relative errors of 6e-8 of depth * exp(-depth) <=
-    // 0.37.
+    // Opacity has only the errors of floats: three relative errors of 6e-8 of depth * exp(-depth)
+    // <= 0.37.
     for (const auto& worst : {of_smooth, of_peak, of_step}) {
         EXPECT_LE(worst.alpha, 255 * 3 * 6e-8 * 0.37);
     }
-    // Measured, doubled: interpolation between nodes and between lengths.
+    // Colour has errors by interpolation between nodes and between lengths. Limits: twice what was
+    // measured.
     EXPECT_LE(of_smooth.color, 0.0015);
     EXPECT_LE(of_step.color, 0.001);
     EXPECT_LE(of_peak.color, 0.25);
@@ -221,7 +223,7 @@ TEST(KnotTable, RefusesTooManyPointsAndTooManyBytes) {
     EXPECT_THROW(KnotTable(f, {0, 4, 1.0, 20000, 2, true}), Error);
 }
 
-// Between points a rounding or two apart no inner node fits.
+// Between points that are one or two roundings apart no inner node fits.
 TEST(KnotTable, PointsOneRoundingApart) {
     for (const double gap : {0.0, 1e-16, 1e-12}) {
         const double below = std::nextafter(.7, 0) - gap;
@@ -248,7 +250,7 @@ TableRequest lit_request(int nodes, int layers) {
     return {0, 1, .5, nodes, layers, true, true};
 }
 
-// On lengths of its own, where nothing is interpolated.
+// The lengths are the table's own, so nothing is interpolated between them.
 TEST(KnotTable, FrontPartsAreExactFromPointToPoint) {
     const auto f = peak_and_step();
     const KnotTable table(f, lit_request(24, 4));
@@ -257,7 +259,7 @@ TEST(KnotTable, FrontPartsAreExactFromPointToPoint) {
             for (const auto& [front, back] : {std::pair(one, other), {other, one}, {one, one}}) {
                 const LitIntegral found = table.lookup_lit(front, back, length);
                 const LitIntegral expected = integrate_lit_segment(f, front, back, length);
-                // Floats, 6e-8 each, in some ten operations, and the moments' 1e-8.
+                // Errors: floats of 6e-8 in some ten operations, and 1e-8 of the moments.
                 EXPECT_LE(largest_error(found.front, expected.front), 7e-7) << front << " " << back;
                 EXPECT_NEAR(found.whole.alpha, expected.whole.alpha, 2e-7);
             }
@@ -279,9 +281,10 @@ double worst_front_error(const TransferFunction& f, int nodes, int layers) {
     return worst;
 }
 
-// Interpolation is linear in scalars and lengths: with four times the nodes the error falls 16
-// times, to half of that where the worst segments are others. The first table is good to a node's
-// share of the range squared, some 1 / 32^2, times the colours' and extinctions' changes.
+// Interpolation is linear in scalars and lengths, so with four times the nodes the error falls by
+// 16; half of that is required, because other segments may be the worst. The first table's error is
+// at most the square of a node's share of the range, some 1 / 32^2, times the changes of colours
+// and extinctions.
 TEST(KnotTable, FrontPartsConverge) {
     for (const auto& f : {smooth(), peak_and_step()}) {
         const double coarse = worst_front_error(f, 32, 5), fine = worst_front_error(f, 128, 17);

@@ -47,7 +47,7 @@ TEST(TableCache, FindsTablesByContent) {
     EXPECT_EQ(uniform.texels, UniformTable(ramp(1), evenly(16)).texels);
 }
 
-// A camera that moves changes the longest segment.
+// The longest segment changes when a camera moves.
 TEST(TableCache, OneLayerServesSegmentsOfAnyLength) {
     TableCache cache;
     TableRequest near = at_knots(16), far = at_knots(16);
@@ -56,7 +56,7 @@ TEST(TableCache, OneLayerServesSegmentsOfAnyLength) {
     near.length_layers = far.length_layers = 1;
     EXPECT_EQ(cache.get(ramp(1), near), cache.get(ramp(1), far));
     near.kind = far.kind = TableKind::uniform;
-    near.store = far.store = TableStore::opacity;  // of the longest segments
+    near.store = far.store = TableStore::opacity;  // depends on max_length
     EXPECT_NE(cache.get(ramp(1), near), cache.get(ramp(1), far));
 }
 
@@ -70,7 +70,7 @@ TEST(TableCache, KeepsEightTablesOfBothKindsTogether) {
     }
     EXPECT_FALSE(oldest.expired());
     EXPECT_FALSE(second.expired());
-    cache.get(ramp(1), at_knots(16));  // is the newest now
+    cache.get(ramp(1), at_knots(16));  // makes `oldest` the newest table
     cache.get(ramp(1), at_knots(5));
     EXPECT_FALSE(oldest.expired());
     EXPECT_TRUE(second.expired());
@@ -82,9 +82,9 @@ TEST(TableCache, FindsTablesThatOthersHold) {
     TableCache cache;
     const auto held = cache.get(ramp(1), at_knots(16));
     for (int nodes = 2; nodes < 12; ++nodes) cache.get(ramp(1), evenly(nodes));
-    EXPECT_EQ(held.use_count(), 1);  // the cache keeps it no longer
+    EXPECT_EQ(held.use_count(), 1);  // the cache no longer keeps it
     EXPECT_EQ(cache.get(ramp(1), at_knots(16)), held);
-    EXPECT_EQ(held.use_count(), 2);  // and now it does
+    EXPECT_EQ(held.use_count(), 2);  // the cache keeps it again
 }
 
 // A table takes 16 * 16 * 2 texels of 4 floats.

@@ -21,7 +21,7 @@ namespace {
 using test::knot;
 using test::smooth;
 
-// Knots at nodes of a table of 33 over [0, 1], one of them a step.
+// Returns a function whose knots are nodes of a table of 33 nodes over [0, 1]; one is a step.
 TransferFunction stepped() {
     return TransferFunction::linear({knot(0, {1, 0, 0}, 0), knot(.25, {1, .5, 0}, 2),
                                      knot(.5, {1, .5, 0}, 1), knot(.5, {0, 0, 1}, 5),
@@ -63,7 +63,7 @@ TEST(UniformTable, IsExactAtItsNodesAndLengths) {
                 for (int i = 0; i < 33 * 33 * 5; ++i) {
                     const double front = (i % 33) / 32.0, back = (i / 33 % 33) / 32.0;
                     const double length = table.length_of(i / (33 * 33));
-                    // Three floats of 6e-8 each and a few roundings.
+                    // Rounding: three floats of 6e-8 each and a few roundings.
                     EXPECT_LE(worst_difference(table.lookup(front, back, length),
                                                integrate_segment(f, front, back, length)),
                               4e-7)
@@ -87,7 +87,8 @@ TEST(UniformTable, LengthsAndLayersAreEachOthersInverse) {
         }
         EXPECT_EQ(table.layer_of(6), 7);
         const double middle = (table.length_of(4) + table.length_of(5)) / 2;
-        // Kraus's Equation 1 puts 1.5 dl at log2(1.5) of its octave, which is .085 too far.
+        // Equation 1 of Kraus puts the length 1.5 dl at log2(1.5) of its octave, which is .085 too
+        // far.
         const double expected = mapping == LengthMapping::log2 ? 4 + std::log2(1.5) : 4.5;
         EXPECT_NEAR(table.layer_of(middle), expected, 1e-12);
         EXPECT_NEAR(table.layer_of(table.length_of(1) / 4), .25, 1e-12);
@@ -119,12 +120,13 @@ TEST(UniformTable, OneColorTakesOneChannel) {
     EXPECT_NEAR(longest.lookup(1, 1, .1).alpha, opacity_from_depth(3 * 3), 1e-7);
 }
 
-// The largest error of colour of a table in 1/255, over rays of `count` equal segments that
-// together run over all scalars.
+// Returns the largest error of colour of a table, in 1/255, over rays of 10 to 10000 equal segments
+// that together cover all scalars.
 double worst_color(const TransferFunction& f, const UniformTable& table) {
     double worst = 0;
     for (const int count : {10, 100, 1000, 10000}) {
-        // Edge ratios up to 1e4: segments of the table's largest length down to 1e-4 of it.
+        // Lengths from the table's largest one down to 1e-4 of it, for meshes with edge ratios up
+        // to 1e4.
         for (const double share : {1e-4, .0021, .034, .3, .73, 1.0}) {
             const double length = table.request.max_length * share;
             if (length * count > 30 || length * count < .1) continue;
@@ -158,9 +160,10 @@ TEST(UniformTable, VariantsRankAsNumericsFound) {
     constexpr auto octave = LengthMapping::octave, log2 = LengthMapping::log2;
     constexpr auto linear = LengthMapping::linear;
     constexpr auto fixed16 = TableFormat::fixed16, fixed8 = TableFormat::fixed8;
-    // Opacities in 8 bits lose thin segments. Of equally spaced lengths these meet the first step
-    // alone, in which opacity bends. Equation 1 makes thin segments up to 6.1 % too dense
-    // (docs/numerics.md, section 5), which moves colours by some units; octaves do not.
+    // Opacities in 8 bits lose thin segments. With equally spaced lengths, thin segments lie only
+    // in the first step between lengths, in which opacity bends. Equation 1 of Kraus makes thin
+    // segments up to 6.1 % too dense (docs/numerics.md, section 5), which moves colours by some
+    // units of 1/255; octaves do not.
     EXPECT_GT(worst(opacity, octave, fixed8), 100);
     const double of_linear = worst(opacity, linear, fixed16);
     const double of_log2 = worst(opacity, log2, fixed16);
@@ -169,7 +172,7 @@ TEST(UniformTable, VariantsRankAsNumericsFound) {
     EXPECT_GT(of_log2, 1.5);
     EXPECT_LT(of_log2, 6);
     EXPECT_LT(of_octave, .6 * of_log2);
-    // Opacity is exact, and what is left is half a code of 16 bits, and what emission bends by
+    // Opacity is exact. The remaining error is half a code of 16 bits, and the bend of emission
     // between nodes.
     const double of_mean = worst(mean, octave, fixed16);
     EXPECT_LT(of_mean, .1);
@@ -177,8 +180,8 @@ TEST(UniformTable, VariantsRankAsNumericsFound) {
 }
 
 TEST(UniformTable, LogarithmicLengthsOverestimateByUpToSixPercent) {
-    // A depth so small that alpha is linear in length; docs/numerics.md, section 5:
-    // (1 + log2(u)) / u - 1 at u times the start of an octave, at most .0615 (at u = 1.36).
+    // At so small a depth alpha is linear in length. Expected (docs/numerics.md, section 5): (1 +
+    // log2(u)) / u - 1 at u times the start of an octave, at most .0615 (at u = 1.36).
     const auto f = TransferFunction::linear({knot(0, {1, 1, 1}, 1e-6)});
     TableRequest request = request_of(2, 8);
     request.store = TableStore::opacity;
@@ -196,7 +199,7 @@ TEST(UniformTable, LogarithmicLengthsOverestimateByUpToSixPercent) {
     EXPECT_LT(worst_octave, 1e-6);
 }
 
-// Largest difference of texels, times the scales, over the largest texel.
+// Returns the largest difference of texels, times their scales, divided by the largest texel.
 double texel_difference(const UniformTable& a, const UniformTable& b) {
     double worst = 0, largest = 0;
     for (std::size_t i = 0; i < a.texels.size(); ++i) {
@@ -219,8 +222,8 @@ TEST(UniformTable, IncrementalTablesConvergeToExactOnes) {
                 request.construction = TableConstruction::incremental;
                 differences[refined] = texel_difference(exact, UniformTable(smooth(), request));
             }
-            // Bilinear interpolation of a function with kinks: at least of first order in the
-            // distance of the nodes, of which the second table has a quarter.
+            // Bilinear interpolation of a function with kinks has errors of at least first order in
+            // the distance of the nodes, of which the second table has a quarter.
             EXPECT_LT(differences[0], .02);
             EXPECT_LT(differences[1], differences[0] / 3);
             EXPECT_GT(differences[0], 0);
@@ -237,7 +240,7 @@ TEST(UniformTable, IncrementalIsExactForOneExtinctionAndColor) {
             request.mapping = mapping;
             const UniformTable exact(f, request);
             request.construction = TableConstruction::incremental;
-            // One rounding to float a layer.
+            // Rounding: one float for each layer.
             EXPECT_LE(texel_difference(exact, UniformTable(f, request)), 9 * 6e-8);
         }
     }
@@ -255,8 +258,8 @@ TEST(UniformTable, FormatsRoundToNearest) {
         const double codes = format == TableFormat::fixed8 ? 255 : 65535;
         for (std::size_t i = 0; i < exact.texels.size(); ++i) {
             const double value = exact.texels[i], found = double{rounded.texels[i]};
-            // Half of the last place: a code, or 11 bits of the number itself; the float that holds
-            // the code is off by another 2e-5 of that.
+            // The bound is half of the last place, a code or 11 bits of the number itself. The
+            // float that holds the code is off by another 2e-5 of that.
             const double bound = half ? std::max(value * 0x1p-11, 0x1p-25 * rounded.scale)
                                       : .5 / codes * rounded.scale;
             EXPECT_NEAR(found * rounded.scale, value, bound * (1 + 1e-4) + 1e-7 * value);
@@ -274,7 +277,7 @@ TEST(UniformTable, FormatsRoundToNearest) {
     EXPECT_EQ(exact.byte_count(), 20 * 20 * 4 * 16);
 }
 
-// Every variant of a table, tried at and beyond the ends of its scalars and lengths.
+// Looks up every variant of a table at and beyond the ends of its scalars and lengths.
 void expect_finite(const TransferFunction& f, TableRequest request) {
     for (const TableStore store : stores) {
         for (const LengthMapping mapping : mappings) {
@@ -324,7 +327,7 @@ TEST(UniformTable, HoldsOutAtTheEnds) {
     request = request_of(8, 3);
     request.lo = request.hi = .5;
     expect_finite(stepped(), request);
-    // At a step's very value the later knot counts.
+    // Exactly at a step the later knot counts.
     const UniformTable point(stepped(), request);
     EXPECT_NEAR(point.lookup(.5, .5, .2).alpha, opacity_from_depth(5 * .2), 1e-7);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clipped meshes: what is cut off, what is left, and the picture of that against the tracer, which
-// clips rays and knows nothing of cut meshes.
+// Clipped meshes: the two meshes on both sides of a plane, and their pictures against the tracer,
+// which clips rays instead of meshes.
 #include "support/clips.h"
 
 #include <glm/glm.hpp>
@@ -30,7 +30,7 @@ MeshData kuhn(int cells) {
     return data;
 }
 
-// Planes through points, edges and faces of Kuhn's mesh of 4^3 cells, and all others.
+// Returns planes through points, edges and faces of Kuhn's mesh of 4^3 cells, and random ones.
 std::vector<HalfSpace> planes() {
     std::vector<HalfSpace> found{{{.25, 0, 0}, {1, 0, 0}},   {{.5, 0, 0}, {1, 1, 0}},
                                  {{0, 0, 0}, {1, -1, 0}},    {{.25, .5, .25}, {1, 1, -1}},
@@ -59,15 +59,15 @@ void expect_sound(const MeshData& data, double least_volume) {
     EXPECT_EQ(mesh.findings().unused_points, 0);
 }
 
-constexpr double off_plane = 1e-10 * 1.74;  // of the unit box
+// Distance from the plane within which corners count as on it: 1e-10 of the unit box's diagonal.
+constexpr double off_plane = 1e-10 * 1.74;
 
 TEST(CutMesh, BothSidesTogetherAreTheWhole) {
     for (const MeshData& whole : {kuhn(4), test::split_box(7, 600, .05, wave)}) {
         for (const HalfSpace& half : planes()) {
             const HalfSpace rest = other_side(half);
             const MeshData kept = cut_mesh(whole, {&half, 1}), cut = cut_mesh(whole, {&rest, 1});
-            // Corners nearer than 1e-10 of the diagonal count as on the plane, of which up to 1.7
-            // lie in the box.
+            // Corners within off_plane count as on the plane, whose area in the box is at most 1.7.
             EXPECT_NEAR(volume_of_mesh(kept) + volume_of_mesh(cut), 1, 1.7 * off_plane);
             expect_sound(kept, 0);
             expect_sound(cut, 0);
@@ -78,15 +78,15 @@ TEST(CutMesh, BothSidesTogetherAreTheWhole) {
     }
 }
 
-// Within rounding. (Of irregular meshes triangles of a cut may be so small that the plane of one
-// is not that of the next.)
+// The convexity is that within rounding. (Irregular meshes are not tested: triangles of their cuts
+// may be so small that neighbours lie in different planes.)
 TEST(CutMesh, PartsOfAConvexMeshAreConvex) {
     const MeshData whole = kuhn(4);
     for (const HalfSpace& half : planes())
         EXPECT_NE(convexity(TetMesh(cut_mesh(whole, {&half, 1}), "kept")), Convexity::none);
 }
 
-// Where faces of the mesh lie in the plane nothing is cut.
+// A plane along faces of the mesh cuts no tet.
 TEST(CutMesh, PlanesAlongFacesMakeNoTets) {
     const MeshData whole = kuhn(4);
     const HalfSpace face{{.25, .1, .7}, {-3, 0, 0}}, diagonal{{0, 0, .3}, {2, -2, 0}};
@@ -107,7 +107,7 @@ TEST(CutMesh, ScalarsAreLinearAndConstantsStay) {
     }
 }
 
-// Every part of a tet without a value is without one, and no other tet is.
+// A piece of a tet has no value if, and only if, the tet has none.
 TEST(CutMesh, TetsWithoutValueStayWithout) {
     MeshData whole = kuhn(4);
     for (std::size_t i = 0; i < whole.points.size(); i += 7)
@@ -131,7 +131,8 @@ TEST(CutMesh, TetsWithoutValueStayWithout) {
     }
 }
 
-// Far from the origin roundings are large: 1e7 times an epsilon of 1e-16, and the plane's share.
+// Far from the origin roundings are large: 1e7 times an epsilon of 1e-16, beside those of the
+// plane.
 TEST(CutMesh, FarMeshesStaySound) {
     MeshData whole = kuhn(4);
     for (glm::dvec3& point : whole.points) point += glm::dvec3(1e7, -3e6, 2e5);
@@ -150,8 +151,8 @@ TEST(CutMesh, AClipThatCutsNothingCostsNothing) {
 
 class Clipped : public ProjectionTest {
   protected:
-    // Errors in 1/255: those of the same mesh without a clip (conforming_test.cpp), and cut tets
-    // have faces as oblique as the plane.
+    // `bound`: in 1/255. Errors are those of the same mesh without a clip (conforming_test.cpp),
+    // though cut tets have faces as oblique as the plane.
     void expect_traced(const std::shared_ptr<const SceneMesh>& mesh, double bound,
                        const std::string& name) {
         Scene scene = projection_scene(

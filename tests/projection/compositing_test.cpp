@@ -6,8 +6,8 @@
 namespace lamina {
 namespace {
 
-// The mean over random numbers is OVER in real arithmetic: 65536 draws of a coin have a standard
-// deviation below .5 / 256 = .002 codes; five of them.
+// The mean over random numbers is OVER in real arithmetic. The bound is five standard deviations:
+// for a mean of 65536 draws of 0 or 1 one is below .5 / 256 = .002 codes.
 TEST(StochasticOver, IsUnbiased) {
     for (const double alpha : {.001, .3, .77}) {
         for (const std::uint32_t below : {0u, 7u, 200u, 255u}) {
@@ -23,7 +23,7 @@ TEST(StochasticOver, StaysInRange) {
     EXPECT_EQ(over_stochastic(1, 1, 255, 0xffffffff, 255), 255u);
     EXPECT_EQ(over_stochastic(0, 0, 255, 0, 255), 255u);
     EXPECT_EQ(over_stochastic(0, 0, 0, 0, 255), 0u);
-    EXPECT_EQ(over_stochastic(1, .5, 255, 0, 255), 255u);  // more than is possible: clamped
+    EXPECT_EQ(over_stochastic(1, .5, 255, 0, 255), 255u);  // source above alpha: clamped
 }
 
 }  // namespace

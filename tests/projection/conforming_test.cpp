@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Conforming meshes of a constant field: every pixel is 1 - exp(-extinction * chord), whatever the
-// tets: no cracks, no double fragments, no effect of the rasteriser's grid.
+// tets are. So there are no cracks, no fragments drawn twice, and no effects of the rasteriser's
+// grid.
 #include "projection_fixture.h"
 #include "support/split_box.h"
 
@@ -14,8 +15,8 @@ MeshData scaled(MeshData data, double factor) {
 
 class Conforming : public ProjectionTest {
   protected:
-    // Views along the axes and diagonals of the box [0, 1]^3, where walls of the mesh are edge-on
-    // and meet pixel centres, and oblique ones.
+    // Compares pictures with the tracer's, in views along the axes and diagonals of the box [0,
+    // 1]^3, in which walls of the mesh are edge-on and meet pixel centres, and in oblique ones.
     void expect_constant(const SceneMesh& mesh, double bound, const std::string& name) {
         const std::vector<glm::dvec3> eyes{{.5, .5, 3},     {3, .5, .5},  {.5, -2, .5},
                                            {2, 2, 2},       {.5, 2, 2},   {1.9, -.7, .8},
@@ -45,21 +46,22 @@ class Conforming : public ProjectionTest {
 
 const auto zero = [](const glm::dvec3&) { return 0.0; };
 
-// In 1/255. Float32 OVER of 100 tets leaves 100 * 6e-8 * 255 = .0015. A face that is off by 9e-6 of
-// an edge (docs/numerics.md, section 6) is so for both of its tets and cancels but at the box's
-// surface: 2.5 * .2 * 9e-6 * 255 = .001. A crack between Kuhn's tets, or one drawn twice, costs
-// units.
+// The bound is in 1/255. Float32 OVER of 100 tets errs by 100 * 6e-8 * 255 = .0015. A face that is
+// off by 9e-6 of an edge (docs/numerics.md, section 6) is so for both of its tets, and this cancels
+// except at the box's surface: 2.5 * .2 * 9e-6 * 255 = .001. A crack between Kuhn's tets, or a tet
+// drawn twice, costs units.
 TEST_P(Conforming, Kuhn) {
     expect_constant(scene_mesh(scaled(test::kuhn_box({8, 8, 8}, zero), 0.125)), 0.02, "kuhn");
 }
 
-TEST_P(Conforming, KuhnOfManyTets) {  // float32 faces but where they are edge-on
+// So many tets have depths on faces in float32, except for faces that are edge-on.
+TEST_P(Conforming, KuhnOfManyTets) {
     expect_constant(scene_mesh(scaled(test::kuhn_box({13, 13, 13}, zero), 1 / 13.0)), 0.02,
                     "kuhn 13");
 }
 
 // A box of `across` x `across` pixels whose sides lie exactly on pixel centres, seen along an axis:
-// which of the rays there meet the box is decided as the tracer does it. To miss one costs 200.
+// rays along a side must meet the box if they do in the tracer. A single wrong one costs 200.
 TEST_P(Conforming, SidesOnPixelCentres) {
     const SceneMesh mesh = scene_mesh(scaled(test::kuhn_box({2, 2, 2}, zero), 0.5));
     for (const int across : {50, 100, 256}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes of the cpu engine: those of OpenGL's programs and blending, pixel by pixel.
+// Codes of the cpu engine, compared pixel by pixel with those of OpenGL's programs and blending.
 #include <algorithm>
 
 #include "projection_fixture.h"
@@ -8,8 +8,9 @@
 namespace lamina {
 namespace {
 
-// How many components of two pictures are not the same code. OpenGL multiplies codes by a rounded
-// 1 / M when it reads them back: 1.2e-7 of the value; codes lie 1.5e-5 apart or more.
+// Returns how many components of two pictures differ in their code. OpenGL multiplies codes by a
+// rounded 1 / M when it reads them back, which is off by 1.2e-7 of the value; codes lie 1.5e-5
+// apart or more.
 int differing(const Image& a, const Image& b) {
     int count = 0;
     for (std::size_t i = 0; i < a.rgba.size(); ++i)
@@ -35,11 +36,12 @@ class TileCodes : public gl::GlTest {
         scene.target = target;
         return scene;
     }
-    // Fragments agree to some units in the last place of float32, 1e-7: scaled by M = 65535, they
-    // are that near to a border between codes once in 100 or 200 times; of 33,532 components less
-    // than a hundred. With 8 bits, once in 40,000 times.
+    // Returns how many codes may differ. Fragments agree to a few units in the last place of
+    // float32, 1e-7. With M = 65535, one in 100 or 200 lies so near to a border between codes that
+    // this changes its code, but of 33,532 components less than a hundred keep the difference. With
+    // 8 bits it is one in 40,000.
     static int most_differing(int bits) { return bits > 8 ? 100 : 2; }
-    // Codes that are not the same, of 101 * 83 * 4.
+    // Returns the number of differing codes, of 101 * 83 * 4.
     int differing_of(const Scene& scene) const {
         return differing(project(mesh_, scene, cpu_capabilities()),
                          project(mesh_, scene, capabilities()));
@@ -77,8 +79,8 @@ TEST_F(TileCodes, DitheredTargets) {
 TEST_F(TileCodes, NativeTargets) {
     EXPECT_LE(differing_of(scene(Target::fixed8)), most_differing(8));
     EXPECT_LE(differing_of(scene(Target::fixed16)), most_differing(16));
-    // Truncated to 11 bits after each fragment: on a border as often as codes of 11 bits, but a
-    // step is not made good by those that follow.
+    // Values are truncated to 11 bits after each fragment. They are on a border as often as codes
+    // of 11 bits, and later fragments do not undo a difference.
     EXPECT_LE(differing_of(scene(Target::float16)), 1000);
 }
 

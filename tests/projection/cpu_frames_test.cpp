@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a picture of the cpu engine must not depend on, and what a frame must not take.
+// Pictures of the cpu engine must not depend on instruction sets or threads, and frames must not
+// allocate memory.
 #include <tbb/global_control.h>
 
 #include "projection_fixture.h"

@@ -25,7 +25,8 @@ TransferFunction of_one_color() {
                                      knot(.5, {.9, .5, .2}, 4), knot(1, {.9, .5, .2}, 1)});
 }
 
-// Of the largest difference in each pixel, full scale 1.
+// Statistics of the largest difference in each pixel, full scale being 1: its 99.9th percentile,
+// and the number of pixels above .001.
 struct Difference {
     double p999;
     int above_thousandth;
@@ -57,7 +58,7 @@ class TilePicture : public gl::GlTest {
         return scene;
     }
 
-    // With the same plan.
+    // Compares both engines' pictures of one plan.
     void expect_same(const Scene& scene, const ProjectPlan& plan, const std::string& name) const {
         const View view(*scene.camera, scene.width, scene.height);
         GlProjectRenderer shaders(mesh_, *scene.transfer_function, plan, capabilities(),
@@ -66,18 +67,20 @@ class TilePicture : public gl::GlTest {
         CpuProjectRenderer tiles(mesh_, *scene.transfer_function, plan, scene.width, scene.height);
         tiles.draw(view);
         const Difference found = difference(tiles.read(), shaders.read());
-        // A hundred fragments, each good to float32's rounding of a sum or two: the same formulas.
-        // But for the weights of coloured parts, good to 3e-5 as polynomials (front_weights.h):
-        // OpenGL chooses between these and the table for 64 parts at a time.
+        // Both engines have the same formulas; a pixel has a hundred fragments, each good to
+        // float32's rounding of a sum or two. The weights of coloured parts as polynomials are good
+        // to 3e-5 (front_weights.h): OpenGL chooses between these and the table for 64 parts at a
+        // time, the cpu engine for each.
         const bool weights = plan.source == SegmentSource::parts && !plan.single_color;
         EXPECT_LE(found.p999, weights ? 6e-5 : 1e-5) << name;
-        // Rays along silhouettes, where one engine finds a run and the other none: these have no
-        // length but where a record's numbers are rounded in different ways.
+        // Rays along silhouettes may have a segment in one engine and none in the other. It has
+        // length 0, unless a record's numbers are rounded differently.
         EXPECT_EQ(found.above_thousandth, 0) << name;
         EXPECT_EQ(tiles.tets_drawn() > 0, shaders.tets_drawn() > 0) << name;
     }
 
-    // As the scene asks, both projections, both thicknesses, faces in float and in double.
+    // Compares both engines with both projections, both thicknesses, and depths on faces in float32
+    // and in double precision.
     void expect_same(Scene scene, SegmentSource source, const std::string& name) const {
         TableCache tables;
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
@@ -133,8 +136,9 @@ TEST_F(TilePicture, CutTables) {
     expect_same(scene(of_one_color()), SegmentSource::cut_table, "one colour");
 }
 
-// Bilinear in 256 nodes: a cell's corner differs by some 1e-5 of its width where scalars do by
-// 4e-8, which changes what is looked up by as much of the change over the cell, at most 10 %.
+// Tables are bilinear in 64 nodes, so a difference of 4e-8 in a scalar is less than 1e-5 of a
+// cell's width, and changes the value by as much of the change over the cell, which is at most 10
+// %.
 TEST_F(TilePicture, Tables) {
     for (const bool colored : {true, false}) {
         for (const LengthMapping mapping :
@@ -166,8 +170,8 @@ TEST_F(TilePicture, TableFormats) {
     }
 }
 
-// Fragments are counted where a ray has a run, by OpenGL where the polygon around a tet covers a
-// pixel: up to 1/128 pixel more at each side of tets that are some pixels wide.
+// The cpu engine counts tets with a segment of length above 0, OpenGL those whose polygon covers a
+// pixel centre: up to 1/128 pixel more on each side of tets that are a few pixels wide.
 TEST_F(TilePicture, CountsAreAlike) {
     const Scene wanted = scene(crooked());
     const View view(*wanted.camera, wanted.width, wanted.height);

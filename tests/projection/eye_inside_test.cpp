@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small meshes from inside and from close by, where tets reach behind the eye and far beyond the
-// picture.
+// Small meshes seen from inside and from close by, when tets reach behind the eye and far beyond
+// the picture.
 #include <algorithm>
 
 #include "projection_fixture.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double most_extinction = 1.5;
 
-// Cubes of six tets, with corners moved by up to a tenth of an edge.
+// Returns a mesh of cubes of six tets, whose corners are moved by up to a tenth of an edge.
 SceneMesh random_mesh(const std::array<std::int32_t, 3>& cubes, std::mt19937& random) {
     std::uniform_real_distribution<double> value(0, 1), move(-.1, .1);
     MeshData data = test::kuhn_box(cubes, [&](const glm::dvec3&) { return value(random); });
@@ -26,7 +26,7 @@ SceneMesh random_mesh(std::mt19937& random) {
     return random_mesh({x, y, z}, random);
 }
 
-// Anywhere in a tet, or almost at one of its corners or faces.
+// Returns a point anywhere in a tet, or almost at one of its corners or faces.
 glm::dvec3 eye_in(const SceneMesh& mesh, std::mt19937& random) {
     std::exponential_distribution<double> share;
     const auto tets = mesh.mesh.tets();
@@ -60,7 +60,7 @@ Scene random_scene(const SceneMesh& mesh, std::mt19937& random) {
 }
 
 struct Errors {
-    double worst, most;  // of the worst pixel and of nine tenths, in 1/255
+    double worst, most;  // largest, and 90th percentile, of all channels, in 1/255
 };
 
 Errors errors(const Image& picture, const Image& reference) {
@@ -73,12 +73,14 @@ Errors errors(const Image& picture, const Image& reference) {
 
 class EyeInside : public ProjectionTest {
   protected:
-    // Nine tenths of the pixels have roundings of float32, at most 50 in an optical depth of at
-    // most 5, and what the weights of colours are off by, 2e-6 in at most 40 pieces, alone.
-    // Rasterisers put corners on a grid of 1/256 pixel, the cpu engine on one of 1/4096 (and
-    // places of float32 are as coarse): a centre that is nearer to a tet's outline may get the tet
-    // or miss it, with a run that is as short as it is near: of faces at least a pixel wide at most
-    // such a share of the longest edge, 1.9. Silhouettes depend on no grid.
+    // Nine tenths of the pixels have only two kinds of errors: roundings of float32, at most 50 in
+    // an optical depth of at most 5, and errors of the weights of colours, 2e-6 in at most 40
+    // pieces.
+    //
+    // The others are due to grids. Rasterisers put corners on a grid of 1/256 pixel, the cpu engine
+    // on one of 1/4096 (and float32 places are about as coarse). A pixel centre that is this near
+    // to a tet's outline may get the tet or miss it. Its segment is short: for faces at least a
+    // pixel wide at most the same share of the longest edge, 1.9. Silhouettes depend on no grid.
     void expect_the_tracers(const SceneMesh& mesh, Scene scene, int number) {
         const Image reference = trace(mesh, scene);
         const double exact = 255 * (5 * 50 * 6e-8 + 40 * 2e-6);
@@ -103,8 +105,9 @@ TEST_P(EyeInside, PicturesAreTheTracers) {
     }
 }
 
-// Three faces of each tet there are seen edge-on, and only ties decide which of them are fronts.
-// The corner lies inside the mesh: at one of its outside a picture jumps along lines.
+// The eye is at a corner of tets: three faces of each of these tets are seen edge-on, and only a
+// rule for ties decides which of them are fronts. The corner lies inside the mesh, because at one
+// on its surface the exact picture jumps along lines.
 TEST_P(EyeInside, AtACornerOfTetsPicturesAreTheTracers) {
     std::mt19937 random(10);
     for (int number = 0; number < 20; ++number) {
@@ -117,7 +120,8 @@ TEST_P(EyeInside, AtACornerOfTetsPicturesAreTheTracers) {
     }
 }
 
-// What is interpolated between three equal scalars need not equal them.
+// Interpolation between three equal scalars may give another number, which may be on the other side
+// of the step.
 TEST_P(EyeInside, TetsOfOneScalarAtAStepShowOneOfItsSides) {
     std::mt19937 random(11);
     for (int number = 0; number < 20; ++number) {

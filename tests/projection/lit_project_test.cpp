@@ -71,7 +71,7 @@ TEST_P(LitProjection, FineMeshesKeepMaxError) {
     keeps_max_error(scene_mesh(test::split_box(3, 1500, .05, waves)), 4, "split");
 }
 
-// Light turns around in single tets, which may be opaque.
+// In single tets, which may be opaque, light changes much.
 TEST_P(LitProjection, CoarseMeshesKeepMaxError) {
     keeps_max_error(scene_mesh(test::kuhn_box({1, 1, 1}, waves)), 1, "kuhn");
     keeps_max_error(scene_mesh(test::kuhn_box({1, 1, 1}, waves)), 200, "opaque kuhn");
@@ -85,9 +85,9 @@ TEST_P(LitProjection, TheEyeMayBeInside) {
     EXPECT_LE(linf(project(mesh, scene, capabilities()), trace(mesh, scene)), scene.max_error);
 }
 
-// Gradients at the points are good to 1e-12, and to float32 where a ray meets a tet: some 1e-5 of
-// their length, as no sliver of this mesh is thinner than 1 / 100. Light follows with a factor
-// below 10, and all else are sums of some hundred roundings.
+// Gradients at the points are good to 1e-12, and where a ray meets a tet to float32: some 1e-5 of
+// their length, as no sliver of this mesh is thinner than 1 / 100. Light multiplies this by less
+// than 10; all other errors are sums of some hundred roundings.
 TEST_P(LitProjection, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     const glm::dvec3 gradient(.5, .25, -.125);
     const SceneMesh mesh = scene_mesh(test::split_box(
@@ -110,7 +110,7 @@ TEST_P(LitProjection, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     }
 }
 
-// The same formulas, in another program on OpenGL.
+// The two pictures have the same formulas, but in OpenGL another program.
 TEST_P(LitProjection, AmbientAloneIsTheUnlitPicture) {
     const SceneMesh mesh = scene_mesh(test::split_box(6, 500, .1, waves));
     for (const Coloring coloring : {Coloring::preintegrated, Coloring::analytic}) {
@@ -122,7 +122,8 @@ TEST_P(LitProjection, AmbientAloneIsTheUnlitPicture) {
     }
 }
 
-// The tracer's pictures of both are the same (tests/reference/lit_mesh_test.cpp).
+// The picture stays the same if everything is turned and scaled; the tracer's does, too
+// (tests/reference/lit_mesh_test.cpp).
 TEST_P(LitProjection, EverythingTurnedAndScaled) {
     const glm::dmat3 turn({2. / 3, 1. / 3, 2. / 3}, {-2. / 3, 2. / 3, 1. / 3},
                           {-1. / 3, -2. / 3, 2. / 3});
@@ -141,7 +142,7 @@ TEST_P(LitProjection, EverythingTurnedAndScaled) {
     EXPECT_LE(linf(project(scene_mesh(turned), scene, capabilities()), truth), scene.max_error);
 }
 
-// The gradients of the whole mesh, linear in its tets, where the plane cuts these.
+// New points on the plane have gradients from those of the uncut mesh, linear in its tets.
 TEST_P(LitProjection, ClippedMeshesMeetTheTracer) {
     const auto mesh =
         std::make_shared<const SceneMesh>(scene_mesh(test::split_box(3, 300, .05, waves)));
@@ -155,7 +156,7 @@ TEST_P(LitProjection, ClippedMeshesMeetTheTracer) {
     }
 }
 
-// A tet with a NaN shows nothing, and its neighbours have the gradients of the others.
+// A tet with a NaN shows nothing, and its neighbours are lit by the gradients of the other tets.
 TEST_P(LitProjection, WhatIsNoNumberLeavesItsNeighboursLit) {
     MeshData data = test::split_box(6, 300, .1, waves);
     data.point_scalars[0].values[20] = NAN;
@@ -165,7 +166,7 @@ TEST_P(LitProjection, WhatIsNoNumberLeavesItsNeighboursLit) {
     EXPECT_LE(linf(project(mesh, scene, capabilities()), trace(mesh, scene)), scene.max_error);
 }
 
-// Their codes add half a code a tet, beside what light may be off by.
+// Roundings to codes add half a code a tet to the error of light.
 TEST_P(LitProjection, OtherTargetsAreLit) {
     const SceneMesh mesh = scene_mesh(test::kuhn_box({3, 3, 3}, waves));
     Scene scene = lit_scene(.7, directional());
@@ -200,8 +201,7 @@ TEST(LitTets, EveryInstructionSetGivesTheSameBits) {
     }
 }
 
-// Where all tets are opaque from their faces on, or gradients are all but 0, nothing is divided by
-// 0.
+// Nothing is divided by 0 if all tets are opaque from their faces on, or if gradients are nearly 0.
 TEST(LitTets, ExtremesAreNumbers) {
     const SceneMesh mesh = scene_mesh(test::kuhn_box(
         {2, 2, 2}, [](const glm::dvec3& p) { return p.x < 1.5 ? .5 : .5 + 1e-7 * p.y; }));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes with values far from all others, as those that mark missing data are, against the tracer.
+// Meshes with values far from all others, like those that mark missing data, against the tracer.
 #include "facts/drawn_range.h"
 #include "projection_fixture.h"
 #include "support/split_box.h"
@@ -13,7 +13,8 @@ double waves(const glm::dvec3& p) {
     return .5 + .5 * std::sin(5 * p.x + 3 * p.y * p.z);
 }
 
-// Points all over the field's values, of all colours. `beyond`: the extinction outside them.
+// Returns a transfer function with points all over the field's values, of random colours. `beyond`:
+// the extinction outside them.
 TransferFunction colorful(int points, double beyond) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> share(0, 1);
@@ -71,7 +72,8 @@ TEST_P(Markers, CostNoDigitsWithAnyColoring) {
     EXPECT_LE(error(mesh, scene), promised);
 }
 
-// Gradients around a marker are longer than others by as much as it is larger.
+// Gradients around a marker are longer than others by as much as the marker is larger than other
+// values.
 TEST_P(Markers, LeaveLightAsItIs) {
     for (const double marker : {-9999., 9.97e36}) {
         const SceneMesh mesh = marked_mesh(marker, 100);
@@ -82,7 +84,7 @@ TEST_P(Markers, LeaveLightAsItIs) {
     }
 }
 
-// A table's own error is what the plan says; scalars add no more than with other ways.
+// A table adds the error that the plan states; markers add no more than with other colourings.
 TEST_P(Markers, CostNoDigitsOfTables) {
     const SceneMesh mesh = marked_mesh(9.97e36, 100);
     Scene scene = marked_scene(colorful(12, 1));
@@ -90,11 +92,11 @@ TEST_P(Markers, CostNoDigitsOfTables) {
         TableSettings{.scalar = 512, .length = 32, .format = TableFormat::float32};
     const ProjectPlan plan = plan_of(mesh, scene, capabilities()).project;
     EXPECT_TRUE(plan.windowed);
-    // The table is tried on rays of the picture and tets of the mesh, which are a sample.
+    // The factor is for what the plan may miss: it tries the table only on some rays and tets.
     EXPECT_LE(error(mesh, scene), 1.5 * plan.trial_error.segments + promised);
 }
 
-// The window has no width of its own if nothing but a step shows.
+// If only a step shows, the window around the visible scalars would have no width.
 TEST_P(Markers, LeaveStepsWhereTheyAre) {
     for (const double marker : {-9999., 9.97e36}) {
         const SceneMesh mesh = marked_mesh(marker, 100);
@@ -104,7 +106,7 @@ TEST_P(Markers, LeaveStepsWhereTheyAre) {
     }
 }
 
-// Without values far away nothing is normalised otherwise than to the whole range.
+// Without values far away, scalars are normalised to the range of the mesh.
 TEST_P(Markers, ChangeNothingWhereThereAreNone) {
     const SceneMesh mesh = scene_mesh(test::split_box(5, 900, .02, waves));
     for (const int points : {4, 40}) {

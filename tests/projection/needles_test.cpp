@@ -7,7 +7,8 @@
 namespace lamina {
 namespace {
 
-// Between random points of the line x = y, z = 0, each off it by `width` or so.
+// Returns tets between random points of the line x = y, z = 0, each moved off the line by about
+// `width`.
 SceneMesh needles(std::size_t tets, double width) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> along(0, 1);
@@ -27,8 +28,8 @@ SceneMesh needles(std::size_t tets, double width) {
 
 class Needles : public ProjectionTest {};
 
-// With the programs for few tets and for many, which find faces in float32 where they can. A ray
-// meets a needle of width 1e-14 with a chance of some 1e-14 : 1 / 64.
+// Draws few tets, and so many that depths on faces are float32 if possible. A ray meets a needle of
+// width 1e-14 with a chance of some 1e-14 : 1 / 64.
 TEST_P(Needles, OfNoWidthShowNothing) {
     for (const std::size_t tets : {500u, 12000u}) {
         for (const double width : {0., 1e-16, 1e-14}) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tets cut at the transfer function's points, in meshes so large that the float32 programs are
-// used.
+// Tets cut at the transfer function's points, in meshes so large that depths on faces are float32.
 #include "projection/visible_parts.h"
 #include "projection_fixture.h"
 #include "support/split_box.h"
@@ -21,7 +20,7 @@ SceneMesh box() {
     return scene_mesh(std::move(data));
 }
 
-// A ramp, a peak, a gap, a step; the peak's parts are opaque where `height` is some 1000.
+// Returns a ramp, a gap, a peak and a step. Tets are opaque in a peak of a `height` of some 1000.
 TransferFunction crooked(double height) {
     return TransferFunction::linear({knot(0, {0, .2, 1}, .2), knot(.3, {0, 1, .3}, 1),
                                      knot(.4, {1, 1, 0}, 0), knot(.45, {1, 1, 0}, 0),
@@ -46,9 +45,9 @@ class Parts : public ProjectionTest {
     SceneMesh mesh_;
 };
 
-// The weights are off by 3e-5 in thin parts and 5e-4 in opaque ones, times what the colour changes
-// along the ray, of full scale some 6 times in thin parts and, until nothing is seen behind it,
-// once in an opaque peak: .05 + .13. Float32's rounding is far below.
+// The weights are off by 3e-5 in thin parts and 5e-4 in opaque ones, times the change of colour
+// along the ray: some 6 times full scale in thin parts and, until nothing is seen behind it, once
+// in an opaque peak. That makes .05 + .13. Float32's rounding is far below.
 TEST_P(Parts, AreExact) {
     const std::vector<glm::dvec3> eyes{{.5, .5, 3}, {2, 1.7, 1.4}, {-1.2, .4, .3}, {.42, .37, .55}};
     for (const double height : {3.0, 1000.0}) {
@@ -82,7 +81,8 @@ TEST_P(Parts, EyeOnASurfaceOfThePoints) {
     }
 }
 
-// Labels: what has the last one is constant there, and the later side of the step counts.
+// The field has labels, like a segmentation. The tets with the last one have a constant value, at
+// which the transfer function has a step: its later side counts.
 TEST_P(Parts, StepAtTheLargestValue) {
     MeshData data =
         test::kuhn_box({4, 4, 4}, [](const glm::dvec3& p) { return p.x < 2 ? 0. : 1.; });
@@ -94,8 +94,8 @@ TEST_P(Parts, StepAtTheLargestValue) {
     for (const Coloring coloring : {Coloring::preintegrated, Coloring::analytic}) {
         wanted.project.coloring = coloring;
         const Image drawn = project(mesh, wanted, capabilities());
-        // The step lies 1e-6 of the range beyond the end: 1e-6 of the edge of a tet that reaches
-        // it.
+        // The range ends 1e-6 of its width beyond the step, so the error is 1e-6 of the edge of a
+        // tet that reaches the step.
         EXPECT_LE(image_error(drawn, trace(mesh, wanted)).all.linf, 0.05);
     }
 }

@@ -58,7 +58,7 @@ TEST(ProjectPlan, ManyPointsAndTrianglesUseTables) {
         const double place = i / 199.0;
         knots.push_back(knot(place, {place, 1 - place, .5 + .5 * std::sin(60 * place)}, place));
     }
-    // Of few tets each may fill the picture: exact, whatever it takes.
+    // Each of few tets may fill the picture, so the integral is exact, at any cost.
     EXPECT_EQ(plan_for(TransferFunction::linear(knots)).project.source, SegmentSource::analytic);
     const SceneMesh large = scene_mesh(test::kuhn_box(
         {12, 12, 12}, [](const glm::dvec3& p) { return std::fmod(.3 * p.x + .7 * p.y, 1.0); }));
@@ -69,7 +69,8 @@ TEST(ProjectPlan, ManyPointsAndTrianglesUseTables) {
     capabilities.max_texture_size = 1024;
     const Plan many = plan_of(large, wanted, capabilities);
     EXPECT_EQ(many.project.source, SegmentSource::cut_table);
-    EXPECT_LE(many.project.trial_error.segments, .4);  // .5 less what sampling may miss
+    EXPECT_LE(many.project.trial_error.segments,
+              .4);  // most_segment_error over sampling_margin: .5 / 1.25
     const Plan triangles = plan_for(
         colored, [](Scene& scene) { scene.project.geometry = ProjectGeometry::triangles; });
     EXPECT_EQ(triangles.project.source, SegmentSource::cut_table);
@@ -89,14 +90,15 @@ TEST(ProjectPlan, GeometryFollowsInterpolation) {
     }
 }
 
-// Their opacity belongs to no depth that one could divide by.
+// An interpolated opacity belongs to no depth by which it could be divided.
 TEST(ProjectPlan, VertexColoursAreInterpolatedInThePicture) {
     const Plan plan =
         plan_for(colored, [](Scene& scene) { scene.project.coloring = Coloring::vertex; });
     EXPECT_EQ(plan.project.interpolation, Interpolation::linear);
 }
 
-// Nor are they one colour where what shows nothing has another, which they are mixed with.
+// Vertex and attenuation mix colours of visible scalars with those of transparent ones, so one
+// colour needs that these are equal, too.
 TEST(ProjectPlan, ColoursThatAreMixedAreOneWhereAllAreEqual) {
     const auto hidden = [](const glm::dvec3& color) {
         return TransferFunction::linear(

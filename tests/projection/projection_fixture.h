@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a mesh and a scene to the projected picture, by OpenGL or by the cpu engine, and to the
-// exact one.
+// Draws a mesh by projection, with OpenGL or the cpu engine, and by the reference tracer, for
+// comparison.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,8 @@ inline std::string engine_name(const testing::TestParamInfo<Engine>& info) {
 
 inline const auto both_engines = testing::Values(Engine::opengl, Engine::tiles);
 
-// For INSTANTIATE_TEST_SUITE_P(..., both_engines, engine_name): once with each.
+// Runs each test with OpenGL and with the cpu engine, by INSTANTIATE_TEST_SUITE_P(...,
+// both_engines, engine_name).
 class ProjectionTest : public gl::ContextTest<testing::TestWithParam<Engine>> {
   protected:
     void SetUp() override {
@@ -61,7 +62,7 @@ inline Plan plan_of(const SceneMesh& mesh, const Scene& scene, const Capabilitie
     return make_plan(scene, measure(scene, mesh), capabilities, omissions);
 }
 
-// By the engine whose capabilities these are. The mesh must outlive it.
+// Makes a renderer of the engine whose capabilities these are. The mesh must outlive it.
 inline std::unique_ptr<ProjectRenderer> make_renderer(const SceneMesh& mesh, const Scene& scene,
                                                       const Capabilities& capabilities,
                                                       const OmissionSwitch& omissions = {}) {
@@ -89,7 +90,7 @@ inline Image trace(const SceneMesh& mesh, const Scene& scene) {
                         .image);
 }
 
-// A random unit vector.
+// Returns a random unit vector.
 inline glm::dvec3 direction(std::mt19937& random) {
     std::normal_distribution<double> normal;
     const glm::dvec3 v(normal(random), normal(random), normal(random));

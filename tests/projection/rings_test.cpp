@@ -31,7 +31,7 @@ class Rings : public ProjectionTest {
     }
 };
 
-// Many colours, so that the order shows.
+// Returns many colours, so that a wrong order shows.
 TransferFunction colors() {
     return TransferFunction::linear({knot(0, {1, .1, 0}, 2), knot(.3, {0, 1, .2}, 9),
                                      knot(.7, {.1, 0, 1}, 4), knot(1, {1, 1, .3}, 12)});
@@ -69,7 +69,7 @@ std::vector<RingScene> ring_scenes() {
     return scenes;
 }
 
-// .05 / 255 is what float32 is promised to add (plan/project_planner.cpp).
+// Error, in 1/255, that float32 may add (float_error in plan/project_planner.cpp).
 constexpr double most = .05;
 
 TEST_P(Rings, AreDrawnAsTheTracerSeesThem) {
@@ -95,8 +95,8 @@ TEST_P(Rings, AreDrawnAsTheTracerSeesThem) {
     }
 }
 
-// Triangles are placed on a rasteriser's grid, and so is the order's difference: the same picture
-// with rings ordered tet by tet is far off.
+// Triangles are placed on a rasteriser's grid, so only means are compared: a picture in which rings
+// are not solved is far worse.
 TEST_P(Rings, AreDrawnByTrianglesToo) {
     for (const RingScene& each : ring_scenes()) {
         const SceneMesh mesh = scene_mesh(each.mesh);
@@ -117,12 +117,12 @@ TEST_P(Rings, AreTheSameInEveryTarget) {
     const Image exact = draw(mesh, scene).picture;
     for (const Target target : {Target::float16, Target::fixed16, Target::fixed8}) {
         scene.target = target;
-        // A pixel has three tets at most, whose parts are some ten fragments.
+        // A pixel has three tets at most, and their parts are some ten fragments.
         EXPECT_LE(image_error(draw(mesh, scene).picture, exact).all.linf, 10);
     }
 }
 
-// Where the mesh does not overlap itself, rays are right although it does elsewhere.
+// Rays on which no tets overlap are right, even if tets overlap elsewhere.
 TEST_P(Rings, OfAMeshThatOverlapsAreWrongOnOverlappingRaysAlone) {
     const char* const folder = std::getenv("LAMINA_DATA");
     if (folder == nullptr) GTEST_SKIP() << "needs LAMINA_DATA";

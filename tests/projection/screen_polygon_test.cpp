@@ -14,7 +14,7 @@
 namespace lamina {
 namespace {
 
-// How far a place lies inside the polygon; negative outside (by its winding number).
+// Returns how far a place lies inside the polygon (by its winding number); negative outside.
 double depth_in(const ScreenPolygon& polygon, const glm::dvec2& place) {
     double nearest = INFINITY, turn = 0;
     for (int i = 0; i < polygon.count; ++i) {
@@ -30,7 +30,7 @@ double depth_in(const ScreenPolygon& polygon, const glm::dvec2& place) {
     return turn > 3 ? nearest : -nearest;
 }
 
-// On the rasteriser's grid of 256 steps a pixel, and no corner turns the other way there.
+// Expects corners on the rasteriser's grid of 256 steps a pixel, and only left turns between edges.
 void expect_convex_on_grid(const ScreenPolygon& polygon) {
     for (int i = 0; i < polygon.count; ++i) {
         const auto corner = [&](int offset) {
@@ -42,9 +42,9 @@ void expect_convex_on_grid(const ScreenPolygon& polygon) {
     }
 }
 
-// Every point of the hull lies inside by the margin, but for the rounding of corners to the grid,
-// by up to half a step in both coordinates: .71 of margin / 2. So more than half of the margin is
-// left.
+// Every point of the hull lies inside by the margin, except for the rounding of corners to the
+// grid, by up to half a step in both coordinates, .71 of margin / 2. So it lies inside by more than
+// half of the margin.
 TEST(ScreenPolygon, SurroundsItsPoints) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -83,7 +83,8 @@ TEST(ScreenPolygon, NothingWithoutAPixelCentre) {
     EXPECT_GE(surround(point, 1.0 / 128, 800, 600).count, 3);
 }
 
-// What sticks far out is cut, and keeps what it covers of the picture.
+// A polygon that reaches far beyond the picture is cut, and still covers the same pixels of the
+// picture.
 TEST(ScreenPolygon, HugePolygons) {
     const std::vector<glm::dvec2> points{{-1e9, -1e9}, {1e9, -1e9}, {300, 400}};
     const ScreenPolygon polygon = surround(points, 1.0 / 128, 800, 600);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What integrates a fragment's segment in GLSL gives the numbers of optics/.
+// GLSL integrates a fragment's segment with the numbers of its twins in optics/ and
+// preintegration/.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -33,7 +34,8 @@ Image run(gl::Program& program) {
     return target.read_back();
 }
 
-// The scalars at the front (by column) and at the back (by row) of a pixel, exact in float32.
+// The scalars of a pixel's segment, at the front (by column) and at the back (by row), exact in
+// float32.
 struct Scalars {
     double front, back;
 };
@@ -140,7 +142,8 @@ void compare_table(const TableCase& wanted) {
             }
         }
         // Node coordinates near 64 in float32 are good to 4e-6 of a cell, over which alpha changes
-        // by less than the step's 1, and the layer's coordinate to 1e-6; the rest is rounding.
+        // by at most 1, at the step, and the layer's coordinate is good to 1e-6; all else is
+        // rounding.
         EXPECT_LE(worst, 1e-5) << "length " << length;
     }
 }
@@ -200,13 +203,14 @@ TEST_F(SegmentTwins, FrontWeightsArePieceWeights) {
         const double p = image.rgba[i], q = image.rgba[i + 1];
         const double front = image.rgba[i + 2], back = image.rgba[i + 3] - front;
         const PieceWeights expected = piece_weights(p, q);
-        // 2e-6 of the rule (measured in double precision over 300 x 61 pieces, the worst one at q =
-        // 0 and depth 12) and a few float32 roundings of numbers up to 1.
+        // The bound is 2e-6 of the quadrature rule (measured in double precision over 300 x 61
+        // pieces, the worst one at q = 0 and depth 12) and a few float32 roundings of numbers up to
+        // 1.
         EXPECT_NEAR(front, expected.front, 3e-6) << p << " " << q;
         EXPECT_NEAR(back, expected.back, 3e-6) << p << " " << q;
         if (p + q > 2) continue;
-        // The rule is exact here to 2e-10 of the result. Opacities are good to 4e-7, each; back is
-        // the difference of two numbers up to 3.7 and 2.7 times as large.
+        // For such depths the rule is exact to 2e-10 of the result. Opacities are good to 4e-7,
+        // each; back is the difference of two numbers up to 3.7 and 2.7 times as large.
         EXPECT_NEAR(front, expected.front, 1e-6 * expected.front) << p << " " << q;
         EXPECT_NEAR(back, expected.back, 3e-6 * expected.back) << p << " " << q;
     }
@@ -245,7 +249,7 @@ TEST_F(SegmentTwins, LinearSegmentsLookUpFrontWeights) {
                 thin ? thin_front_weight(p, q) : FrontWeightTable::get().lookup(p, q);
             const double back = opacity_from_depth(p / 2 + q / 2) - front;
             // Node coordinates near 255 are good to 3e-5 of a cell, over which the weight changes
-            // by less than .01; the rest is rounding.
+            // by less than .01; all else is rounding.
             EXPECT_NEAR(image.rgba[i + 2], front, 2e-6) << p << " " << q;
             EXPECT_NEAR(image.rgba[i + 3], back, 2e-6) << p << " " << q;
         }
@@ -271,7 +275,8 @@ IntervalTextures upload(const ShaderIntervals& from) {
     return textures;
 }
 
-// Largest difference from integrate_segment of any pixel and channel, or infinity for a NaN.
+// Returns the largest difference from integrate_segment() of any pixel and channel; infinity for a
+// NaN.
 double worst_analytic(const TransferFunction& transfer_function, bool colored, float length) {
     const IntervalTextures textures =
         upload(make_intervals(pieces_between(transfer_function, 0, 1, false), {0, 1}, {}, 0));
@@ -306,7 +311,8 @@ double worst_analytic(const TransferFunction& transfer_function, bool colored, f
     return worst;
 }
 
-// Points at multiples of 1/32, which float32 holds exactly; a ramp, a peak, a gap and a step.
+// Returns a transfer function with points at multiples of 1/32, which float32 holds exactly: a
+// ramp, a peak, a gap and a step.
 TransferFunction crooked(double scale, bool colored) {
     const glm::dvec3 grey(.75, .5, .25);
     const auto color = [&](const glm::dvec3& other) { return colored ? other : grey; };
@@ -321,8 +327,8 @@ TEST_F(SegmentTwins, AnalyticSegmentsAreIntegrateSegment) {
     for (const bool colored : {true, false}) {
         const TransferFunction transfer_function = crooked(1, colored);
         for (const float length : {1e-4f, .35f, 4.0f, 100.0f}) {
-            // 3e-6 of the weights (the test above), of which those of a segment's pieces add up to
-            // less than 1, and some roundings.
+            // The bound is 3e-6 of the weights (FrontWeightsArePieceWeights), as those of a
+            // segment's pieces add up to less than 1, and some roundings.
             EXPECT_LE(worst_analytic(transfer_function, colored, length), 4e-6) << length;
         }
     }

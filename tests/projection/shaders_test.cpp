@@ -123,7 +123,7 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
     }
     for (const ProjectPlan& plan : output_plans())
         compile(plan, SegmentSource::table, false, true, 4);
-    for (ProjectPlan plan : output_plans()) {  // of leaves, for every source of one colour
+    for (ProjectPlan plan : output_plans()) {  // leaves of trees, with every source in one colour
         plan.tree = {4};
         for (const SegmentSource source : sources) compile(plan, source, true, true, 1);
     }

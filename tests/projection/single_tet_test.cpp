@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One tet in all poses against the exact tracer: the arithmetic of projection by itself.
+// One tet in all poses against the reference tracer: tests the arithmetic of projection by itself.
 #include <glm/geometric.hpp>
 
 #include "projection_fixture.h"
@@ -7,8 +7,8 @@
 namespace lamina {
 namespace {
 
-// In 1/255. Float32 leaves some 1e-6 in the length and in the exponential, 3e-4 / 255 each; the
-// rest is the table's.
+// Largest error, in 1/255. Float32 errs by some 1e-6 in the length and in the exponential, 3e-4 /
+// 255 each; all else is for the error of the table of front weights.
 constexpr double bound = 0.05;
 
 MeshData tet(const std::array<glm::dvec3, 4>& points, const std::array<double, 4>& scalars) {
@@ -23,13 +23,13 @@ TransferFunction constant(double extinction) {
     return TransferFunction::linear({knot(0, {1, .7, .3}, extinction)});
 }
 
-// One linear piece of extinction and one colour: opacity has a closed form.
+// Returns one linear piece of extinction, of one colour: opacity has a closed form.
 TransferFunction ramp(double extinction) {
     return TransferFunction::linear({knot(0, {1, .7, .3}, 0), knot(1, {1, .7, .3}, extinction)});
 }
 
-// Colours that change, a narrow peak, a gap and a step inside the scalars of most tets, so that
-// they are drawn in parts.
+// Returns changing colours, a narrow peak, a gap and a step inside the scalars of most tets, so
+// that these are drawn in parts.
 TransferFunction crooked(double extinction) {
     return TransferFunction::linear(
         {knot(0, {0, .2, 1}, .2 * extinction), knot(.3, {0, 1, .3}, .5 * extinction),
@@ -67,7 +67,7 @@ TEST_P(SingleTet, RandomPosesFillingTheView) {
             scalars[i] = uniform(random);
         }
         const SceneMesh mesh = scene_mesh(tet(points, scalars));
-        // Eyes from .6 to 1e4 edge lengths, the view just around the tet.
+        // The eye is .6 to 1e4 edge lengths away, and the picture just holds the tet.
         const double distance = 0.6 * std::pow(1e4 / 0.6, uniform(random));
         const double extinction = 5 * uniform(random);
         Scene scene = scene_of(distance * direction(random), glm::dvec3(0), direction(random),
@@ -87,8 +87,8 @@ TEST_P(SingleTet, RandomPosesFillingTheView) {
     }
 }
 
-// docs/numerics.md, section 7, with points, edges and faces exactly on pixel centres and between
-// them.
+// The poses of docs/numerics.md, section 7, with points, edges and faces exactly on pixel centres
+// (65 pixels) and between them.
 TEST_P(SingleTet, DegeneratePoses) {
     const std::array<double, 4> scalars{0, 1, .5, .25};
     const SceneMesh corner =
@@ -134,9 +134,9 @@ TEST_P(SingleTet, DegeneratePoses) {
     }
 }
 
-// Both geometries are exact, but that the triangles' corners are moved to the rasteriser's grid: by
-// 1/512 pixel in each direction, which shifts the picture of the tet by as much: up to
-// 1.5 / 512 of the change from pixel to pixel, which here is below 255 / 20.
+// Both geometries are exact, but the triangles' corners are rounded to the rasteriser's grid, by up
+// to 1/512 pixel in each direction. This shifts the picture of the tet by as much, and so changes a
+// pixel by up to 1.5 / 512 of the change from pixel to pixel, which is below 255 / 20.
 TEST_P(SingleTet, TrianglesAgree) {
     std::mt19937 random(7);
     for (int pose = 0; pose < 20; ++pose) {

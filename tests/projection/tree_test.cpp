@@ -9,10 +9,12 @@ namespace {
 
 class TetTree : public ProjectionTest {
   protected:
-    // A box of constant scalar with 8 cells along an edge: opacity 1 - exp(-extinction * chord).
+    // A box of constant scalar with 8 cells along an edge; a ray's opacity is 1 - exp(-extinction *
+    // chord).
     TetTree() : mesh_(scene_mesh(test::kuhn_box({8, 8, 8}, [](const auto&) { return 0.0; }))) {}
 
-    // White; the box's diagonal, no shorter than any chord, has optical depth `depth`.
+    // Returns a white scene; the box's diagonal, no shorter than any chord, has optical depth
+    // `depth`.
     Scene scene(Target target, double depth) const {
         Scene scene = projection_scene(
             TransferFunction::linear({knot(0, {1, 1, 1}, depth / (8 * std::sqrt(3.0)))}), 64, 48);
@@ -35,11 +37,12 @@ class TetTree : public ProjectionTest {
     SceneMesh mesh_;
 };
 
-// In codes of 16 bits. A ray meets at most F = 72 tets: 27 planes x, y, z = const and 45 x - y, y -
-// z, x - z = const cut the box. OVER in a leaf is off by e: .5 for opacity and .5 for the result, 1
-// for a result rounded by chance, 1.5 for opacity rounded by chance and then the result. The
-// swizzle has the slope s e^(x (1 - s)), s = 1/8 the share and x the child's multiplied depth, at
-// most 64 D in leaves and 8 D in nodes; it and OVER round by .5 each. The root is off by at most
+// The bound is in codes of 16 bits. A ray meets at most F = 72 tets: 27 planes x, y, z = const and
+// 45 x - y, y - z, x - z = const cut the box. Each OVER in a leaf is off by e: .5 for opacity and
+// .5 for the result, 1 for a result rounded by chance, 1.5 for opacity rounded by chance and then
+// the result. The swizzle of a child into its parent has the slope s e^(x (1 - s)), with the share
+// s = 1/8 and the child's multiplied depth x, at most 64 D in leaves and 8 D in nodes, D being the
+// box's depth; it and OVER round by .5 each. The root is off by at most
 //     F e / 64 e^((56 + 7) D) + 8 e^(7 D) + 8.
 // A leaf's error of F moves x by .004 (D = .02): another half percent of the first term.
 TEST_P(TetTree, IsAsPreciseAsItsNodes) {
@@ -62,7 +65,8 @@ TEST_P(TetTree, IsAsPreciseAsItsNodes) {
 }
 
 // Native blending rounds opacity to nearest and fuses (docs/numerics.md, section 2), as this
-// emulation, but for sums half-way between codes: both stay within the bound above, for e = 1.
+// emulation does, except for sums half-way between codes. Both stay within the bound of
+// IsAsPreciseAsItsNodes, for e = 1.
 TEST_P(TetTree, EmulatedNodesAreAsNativeOnes) {
     const double depth = .02;
     Scene emulated = with_tree(scene(Target::emulated, depth), {8, 8});
@@ -72,23 +76,24 @@ TEST_P(TetTree, EmulatedNodesAreAsNativeOnes) {
               2 * codes / 257);
 }
 
-// One leaf holds everything, times 1; white is its own opacity.
+// One leaf holds all tets, and its depths are multiplied by 1. The opacity of a node times white is
+// the picture itself.
 TEST_P(TetTree, OfOneLeafIsThePlainPicture) {
     Scene plain = scene(Target::fixed8, 2);
     plain.project.order = ProjectOrder::exact;
     EXPECT_EQ(error(with_tree(plain, {1}), plain).linf, 0);
 }
 
-// Tets of less than half a code vanish from a buffer of 8 bits and others become a whole one; in
-// leaves they are four times as dense. The bound above for one level, 72 / 4 e^(3 D) + 4, says less
-// than this: roundings of tets that differ average out.
+// In a buffer of 8 bits, tets of less than half a code vanish and others become a whole code; in
+// leaves they are four times as dense. The bound of IsAsPreciseAsItsNodes for one level, 72 / 4
+// e^(3 D) + 4, is weaker than this test's, because roundings of tets that differ average out.
 TEST_P(TetTree, PaysWhereTetsAreThin) {
     const Scene exact = scene(Target::float32, .1);
     const Scene plain = scene(Target::fixed8, .1);
     EXPECT_LE(error(with_tree(plain, {4}), exact).l2, .5 * error(plain, exact).l2);
 }
 
-// Buffers of one frame do not reach into the next.
+// Nothing of one frame's buffers shows in the next frame.
 TEST_P(TetTree, FramesAreAlike) {
     const Scene wanted = with_tree(scene(Target::fixed8, 1), {5, 3});
     const Plan plan = plan_of(mesh_, wanted, capabilities());

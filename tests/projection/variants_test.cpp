@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each remedy switched off gives its artifact (Kraus 2004, section 5), and the variants agree where
-// they must.
+// Pictures without one remedy have its artifact (Kraus 2004, section 5), and variants agree if they
+// must.
 #include "projection_fixture.h"
 #include "support/split_box.h"
 
@@ -34,8 +34,8 @@ class Variants : public ProjectionTest {
     SceneMesh mesh_;
 };
 
-// The weights' error, .005 / 255, times what the colour changes along a ray, some twice the way
-// from blue to red; opacities are good to float32's rounding.
+// The bound is the weights' error, .005 / 255, times the change of colour along a ray, which is
+// some twice that from blue to red; opacities are good to float32's rounding.
 TEST_P(Variants, DefaultIsExact) {
     Scene wanted = scene();
     const ErrorNorms error =
@@ -47,7 +47,8 @@ TEST_P(Variants, DefaultIsExact) {
 TEST_P(Variants, AnalyticIsExact) {
     Scene wanted = scene();
     wanted.project.coloring = Coloring::analytic;
-    // 3e-6 a tet (shaders/optics/piece_weights.glsl), a hundred of them: .08 / 255 at most.
+    // The error is 3e-6 a tet (shaders/optics/piece_weights.glsl), of which a ray meets a hundred:
+    // .08 / 255 at most.
     EXPECT_LE(l2(wanted), 0.02);
 }
 
@@ -72,7 +73,8 @@ TEST_P(Variants, EightBitTableIsWorse) {
 }
 
 TEST_P(Variants, EightBitTargetIsWorseThanDitheredThanFloat) {
-    // Total opacity below .5, as the paper's pictures (dense ones hide what lies behind).
+    // The total opacity is below .5, as in the paper's pictures: dense ones hide errors in what
+    // lies behind.
     Scene exact = scene(TransferFunction::linear(
         {knot(0, {.1, .2, .9}, .02), knot(.5, {.2, .9, .3}, .1), knot(1, {.9, .3, .1}, .2)}));
     Scene fixed8 = exact;
@@ -86,12 +88,13 @@ TEST_P(Variants, EightBitTargetIsWorseThanDitheredThanFloat) {
     EXPECT_GT(l2(fixed8), l2(after));
 }
 
-// Steps and narrow peaks; vertex and mean colouring are what they are: coarse.
+// Steps and narrow peaks are exact if tets are cut at the transfer function's points; vertex and
+// mean colouring are coarse.
 TEST_P(Variants, PeaksAreExactInParts) {
     Scene peak = scene(TransferFunction::linear(
         {knot(.48, {1, 1, 1}, 0), knot(.5, {1, .8, .2}, 200), knot(.52, {1, .2, .1}, 0),
          knot(.7, {0, .2, 1}, 0), knot(.7, {0, .2, 1}, 4)}));
-    // Weights of opaque peaks are off by up to .13 / 255, the parts' cuts by float32's rounding.
+    // Weights of opaque peaks are off by up to .13 / 255, cuts of tets by float32's rounding.
     EXPECT_LE(image_error(project(mesh_, peak, capabilities()), trace(mesh_, peak)).all.linf, 0.5);
     const double exact = l2(peak);
     for (const Coloring coloring : {Coloring::vertex, Coloring::attenuation}) {
@@ -112,8 +115,8 @@ TEST_P(Variants, AfterBlendIsUnbiased) {
     EXPECT_LE(std::abs(error.mean), 0.3);
 }
 
-// Nothing that is left out changes the picture by more than float32's rounding of some hundred
-// OVERs and lengths: 100 * 1.2e-7 * 255 = .003.
+// Omissions change the picture by no more than float32's rounding of some hundred OVERs and
+// lengths: 100 * 1.2e-7 * 255 = .003.
 TEST_P(Variants, OmissionsKeepThePicture) {
     OmissionSwitch nothing;
     nothing.none = true;
@@ -130,9 +133,9 @@ TEST_P(Variants, OmissionsKeepThePicture) {
     }
 }
 
-// Native blending rounds alpha to nearest and fuses (docs/numerics.md, section 2, llvmpipe), but it
-// is given associated colours, rounded once more: by less than a code of 65535 at each of some
-// hundred tets.
+// Native blending rounds alpha to nearest and fuses (docs/numerics.md, section 2, llvmpipe). But it
+// gets associated colours, which are rounded once more: by less than a code of 65535 at each of
+// some hundred tets.
 TEST_P(Variants, EmulatedAgreesWithFixed16) {
     Scene native = scene();
     native.target = Target::fixed16;

@@ -7,7 +7,7 @@
 namespace lamina {
 namespace {
 
-// Everything `size` times as large, with as much opacity.
+// Returns the mesh `size` times as large; resized() gives it the same opacity.
 SceneMesh resized_mesh(double size) {
     MeshData data =
         test::split_box(4, 60, .05, [](const glm::dvec3& p) { return p.x * p.y + .5 * p.z; });
@@ -68,7 +68,7 @@ TEST_P(ProjectedWorldSizes, GalaxiesAndAtomsAreTheTracers) {
     for (const double size : {1e-58, 1e-31, 1e21, 1e58}) {
         const SceneMesh mesh = resized_mesh(size);
         const Scene scene = resized(scenes().front(), size);
-        // Some 30 tets on a ray, each good to 1e-6 of its opacity and colour.
+        // A ray meets some 30 tets, each good to 1e-6 of its opacity and colour.
         EXPECT_LE(image_error(project(mesh, scene, capabilities()), trace(mesh, scene)).all.linf,
                   255 * 3e-5)
             << size;

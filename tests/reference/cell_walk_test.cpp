@@ -28,8 +28,8 @@ struct Passed {
 };
 using PassedCells = std::vector<Passed>;
 
-// Chords through the box, many of them along axes, in planes between cells, or through edges of
-// cells.
+// Returns a random chord through the box: many are along axes, in planes between cells, or through
+// edges of cells.
 Chord random_chord(const Grid& grid, Random& random) {
     const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
     glm::dvec3 a = lowest + random.point(0, 1) * (highest - lowest);
@@ -88,8 +88,8 @@ void take(CellBatch& batch, PassedCells& passed) {
     batch.count = 0;
 }
 
-// All chords, each in the first lane that is free. Batches are of any size; every seventh chord
-// stops after its first batch.
+// Returns the cells that walk_cells() passes for each chord. Each chord takes the first free lane.
+// Batches are of any size; every seventh chord stops after its first batch.
 std::vector<PassedCells> passed_side_by_side(const GridAxes& grid, const VisibleCells& visible,
                                              const std::vector<Chord>& chords, Random& random) {
     std::vector<PassedCells> passed(chords.size());
@@ -120,7 +120,7 @@ std::vector<PassedCells> passed_side_by_side(const GridAxes& grid, const Visible
     return passed;
 }
 
-// A box with specks of something in it.
+// Compares both walks in a box in which a number of samples (specks) show something.
 void test_walks(const std::array<std::int64_t, 3>& size, Centering centering, int specks) {
     Random random(8);
     const Grid grid = make_grid(size, centering);
@@ -144,7 +144,7 @@ void test_walks(const std::array<std::int64_t, 3>& size, Centering centering, in
         const auto found = passed_side_by_side(GridAxes(grid), visible, chords, sizes);
         for (std::size_t i = 0; i < chords.size(); ++i) {
             PassedCells wanted = expected[i];
-            if (i % 7 == 6) {  // it was stopped
+            if (i % 7 == 6) {  // the walk was stopped after its first batch
                 ASSERT_EQ(found[i].empty(), wanted.empty()) << name << ", chord " << i;
                 wanted.resize(found[i].size());
             }
@@ -153,8 +153,7 @@ void test_walks(const std::array<std::int64_t, 3>& size, Centering centering, in
     });
 }
 
-// They pass the cells that a walk alone passes and that may show something, with the same
-// parameters.
+// Lanes pass those cells of CellWalk that may be visible, with the same parameters.
 TEST(CellLanes, PassTheCellsOfAWalkAlone) {
     test_walks({40, 33, 25}, Centering::cell, 30);
     test_walks({40, 33, 25}, Centering::node, 400);

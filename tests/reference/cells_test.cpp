@@ -36,8 +36,9 @@ bool meets(const CellCorners& corners, const std::vector<std::pair<double, doubl
                                [&](const auto& r) { return r.first <= hi && lo <= r.second; });
 }
 
-// In batches of every size the segments are those of the cells, one by one, that have only finite
-// corners and meet a range of the function; a constant cell is exactly constant.
+// Expects, for batches of every size, one segment for each cell that has only finite corners and
+// meets a range of the function, as CellCorners computes it. A constant cell must be exactly
+// constant.
 void test_batches(const std::vector<std::pair<double, double>>& ranges, Random& random) {
     const TransferIntervals intervals(visible_in(ranges));
     for (std::size_t count = 1; count <= CellBatch::capacity; ++count) {
@@ -54,7 +55,7 @@ void test_batches(const std::vector<std::pair<double, double>>& ranges, Random& 
             if (i % 7 == 6) values.v[i % 8] = i % 2 == 0 ? NAN : INFINITY;
             const double from = random.uniform(0, 9), to = from + random.uniform(0, 2);
             const glm::dvec3 at = chord.entry + from * chord.direction;
-            // Also the half voxels before the first samples.
+            // Cells include the half voxels before the first samples.
             cells.add({static_cast<std::int64_t>(std::floor(at.x)) - random.below(2),
                        static_cast<std::int64_t>(std::floor(at.y)),
                        static_cast<std::int64_t>(std::floor(at.z))},
@@ -78,7 +79,8 @@ void test_batches(const std::vector<std::pair<double, double>>& ranges, Random& 
             const Cubic expected = corners[i].along(chord.place_in_cell(corner, cells.from[i]),
                                                     along * chord.direction);
             for (std::size_t power = 0; power < 4; ++power) {
-                // Sums of some eight products of values up to 512 times 8 and steps up to 2.
+                // Rounding: sums of some eight products of values up to 512 times 8 and steps up to
+                // 2.
                 EXPECT_NEAR(segments.scalar[power][segment], expected.c[power], 4e-11);
                 if (i % 5 == 4 && power > 0) {
                     EXPECT_EQ(segments.scalar[power][segment], 0);
@@ -104,7 +106,7 @@ TEST(CellBatch, SegmentsAreThoseOfSingleCells) {
     test_batches(many, random);
 }
 
-// Inside the volume, and in the half voxels around it.
+// Tests cells inside the volume and in the half voxels around it.
 template <typename Sample>
 void test_fetch(Random& random) {
     const Grid grid = reference_test::make_grid({5, 1, 4}, Centering::cell, {1, 1, 1});

@@ -22,7 +22,7 @@ using namespace reference_test;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double relative_tolerance =
-    1e-14;  // the header promises 1e-15; world_length multiplies by a rounded norm
+    1e-14;  // chord.h promises 1e-15; world_length() multiplies by a rounded norm
 
 void expect_relative(double found, double expected) {
     EXPECT_LE(std::abs(found - expected), relative_tolerance * std::abs(expected))
@@ -66,9 +66,9 @@ TEST(Chord, BoxIsClosed) {
     EXPECT_EQ(clip_to_box(grid, {{-1, 1, 1}, {1, -1, 0}}).world_length(), 0.0) << "only a corner";
 }
 
-// A ray that cuts off a corner of the box at a distance: through (2 - e, 2) and out at x = 2, so
-// that length_z is e. All numbers are dyadic, hence exact; the plain (plane - origin) / direction
-// would lose 1e-16 * distance / e.
+// A ray that cuts off a corner of the box, seen from `distance`: it passes (2 - e, 2) and leaves at
+// x = 2, so that length_z is e. All numbers are dyadic, hence exact. Plain (plane - origin) /
+// direction would have a relative error of 1e-16 * distance / e.
 TEST(Chord, SliversSeenFromAfarKeepAllDigits) {
     const Grid grid = make_grid({3, 3, 3}, Centering::node);
     for (const double distance : {4.0, 1024.0, 1048576.0}) {
@@ -102,9 +102,9 @@ TEST(Chord, EntryIsOnTheBox) {
     }
 }
 
-// Through the middle of a rotated box, along a direction with components a, b, c in the box's own
-// axes, the chord is min(size / |component|). The rotation (1, 2, 2; 2, 1, -2; 2, -2, 1) / 3 is
-// exact but for the factor 1/3 in the steps.
+// A chord through the middle of a rotated box, along a direction with components a, b, c in the
+// box's own axes, is min(size / |component|) long. The rotation (1, 2, 2; 2, 1, -2; 2, -2, 1) / 3
+// is exact but for the factor 1/3 in the steps.
 TEST(Chord, RotatedBoxThroughItsMiddle) {
     Grid grid;
     grid.size = {17, 9, 5};
@@ -123,8 +123,7 @@ TEST(Chord, RotatedBoxThroughItsMiddle) {
         for (int axis = 0; axis < 3; ++axis) {
             expected = std::min(expected, extent[axis] / (3 * std::abs(local[axis])));
         }
-        // The ray itself was rounded when it was made: relative to its length of 64, not to the
-        // chord.
+        // The ray itself is rounded relative to its length of 64, not to the chord's.
         EXPECT_NEAR(clip_to_box(grid, ray).length_z, expected,
                     64 * 8 * 2.3e-16 / glm::length(local));
     }
@@ -141,7 +140,7 @@ TEST(Chord, ViewAndRayAgree) {
     EXPECT_GT(chord_length(grid, view, 9.5, 4.5), 1.0);
 }
 
-// The chord of a box along the world's axes, in plain steps.
+// Clips a ray to a box along the world's axes, in plain steps.
 Chord clip_simply(const Grid& grid, const View::Ray& ray) {
     const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
     DoubleDouble position[3], slope[3], from, to{INFINITY, 0};
@@ -175,8 +174,8 @@ Chord clip_simply(const Grid& grid, const View::Ray& ray) {
     return chord;
 }
 
-// Chords of rays together, in each instruction set, are those of rays alone, bit for bit: through
-// the box and beside it, along its axes, and cut by half-spaces.
+// Clips many rays together in each instruction set, and expects the chords of single rays, bit for
+// bit: through the box and beside it, along its axes, and cut by half-spaces.
 TEST(Chord, OfManyRaysAreThoseOfEachAlone) {
     Random random(5);
     Grid grid = make_grid({7, 5, 9}, Centering::cell, {.3, 1.7, .9});
@@ -217,7 +216,7 @@ TEST(Chord, OfManyRaysAreThoseOfEachAlone) {
             if (!cut.empty()) return;
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const auto expected = bits(clip_simply(grid, rays[i])), found = bits(together[i]);
-                // Both are rounded once from numbers of some 30 digits.
+                // Both numbers are rounded once from numbers of some 30 digits.
                 for (std::size_t k = 0; k < found.size(); ++k)
                     ASSERT_NEAR(found[k], expected[k], epsilon * std::abs(expected[k]))
                         << name << ", ray " << i;

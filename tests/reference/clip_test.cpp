@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clipped volumes and meshes: closed forms, and volumes that are cropped instead.
+// Tests clipped volumes and meshes against closed forms, and against volumes that are cropped
+// instead.
 #include "support/clips.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,8 @@ std::vector<View> views() {
     return found;
 }
 
-// Both lengths come from the same exact numbers: a few epsilons of the distance, up to 4.
+// Largest difference of lengths that come from the same exact numbers: a few epsilons of the
+// distance, up to 4.
 constexpr double length_error = 1e-14;
 
 TEST(ClippedTracer, ChordsEndAtThePlanes) {
@@ -52,7 +54,7 @@ TEST(ClippedTracer, ChordsEndAtThePlanes) {
     }
 }
 
-// As HomogeneousMeshesEqualTheClosedForm in mesh_tracer_test.cpp.
+// The same test as in mesh_tracer_test.cpp, with clips.
 TEST(ClippedTracer, HomogeneousMeshesEqualTheClosedForm) {
     const MeshData data = test::split_box(3, 4000, 1e-3, [](const glm::dvec3&) { return .25; });
     const TetMesh mesh(data, "test");
@@ -75,7 +77,8 @@ TEST(ClippedTracer, HomogeneousMeshesEqualTheClosedForm) {
     }
 }
 
-// A linear field and a ramp of four pieces: what is left of a ray is one segment in closed form.
+// In a linear field with a ramp of four pieces, the kept part of a ray is one segment in closed
+// form.
 TEST(ClippedTracer, LinearFieldsEqualOneSegment) {
     const auto field = [](const glm::dvec3& p) { return .5 * p.x + .3 * p.y + .2 * p.z; };
     const auto transfer = TransferFunction::linear({{0, {glm::dvec3(.1, .8, 0), 0}},
@@ -108,8 +111,8 @@ TEST(ClippedTracer, LinearFieldsEqualOneSegment) {
                         ASSERT_NEAR(of_mesh.image.pixel(x, y)[c], value,
                                     of_mesh.error_estimate + 1e-13)
                             << named.name;
-                        // Samples are float32: off by 6e-8 of a range over which extinction
-                        // changes by 6 and colour by 1.
+                        // Samples are float32, so values are off by 6e-8 of a range over which
+                        // extinction changes by 6 and colour by 1.
                         ASSERT_NEAR(of_volume.image.pixel(x, y)[c], value, 1e-9 + 6 * 2 * 6e-8)
                             << named.name;
                     }
@@ -119,7 +122,7 @@ TEST(ClippedTracer, LinearFieldsEqualOneSegment) {
     }
 }
 
-// A clip along planes of samples leaves what a volume of these samples alone is.
+// A volume clipped along planes of samples must look like one that has only the kept samples.
 TEST(ClippedTracer, ClippedNoiseIsCroppedNoise) {
     std::array<double, 7 * 6 * 8> values{};
     std::mt19937 random(5);

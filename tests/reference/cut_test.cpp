@@ -19,7 +19,8 @@ using reference_test::Random;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// None of the knots is on a line with its neighbours; of every fifth interval nothing shows.
+// Makes a function with these knots, none on a line with its neighbours; every fifth interval shows
+// nothing.
 TransferFunction function_of(const std::vector<double>& knots, std::size_t shift) {
     std::vector<TransferKnot> given;
     for (std::size_t i = 0; i < knots.size(); ++i) {
@@ -49,7 +50,7 @@ std::vector<std::vector<double>> sets_of_knots() {
             any};
 }
 
-// The pieces of a segment, front to back.
+// Returns the pieces of a segment, front to back.
 std::vector<std::size_t> pieces_of(const PieceBatch& pieces, std::int64_t segment) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < pieces.count; ++i)
@@ -64,8 +65,8 @@ double upper(const TransferIntervals& intervals, std::int64_t interval) {
     return intervals.columns().bounds[static_cast<std::size_t>(interval) + 1];
 }
 
-// Pieces meet, at knots or where the scalar turns; between them nothing shows. Each stays in its
-// interval, up to `rounding` of the scalar.
+// Expects that the pieces meet at knots or where the scalar turns, that nothing shows between
+// pieces that do not, and that each piece stays in its interval, up to `rounding` of the scalar.
 void expect_pieces(const Cubic& cubic, const TransferFunction& function,
                    const TransferIntervals& intervals, const PieceBatch& pieces,
                    const std::vector<std::size_t>& numbers, double rounding) {
@@ -96,7 +97,7 @@ void expect_pieces(const Cubic& cubic, const TransferFunction& function,
     expect_empty(at, 1);
 }
 
-// A value of the function's range, and often a knot, or what is next to one.
+// Returns a value of the function's range, often a knot, or a double next to one.
 double value_near(const std::vector<double>& knots, double width, Random& random) {
     const double knot = knots[static_cast<std::size_t>(random.below(int(knots.size())))];
     switch (random.below(6)) {
@@ -122,7 +123,7 @@ void test_pieces(std::size_t shift, Random& random) {
             std::vector<Cubic> cubics;
             const int count = 1 + random.below(static_cast<int>(SegmentBatch::capacity));
             for (int i = 0; i < count; ++i) {
-                // Bernstein coefficients bound the cubic.
+                // Random Bernstein coefficients, which bound the cubic.
                 double b[4];
                 for (double& each : b) each = value_near(knots, width, random);
                 if (i % 4 == 1) b[1] = b[0] + (b[3] - b[0]) / 3, b[2] = b[3] - (b[3] - b[0]) / 3;
@@ -140,7 +141,7 @@ void test_pieces(std::size_t shift, Random& random) {
             PieceBatch pieces;
             append_pieces(segments, intervals, 0, pieces);
             made += pieces.count;
-            // Sums of four numbers up to 10 times the largest value.
+            // Rounding: sums of four numbers up to 10 times the largest value.
             const double rounding = 40 * epsilon * (std::abs(knots.front()) + 2 * width);
             for (std::size_t i = 0; i < cubics.size(); ++i) {
                 expect_pieces(cubics[i], function, intervals, pieces,
@@ -157,7 +158,7 @@ TEST(SegmentPieces, TileTheirSegmentsInIntervals) {
     for (const std::size_t shift : {0, 2, 4}) test_pieces(shift, random);
 }
 
-// Where a constant lies on a knot, the interval is the one that begins there.
+// If a constant scalar is a knot, the interval above the knot counts.
 TEST(SegmentPieces, ConstantsOnStepsAreAbove) {
     const TransferFunction function = TransferFunction::linear(
         {{0, {{1, 1, 1}, 1}}, {2, {{1, 1, 1}, 3}}, {2, {{1, 1, 1}, 7}}, {5, {{1, 1, 1}, 8}}});
@@ -171,7 +172,8 @@ TEST(SegmentPieces, ConstantsOnStepsAreAbove) {
     for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(pieces.depth[i], 7);
 }
 
-// Linear segments have a closed form. Pieces that are cut from them lose no digits.
+// Depths of linear segments must equal their closed form: the pieces that are cut from them lose no
+// digits.
 TEST(SegmentPieces, DepthIsThatOfTheClosedForm) {
     Random random(5);
     for (int i = 0; i < 2000; ++i) {
@@ -185,8 +187,8 @@ TEST(SegmentPieces, DepthIsThatOfTheClosedForm) {
         alone.add({{front, back - front}}, std::min(front, back), std::max(front, back), 1);
         integrator.add(alone);
         const SegmentIntegral expected = integrate_segment(function, front, back, 1);
-        // Roots are good to some epsilons of the scalars by their difference, and shift depth by
-        // as much of the largest extinction.
+        // Roots have errors of some epsilons of the scalars divided by their difference. Depth is
+        // off by as much, times the largest extinction.
         const double moved = 16 * epsilon / std::abs(back - front) * 2e3;
         if (integrator.opaque()) continue;  // the rest is not added
         EXPECT_NEAR(integrator.optical_depth(), expected.optical_depth,

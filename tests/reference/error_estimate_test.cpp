@@ -29,8 +29,8 @@ std::vector<Judged> scenes() {
     return result;
 }
 
-// The estimate keeps the tolerance, and the true error (against a tolerance of 1e-12) keeps the
-// estimate.
+// The estimate is within the tolerance, and the true error (against a picture with tolerance 1e-12)
+// is within the estimate.
 TEST(ErrorEstimate, KeepsTheToleranceAndIsHonest) {
     for (const Judged& scene : scenes()) {
         const TraceResult exact = trace_volume(scene.volume, scene.function, scene.view, {1e-12});
@@ -39,7 +39,7 @@ TEST(ErrorEstimate, KeepsTheToleranceAndIsHonest) {
                 trace_volume(scene.volume, scene.function, scene.view, {tolerance});
             EXPECT_LE(result.error_estimate, tolerance);
             EXPECT_GT(result.error_estimate, 0);
-            // 1e-13: rounding, which is the same in both but for the order of sums.
+            // 1e-13: rounding, which differs only by the order of sums.
             EXPECT_LE(largest_difference(result.image, exact.image),
                       result.error_estimate + exact.error_estimate + 1e-13)
                 << tolerance;
@@ -52,7 +52,7 @@ TEST(ErrorEstimate, IsZeroWhereEverythingIsExact) {
     const Grid grid = make_grid({4, 4, 4}, Centering::node);
     const Volume volume = make_volume<float>(grid, random_samples(grid, random));
     const View view(camera_at(grid, Projection::orthographic, {1, 2, 3}, 1), 16, 16);
-    // One colour: no quadrature; thin: no early termination.
+    // One colour takes no quadrature, and a thin medium no early termination.
     const TransferFunction one_color =
         TransferFunction::linear({{0, {{1, 0.5, 0}, 0}}, {1, {{1, 0.5, 0}, 0.5}}});
     const TraceResult result = trace_volume(volume, one_color, view, {});
@@ -67,7 +67,7 @@ TEST(ErrorEstimate, CountsEarlyTermination) {
     camera.height = 0.1;
     const TraceResult result =
         trace_volume(volume, constant_function(1, glm::dvec3(2)), View(camera, 1, 1), {1e-5});
-    EXPECT_LT(result.segments, 30);  // exp(-20) is 2e-9
+    EXPECT_LT(result.segments, 30);  // ends at a depth of some 20: exp(-20) is 2e-9
     const double left_out = 2 * (1 - result.image.rgba[3]);
     EXPECT_GT(left_out, 0);
     EXPECT_NEAR(result.error_estimate, left_out, 1e-15);

@@ -48,7 +48,7 @@ inline double diagonal_of(const Grid& grid) {
     return glm::length(grid.to_world(grid.index_max()) - grid.to_world(grid.index_min()));
 }
 
-// A camera that looks at the middle of the grid from `distance` box diagonals away.
+// Returns a camera that looks at the middle of the grid from `distance` box diagonals away.
 inline Camera camera_at(const Grid& grid, Projection projection, const glm::dvec3& direction,
                         double distance) {
     Camera camera;
@@ -61,7 +61,7 @@ inline Camera camera_at(const Grid& grid, Projection projection, const glm::dvec
     return camera;
 }
 
-// Numbers that are the same on every platform, in [lo, hi).
+// Makes random numbers in [lo, hi), the same on every platform.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -89,12 +89,13 @@ inline TransferFunction constant_function(double extinction, const glm::dvec3& c
     return TransferFunction::linear({{0, {color, extinction}}});
 }
 
-// Colour and extinction linear in the scalar over [0, 1].
+// Returns a function with colour and extinction linear over [0, 1].
 inline TransferFunction ramp_function(double extinction) {
     return TransferFunction::linear({{0, {{0, 0.25, 1}, 0}}, {1, {{1, 0.5, 0.125}, extinction}}});
 }
 
-// `peaks` triangular peaks and `steps` steps at random places in [0, 1], over a faint base.
+// Returns a function with `peaks` triangular peaks and `steps` steps at random places in [0, 1],
+// over a faint base.
 inline TransferFunction random_function(Random& random, int peaks, int steps, double extinction) {
     std::vector<double> values;
     for (int i = 0; i < 3 * peaks + steps; ++i) values.push_back(random.uniform(0.02, 0.98));

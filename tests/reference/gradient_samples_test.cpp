@@ -14,14 +14,14 @@ glm::dvec3 at(const GradientAlong& gradient, double t) {
     return {gradient[0](t), gradient[1](t), gradient[2](t)};
 }
 
-// The gradient in a cell at one place, in coordinates of the cell.
+// Returns the gradient in a cell at one place, in coordinates of the cell.
 template <typename Sample>
 glm::dvec3 gradient_at(const Grid& grid, const std::vector<Sample>& samples, const CellIndex& cell,
                        const glm::dvec3& place) {
     return at(GradientSamples(grid, samples.data()).along(cell, place, glm::dvec3(0)), 0);
 }
 
-// Turned and mirrored, with three spacings; lengths are exact.
+// Returns a turned and mirrored grid with three different spacings, whose lengths are exact.
 Grid turned_grid(const std::array<std::int64_t, 3>& size) {
     Grid grid;
     grid.size = size;
@@ -41,8 +41,9 @@ std::vector<float> sampled(const Grid& grid, const Field& field) {
     return samples;
 }
 
-// A linear field has its gradient everywhere: at the border, too, and beyond it, where it repeats.
-// Values are exact in float32, and each axis contributes a few roundings of the gradient's 1e-16.
+// A linear field has its gradient everywhere, also at the border and beyond it, where the border
+// sample repeats. Values are exact in float32, and each axis contributes a few roundings of 1e-16
+// of the gradient.
 TEST(GradientSamples, OfALinearFieldAreItsGradientInTheWorld) {
     const Grid grid = turned_grid({4, 3, 2});
     const glm::dvec3 g(1.5, -4, 8);
@@ -55,7 +56,8 @@ TEST(GradientSamples, OfALinearFieldAreItsGradientInTheWorld) {
                           2e-14);
 }
 
-// x^2 at 0, 1, 2, 3: one-sided at the ends (1 and 5), central within (2 and 4), linear between.
+// The field is x^2 at 0, 1, 2, 3. Gradients are one-sided at the ends (1 and 5), central inside (2
+// and 4), and linear between samples.
 TEST(GradientSamples, AreDifferencesOfNeighbours) {
     const Grid grid = make_grid({4, 1, 1}, Centering::cell, {.5, 3, 3});
     const std::vector<float> samples{0, 1, 4, 9};
@@ -83,7 +85,7 @@ TEST(GradientSamples, BesideWhatIsNoNumberAreOneSided) {
         };
         EXPECT_EQ(gradient_at(grid, samples, {1, 0, 0}, glm::dvec3(.0, .5, .5)).x, 2);
         EXPECT_EQ(gradient_at(grid, samples, {1, 0, 0}, glm::dvec3(1, .5, .5)).x, 3);
-        // A number between two holes has no gradient.
+        // A number between two NaNs has no gradient.
         EXPECT_EQ(gradient_at(grid, samples, {3, 0, 0}, glm::dvec3(1, .5, .5)).x, 0);
         EXPECT_EQ(x(0), 1);
     }

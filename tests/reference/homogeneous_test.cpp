@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A volume of one value: alpha must be 1 - exp(-extinction * chord), whatever the grid, the camera
-// and the cells.
+// In a volume of one value alpha must be 1 - exp(-extinction * chord), whatever the grid, the
+// camera and the cells.
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
@@ -11,8 +11,8 @@ namespace {
 
 using namespace reference_test;
 
-// The chord through an oriented box, in the box's world axes and in extended precision: nothing
-// shared with chord.cpp.
+// Returns the chord through an oriented box, computed along the box's axes in world space and in
+// extended precision, with nothing shared with chord.cpp.
 double independent_chord(const Grid& grid, const View::Ray& ray) {
     long double from = 0, to = std::numeric_limits<long double>::infinity();
     long double square = 0;
@@ -53,15 +53,16 @@ void expect_exact_opacity(const Grid& grid, const Camera& camera, double extinct
             const double expected = -std::expm1(-extinction * chord);
             longest = std::max(longest, chord);
             const double* pixel = result.image.pixel(column, row);
-            // Some 10 roundings of the chord and of each cell's depth (which exp(-depth) * depth <=
-            // 0.4 damps), and early termination at 1e-15: together below 1e-13.
+            // Errors: some 10 roundings of the chord and of each cell's depth (damped by
+            // exp(-depth) * depth <= 0.4), and early termination at 1e-15. Together they are below
+            // 1e-13.
             ASSERT_NEAR(pixel[3], expected, 1e-13) << column << "," << row;
             for (int channel = 0; channel < 3; ++channel) {
                 ASSERT_NEAR(pixel[channel], expected * color[channel], 1e-13 * color[channel]);
             }
         }
     }
-    // The picture is not empty: rays go through the middle of the box, the eye may be there.
+    // The picture is not empty: rays pass through the middle of the box, or the eye is in it.
     const glm::dvec3 voxels = grid.index_max() - grid.index_min();
     double thinnest = diagonal_of(grid);
     for (int axis = 0; axis < 3; ++axis) {
@@ -122,7 +123,7 @@ TEST(Homogeneous, FarAway) {
     const Grid grid = make_grid({9, 8, 7}, Centering::node);
     Camera camera = camera_at(grid, Projection::perspective, {1, 2, 3}, 1e5);
     camera.fov_y = 5e-4;
-    // The oracle's own rounding: 1e5 diagonals * 5e-20 (80-bit) is far below 1e-13.
+    // independent_chord() rounds, too: 1e5 diagonals * 5e-20 (80-bit) is far below 1e-13.
     if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "no extended precision here";
     expect_exact_opacity(grid, camera, 3 / diagonal_of(grid));
 }
@@ -138,8 +139,8 @@ TEST(Homogeneous, BehindTheEye) {
     EXPECT_EQ(result.segments, 0);
 }
 
-// Every cell's share of a ray is integrated once: cells are counted along rays in planes between
-// cells, along edges, through corners.
+// Each cell on a ray is integrated exactly once, also if the ray lies in a plane between cells,
+// along an edge, or goes through corners.
 TEST(Homogeneous, DegenerateRaysCountEveryCellOnce) {
     const Grid grid = make_grid({5, 5, 5}, Centering::node);
     const Volume volume = make_volume<std::uint8_t>(grid, std::vector<std::uint8_t>(125, 1));

@@ -14,7 +14,7 @@ namespace {
 
 using reference_test::Random;
 
-// Extinction is `strength` times the position.
+// Returns a piece with a random cubic position, and extinction `strength` times the position.
 EmissionPiece random_piece(Random& random, double strength) {
     // Bernstein coefficients in [0, 1] keep the cubic there.
     const double b0 = random.uniform(), b1 = random.uniform(), b2 = random.uniform(),
@@ -25,24 +25,25 @@ EmissionPiece random_piece(Random& random, double strength) {
     return piece;
 }
 
-// Position and extinction linear in t: the weight of the back end is the integral
-// (docs/numerics.md, section 5), in closed form. From 1e-8 to 1e7, so boundary layers as thin as
-// 1e-7 of the piece.
+// If position and extinction are linear in t, the integral is the weight of the back end
+// (docs/numerics.md, section 5), in closed form. With depths from 1e-8 to 1e7, boundary layers are
+// as thin as 1e-7 of the piece.
 TEST(EmissionIntegral, LinearPiecesEqualTheClosedForm) {
     for (const double p : {0.0, 1e-8, 1e-3, 0.5, 3.0, 20.0, 1e3, 1e5, 1e7}) {
         for (const double q : {0.0, 1e-8, 1e-2, 1.0, 7.0, 50.0, 1e4, 1e7}) {
             const EmissionPiece piece{{{0, 1, 0, 0}}, {{p, q - p, 0, 0}}};
             const EmissionIntegral found = integrate_emission(piece, 1e-13, 1e-13);
             const double expected = piece_weights(p, q).back;
-            // Allowed 2e-13, and rounding: depth(t) near the front is good to 1e-16 of p.
+            // The allowed error is 2e-13. Rounding: depth(t) near the front has an error of 1e-16
+            // of p.
             EXPECT_NEAR(found.value, expected, 5e-13) << "p " << p << " q " << q;
             EXPECT_LE(found.error, 3e-13) << "p " << p << " q " << q;
         }
     }
 }
 
-// A cubic position under constant extinction s: the integrals of t^n s exp(-s t) by recurrence,
-// I_n = n / s I_(n-1) - exp(-s), I_0 = 1 - exp(-s).
+// For a cubic position and constant extinction s, the integrals of t^n s exp(-s t) follow by
+// recurrence: I_n = n / s I_(n-1) - exp(-s), I_0 = 1 - exp(-s).
 TEST(EmissionIntegral, CubicPositionUnderConstantExtinction) {
     for (const double s : {2.0, 10.0, 300.0, 1e5, 1e7}) {
         const EmissionPiece piece{{{0.25, 1.5, -2.0, 1.0}}, {{s, 0, 0, 0}}};
@@ -52,7 +53,7 @@ TEST(EmissionIntegral, CubicPositionUnderConstantExtinction) {
             expected += piece.position.c[n] * moment;
         }
         const EmissionIntegral found = integrate_emission(piece, 1e-13, 1e-13);
-        EXPECT_NEAR(found.value, expected, 5e-13) << s;  // as above
+        EXPECT_NEAR(found.value, expected, 5e-13) << s;  // as in LinearPiecesEqualTheClosedForm
     }
 }
 
@@ -85,8 +86,8 @@ void add(const EmissionPiece& piece, double before, double allowed_by_length, do
     ++batch.count;
 }
 
-// Vectors of pieces: what they call exact to within an estimate is so, and the estimate keeps the
-// tolerance, from pieces that are all but transparent to boundary layers, which are bisected.
+// Integrates vectors of pieces, from nearly transparent ones to boundary layers, which are
+// bisected. Errors must be within the estimates, and estimates within the tolerance.
 TEST(PieceBatch, PiecesAreThoseIntegratedOneByOne) {
     Random random(7);
     for (const double tolerance : {1e-3, 1e-6, 1e-12}) {
@@ -98,7 +99,7 @@ TEST(PieceBatch, PiecesAreThoseIntegratedOneByOne) {
                     random_piece(random, std::pow(10, random.uniform(-9, 6)));
                 add(piece, random.uniform(0, 9), tolerance, random.uniform(), batch);
             }
-            // Deep pieces behind the last one are left alone.
+            // Deep pieces behind the batch's end must be left alone.
             const std::size_t given = batch.count;
             for (int i = 0; i < 7; ++i) add(random_piece(random, 1e6), 0, 0, 1, batch);
             batch.count = given;

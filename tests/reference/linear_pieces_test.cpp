@@ -16,7 +16,8 @@ namespace {
 
 using reference_test::Random;
 
-// Every colour and extinction changes from knot to knot; of every fifth interval nothing shows.
+// Makes a function whose colours and extinctions change at every knot; every fifth interval shows
+// nothing.
 TransferFunction function_of(const std::vector<double>& knots, Random& random) {
     std::vector<TransferKnot> given;
     for (std::size_t i = 0; i < knots.size(); ++i) {
@@ -31,7 +32,7 @@ struct SegmentResult {
     glm::dvec3 color{0};
 };
 
-// Each segment alone, from its pieces.
+// Returns the result of each segment alone, summed from its pieces.
 std::vector<SegmentResult> results_of(const LinearSegments& segments,
                                       const TransferIntervals& intervals) {
     LinearPieces pieces;
@@ -73,9 +74,9 @@ void test_segments(const std::vector<double>& knots, Random& random) {
         for (std::size_t i = 0; i < segments.count; ++i) {
             const SegmentIntegral expected = integrate_segment(
                 function, segments.front[i], segments.back[i], segments.length[i]);
-            // Both have some 1e-13 of every component (optics/segment_integral.h); a colour that
-            // fades out has it of the opacity. Sums of some 30 subnormal numbers are off by units
-            // of 5e-324.
+            // Both results have errors of some 1e-13 of every component
+            // (optics/segment_integral.h); for a colour that fades out it is 1e-13 of the opacity.
+            // Sums of some 30 subnormal numbers are off by units of 5e-324.
             constexpr double subnormal = 30 * 5e-324;
             EXPECT_NEAR(found[i].depth, expected.optical_depth,
                         2e-13 * expected.optical_depth + subnormal);
@@ -102,8 +103,8 @@ TEST(LinearPieces, AreThoseOfSingleSegments) {
     }
 }
 
-// A function of one interval: depths from 1e-300 to 1e3, up to where the weights have a closed
-// form.
+// Tests a function of one interval, with depths from 1e-300 to 1e3, up to where the weights have a
+// closed form.
 TEST(LinearPieces, WeightsAreThoseOfThePiece) {
     Random random(6);
     for (int i = 0; i < 5000; ++i) {
@@ -121,8 +122,8 @@ TEST(LinearPieces, WeightsAreThoseOfThePiece) {
         ASSERT_EQ(pieces.count, 1U);
         weigh_pieces(pieces);
         const PieceWeights expected = piece_weights(p, q);
-        // The exponential functions of vectors are good to 4 units in the last place, and all terms
-        // are >= 0; before the closed form the sum of both weights is one of two numbers < 1.
+        // SIMD exponential functions have errors of 4 units in the last place, and all terms are >=
+        // 0. Near the closed form the sum of both weights is one of two numbers < 1.
         EXPECT_NEAR(pieces.change[0], expected.back, 3e-15 * expected.back);
         EXPECT_NEAR(pieces.opacity[0], expected.front + expected.back,
                     4e-15 * (expected.front + expected.back));
@@ -130,7 +131,7 @@ TEST(LinearPieces, WeightsAreThoseOfThePiece) {
     }
 }
 
-// Interpolation may overflow: such ends lie behind the last knot.
+// Interpolation may overflow to infinity: such ends lie behind the last knot.
 TEST(LinearPieces, InfiniteScalarsLieOutside) {
     for (const int count : {2, 24, 25, 256}) {
         std::vector<TransferKnot> knots;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lit rays through random cells and tets. Expected values: make_lit_cases.py, 30 digits, a program
-// that shares nothing with this one.
+// Tests lit rays through random cells and tets against make_lit_cases.py, a program with 30 digits
+// that shares nothing with the tracer.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -27,7 +27,7 @@ glm::dvec3 vector_of(const json& numbers) {
     return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
 }
 
-// Its transfer function, lighting and the camera of one ray.
+// Returns a scene with the case's transfer function, its lighting and a camera of one ray.
 Scene scene_of(const json& one) {
     const json camera{{"projection", "orthographic"},
                       {"eye", one["eye"]},
@@ -43,9 +43,9 @@ Scene scene_of(const json& one) {
                       "case");
 }
 
-// The ray itself is rounded by 1e-15 of its length of 12, extinction changes by at most 30 * 16 a
-// unit of the scalar, light by its power of 400 times the change of the gradient over its length:
-// both make some 1e-11 of it at worst.
+// Error by the rounding of the ray, 1e-15 of its length of 12. Extinction changes by at most 30 *
+// 16 per unit of the scalar; light by its power of 400 times the change of the gradient, relative
+// to its length. Both make some 1e-11 of the rounding at worst.
 constexpr double rounding = 1e-11;
 
 void expect_rgba(const PreciseImage& image, double estimate, const json& one, std::size_t number) {

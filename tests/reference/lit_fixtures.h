@@ -27,7 +27,7 @@ inline Lighting random_lighting(Random& random) {
     return lighting;
 }
 
-// Changes nothing where it is not all of the light.
+// Returns lighting that changes nothing: ambient light alone, of full strength.
 inline Lighting ambient_alone() {
     Lighting lighting;
     lighting.ambient = 1;
@@ -36,7 +36,7 @@ inline Lighting ambient_alone() {
     return lighting;
 }
 
-// Two lights of a direction of their own.
+// Returns two lights with fixed directions.
 inline Lighting directional() {
     Lighting lighting;
     lighting.ambient = .25;
@@ -48,7 +48,8 @@ inline Lighting directional() {
     return lighting;
 }
 
-// With highlights wide and narrow, of whole and of odd powers, with headlights and without.
+// Returns lightings with wide and narrow highlights, with whole and odd powers, with and without
+// headlights.
 inline std::vector<Lighting> lightings() {
     Lighting shiny = directional();
     shiny.power = 64;
@@ -60,8 +61,9 @@ inline std::vector<Lighting> lightings() {
     return {Lighting{}, shiny, odd, matt};
 }
 
-// What one gradient makes of an unlit pixel's colour and opacity, seen in direction `forward`: the
-// formula of docs/numerics.md, section 10, with one q and w for the whole ray.
+// Returns the lit colour of a pixel with these unlit colour and opacity, if the gradient is the
+// same on the whole ray, seen in direction `forward`: the formula of docs/numerics.md, section 10,
+// with one q and w.
 inline glm::dvec3 lit_by_one_gradient(const glm::dvec3& unlit, double alpha,
                                       const glm::dvec3& gradient, const Lighting& lighting,
                                       const glm::dvec3& forward) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The invariants of docs/numerics.md, section 10, of lit meshes.
+// Tests the invariants of docs/numerics.md, section 10, on lit meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,8 +41,8 @@ View view_of_box(Projection projection) {
     return View(camera_at(unit_box, projection, {1, .4, .7}, 1.2), 25, 20);
 }
 
-// Gradients at the points are good to 1e-12 of the field's in this mesh (no sliver decides, for
-// means are by volume), and light follows a gradient with a factor below 10.
+// Gradients at the points have an error of 1e-12 in this mesh (slivers do not count much, because
+// means are weighted by volume). Light changes by less than 10 times that.
 TEST(LitMesh, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     const glm::dvec3 gradient(.5, .25, -.125);
     const MeshData data = test::split_box(
@@ -71,8 +71,8 @@ TEST(LitMesh, AmbientAloneAndNoWeightAreTheUnlitPicture) {
         const View view = view_of_box(projection);
         const TraceResult unlit = trace(data, peaks(4), view, {});
         const TraceResult ambient = trace(data, peaks(4), view, {1e-5, ambient_alone()});
-        // Lit segments are summed one by one, others in vectors that share a Gauss rule: either is
-        // good to some 1e-15 of the opacity (optics/segment_integral.h).
+        // Lit segments are summed one by one, others in vectors that share a Gauss rule. Either has
+        // an error of some 1e-15 of the opacity (optics/segment_integral.h).
         const TraceResult weightless = trace(data, peaks(4), view, {1e-5, no_weight});
         EXPECT_LE(largest_difference(ambient.image, unlit.image), 1e-14);
         EXPECT_LE(largest_difference(weightless.image, unlit.image), 1e-14);
@@ -82,7 +82,8 @@ TEST(LitMesh, AmbientAloneAndNoWeightAreTheUnlitPicture) {
     }
 }
 
-// As of volumes: rounding displaces rays by some 1e-15, and the tets of this mesh are not thin.
+// The same test as in lit_volume_test.cpp: rounding displaces rays by some 1e-15, and the tets of
+// this mesh are not thin.
 TEST(LitMesh, EverythingTurnedAndScaled) {
     const glm::dmat3 turn({2. / 3, 1. / 3, 2. / 3}, {-2. / 3, 2. / 3, 1. / 3},
                           {-1. / 3, -2. / 3, 2. / 3});
@@ -110,7 +111,7 @@ TEST(LitMesh, EverythingTurnedAndScaled) {
     }
 }
 
-// A tet with a NaN shows nothing, and its neighbours have the gradients of the others.
+// A tet with a NaN shows nothing, and the points around it get the gradients of their other tets.
 TEST(LitMesh, WhatIsNoNumberLeavesItsNeighboursLit) {
     MeshData data = test::split_box(6, 300, .1, waves);
     data.point_scalars[0].values[20] = NAN;

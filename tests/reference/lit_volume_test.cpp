@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The invariants of docs/numerics.md, section 10, of lit volumes.
+// Tests the invariants of docs/numerics.md, section 10, on lit volumes.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -39,8 +39,8 @@ std::vector<Camera> cameras(const Grid& grid) {
             camera_at(grid, Projection::orthographic, {-3, 1, 1}, 1.2)};
 }
 
-// A turned grid of a linear field; values are exact in float32. All rays are parallel, so one q and
-// w holds for all of them.
+// The grid is turned, the field linear; values are exact in float32. All rays are parallel, so one
+// q and w hold for all of them.
 TEST(LitVolume, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     Grid grid;
     grid.size = {6, 4, 5};
@@ -68,7 +68,7 @@ TEST(LitVolume, ALinearFieldIsTheUnlitPictureTimesAConstant) {
                 const glm::dvec3 expected = lit_by_one_gradient(
                     {a[0], a[1], a[2]}, a[3], gradient, directional(), camera.center - camera.eye);
                 ASSERT_EQ(b[3], a[3]);
-                // The unlit error times at most 2, the lit one, and rounding.
+                // Errors: the unlit one times at most 2, the lit one, and rounding.
                 for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 3 * tolerance + 1e-13);
             }
         }
@@ -92,7 +92,7 @@ TEST(LitVolume, AmbientAloneAndNoWeightAreTheUnlitPicture) {
     }
 }
 
-// Powers of two scale every number of the tracer without rounding.
+// Scaling the world by powers of two changes no digit of the tracer's numbers.
 TEST(LitVolume, TheWorldScaled) {
     const Lit scene = noise(Centering::cell);
     for (const double s : {8., 0x1p-30}) {
@@ -117,10 +117,10 @@ TEST(LitVolume, TheWorldScaled) {
     }
 }
 
-// Scene, lights and camera turned together. Places of rays are rounded by some 1e-15 of the eye's
-// distance of 4; extinction changes by at most 3 / .02 a unit of the scalar, light by at most the
-// change of the gradient (10) over the smallest one (.5) times its power (5), so that both make
-// less of it than 1e3 * 1e-14.
+// Turns scene, lights and camera together. Places of rays are rounded by some 1e-15 of the eye's
+// distance of 4. Extinction changes by at most 3 / .02 per unit of the scalar; light by at most the
+// change of the gradient (10) divided by the smallest gradient (.5), times its power (5). Both make
+// less than 1e3 * 1e-14 of the rounding.
 TEST(LitVolume, EverythingTurned) {
     const glm::dmat3 turns[] = {glm::dmat3({0, 1, 0}, {0, 0, 1}, {1, 0, 0}),
                                 glm::dmat3({2. / 3, 1. / 3, 2. / 3}, {-2. / 3, 2. / 3, 1. / 3},
@@ -146,8 +146,9 @@ TEST(LitVolume, EverythingTurned) {
     }
 }
 
-// Noise of 3e-4 of the range of values, over a plateau: gradients of up to 3e-4 sqrt(3) a spacing
-// have a weight of .0027, and light takes at most .9 of the colour (docs/numerics.md, section 10).
+// The field is a plateau with noise of 3e-4 of the range of values. Gradients of up to 3e-4 sqrt(3)
+// per spacing have a weight of .0027, and light takes at most .9 of the colour (docs/numerics.md,
+// section 10).
 TEST(LitVolume, NoiseInFlatRegionsDoesNotShow) {
     const Grid grid = make_grid({12, 12, 12}, Centering::node);
     Random random(7);
@@ -156,7 +157,7 @@ TEST(LitVolume, NoiseInFlatRegionsDoesNotShow) {
         samples.push_back(static_cast<float>(.5 + random.uniform(-3e-4, 3e-4)));
     const Lit flat{grid, samples, constant_function(1, glm::dvec3(1))};
     Lighting lighting;
-    lighting.smallest_gradient = .01;  // of a range of 1
+    lighting.smallest_gradient = .01;  // scalar units per spacing; the range is 1
     for (const Camera& camera : cameras(grid)) {
         const double difference =
             largest_difference(flat.trace(camera, {}).image, flat.trace(camera, lighting).image);
@@ -192,8 +193,8 @@ TEST(LitVolume, NumberOfThreadsDoesNotMatter) {
     EXPECT_EQ(many.error_estimate, one.error_estimate);
 }
 
-// The estimate keeps the tolerance, and the true error (against a tolerance of 1e-11) keeps the
-// estimate. 1e-13: rounding.
+// The estimate is within the tolerance, and the true error (against a picture with tolerance 1e-11)
+// is within the estimate. 1e-13: rounding.
 TEST(LitVolume, TheErrorEstimateIsHonest) {
     Random random(43);
     for (int i = 0; i < 24; ++i) {

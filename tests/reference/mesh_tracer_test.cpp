@@ -36,9 +36,9 @@ TraceResult trace(const MeshData& data, const TransferFunction& transfer, const 
     return trace_mesh(mesh, tree, mesh.point_scalars()[0].values, transfer, view);
 }
 
-// Meshes with needles of every degree, one extinction: alpha is 1 - exp(-extinction * chord). The
-// two ends of the chord are good to some epsilon of the distance (up to 6), everything between
-// cancels: 1e-12 * extinction in depth is generous by a factor of 100, in alpha it is less.
+// With one extinction, alpha is 1 - exp(-extinction * chord), also through needles. The two ends of
+// the chord have errors of some epsilon of the distance (up to 6), and errors between them cancel.
+// The allowed 1e-12 * extinction in depth is 100 times that.
 TEST(MeshTracer, HomogeneousMeshesEqualTheClosedForm) {
     for (const double least : {.1, 1e-3, 1e-6}) {
         const MeshData data =
@@ -66,9 +66,8 @@ TEST(MeshTracer, HomogeneousMeshesEqualTheClosedForm) {
     }
 }
 
-// A field that is linear over the whole mesh: one segment by the closed form, whatever the tets.
-// Values at crossings are good to some 1e-13; extinction changes by at most 20 a unit of the
-// scalar.
+// In a field that is linear over all of the mesh, the ray is one segment in closed form. Values at
+// crossings have errors of some 1e-13; extinction changes by at most 20 per unit of the scalar.
 TEST(MeshTracer, LinearFieldsEqualOneSegment) {
     const glm::dvec3 gradient(.5, .3, .2);
     const auto field = [&](const glm::dvec3& p) { return glm::dot(gradient, p); };
@@ -97,8 +96,8 @@ TEST(MeshTracer, LinearFieldsEqualOneSegment) {
     }
 }
 
-// What one segment gives, six tets of a box must give: to 1e-12 relative, in every channel, from
-// optical depth 1e-8 to 1e6.
+// The six tets of a box must give the same as one segment: to 1e-12 relative, in every channel, for
+// optical depths from 1e-8 to 1e6.
 TEST(MeshTracer, StiffBoxesEqualOneSegment) {
     const MeshData data = test::kuhn_box({1, 1, 1}, [](const glm::dvec3& p) { return p.z; });
     Camera camera;
@@ -120,7 +119,8 @@ TEST(MeshTracer, StiffBoxesEqualOneSegment) {
     }
 }
 
-// Pixel centres exactly over the mesh's edges and points: nothing leaks. Along x the box is 4 long.
+// Pixel centres lie exactly over the mesh's edges and points, and nothing leaks. Along x the box is
+// 4 long.
 TEST(MeshTracer, NothingLeaksThroughEdgesAndPoints) {
     const MeshData data = test::kuhn_box({4, 4, 4}, [](const glm::dvec3&) { return 0; });
     Camera camera;
@@ -141,8 +141,8 @@ TEST(MeshTracer, NothingLeaksThroughEdgesAndPoints) {
     EXPECT_EQ(inside, 15 * 16);
 }
 
-// Rays along which the scalar is constant, exactly where the transfer function steps from nothing
-// to opaque: rounding decides what a tet shows, and the estimate must own that it does.
+// On these rays the scalar is constant, exactly where the transfer function steps from nothing to
+// opaque. Rounding decides what a tet shows, and the estimate must include that.
 TEST(MeshTracer, EstimateCountsSidesOfSteps) {
     const glm::dvec3 gradient(.3, .7, 0);  // the rays below run along z
     const MeshData data =
@@ -174,7 +174,7 @@ TEST(MeshTracer, TetsWithoutValueAreTransparent) {
     EXPECT_NEAR(result.image.pixel(0, 1)[3], -std::expm1(-1.0), 1e-15);
 }
 
-// In a part that lies twice in the mesh the extinctions add up.
+// If a box lies twice in the mesh, its extinction counts twice.
 TEST(MeshTracer, OverlapsAreCounted) {
     MeshData data = test::kuhn_box({1, 1, 1}, [](const glm::dvec3&) { return 0; });
     const MeshData again = data;

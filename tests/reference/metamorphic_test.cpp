@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same scene said in another way must give the same picture.
+// Tests that scenes which describe the same thing in different ways give the same picture.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -45,8 +45,8 @@ std::size_t offset(const Grid& grid, const std::array<std::int64_t, 3>& i) {
     return static_cast<std::size_t>((i[2] * grid.size[1] + i[1]) * grid.size[0] + i[0]);
 }
 
-// The same field stored with axis a of the new grid being axis order[a] of the old one, reversed
-// where asked.
+// Returns the same scene with its samples stored differently: axis a of the new grid is axis
+// order[a] of the old one, reversed if `reversed` says so.
 Scene stored_differently(const Scene& scene, const std::array<std::size_t, 3>& order,
                          const std::array<bool, 3>& reversed) {
     Scene result = scene;
@@ -94,7 +94,7 @@ TEST(Metamorphic, AxesPermutedAndReversed) {
     }
 }
 
-// World and camera mirrored at x = 0: the picture is mirrored left to right.
+// If world and camera are mirrored at x = 0, the picture is mirrored left to right.
 TEST(Metamorphic, WorldMirrored) {
     const Scene scene = make_scene(Centering::node);
     const auto mirror = [](glm::dvec3 p) { return glm::dvec3(-p.x, p.y, p.z); };
@@ -202,8 +202,8 @@ TEST(Metamorphic, NumberOfThreadsDoesNotMatter) {
     EXPECT_EQ(many.segments, one.segments);
 }
 
-// Traces a picture and each of its pixels alone, which must have the same digits. Returns the
-// largest.
+// Traces a picture, and each of its pixels alone, which must have the same digits. Returns the
+// largest component of any pixel.
 double compare_alone(const Volume& volume, const TransferFunction& function, const Camera& camera,
                      const TraceOptions& options) {
     const View view(camera, 60, 45);
@@ -223,12 +223,13 @@ double compare_alone(const Volume& volume, const TransferFunction& function, con
     return most;
 }
 
-// A picture leaves out cells that show nothing, and its rays go side by side; single pixels do
-// neither.
+// Pictures leave out cells that show nothing, and trace rays side by side. Single pixels do
+// neither, but must be the same.
 TEST(Metamorphic, CellsThatShowNothingChangeNothing) {
     const TransferFunction steep = TransferFunction::linear(
         {{.5, {{.2, .4, .6}, 0}}, {.8, {{.9, .5, .1}, 20}}, {1, {{.1, 1, .3}, 10}}});
-    // Short pieces and others side by side, whose exponential functions are different ones.
+    // A function with shallow and deep pieces side by side, which use different exponential
+    // functions.
     const TransferFunction mixed = TransferFunction::linear(
         {{.3, {{.2, .4, .6}, 0}}, {.6, {{.9, .5, .1}, .1}}, {.8, {{.9, .9, .1}, 2}}});
     for (const auto& [function, centering] :
@@ -248,7 +249,7 @@ TEST(Metamorphic, CellsThatShowNothingChangeNothing) {
             views.push_back(camera_at(grid, Projection::orthographic, along, 1));
             views.back().up = {along.y, along.z, along.x};
         }
-        // Rays within roundings of cells' edges.
+        // Rays that meet edges of cells up to rounding.
         for (const glm::dvec3& along : {glm::dvec3(1, 0, 1.25), {1, .75, 0}, {-1, .75, 1.25}})
             views.push_back(camera_at(grid, Projection::orthographic, along, 1));
         const TraceOptions plain{tolerance};

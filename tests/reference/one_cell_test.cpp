@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One trilinear cell, random corners, random transfer functions, against two oracles that know
-// nothing of cubics.
+// Tests one trilinear cell with random corners and transfer functions against two other methods
+// that know nothing of cubics: a midpoint sum, and many linear pieces.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +21,7 @@ struct Sample {
 
 struct OneCell {
     std::array<float, 8> corners;
-    glm::dvec3 front, back;  // of the chord
+    glm::dvec3 front, back;  // ends of the chord
 
     double value(double t) const {
         const glm::dvec3 p = glm::mix(front, back, t);
@@ -51,7 +51,7 @@ Sample trace(const OneCell& cell, const TransferFunction& function, double toler
     return {{rgba[0], rgba[1], rgba[2]}, rgba[3]};
 }
 
-// A chord through the unit cube, from a point on one face to a point on the opposite one.
+// Returns a cell, and a chord through it from a point on one face to a point on the opposite one.
 OneCell random_cell(Random& random) {
     OneCell cell;
     for (float& corner : cell.corners) corner = static_cast<float>(random.below(65)) / 64;
@@ -77,9 +77,9 @@ Sample midpoint_sum(const OneCell& cell, const TransferFunction& function, int c
     return sum;
 }
 
-// What midpoint_sum may err by. Total variation bounds the error of a midpoint sum: step / 2 * TV.
-// A cubic is monotone in at most three parts, so TV along the ray is at most 3 times TV over the
-// transfer function; the error of the depth acts on colour through exp(-depth).
+// Bounds the error of midpoint_sum(): step / 2 * TV, the total variation along the ray. A cubic is
+// monotone in at most three parts, so TV is at most 3 times that of the transfer function. The
+// error of the depth acts on colour through exp(-depth).
 double midpoint_bound(const TransferFunction& function, double step) {
     double depth_variation = 0, emission_variation = 0, brightest = 0, densest = 0;
     const auto knots = function.knots();
@@ -96,7 +96,8 @@ double midpoint_bound(const TransferFunction& function, double step) {
            (3 * (depth_variation * (1 + brightest) + emission_variation) + brightest * densest);
 }
 
-// The field as `count` linear pieces, each integrated in closed form by optics.
+// Returns the result for the field as `count` linear pieces, each integrated in closed form by
+// src/optics.
 Sample linear_pieces(const OneCell& cell, const TransferFunction& function, int count) {
     Sample sum;
     double depth = 0, front = cell.value(0);
@@ -131,9 +132,9 @@ TEST(OneCell, EqualsAMidpointSum) {
     }
 }
 
-// Linear pieces replace the field f by one within max|f''| / (8 n^2) of it, so their error is C /
-// n^2 with a factor that changes irregularly with n where steps and knots are crossed. C is taken
-// from the worst of six coarser divisions.
+// Bounds the error of linear_pieces(). They replace the field f by one within max|f''| / (8 n^2) of
+// it, so their error is C / n^2, with a factor that changes irregularly with n where steps and
+// knots are crossed. C is taken from the worst of six coarser divisions.
 double linear_pieces_error(const OneCell& cell, const TransferFunction& function,
                            const Sample& fine, int count) {
     double worst = 0;
@@ -158,11 +159,12 @@ TEST(OneCell, EqualsTheLimitOfLinearPieces) {
         loosest = std::max(loosest, allowed);
         EXPECT_LE(difference(trace(cell, function, 1e-10), fine), allowed) << i;
     }
-    EXPECT_LT(tightest, 1e-9);  // the oracle does judge
+    EXPECT_LT(tightest, 1e-9);  // linear_pieces() is accurate enough to be a test
     EXPECT_LT(loosest, 1e-4);
 }
 
-// A field linear along the ray and an arbitrary transfer function: optics' closed form is exact.
+// In a field that is linear along the ray, the closed form of src/optics is exact for any transfer
+// function.
 TEST(OneCell, LinearFieldEqualsTheSegmentIntegral) {
     Random random(13);
     for (int i = 0; i < 300; ++i) {
@@ -177,13 +179,13 @@ TEST(OneCell, LinearFieldEqualsTheSegmentIntegral) {
         const TransferFunction function = random_function(random, random.below(4), random.below(4),
                                                           std::pow(10, random.uniform(-3, 3)));
         const SegmentIntegral exact = integrate_segment(function, a, b, 1);
-        // Tolerance 1e-12 asked for; both sides round at 1e-13.
+        // The tolerance is 1e-12; both sides round at 1e-13.
         EXPECT_LE(difference(trace(cell, function, 1e-12), {exact.color, exact.alpha}), 1.2e-12)
             << i;
     }
 }
 
-// Many cells along an axis: segments composed front to back.
+// Segments of many cells along an axis are composited front to back.
 TEST(OneCell, LinearCellsComposeToSegments) {
     Random random(14);
     for (int i = 0; i < 40; ++i) {
@@ -214,8 +216,8 @@ TEST(OneCell, LinearCellsComposeToSegments) {
     }
 }
 
-// A knot that the field only touches, from below, at the middle of the ray: a parabola's vertex on
-// a peak's tip.
+// The field only touches a knot, from below, at the middle of the ray: a parabola's vertex on a
+// peak's tip.
 TEST(OneCell, TangentKnots) {
     OneCell cell;
     cell.corners = {0, 1, 1, 0,
@@ -233,8 +235,7 @@ TEST(OneCell, TangentKnots) {
         const TransferFunction step = TransferFunction::linear(
             {{0, {glm::dvec3(1), 2}}, {knot, {glm::dvec3(1), 2}}, {knot, {glm::dvec3(0), 9}}});
         const double expected = -std::expm1(-2 * std::sqrt(2.0));
-        // Where the field rounds up to the step, it is beyond it for at most sqrt(1e-16) of the
-        // ray.
+        // Rounding may put the field on the step, but for at most sqrt(1e-16) of the ray.
         EXPECT_NEAR(trace(cell, step, 1e-10).alpha, expected, 1e-6) << knot;
     }
 }

@@ -24,7 +24,7 @@ double nothing(const glm::dvec3&) {
     return 0;
 }
 
-// Views from around the mesh, from inside it, and without perspective.
+// Returns views from around the mesh and from inside it, with and without perspective.
 std::vector<View> views(const TetMesh& mesh, int rounds, int size) {
     std::mt19937 random(8);
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -80,7 +80,7 @@ MeshData carved_box(const std::array<std::int32_t, 3>& cells, const Keep& keep) 
     return test::carved(test::kuhn_box(cells, nothing), keep);
 }
 
-// One pixel per tet pair: two boxes in a row, drawn in both orders.
+// Two tets, one behind the other, drawn in both orders.
 TEST(OrderPixels, TwoTets) {
     MeshData data;
     data.points = {{-3, -3, 0}, {3, -3, 0}, {0, 3, 0}, {0, 0, 1}};
@@ -94,7 +94,7 @@ TEST(OrderPixels, TwoTets) {
         camera.projection = Projection::orthographic;
         camera.height = 6;
         const std::vector<View> all{View(camera, 30, 30)};
-        // As listed: right for an eye that has the second tet nearer.
+        // The order as listed is right for an eye that has the second tet nearer.
         const OrderPixels listed = judge(mesh, OrderMethod::none, all);
         // The triangle covers half of its square of 36: 18 of 36.
         EXPECT_NEAR(static_cast<double>(listed.covered), 450, 30);
@@ -136,12 +136,12 @@ TEST(OrderPixels, NonconvexMeshes) {
     const MeshData sponge = test::carved(test::DelaunayMesh::make(250, 9),
                                          [&](const glm::dvec3&) { return random() % 3 > 0; });
     expect_none_wrong(sponge, OrderMethod::exact, 2);
-    // Where Williams's guess does not hold, the measure says so.
+    // If the guess of Williams's method does not hold, wrong pixels are counted.
     const TetMesh mesh(sponge, "sponge");
     EXPECT_GT(judge(mesh, OrderMethod::mpvo, views(mesh, 1, 40)).wrong, 0);
 }
 
-// Views along the axes, rays exactly in the planes of faces and through edges and points.
+// Views along the axes have rays exactly in the planes of faces and through edges and points.
 TEST(OrderPixels, RaysInThePlanesOfFaces) {
     const TetMesh mesh(carved_box({6, 6, 6},
                                   [](const glm::dvec3& c) {
@@ -159,7 +159,7 @@ TEST(OrderPixels, RaysInThePlanesOfFaces) {
             camera.up = {1, 2, 0};
             if (eye.z == 3 && eye.x == 20) camera.center = {3, 3, 3};
             camera.up = eye.x == 20 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-            camera.height = 8;  // a pixel is a quarter: centres on multiples of 1/8
+            camera.height = 8;  // a pixel is 1/4 wide: its centre is at a multiple of 1/8
             all.emplace_back(camera, 33, 33);
             all.emplace_back(camera, 32, 32);
         }
@@ -169,7 +169,7 @@ TEST(OrderPixels, RaysInThePlanesOfFaces) {
     EXPECT_EQ(found.wrong, 0);
 }
 
-// A real cycle cannot be drawn right: its pixels are wrong, and none else.
+// A real cycle cannot be drawn right: only its pixels are wrong.
 TEST(OrderPixels, WrongWithinCyclesOnly) {
     Camera above;
     above.eye = {0, 0, 9};
@@ -181,22 +181,23 @@ TEST(OrderPixels, WrongWithinCyclesOnly) {
         const OrderPixels found = judge(mesh, OrderMethod::exact, all);
         EXPECT_GT(found.wrong, 0);
         EXPECT_EQ(found.outside_cycles, 0);
-        // What is broken bounds what is wrong: pixels of an area of (5/200)^2, those at its border
-        // by more or less (a border of 8 units at most crosses 8 * 200 / 5 pixels).
+        // The broken area bounds the wrong pixels: a pixel has an area of (5/200)^2; those at the
+        // border may add some (a border of at most 8 units crosses 8 * 200 / 5 pixels).
         VisibilityOrder exact(mesh, OrderMethod::exact);
         exact.sort(eye_of(all[0]));
         const double pixel = 5. / 200;
         EXPECT_LE(static_cast<double>(found.wrong) * pixel * pixel,
                   exact.report().broken_area + 8 * pixel);
     }
-    // Sticks drawn across shared faces alone have no cycle to excuse them.
+    // OrderMethod::none reports no cycles, so every wrong pixel counts as outside cycles.
     const TetMesh sticks(test::three_sticks({.3, .2, .25}), "sticks");
     const OrderPixels guessed = judge(sticks, OrderMethod::none, all);
     EXPECT_GT(guessed.wrong, 0);
     EXPECT_EQ(guessed.outside_cycles, guessed.wrong);
 }
 
-// Needles and slivers with holes: cycles are possible, and nothing is wrong outside them.
+// In meshes of needles and slivers with holes, cycles are possible, and nothing is wrong outside
+// them.
 TEST(OrderPixels, NeedlesWithHoles) {
     for (const double least : {.1, 1e-3}) {
         std::mt19937 random(5);
@@ -236,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(OrderPixels, RealMeshes,
                              return std::filesystem::path(mesh.param).stem().string();
                          });
 
-// Parts of it overlap: what is wrong is within cycles, or on rays on which they do.
+// Parts of the can overlap: pixels are wrong only within cycles, or on rays on which parts overlap.
 TEST(OrderPixels, SelfOverlappingCan) {
     const std::filesystem::path file = data_file("can.vtu");
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;

@@ -29,7 +29,7 @@ struct TestLine {
 struct Passed {
     std::int32_t tet;
     double from, to, front, back, least, most;
-    std::array<std::int32_t, 3> corners;  // of the face behind
+    std::array<std::int32_t, 3> corners;  // of the face by which the line leaves
     std::array<double, 3> weights;
     bool operator==(const Passed&) const = default;
 };
@@ -77,7 +77,8 @@ struct Together {
     std::size_t steps = 0, in_vectors = 0;
 };
 
-// Lines begin where others have ended, so that lanes are never in step.
+// Walks lines in packets. Each line begins in the lane of one that has ended, so lanes are never in
+// step.
 Together walk_together(const TetMesh& mesh, const FaceTree& tree,
                        const std::vector<TestLine>& lines, std::span<const double> values) {
     PacketWalk walk(mesh, tree, values);
@@ -115,8 +116,9 @@ Together walk_together(const TetMesh& mesh, const FaceTree& tree,
     return result;
 }
 
-// `in_vectors`: the least and the largest share of steps that vectors take, where these are as
-// accurate as a line alone: SSE4 has no fused multiplication and addition.
+// Expects the tets and crossings of single lines. least_in_vectors, most_in_vectors: the share of
+// steps that vectors decide, if they are as accurate as a single line: SSE4 has no fused
+// multiplication and addition.
 void expect_same(const MeshData& data, const std::vector<TestLine>& lines, double least_in_vectors,
                  double most_in_vectors) {
     const TetMesh mesh(data, "mesh");
@@ -151,7 +153,7 @@ TEST(PacketWalk, PassesWhatLinesAlonePass) {
         expect_same(test::split_box(3, 3000, least, value_at), lines, .9, 1);
 }
 
-// Floats decide none of these steps.
+// These lines meet edges and points exactly, so floats decide none of the steps.
 TEST(PacketWalk, LeavesTiesToLinesAlone) {
     std::vector<TestLine> lines;
     for (const glm::dvec3& direction :

@@ -16,7 +16,7 @@ namespace {
 
 using reference_test::Random;
 
-// Two ranges of values show something.
+// Returns a function with two ranges of values that show something.
 TransferFunction two_peaks() {
     const auto knot = [](double value, double extinction) {
         return TransferKnot{value, {glm::dvec3(1), extinction}};
@@ -25,7 +25,7 @@ TransferFunction two_peaks() {
         {knot(1, 0), knot(2, 1), knot(3, 0), knot(5, 0), knot(6, 1), knot(7, 0)});
 }
 
-// The numbers are those of seen_segment(), bit by bit.
+// Expects the numbers of seen_segment(), bit by bit.
 void test_segments() {
     Random random(9);
     const TransferFunction function = two_peaks();

@@ -17,7 +17,8 @@ using reference_test::make_volume;
 
 constexpr int length = 4;  // of the box, along x
 
-// The value is x: eight samples would do, and more of them make a walk.
+// Returns a box with the value x. Eight samples would do, but with more of them rays cross several
+// cells.
 Volume ramp_volume() {
     const Grid grid = make_grid({length + 1, 3, 3}, Centering::node);
     std::vector<float> samples;
@@ -28,7 +29,8 @@ Volume ramp_volume() {
 
 const std::array<std::int32_t, 3> ramp_cells{length, 2, 2};
 
-// Looks along x, from outside, with the middle of the box in the middle of the picture.
+// Returns a scene that looks along x from outside, with the middle of the box in the middle of the
+// picture.
 Scene scene_along_x(Projection projection, const TransferFunction& transfer) {
     Scene scene;
     scene.transfer_function = transfer;
@@ -41,7 +43,7 @@ Scene scene_along_x(Projection projection, const TransferFunction& transfer) {
     return scene;
 }
 
-// Both kinds of data, where value is x.
+// Points seen in a volume and in a mesh, whose value is x.
 struct Rays {
     std::optional<SeenPoint> of_volume, of_mesh;
 };
@@ -57,9 +59,10 @@ double depth_of_half_opacity(double depth) {
     return -std::log((1 + std::exp(-depth)) / 2);
 }
 
-// Ends of segments are good to some 16 epsilons of the distance (mesh/ray_walk.cpp), 4e-15 here;
-// the place moves by the error of the depth over the extinction there, at least .05: 1e-12 holds
-// with much to spare. Depths stay below 18, where a walk ends because the rest is hidden.
+// Expects a point at x. Ends of segments have errors of some 16 epsilons of the distance
+// (mesh/ray_walk.cpp), 4e-15 here. The place is off by the depth's error divided by the extinction,
+// at least .05, so 1e-12 is generous. Depths stay below 18, where a ray ends because the rest is
+// hidden.
 void expect_at(const std::optional<SeenPoint>& point, double x, double opacity) {
     ASSERT_TRUE(point);
     EXPECT_NEAR(point->position.x, x, 1e-12);
@@ -82,7 +85,7 @@ TEST(SeenPoint, OfOneExtinctionIsWhereTheClosedFormSays) {
     }
 }
 
-// Extinction k x: the depth up to x is k x^2 / 2. A clip at x = 1 takes k / 2 of it.
+// With extinction k x the depth up to x is k x^2 / 2. A clip at x = 1 takes away k / 2 of it.
 TEST(SeenPoint, OfARampIsWhereTheClosedFormSays) {
     for (const bool clipped : {false, true}) {
         for (const double k : {.1, 2.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NaN and infinite samples, values on steps, transparent parts.
+// Tests NaN and infinite samples, values exactly on steps, and transparent regions.
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
@@ -42,7 +42,7 @@ TEST(SpecialValues, AllNonFinite) {
     EXPECT_EQ(alpha_along_x(volume, constant_function(1, glm::dvec3(1)), 1, 1), 0);
 }
 
-// A constant field exactly on a step has the value of at(): the later knot's.
+// A constant field exactly on a step has the optics of TransferFunction::at(): the later knot's.
 TEST(SpecialValues, ConstantFieldOnAStep) {
     const TransferFunction up = TransferFunction::linear(
         {{0, {glm::dvec3(1), 0}}, {5, {glm::dvec3(1), 0}}, {5, {glm::dvec3(1), 0.5}}});
@@ -52,8 +52,8 @@ TEST(SpecialValues, ConstantFieldOnAStep) {
     const Volume volume = make_volume<std::int16_t>(grid, std::vector<std::int16_t>(27, 5));
     EXPECT_NEAR(alpha_along_x(volume, up, 0.5, 0.5), -std::expm1(-0.5 * 2), 1e-15);
     EXPECT_EQ(alpha_along_x(volume, down, 0.5, 0.5), 0);
-    // Constant along the ray only: in the plane between cells where the field is 5 (and in the last
-    // one of the box).
+    // This field is constant only along the ray: in the plane between cells where it is 5 (and in
+    // the last plane of the box).
     std::vector<std::int16_t> ramp;
     for (int i = 0; i < 27; ++i) ramp.push_back(static_cast<std::int16_t>(4 + i / 3 % 3));
     const Volume ramp_volume = make_volume<std::int16_t>(grid, ramp);
@@ -65,7 +65,7 @@ TEST(SpecialValues, ConstantFieldOnAStep) {
     EXPECT_EQ(alpha_along_x(lower, down, 2, 0.5), 0);
 }
 
-// A palette: constant colours between steps, so the depth along a ramp is a weighted sum.
+// In a palette, optics are constant between steps, so the depth along a ramp is a weighted sum.
 TEST(SpecialValues, PaletteAlongARamp) {
     const Grid grid = make_grid({5, 2, 2}, Centering::node);
     std::vector<std::uint8_t> samples;
@@ -74,7 +74,7 @@ TEST(SpecialValues, PaletteAlongARamp) {
                                                                 {1, {glm::dvec3(1), 0}},
                                                                 {2, {glm::dvec3(1), 0.7}},
                                                                 {4, {glm::dvec3(1), 0.2}}});
-    // Steps halfway: at 0.5, 1.5 and 3.
+    // The steps lie halfway between points: at 0.5, 1.5 and 3.
     const double depth = 0.1 * 0.5 + 0 * 1 + 0.7 * 1.5 + 0.2 * 1;
     EXPECT_NEAR(alpha_along_x(make_volume<std::uint8_t>(grid, samples), palette, 0.5, 0.5),
                 -std::expm1(-depth), 1e-15);
@@ -93,13 +93,13 @@ TEST(SpecialValues, TransparentCellsAreNotIntegrated) {
     EXPECT_EQ(segments, 2);  // the two flanks, in one cell
 }
 
-// `cell` axes: half a voxel more at both ends, where the border value repeats.
+// On `cell` axes the box extends by half a voxel at both ends, where the border value repeats.
 TEST(SpecialValues, BorderValueRepeats) {
     const Grid grid = make_grid({3, 1, 1}, Centering::cell);
     const Volume volume = make_volume<std::uint8_t>(grid, {0, 1, 3});
     const TransferFunction identity =
         TransferFunction::linear({{0, {glm::dvec3(1), 0}}, {4, {glm::dvec3(1), 4}}});
-    // Halves at 0 and 3, and means 0.5 and 2 between the samples.
+    // Values: 0 and 3 in half voxels at the ends, and means of 0.5 and 2 between the samples.
     const double depth = 0.5 * 0 + 0.5 + 2 + 0.5 * 3;
     EXPECT_NEAR(alpha_along_x(volume, identity, 0.25, -0.25), -std::expm1(-depth), 1e-15);
 }

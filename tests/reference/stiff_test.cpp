@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces and thin shells: extinction up to 1e7 per unit, transfer functions with spikes of width
-// 1e-4.
+// Tests surfaces and thin shells: extinction up to 1e7 per unit, transfer functions with spikes of
+// width 1e-4.
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace reference_test;
 
-// A ramp along x from 0 to 1 over `cells` cells of total length 1.
+// Returns a ramp along x from 0 to 1, over `cells` cells of total length 1.
 Volume ramp_volume(int cells) {
     const Grid grid = make_grid({cells + 1, 2, 2}, Centering::node, {1.0 / cells, 1, 1});
     std::vector<float> samples;
@@ -70,8 +70,8 @@ TEST(Stiff, ThinSpikes) {
     for (const double peak : {1e2, 1e4, 1e7}) {
         for (const int cells : {1, 2, 16}) {
             SCOPED_TRACE(testing::Message() << peak << " in " << cells << " cells");
-            // Places in the ray are good to 1e-16, in the spike of width 1e-4 to 1e-12 of it; that
-            // error acts on a depth d as d exp(-d) <= 0.4.
+            // Places on the ray have errors of 1e-16, which is 1e-12 of the spike's width of 1e-4.
+            // Such an error of a depth d changes the result by d exp(-d) <= 0.4 of it.
             expect_segment(TransferFunction::linear({{0.41, {{1, 0, 0}, 0}},
                                                      {0.41005, {{0, 1, 0}, peak}},
                                                      {0.4101, {{0, 0, 1}, 0}}}),
@@ -80,8 +80,8 @@ TEST(Stiff, ThinSpikes) {
     }
 }
 
-// All of a picture stiff: random cells, a surface and a spike; finite numbers, in time, and the
-// estimate kept.
+// In a picture of random cells with a surface and a spike, all numbers are finite, the time is
+// bounded, and errors are within the estimate.
 TEST(Stiff, PictureOfSurfaces) {
     Random random(31);
     const Grid grid = make_grid({12, 12, 12}, Centering::cell);
@@ -107,7 +107,7 @@ TEST(Stiff, ExtinctionBeyondAllMeasure) {
     const Volume volume = ramp_volume(4);
     const TraceResult result = trace_along_x(volume, ramp_function(1e300), false);
     EXPECT_EQ(result.image.rgba[3], 1);
-    // At the very front, colour is that of value 0; the layer is 1e-150 thin.
+    // The colour is that of value 0, at the very front: the visible layer is 1e-150 thin.
     EXPECT_NEAR(result.image.rgba[0], 0, 1e-12);
     EXPECT_NEAR(result.image.rgba[2], 1, 1e-12);
 }

@@ -24,8 +24,9 @@ double value_at(const glm::dvec3& p) {
     return p.x;
 }
 
-// Cameras outside, inside and at the surface of a box from `origin` on, as large as `size`. The up
-// vector of some is nearly parallel to the view direction, so that the view's axes are skewed.
+// Returns cameras outside, inside and on the surface of a box with the lowest corner `origin` and
+// edges of `size`. The up vector of some is nearly parallel to the view direction, so that the
+// view's axes are skewed.
 std::vector<Camera> cameras_around(Random& random, const glm::dvec3& origin, double size) {
     std::vector<Camera> cameras;
     for (int i = 0; i < 90; ++i) {
@@ -40,7 +41,7 @@ std::vector<Camera> cameras_around(Random& random, const glm::dvec3& origin, dou
         camera.height = size * std::pow(10, random.uniform(-1, 2));
         cameras.push_back(camera);
     }
-    // Pixel centres on edges and points of whole-numbered meshes.
+    // In this view, pixel centres lie on edges and points of whole-numbered meshes.
     Camera straight;
     straight.projection = Projection::orthographic;
     straight.eye = {4, 4, 20};
@@ -57,7 +58,7 @@ void expect_faces_listed(const TetMesh& mesh, const Camera& camera, std::size_t&
     TileFaces faces(mesh, tree, view);
     RayWalk one(mesh, tree), other(mesh, tree);
     for (const PictureTile& tile : tiles_to_trace(view.width, view.height)) {
-        if (!faces.list(tile)) continue;  // of eyes in the mesh
+        if (!faces.list(tile)) continue;  // too many faces: an eye in the mesh
         for (int i = 0; i < tile.width * tile.height; ++i) {
             const glm::ivec2 pixel(tile.column + i % tile.width, tile.row + i / tile.width);
             const View::Ray ray = view.ray(pixel.x, pixel.y);
@@ -93,7 +94,7 @@ TEST(TileFaces, ListThoseThatLinesMeet) {
     EXPECT_LT(listed, 768 * pixels / 10);  // of 768 faces
 }
 
-// 200 tets one behind the other in front of 1024 pixels.
+// The mesh has 200 tets one behind the other, in front of 1024 pixels.
 TEST(TileFaces, AreNotListedWhereTheyAreTooMany) {
     MeshData data;
     data.point_scalars.push_back({"s", {}});
@@ -115,7 +116,7 @@ TEST(TileFaces, AreNotListedWhereTheyAreTooMany) {
     EXPECT_FALSE(faces.list(tiles_to_trace(32, 32)[0]));
 }
 
-// Also of a box whose coordinates are large beside its size.
+// Boxes may have coordinates that are large compared with their size.
 TEST(SeenPixels, HoldAllWhoseRaysMeetABox) {
     Random random(4);
     std::size_t hits = 0, misses = 0;
@@ -145,7 +146,7 @@ TEST(SeenPixels, HoldAllWhoseRaysMeetABox) {
     EXPECT_GT(misses, 1000u);
 }
 
-// Points on rays are seen in the rays' pixels, however skewed the view's axes are.
+// Points on rays are seen in the rays' pixels, even if the view's axes are skewed.
 TEST(SeenPixels, HoldThePixelsOfPointsOnRays) {
     Random random(5);
     for (const double tilt : {2e-9, 1e-7, 1e-5, 1e-3, 1.0}) {

@@ -35,7 +35,7 @@ TEST(TraceTiles, CoverThePictureOnceFromTheMiddleOutwards) {
     }
 }
 
-// Keeps what the tiles had when they were said to be complete.
+// Keeps the pixels of each tile as they are when the tile is reported as done.
 struct Keeper {
     PreciseImage kept;
     int tiles = 0;
@@ -61,7 +61,7 @@ TEST(TraceTiles, AreCompleteWhenTheyAreSaidToBe) {
     const TraceResult traced = trace_volume(volume, test::smooth(), view, {}, of_volume.listener());
     EXPECT_EQ(of_volume.tiles, 6);  // 3 x 2
     EXPECT_EQ(of_volume.kept.rgba, traced.image.rgba);
-    // Pixel by pixel, which knows no tiles.
+    // Compares with pixels that are traced one by one, without tiles.
     std::vector<glm::ivec2> pixels;
     for (int row = 0; row < view.height; ++row)
         for (int column = 0; column < view.width; ++column) pixels.emplace_back(column, row);

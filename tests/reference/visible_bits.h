@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single bits of VisibleCells.
+// Reads single bits of VisibleCells.
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,8 @@ using reference_test::make_grid;
 using reference_test::make_volume;
 using reference_test::Random;
 
-// Extinction in `count` ranges of width 4, 10 apart, the first at `first`.
+// Returns a function with extinction in `count` ranges of width 4, whose starts are 10 apart, the
+// first at `first`.
 TransferFunction ranges(int count, double first) {
     std::vector<TransferKnot> knots;
     const auto add = [&](double value, double extinction) {
@@ -35,7 +36,7 @@ TransferFunction ranges(int count, double first) {
     return TransferFunction::linear(knots);
 }
 
-// A block shows something where one of its cells does, and no other bit is set.
+// Expects that a block's bit is set exactly if one of its cells' bits is, and no other bit.
 void expect_blocks_of_cells(const VisibleCells& cells, const Grid& grid) {
     const auto& size = grid.size;
     std::vector<std::uint64_t> expected(
@@ -54,8 +55,8 @@ void expect_blocks_of_cells(const VisibleCells& cells, const Grid& grid) {
     ASSERT_EQ(std::vector(cells.blocks(), cells.blocks() + expected.size()), expected);
 }
 
-// Cells that may show something are those whose range of values meets one of the function's, by a
-// look at every cell; with many ranges others may be among them.
+// Expects, by a look at every cell, that a cell's bit is set if its range of values meets one of
+// the function's ranges. If not `exact` (many ranges), other bits may be set, too.
 template <typename Sample>
 void test_cells(const TransferFunction& function, bool exact, Random& random) {
     const TransferIntervals transfer(function);
@@ -106,11 +107,11 @@ void test_type() {
     test_cells<Sample>(ranges(1, -1e9), true, random);
     test_cells<Sample>(ranges(1, 1e9), true, random);
     test_cells<Sample>(ranges(20, 5.5), false, random);
-    // Between two integers, of which neither shows anything.
+    // This range lies between two integers that show nothing themselves.
     test_cells<Sample>(TransferFunction::linear(
                            {{6.25, {{1, 1, 1}, 0}}, {6.5, {{1, 1, 1}, 1}}, {6.75, {{1, 1, 1}, 0}}}),
                        true, random);
-    // Both ends have extinction: the ranges have no end.
+    // Both ends have extinction, so the outer ranges are unbounded.
     test_cells<Sample>(TransferFunction::linear({{4, {{1, 1, 1}, 2}},
                                                  {5.25, {{1, 1, 1}, 0}},
                                                  {20.5, {{1, 1, 1}, 0}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clip that changes: every frame is the one of a new renderer, and volume and choices stay.
+// A clip that changes: every frame equals that of a new renderer; the volume and the choices stay.
 #include <gtest/gtest.h>
 
 #include "choice/field.h"
@@ -43,7 +43,7 @@ TEST(ChangedClip, MeshesLikewise) {
     for (const test::NamedClip& named : test::clips_of_unit_box()) {
         frames.set_clip(named.clip);
         const Image drawn = frames.draw_picture();
-        frames.set_camera(orbit(20));  // the cut mesh stays
+        frames.set_camera(orbit(20));  // the mesh is not cut again
         EXPECT_EQ(frames.draw_picture().rgba, drawn.rgba) << named.name;
         SceneRenderer other(frames.resolved().scene(), mesh, cpu_capabilities());
         EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << named.name;
@@ -53,13 +53,13 @@ TEST(ChangedClip, MeshesLikewise) {
     EXPECT_EQ(frames.draw_picture().rgba, whole.rgba);
 }
 
-// With --no-omit, too.
+// The clip removes the whole mesh, with omissions and without.
 TEST(ChangedClip, NothingIsLeftOfAMesh) {
     OmissionSwitch nothing_left_out;
     nothing_left_out.none = true;
     for (const OmissionSwitch& omissions : {OmissionSwitch{}, nothing_left_out}) {
         Scene scene = mesh_scene();
-        scene.clip.planes = {{{5, 0, 0}, {1, 0, 0}}};  // of a box 3 wide
+        scene.clip.planes = {{{5, 0, 0}, {1, 0, 0}}};  // beside the box, which is 3 wide
         SceneRenderer frames(scene, split_box(), cpu_capabilities(), omissions);
         EXPECT_EQ(frames.draw_picture().rgba, Image(scene.width, scene.height).rgba);
         EXPECT_NE(frames.explanation().find("the clip cuts the whole mesh away"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opacity that is linear between points: slicing, projected tets and the tracer against an
-// integration of -log1p(-opacity) along rays that knows neither knots nor pieces.
+// Opacity that is linear between points: compares slicing, projected tets and the tracer with an
+// integration of -log1p(-opacity) along rays, without the pieces that they use.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Case {
     double unit_length;
 };
 
-// The field below has values from 0 to 384.
+// Transfer functions for the field below, whose values go from 0 to 384.
 const Case cases[] = {
     {"ramp", {{0, {0, .2, 1}, 0}, {384, {1, .5, 0}, 1}}, 1},
     {"falling ramp, unit length", {{-20, {1, 1, 1}, 1}, {380, {.2, .5, 0}, 0}}, .4},
@@ -46,8 +46,8 @@ double field(const glm::dvec3& place) {
     return 96 * place.x + 32 * place.y + 64 * place.z;
 }
 
-// Looks through the box [0, 2]^3. Along a ray the field changes by 85 a unit of length, so that no
-// ray stays where opacity is all but 1.
+// Returns a camera that looks through the box [0, 2]^3. Along its rays the field changes by 85 per
+// unit of length, so no ray stays where the opacity is nearly 1.
 Camera camera() {
     Camera result;
     result.projection = Projection::orthographic;
@@ -58,7 +58,7 @@ Camera camera() {
     return result;
 }
 
-// A ray's part inside the box: where it is entered, and how long it is; 0 where it misses.
+// A ray's part inside the box: entry point and length; the length is 0 if the ray misses the box.
 struct Chord {
     glm::dvec3 entry{0}, direction{0};
     double length = 0;
@@ -85,7 +85,7 @@ Chord chord_of(int column, int row) {
     return chord;
 }
 
-// Integrates one function of opacity along a chord, on which the field is linear.
+// Integrates a function of opacity along a chord, on which the field is linear.
 class Integration {
   public:
     explicit Integration(const Case& given) : given_(given) {}
@@ -114,10 +114,10 @@ class Integration {
     static constexpr int steps = 4000;
 
   private:
-    // Between two cuts opacity and colour are linear, so the optical depth of a step is known: the
-    // integral of -ln u is u - u ln u, with u = 1 - opacity. Colour is taken in the middle of each
-    // step. It changes by at most 1 between two cuts, so each channel is off by 1 / (2 steps) of
-    // the opacity at most.
+    // Adds the part between two cuts, where opacity and colour are linear. So the optical depth of
+    // a step is known: the integral of -ln u is u - u ln u, with u = 1 - opacity. Colour is taken
+    // in the middle of each step. It changes by at most 1 between two cuts, so each channel is off
+    // by at most 1 / (2 steps) of the opacity.
     void add(double from, double to, double length, double& depth,
              std::array<double, 4>& rgba) const {
         const auto at = [&](double share) { return optics(from, to, share); };
@@ -133,7 +133,8 @@ class Integration {
         }
     }
 
-    // Where both ends are close, their middle is good to ((u1 - u0) / u)^2 / 24, 4e-10.
+    // Returns the mean of -ln u. If both ends are close, their middle serves: its error is ((u1 -
+    // u0) / u)^2 / 24, at most 4e-10.
     static double mean_of_minus_log(double u0, double u1) {
         if (u0 <= 0 && u1 <= 0) return 1e9;  // opaque
         if (std::abs(u1 - u0) < 1e-4 * std::max(u0, u1)) return -std::log((u0 + u1) / 2);
@@ -141,7 +142,7 @@ class Integration {
         return (integral(u1) - integral(u0)) / (u1 - u0);
     }
 
-    // Between two neighbouring cuts, at a share of the way.
+    // Returns opacity and colour between two neighbouring cuts, at `share` of the distance.
     OpacityKnot optics(double from, double to, double share) const {
         const double middle = (from + to) / 2, value = from + share * (to - from);
         const auto& points = given_.points;
@@ -158,8 +159,8 @@ class Integration {
     const Case& given_;
 };
 
-// What the pieces may add (.1 / 255), and what this integration may be off by. (Beside opacity 1
-// extinction is capped at 17 a unit length, over 4e-8 of opacity: that is nothing here.)
+// Error of the pieces (.1 / 255) and of this integration. (Beside opacity 1, extinction is capped
+// at 17 per unit length, for the last 4e-8 of opacity, which is negligible.)
 constexpr double of_pieces = .1 / 255, of_integration = .5 / Integration::steps;
 
 template <typename Picture>
@@ -227,14 +228,14 @@ TEST(LinearOpacity, SlicingIntegratesIt) {
 TEST(LinearOpacity, ProjectedTetsIntegrateIt) {
     for (const Case& given : cases) {
         SceneRenderer frames(scene_of(given, Method::project), mesh(), cpu_capabilities());
-        // Beside what the plan claims, weights of coloured parts are polynomials, good to 3e-5, and
-        // sums of tens of fragments are rounded to float32.
+        // Beside the plan's bound: weights of coloured parts are polynomials good to 3e-5, and sums
+        // of tens of float32 fragments are rounded.
         const double claimed = frames.plan().project.trial_error.segments / 255 + 3e-5 + 1e-5;
         expect_near(frames.draw_picture(), given, claimed, "projected");
     }
 }
 
-// On a field that is not linear, where the tracer is the truth.
+// The field is not linear here, and the tracer is the truth.
 TEST(LinearOpacity, SlicingIsTheTracersOnCurvedFields) {
     const auto data = std::make_shared<const VolumeData>(
         generate({"gaussians", std::array<std::int64_t, 3>{24, 20, 28}, SampleType::uint8}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sessions that draw with OpenGL.
+// Renderers that draw with OpenGL.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ struct Frames {
     std::vector<Image> volume, mesh;
 };
 
-// Of two sessions that take turns in one context.
+// Draws the frames of two renderers that take turns in one context.
 Frames draw_frames(gl::ContextKind kind, double first_degrees) {
     const DrawContext context(kind);
     const auto current = context.make_current();
@@ -85,7 +85,7 @@ const GlProjectRenderer& gl_renderer(SceneRenderer& frames) {
     return dynamic_cast<const GlProjectRenderer&>(frames.renderer());
 }
 
-// With a context that is current.
+// Fixture with an OpenGL context that is current.
 class OpenGlSession : public testing::Test {
   protected:
     const Capabilities& capabilities() const { return context_.capabilities(); }
@@ -95,7 +95,7 @@ class OpenGlSession : public testing::Test {
     const std::unique_ptr<gl::CurrentContext> current_ = context_.make_current();
 };
 
-// What the current context has done until now.
+// Counts of what the current context has done so far.
 struct Done {
     std::int64_t bytes_uploaded = gl::current_context()->counts().bytes_uploaded;
     int programs_compiled = gl::current_context()->programs().compiled();
@@ -114,10 +114,11 @@ void expect_fresh(SceneRenderer& frames, const Data& data, const Image& drawn,
 
 struct VolumeCase {
     Scene scene;
-    TransferFunction (*transfer_function)(double extinction);  // more of the same kind
+    // Returns functions with the same number of points.
+    TransferFunction (*transfer_function)(double extinction);
 };
 
-// Slabs, of two classifications; trees that programs compute, and of nodes of codes.
+// Returns cases of slabs with two classifications, and of trees with nodes in shaders and in codes.
 std::vector<VolumeCase> volume_cases() {
     std::vector<VolumeCase> cases(4, {volume_scene(), smooth});
     cases[0].scene.slice.classification = Classification::post;
@@ -132,7 +133,7 @@ std::vector<VolumeCase> volume_cases() {
 TEST_F(OpenGlSession, CamerasUploadAndCompileNothing) {
     const auto data = blobs();
     for (VolumeCase& one : volume_cases()) {
-        // Segments are short: a table of one layer, in any view.
+        // Segments are short, so a table of one layer serves every view.
         one.scene.transfer_function = one.transfer_function(1);
         SceneRenderer frames(one.scene, data, capabilities());
         frames.draw();
@@ -150,7 +151,7 @@ TEST_F(OpenGlSession, CamerasUploadAndCompileNothing) {
     }
 }
 
-// Other programs, or none: orthographic, past the box, into it.
+// These cameras need other programs, or none: orthographic, looking past the box, inside it.
 TEST_F(OpenGlSession, CamerasOfOtherKindsKeepTheVolume) {
     const auto data = blobs();
     Camera parallel = orbit(70);
@@ -175,7 +176,8 @@ TEST_F(OpenGlSession, CamerasOfOtherKindsKeepTheVolume) {
 TEST_F(OpenGlSession, TransferFunctionsOfOneKindUploadNoVolumeAndCompileNothing) {
     const auto data = blobs();
     for (VolumeCase& one : volume_cases()) {
-        // Tables have these sizes whatever their errors are, and programs know sizes.
+        // The sizes of the tables are fixed, whatever their errors, because programs are compiled
+        // for sizes.
         one.scene.slice.table = SliceTableSettings{256, 4, 2};
         SceneRenderer frames(one.scene, data, capabilities());
         frames.draw();
@@ -197,7 +199,7 @@ TEST_F(OpenGlSession, TransferFunctionsOfOneKindUploadNoVolumeAndCompileNothing)
     }
 }
 
-// The programs are the same, what they are set to is not.
+// Both renderers use the same programs with different uniforms.
 TEST_F(OpenGlSession, TwoTakeTurnsWithTheSamePrograms) {
     const auto data = blobs();
     for (const VolumeCase& one : volume_cases()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choices that a pipeline makes between a scene and its renderer.
+// Choices that a pipeline makes before it plans.
 #include "render/pipeline.h"
 
 #include <array>
@@ -25,7 +25,7 @@ nlohmann::json with_open_map() {
                 {{"colormap", "greys"}, {"points", {{{"value", 0}, {"extinction", 1}}}}});
 }
 
-// The files of one process are not mixed up: each channel has its own range.
+// Each channel of a file has its own range.
 TEST(Pipeline, StretchesAColormapOverTheChannelThatIsDrawn) {
     const TemporaryFolder folder;
     std::ofstream(folder / "two.mha")
@@ -58,7 +58,7 @@ TEST(Pipeline, StretchesAnotherColormapOverTheDataItHas) {
     EXPECT_EQ(pipeline.scene().transfer_function, chosen.scene().transfer_function);
 }
 
-// Pictures of a volume and of a mesh beside it have the same colours.
+// The pictures of a volume and of a mesh beside it have the same colours.
 TEST(Pipeline, StretchesAColormapOverTheVolumeForItsMeshToo) {
     const TemporaryFolder folder;
     AtomicFile file(folder / "wide.vtu");
@@ -72,17 +72,20 @@ TEST(Pipeline, StretchesAColormapOverTheVolumeForItsMeshToo) {
     EXPECT_EQ(slices.scene().transfer_function, tets.scene().transfer_function);
     document.erase("volume");
     Pipeline alone(read_scene(document, "s"));
-    EXPECT_EQ(alone.scene().transfer_function->knots().back().value, 10000);  // x goes to 2
+    // 5000 x, where x goes to 2.
+    EXPECT_EQ(alone.scene().transfer_function->knots().back().value, 10000);
 }
 
 TEST(Pipeline, StretchesAColormapOverDataInMemory) {
     const nlohmann::json document = with_open_map();
-    const Scene scene = read_scene(document, "s");  // it names a volume of 0 to 255
+    // The scene names a volume with values from 0 to 255.
+    const Scene scene = read_scene(document, "s");
     const MeshData mesh = test::kuhn_box({2, 2, 2}, [](const glm::dvec3& p) { return 7 * p.x; });
     Scene projected = scene;
     projected.method = Method::project;
     Pipeline of_mesh(projected, SceneData(projected, mesh));
-    EXPECT_EQ(of_mesh.scene().transfer_function->knots().back().value, 14);  // x goes to 2
+    // 7 x, where x goes to 2.
+    EXPECT_EQ(of_mesh.scene().transfer_function->knots().back().value, 14);
     Grid grid;
     grid.size = {2, 2, 2};
     grid.centering.fill(Centering::cell);
@@ -98,7 +101,7 @@ TEST(Pipeline, ChoosesInPlaceOfAFileThatGivesAFunction) {
     const TransferFunction given = *scene.transfer_function;
     scene.transfer_function = automatic;
     EXPECT_NE(Pipeline(scene).scene().transfer_function, given);
-    // An open map does not replace what a caller puts in its place.
+    // A transfer function that replaces an open colour map in the scene is kept.
     Scene open = read_scene(with_open_map(), "s");
     open.transfer_function = given;
     EXPECT_EQ(Pipeline(open).scene().transfer_function, given);
@@ -112,7 +115,7 @@ TEST(Pipeline, SaysThatOpacityOneWasReplaced) {
     EXPECT_NE(heard.texts[0].find("optical depth of 17 per unit_length"), std::string::npos);
 }
 
-// Data that cannot be drawn are not traced, whoever asks for the picture.
+// Data without a finite number are refused by both tracers.
 TEST(Pipeline, TracesNoVolumeWithoutANumber) {
     Scene scene = read_scene(minimal_scene(), "s");
     scene.method = Method::trace;
@@ -125,7 +128,7 @@ TEST(Pipeline, TracesNoVolumeWithoutANumber) {
     }
 }
 
-// Both policies for NaN, of both tracers: an error, or cells that show nothing.
+// Both tracers follow both policies for NaN: an error, or transparent cells.
 TEST(Pipeline, TracesPlainlyWhatTheTracerTraces) {
     Scene scene = read_scene(minimal_scene(), "s");
     scene.method = Method::trace;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of this room draw.
+// Data, cameras and scenes that the tests in tests/render draw.
 #pragma once
 
 #include <array>

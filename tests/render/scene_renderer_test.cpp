@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A renderer whose scene changes draws what a new one draws of its resolved scene, bit for bit on
-// the cpu engine, and does again only what a change makes necessary.
+// A renderer whose scene changes draws the same as a new one with its resolved scene, bit for bit
+// on the cpu engine, and repeats only the steps that a change makes necessary.
 #include "render/scene_renderer.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 using test::knot;
 
-// One that is given all that the other has chosen.
+// Returns the picture of a new renderer with the resolved scene.
 Image fresh(SceneRenderer& frames, const std::shared_ptr<const VolumeData>& data) {
     return SceneRenderer(frames.resolved().scene(), data, frames.capabilities()).draw_picture();
 }
@@ -36,7 +36,7 @@ TEST(SceneRenderer, DrawsEveryFrameAsANewOne) {
         frames.set_camera(orbit(degrees));
         expect_fresh("turned by " + std::to_string(degrees));
     }
-    // In and out of the box, and past it: nothing is to be seen there.
+    // The camera goes into the box and out again, and looks past it, where nothing is seen.
     for (const double distance : {1.2, .6, .3, .05, 1e-3, .3, 40., 2.}) {
         frames.set_camera(orbit(200, distance));
         expect_fresh("from " + std::to_string(distance));
@@ -88,7 +88,8 @@ TEST(SceneRenderer, SettingsAreChosenAgain) {
 
 TEST(SceneRenderer, DoesAgainWhatAChangeNeeds) {
     Scene scene = volume_scene();
-    scene.transfer_function = smooth(1);  // segments are short: a table of one layer, in any view
+    // Segments are short, so one layer of a table serves all views.
+    scene.transfer_function = smooth(1);
     SceneRenderer frames(scene, blobs(), cpu_capabilities());
     frames.draw();
     SceneRenderer::Counts expected{1, 1, 1, 1, 1};
@@ -100,7 +101,7 @@ TEST(SceneRenderer, DoesAgainWhatAChangeNeeds) {
     ++expected.views;
     ++expected.plans;
     const int renderers = frames.counts().renderers;
-    EXPECT_LE(renderers, 2);  // a table of longer segments serves all views
+    EXPECT_LE(renderers, 2);  // one new table, if any, covers longer segments in all views
     expected.renderers = renderers;
     EXPECT_EQ(frames.counts(), expected);
     for (int degrees = 50; degrees < 400; degrees += 30) {
@@ -172,14 +173,15 @@ TEST(SceneRenderer, MeshesLikewise) {
     }
 }
 
-// Bytes that are allocated and not freed: resident pages also count what the allocator keeps.
+// Returns the bytes that are allocated and not freed. Resident memory would include what the
+// allocator keeps for itself.
 std::int64_t bytes_in_use() {
     const struct mallinfo2 heap = mallinfo2();
     return static_cast<std::int64_t>(heap.uordblks + heap.hblkhd);
 }
 
-// A picture has 1.9 MB, the copy of the volume .05: of 48 further frames a tenth of that is
-// allowed.
+// A picture has 1.9 MB and the copy of the volume .05. 48 frames may add at most a tenth of their
+// pictures' size.
 TEST(SceneRenderer, MemoryDoesNotGrowAfterTheFirstRound) {
     SceneRenderer frames(volume_scene(), blobs(), cpu_capabilities());
     frames.set_size(400, 300);
@@ -205,7 +207,7 @@ TEST(SceneRenderer, AStopEndsAFrameAndTheNextIsWhole) {
     stop.request_stop();
     EXPECT_THROW(frames.draw(stop.get_token()), Interrupted);
     EXPECT_EQ(frames.draw_picture().rgba, whole.rgba);
-    // What is measured and tried is not lost either.
+    // Measurements and trials that were done before the stop are kept.
     frames.choose_again();
     EXPECT_THROW(frames.draw(stop.get_token()), Interrupted);
     EXPECT_EQ(frames.draw_picture().rgba, whole.rgba);
@@ -228,7 +230,7 @@ TEST(SceneRenderer, TwoInTwoThreadsDrawWhatEachDrawsAlone) {
     SceneRenderer first(volume_scene(), data, cpu_capabilities());
     SceneRenderer second(mesh_scene(), mesh, cpu_capabilities());
     std::thread other([&] {
-        std::stop_source stop;  // of the one, no matter to the other
+        std::stop_source stop;  // the stop is for this renderer only
         stop.request_stop();
         EXPECT_THROW(second.draw(stop.get_token()), Interrupted);
         turn(second);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of points, background and colour maps in scene files.
+// Tests how scene files give colours: of points, of the background and by colour maps.
 #include "scene_files/keys.h"
 
 #include <cmath>
@@ -81,12 +81,13 @@ TEST(ColorJson, AShippedMapIsStretchedOverTheDataUnlessToldOtherwise) {
     EXPECT_FALSE(has_open_colormap(over_data));
     EXPECT_EQ(over_data.transfer_function->at(20).color, glm::dvec3(0));
     EXPECT_EQ(over_data.transfer_function->at(60).color, glm::dvec3(1));
-    EXPECT_NEAR(over_data.transfer_function->at(40).color.g, .5, 1e-15);  // a few roundings
+    // Tolerance of a few roundings.
+    EXPECT_NEAR(over_data.transfer_function->at(40).color.g, .5, 1e-15);
     map["colormap_range"] = {100, 200};
     const auto told = read_scene(mapped(map, "display"), "s").transfer_function;
     EXPECT_EQ(told->at(150).color, glm::dvec3(.5));
     const auto linear = read_scene(mapped(map, "linear"), "s").transfer_function;
-    // The map is resampled to 5e-4.
+    // The points of the resampled map follow it within 5e-4.
     EXPECT_NEAR(linear->at(150).color.g, linear_from_srgb(glm::dvec3(.5)).g, 5e-4);
 }
 

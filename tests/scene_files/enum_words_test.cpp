@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of enums are those of the schema, and shaders number enums as C++ does.
+// Tests that the words of enums are those of the schema, and that shaders number enums like C++.
 #include "base/enum_words.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,8 @@ std::string text_of_shader(const std::string& name) {
     return read_file_bytes(fmt::format("{}/shaders/{}", LAMINA_SOURCE_DIR, name));
 }
 
-// A line `#define PREFIX_WORD number` for each value, and no number beyond.
+// Expects that a shader has a line `#define PREFIX_WORD number` for each value of an enum, and none
+// for other numbers.
 template <typename Enum>
 void expect_numbers(const std::string& shader, const std::string& prefix) {
     const std::string text = text_of_shader(shader);
@@ -87,7 +88,7 @@ TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
     EXPECT_EQ(words_of<TableConstruction>(), "exact incremental");
 }
 
-// Every list of words in a part of the schema, with a space between words.
+// Returns every list of words in a part of the schema, as a text with a space between words.
 std::set<std::string> lists_in(const nlohmann::json& schema) {
     std::set<std::string> lists;
     if (schema.is_object() && schema.contains("enum")) {
@@ -108,7 +109,7 @@ std::set<std::string> lists_in(const nlohmann::json& schema) {
 TEST(EnumWords, AreThoseOfTheSchema) {
     const std::set<std::string> lists =
         lists_in(load_json(LAMINA_SOURCE_DIR "/docs/scene.schema.json"));
-    // An automatic value comes first if it is the default.
+    // "auto" comes first if it is the default, else last.
     for (const std::string& words : {words_of<Method>(),
                                      words_of<Target>() + " auto",
                                      words_of<TraceOf>(),

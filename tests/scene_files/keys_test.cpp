@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of keys: reader, writer and schema of one struct.
+// Tests tables of keys: reader, writer and schema of the made-up structs Lamp and Room.
 #include "scene_files/keys.h"
 
 #include "support/expect_error.h"
@@ -20,7 +20,7 @@ struct Lamp {
 struct Room {
     Lamp lamp;
     std::vector<Lamp> more;
-    std::optional<double> height;  // none: "open"
+    std::optional<double> height;  // without a value: "open"
     bool operator==(const Room&) const = default;
 };
 

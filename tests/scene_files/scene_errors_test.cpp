@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bad scenes: one line that names file, key, what was found and what was expected.
+// Tests that the message about a bad scene is one line that names file, key, what was found and
+// what was expected.
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 #include "support/temporary_folder.h"

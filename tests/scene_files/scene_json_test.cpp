@@ -10,7 +10,8 @@
 namespace lamina {
 namespace {
 
-// What is read from what was written is written in the same way, with the same points.
+// Writes a scene, reads it again, and expects the same transfer function and the same text when it
+// is written again.
 void expect_kept(const Scene& scene, const std::string& name) {
     const nlohmann::ordered_json written = scene_json(scene);
     const Scene read = read_scene(nlohmann::json::parse(written.dump()), "s");
@@ -28,7 +29,7 @@ TEST(SceneJson, KeepsWhatShips) {
     for (const auto& entry :
          std::filesystem::directory_iterator(LAMINA_SOURCE_DIR "/data/scenes")) {
         nlohmann::json document = load_json(entry.path());
-        // Where the data are is no matter here.
+        // Paths of data are replaced, because they do not matter here.
         for (const char* const key : {"volume", "mesh"}) {
             if (document.contains(key) && document[key].is_string()) document[key] = "data";
         }

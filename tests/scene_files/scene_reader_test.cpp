@@ -101,10 +101,11 @@ TEST(SceneReader, ColormapGivesColoursAndPointsExtinction) {
     const TransferFunction read = *read_scene(document, folder / "scene.json").transfer_function;
     EXPECT_DOUBLE_EQ(read.at(255).extinction, 2);
     EXPECT_DOUBLE_EQ(read.at(255).color.g, 1);
-    // sRGB .5 in linear light (IEC 61966-2-1); the map is resampled to 5e-4.
+    // Expects sRGB .5 in linear light (IEC 61966-2-1), which the resampled map follows within 5e-4.
     EXPECT_NEAR(read.at(127.5).color.g, std::pow((.5 + .055) / 1.055, 2.4), 5e-4);
     EXPECT_DOUBLE_EQ(read.at(127.5).extinction, 1);
-    document["transfer_function"]["colormap_range"] = {-1.5e308, 1.5e308};  // no finite difference
+    // The difference of its ends is not finite.
+    document["transfer_function"]["colormap_range"] = {-1.5e308, 1.5e308};
     expect_error([&] { read_scene(document, folder / "scene.json"); },
                  {"transfer_function.colormap_range", "between -1e300 and 1e300"});
 }
@@ -122,7 +123,7 @@ TEST(SceneReader, SetReachesKeysAndListElements) {
     EXPECT_DOUBLE_EQ(scene.transfer_function->knots()[1].optics.extinction, -std::log1p(-.25));
     set_key(document, "render.slice.samples", "null");
     set_key(document, "transfer_function.points.1", "null");
-    set_key(document, "lighting.power", "null");  // not there
+    set_key(document, "lighting.power", "null");  // a key that does not exist
     EXPECT_FALSE(document["render"]["slice"].contains("samples"));
     EXPECT_EQ(document["transfer_function"]["points"].size(), 1u);
     EXPECT_FALSE(document.contains("lighting"));
@@ -132,7 +133,8 @@ TEST(SceneReader, SetReachesKeysAndListElements) {
     EXPECT_THROW(set_key(document, "camera..eye", "1"), UsageError);
 }
 
-// They make objects in each other, whose end would take a stack as deep.
+// The parts of a key make nested objects, which are destroyed recursively: too many would overflow
+// the stack.
 TEST(SceneReader, SetIsLimitedInDepth) {
     std::string key = "a";
     for (int i = 1; i < 64; ++i) key += ".a";
@@ -154,7 +156,7 @@ TEST(SceneReader, SetIsLimitedInDepth) {
     const std::string lists(100'000, '[');
     EXPECT_TRUE(message_of("b", lists).ends_with("nested more than 64 deep"));
     EXPECT_TRUE(message_of("b", lists + std::string(100'000, ']')).starts_with("--set b: line 1"));
-    EXPECT_EQ(message_of("b", "[1"), "");  // no JSON: a word
+    EXPECT_EQ(message_of("b", "[1"), "");  // not valid JSON, so a string
     EXPECT_EQ(document["b"], "[1");
 }
 
@@ -164,7 +166,7 @@ TEST(SceneReader, TurnedCameraKeepsItsDistanceAndHeight) {
     camera.center = {1, 1, 1};
     camera.up = {0, 2, 0};
     const Camera quarter = turned(camera, 90);
-    // (2, 3, 4) about +y by 90 degrees: x <- z, z <- -x.
+    // (2, 3, 4) turned about +y by 90 degrees: the new x is z, the new z is -x.
     EXPECT_NEAR(quarter.eye.x, 1 + 4, 1e-14);
     EXPECT_NEAR(quarter.eye.y, 4, 1e-14);
     EXPECT_NEAR(quarter.eye.z, 1 - 2, 1e-14);

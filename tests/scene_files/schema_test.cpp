@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/scene.schema.json is made from the tables that files are read by.
+// Tests that docs/scene.schema.json is the schema of the tables by which scene files are read.
 #include "base/input_file.h"
 #include "scene_files/scene_keys.h"
 #include "support/scene_fixture.h"

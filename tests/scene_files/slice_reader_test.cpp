@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// "render.slice.dither", "render.slice.tree", "render.emulate" and "render.max_error".
+// Tests the keys "render.slice.dither", "render.slice.tree", "render.emulate" and
+// "render.max_error".
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A volume's file with what of it is drawn.
+// Tests the keys that select a part of a volume's file.
 #include "scene_files/scene_reader.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The self-test's own judge against values known otherwise.
+// Compares the self-test's exact values and bounds with values from other sources.
 #include "selftest/layered_pieces.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@
 namespace lamina::selftest {
 namespace {
 
-// Along the layers' axis through extinction 0 .. 2 .. 0 over a length of 3: optical depth 3.
+// The ray runs along the layers' axis; extinction goes 0 .. 2 .. 0 over a length of 3: optical
+// depth 3.
 TEST(LayeredPieces, OpticalDepthOfATent) {
     LayeredBox box;
     box.samples = {0, 1, 0};
@@ -26,7 +27,8 @@ TEST(LayeredPieces, OpticalDepthOfATent) {
     EXPECT_TRUE(exact_pieces(box, optics, {{1.5, .5, -2}, {0, 0, 1}}).empty());
 }
 
-// The exact picture of a layered box against the tracer of volumes, which knows nothing of layers.
+// Compares the exact picture of a layered box with the volume tracer, which knows nothing of
+// layers.
 TEST(LayeredPieces, AgreeWithTheTracer) {
     SelftestScene scene = plain_scene("", "");
     scene.box.samples = {0, 1, .25, .5};
@@ -39,12 +41,13 @@ TEST(LayeredPieces, AgreeWithTheTracer) {
             .image;
     for (std::size_t i = 0; i < bounds.exact.size(); ++i) {
         for (std::size_t c = 0; c < 4; ++c)
-            EXPECT_NEAR(traced.rgba[4 * i + c], bounds.exact[i][c], 1e-11);  // 1e-12 and roundings
+            // Tracer 1e-12, and rounding.
+            EXPECT_NEAR(traced.rgba[4 * i + c], bounds.exact[i][c], 1e-11);
     }
 }
 
-// Bounds hold the exact value where nothing but rounding is uncertain, and are not wider than that
-// calls for: a homogeneous box of depth D has D exp(-D) (some 2^-20) at most, .4e-6.
+// If only rounding is uncertain, bounds contain the exact value and are not much wider than
+// rounding requires: a homogeneous box of depth D has D exp(-D) (some 2^-20), at most .4e-6.
 TEST(LayeredPieces, BoundsAreTight) {
     SelftestScene scene = plain_scene("", "");
     scene.scene.transfer_function = optics_of({{0, {{1, 1, 1}, 1}}});
@@ -54,8 +57,8 @@ TEST(LayeredPieces, BoundsAreTight) {
     const Interval alpha = bounds.possible[middle][3];
     EXPECT_LE(alpha.lo, bounds.exact[middle][3]);
     EXPECT_GE(alpha.hi, bounds.exact[middle][3]);
-    // Early termination may hide 1 / 255 / 1024 = 3.8e-6 on either side; the rest is rounding:
-    // chord ends and lengths some 5 * 2^-20, blends 8 * 2^-22.
+    // Early termination may hide 1 / 255 / 1024 = 3.8e-6 on either side. Rounding adds about 5 *
+    // 2^-20 for chord ends and lengths, and 8 * 2^-22 for blends.
     EXPECT_LE(alpha.width(), 2 * 3.83e-6 + 8e-6);
 }
 

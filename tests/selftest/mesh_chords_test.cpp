@@ -17,7 +17,7 @@ SceneMesh mesh_of(MeshData data) {
     return {TetMesh(std::move(data), "test"), scalar, false, {}};
 }
 
-// The tets of a box together have the box's chord, however it is cut.
+// The chords of a box's tets add up to the box's chord, however it is divided.
 TEST(MeshChords, OfABoxAddUp) {
     const SelftestScene scene = plain_scene("", "");
     const TransferFunction optics = optics_of({{0, {{1, 1, 1}, 1}}});
@@ -34,7 +34,8 @@ TEST(MeshChords, OfABoxAddUp) {
             const auto chord = box_chord(scene.box, ray, 0);
             ASSERT_TRUE(chord);
             const MeshChords::Along along = chords.along(ray, optics);
-            // Roundings of a double, grown by the flatness of tets split once or twice (1e-3).
+            // Tolerance: rounding of doubles, enlarged by flat tets that were split once or twice
+            // (1e-3).
             EXPECT_NEAR(along.depth, chord->length(), 1e-11);
             EXPECT_LE(along.possible_depth.lo, along.depth);
             EXPECT_GE(along.possible_depth.hi, along.depth);

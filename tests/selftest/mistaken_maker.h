@@ -5,11 +5,11 @@
 
 namespace lamina::selftest {
 
-// What a wrong renderer would do.
+// Mistakes of a renderer that the self-test must find.
 enum class Mistake {
     extinction,  // opacities corrected wrongly: extinction 1 % too high
     position,    // rays off by 1e-3 of their distance
-    slabs,       // a slab too few
+    slabs,       // one slab too few
     thickness,   // Kraus's thickness along the depth axis
     order,       // no visibility order
     bits,        // two bits too few
@@ -17,7 +17,7 @@ enum class Mistake {
     light        // ambient light off by .01
 };
 
-// Draws another scene than it is asked for.
+// Makes the mistake by drawing another scene than the one that was asked for.
 class MistakenMaker : public PictureMaker {
   public:
     MistakenMaker(const Capabilities& capabilities, Mistake mistake)

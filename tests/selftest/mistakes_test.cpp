@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A battery that finds nothing proves nothing: wrong renderers must fail it, in the cases that see
-// what is wrong, and in no others.
+// Tests the self-test: renderers with one mistake each must fail in the cases that show this
+// mistake, and in no others.
 #include <gtest/gtest.h>
 
 #include <algorithm>

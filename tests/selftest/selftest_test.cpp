@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The battery as it is shipped: complete, and passed by the cpu engine.
+// The self-test as released: complete, and passed by the cpu engine.
 #include "selftest/selftest.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@
 namespace lamina::selftest {
 namespace {
 
-// One of a million tets takes most of the time; `lamina selftest` draws it.
+// Tells whether the case takes most of the time: one has a million tets. `lamina selftest` draws
+// it.
 bool is_large(const SelftestCase& each) {
     return each.scene == "hub_1e6";
 }
@@ -52,7 +53,7 @@ TEST(Selftest, RefusesUnknownGroups) {
     EXPECT_THROW(selftest_cases({"optic"}), UsageError);
 }
 
-// A case that cannot be drawn is neither passed nor failed, and says why.
+// A case that cannot be drawn is neither passed nor failed, and gives the reason.
 TEST(Selftest, ReportsWhatWasRefused) {
     const Capabilities capabilities = cpu_capabilities();
     const PictureMaker maker(capabilities);

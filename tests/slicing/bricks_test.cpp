@@ -66,8 +66,7 @@ TEST_F(SlicingTest, BricksComeInVisibilityOrderAlongEveryRay) {
             const View::Ray ray = view.ray(row, (row * 5) % 16);
             double last = 0;
             for (const std::size_t brick : order) {
-                // Where the ray is inside this brick: by bisection-free slab clipping in index
-                // space, in double.
+                // Clips the ray to the brick in index space, in double precision.
                 const IndexBox box = box_of(bricks[brick], grid);
                 const glm::dvec3 origin = grid.to_index(ray.origin),
                                  direction = grid.direction_to_index(ray.direction);
@@ -86,9 +85,9 @@ TEST_F(SlicingTest, BricksComeInVisibilityOrderAlongEveryRay) {
     }
 }
 
-// Cutting shortens segments at the bricks' faces and changes nothing else: both pictures have the
-// same second-order error, here below .2 of 255; a seam (a layer twice or not at all) would cost a
-// whole segment, over 1 of 255.
+// Cutting a volume into bricks divides segments at the bricks' faces and changes nothing else. Both
+// pictures have an error of second order, here below .2 / 255. A seam (a layer drawn twice or not
+// at all) would cost the colour of a full segment, over 1 / 255.
 TEST_F(SlicingTest, BricksLeaveNoSeam) {
     const Volume volume = gaussians(40);
     for (const Classification classification :
@@ -123,9 +122,8 @@ TEST_F(SlicingTest, BricksOfAHomogeneousBoxGiveTheExactChord) {
             worst = std::max(worst, std::abs(image.pixel(column, row)[3] + std::expm1(-3 * chord)));
         }
     }
-    EXPECT_LE(
-        worst,
-        3e-5);  // depth up to 5, float32 lengths good to 1e-6 of the box over some 70 segments
+    // The optical depth is up to 5; some 70 segments have float32 lengths good to 1e-6 of the box.
+    EXPECT_LE(worst, 3e-5);
 }
 
 }  // namespace

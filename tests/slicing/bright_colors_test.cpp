@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours above 1: what exact segments claim grows with them.
+// With colours above 1, the error that exact segments claim grows in proportion.
 #include "cpu_fixture.h"
 #include "exact_fixture.h"
 
 namespace lamina {
 namespace {
 
-// tools/fuzz_scenes --first 9504: few samples of int16 that differ, many points between them, and
-// colours up to `brightest`.
+// A volume that tools/fuzz_scenes --first 9504 found: int16 samples of only a few different values,
+// between which the transfer function has many points with colours up to `brightest`.
 Volume sparse() {
     Grid grid = test::grid_of({11, 2, 1}, Centering::cell);
     grid.step = {glm::dvec3(-.027324965517241378, .17761227586206899, 1.1749735172413793),
@@ -57,7 +57,7 @@ TEST(BrightColors, ExactSegmentsKeepToTheirClaim) {
     const Volume volume = sparse();
     const Scene scene = sparse_scene(1000);
     const double error = linf(render_tiles(volume, scene), trace(volume, scene, 1e-8));
-    // The claim of colours up to 1 does not hold for these.
+    // The error that is claimed for colours up to 1 is exceeded here.
     EXPECT_GT(error, exact_segment_error);
     EXPECT_LE(error, claimed_error(volume, scene));
     EXPECT_GT(claimed_error(volume, scene), scene.max_error);

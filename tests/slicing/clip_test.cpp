@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clipped volumes: segments end at the planes, whatever the slabs.
+// Clipped volumes: segments end exactly at the planes, for any number of slabs.
 #include "support/clips.h"
 
 #include <cmath>
@@ -21,9 +21,10 @@ struct Pose {
     glm::dvec3 eye;
 };
 
+// The eye of the last pose is in a part of the box that some clips cut away.
 const Pose poses[] = {{Projection::orthographic, {1.7, -1.2, 1.4}},
                       {Projection::perspective, {1.21, -.17, 1.19}},
-                      {Projection::perspective, {.31, .42, .63}}};  // cut away by some clips
+                      {Projection::perspective, {.31, .42, .63}}};
 
 Scene posed(const Pose& pose, const TransferFunction& transfer_function) {
     Scene scene = unit_box_scene(transfer_function, pose.projection, 61, 47);
@@ -38,7 +39,7 @@ Volume constant() {
     return generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
 }
 
-// The bound of homogeneous_test.cpp.
+// Returns the bound of homogeneous_test.cpp.
 double chord_bound(double depth) {
     return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));
 }
@@ -93,9 +94,9 @@ TEST_F(SlicingTest, ClippedHomogeneousBoxHasTheExactChordsOpacity) {
         });
 }
 
-// What float32 rays may do to a length inside the unit box and a clip: a plane's distance is off by
-// 16 roundings of coordinates, which are up to the eye's distance of 2, and a ray that grazes the
-// plane is cut so much farther away.
+// Returns the largest error of a length inside the unit box and a clip if rays are float32. The
+// distance to a plane is off by 16 roundings of coordinates, which are up to 3; a ray that grazes
+// the plane meets it so much farther away.
 double float_error_of_length(const Clip& clip, const View::Ray& ray) {
     constexpr double off = 16 * 0x1p-24 * 3;
     std::vector<HalfSpace> faces = half_spaces({{}, ClipBox{{0, 0, 0}, {1, 1, 1}}});
@@ -125,7 +126,8 @@ TEST_F(SlicingTest, FloatRaysEndAtPlanesToo) {
                 for (int column = 0; column < view.width; ++column) {
                     const View::Ray ray = view.ray(column, row);
                     const double length = test::kept_length(named.clip, ray, {0, 0, 0}, {1, 1, 1});
-                    // Beside the lengths: sums of eight opacities in float32.
+                    // In addition to the lengths' errors there are those of sums of eight opacities
+                    // in float32.
                     ASSERT_NEAR(image.pixel(column, row)[3], -std::expm1(-2 * length),
                                 2 * float_error_of_length(named.clip, ray) + 16 * 0x1p-24)
                         << named.name;
@@ -135,7 +137,7 @@ TEST_F(SlicingTest, FloatRaysEndAtPlanesToo) {
     }
 }
 
-// Clips of the unit box, moved into a grid's box.
+// Moves a clip of the unit box into a grid's box.
 Clip in_box_of(const Grid& grid, Clip clip) {
     const Grid::Bounds box = grid.bounds();
     const glm::dvec3 size = box.max - box.min;
@@ -148,7 +150,7 @@ Clip in_box_of(const Grid& grid, Clip clip) {
     return clip;
 }
 
-// Rotated, mirrored and anisotropic, node and cell, and thin.
+// Returns grids that are rotated, mirrored and anisotropic; with node and cell axes; and thin.
 std::vector<Grid> grids() {
     Grid turned = test::grid_of({9, 14, 11}, Centering::cell);
     turned.origin = {3, -200, 40};
@@ -182,7 +184,7 @@ TransferFunction many_colors(const Grid& grid, double depth) {
                                      knot(200, {.9, .9, .1}, 2 * extinction)});
 }
 
-// The promise of exact segments (docs/precision.md).
+// Largest error, in 1/255, that exact segments promise (docs/precision.md).
 constexpr double promised = .05;
 
 void expect_exact_segments(const Draw& draw, const std::vector<Grid>& in,
@@ -199,9 +201,8 @@ void expect_exact_segments(const Draw& draw, const std::vector<Grid>& in,
                     scene.slice.samples = samples;
                     EXPECT_LE(linf(draw(volume, scene, {}), reference), promised) << named.name;
                 }
-                // Five images of 8 bits: at most 1.445 Y / 2 of one write of optical depth
-                // (docs/numerics.md, section 4), Y = 1 + ln(5) / e, and .5 each of colours and
-                // root.
+                // Five images of 8 bits: writing optical depths costs at most 1.445 Y / 2 with Y =
+                // 1 + ln(5) / e (docs/numerics.md, section 4), and colours and root .5 each.
                 scene.target = Target::fixed8;
                 scene.slice.tree = TreeSettings{.factors = {5, 8}};
                 EXPECT_LE(linf(draw(volume, scene, {}), reference),
@@ -222,7 +223,7 @@ TEST(ClippedTiles, ExactSegmentsMeetTheTracer) {
         grids(), test::clips_of_unit_box());
 }
 
-// One number of planes: each is another program, which takes seconds to compile.
+// A single clip, because each number of planes is another program, which takes seconds to compile.
 TEST_F(SlicingTest, ClippedExactSegmentsMeetTheTracer) {
     expect_exact_segments(
         [&](const Volume& volume, const Scene& scene, const OmissionSwitch& omissions) {
@@ -231,10 +232,10 @@ TEST_F(SlicingTest, ClippedExactSegmentsMeetTheTracer) {
         {grids()[0]}, {test::clips_of_unit_box()[0]});
 }
 
-// Slabs are h = 1.7 / 800 thick. Where a ray goes from cell to cell, the slope of its extinction
-// changes by at most 24 (12 for a unit of the scalar, whose slope changes by 2), and a segment
-// there is off by 24 h^2 / 8 of optical depth. Of 33 cells that is 4.5e-4, .11 / 255; what cells
-// and the transfer function's points do within is less.
+// Slabs are h = 1.7 / 800 thick. From cell to cell, the slope of extinction along a ray changes by
+// at most 24 (extinction is 12 per unit of the scalar, whose slope changes by 2), so a segment
+// there is off by 24 h^2 / 8 of optical depth. For 33 cells that is 4.5e-4, or .11 / 255; errors
+// within cells and at the transfer function's points are smaller.
 void expect_many_slabs_to_converge(const Draw& draw, std::span<const Pose> from) {
     const Volume volume = gaussians(12);
     for (const Pose& pose : from) {
@@ -269,7 +270,8 @@ TEST_F(SlicingTest, ManyClippedSlabsMeetTheTracer) {
         std::span(poses).subspan(1, 1));
 }
 
-// A wall in front of the volume hides it; without the wall rays end where the rest is opaque.
+// A wall hides the volume behind it, and a clip plane cuts the wall away: rays must end early only
+// behind the plane.
 TEST(ClippedTiles, RaysEndEarlyBehindThePlane) {
     const Grid grid = test::grid_of({32, 32, 32}, Centering::node);
     const Volume volume = test::volume_of<std::uint8_t>(
@@ -282,8 +284,8 @@ TEST(ClippedTiles, RaysEndEarlyBehindThePlane) {
         scene.slice.samples = 2000;
         const Facts facts = measure(scene, volume, measure_bricks(volume));
         EXPECT_TRUE(make_plan(scene, facts, cpu_capabilities(), {}).slice.ends_early());
-        // Post-classified slabs of .03 voxels: an error of the plane's place of one slab is .3 of
-        // optical depth, tens of 255; their own error is of second order.
+        // Post-classified slabs are .03 voxels thick. If the plane were off by one slab, the
+        // optical depth would be off by .3, tens of 255; the error of second order is far smaller.
         EXPECT_LE(linf(render_tiles(volume, scene), trace(volume, scene, 1e-7)),
                   classification == Classification::exact ? promised : .5);
     }
@@ -310,7 +312,7 @@ TEST(ClippedTiles, BricksBehindPlanesAreLeftOut) {
 TEST(ClippedTiles, PlanesThatCutNothingAreLeftOut) {
     Scene scene = posed(poses[1], smooth_transfer_function());
     const Volume volume = gaussians(12);
-    scene.clip = test::clips_of_unit_box()[8].clip;  // all of it
+    scene.clip = test::clips_of_unit_box()[8].clip;  // keeps all of the box
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     EXPECT_EQ(facts.clip.size(), 7u);
     EXPECT_TRUE(make_plan(scene, facts, cpu_capabilities(), {}).slice.clip.empty());

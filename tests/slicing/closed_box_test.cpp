@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that run in a face of the volume's box are inside it, as the reference tracer has them.
+// Rays that run in a face of the volume's box are inside it, as in the reference tracer.
 #include "engine_fixture.h"
 #include "exact_fixture.h"
 
@@ -13,7 +13,7 @@ INSTANTIATE_TEST_SUITE_P(Contexts, ClosedBox, every_engine, engine_name);
 constexpr Classification classifications[] = {Classification::exact, Classification::preintegrated,
                                               Classification::post};
 
-// Fog in [0, 2] x [0, 2] x [0, 2]: places and directions of the scenes below are exact in binary.
+// Fog in [0, 2] x [0, 2] x [0, 2]. Places and directions of the scenes below are exact in binary.
 Volume fog() {
     return test::volume_of<std::uint8_t>(
         test::grid_of({3, 3, 3}, Centering::node),
@@ -33,12 +33,14 @@ Scene fog_scene(Projection projection) {
     return scene;
 }
 
-// Post-classified and pre-integrated slabs have an error of their own, of second order: some
-// thousandths here, where a ray that is lost is off by more than 1 - exp(-.3 * 2).
+// Returns the largest error in 1/255. Post-classified and pre-integrated slabs have an error of
+// second order, here some thousandths. A ray that is lost would be off by more than 1 - exp(-.3 *
+// 2).
 double allowed(Classification classification) {
     return classification == Classification::exact ? promised : .25;
 }
 
+// Puts the eye in front of the box at `from`, looking along an axis.
 void ahead_along(int axis, double sign, const glm::dvec3& from, Scene& scene) {
     glm::dvec3 ahead(0);
     ahead[axis] = sign;
@@ -81,7 +83,7 @@ TEST_P(ClosedBox, HoldsForEveryClassification) {
     }
 }
 
-// A ray in a face between two parts belongs to one of them, not to both.
+// A ray in a face between two bricks belongs to one of them, not to both.
 TEST_P(ClosedBox, RaysBetweenTwoBricksAreDrawnOnce) {
     const Volume volume = noise<std::uint8_t>({40, 30, 35}, Centering::node, 255);
     Capabilities small = capabilities();
@@ -96,8 +98,8 @@ TEST_P(ClosedBox, RaysBetweenTwoBricksAreDrawnOnce) {
     EXPECT_LE(linf(draw(volume, scene, {}, small), trace(volume, scene, 1e-8)), promised);
 }
 
-// tools/fuzz_scenes --first 9635: one voxel, the eye in the middle of an edge of the box, and an
-// odd number of columns. 12 pixels of 696 were empty.
+// Found by tools/fuzz_scenes --first 9635: one voxel, the eye in the middle of an edge of the box,
+// and an odd number of columns. 12 of 696 pixels were empty.
 TEST_P(ClosedBox, TheEyeInAnEdgeOfAVoxelSeesIt) {
     Grid grid;
     grid.size = {1, 1, 1};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Regions of one colour and one extinction, which marched rays of the cpu engine take in one
-// step.
+// Regions of one colour and one extinction, which the cpu engine's marched rays cross in one step.
 #include <random>
 
 #include "cpu_fixture.h"
@@ -22,7 +21,7 @@ Grid unit_grid(std::int64_t edge, Centering centering = Centering::node) {
                                      glm::dvec3(1 / static_cast<double>(edge - 1)));
 }
 
-// Noise in the lower half, 40 and 200 in the upper one, on both sides of a ramp.
+// Noise in the lower half; in the upper half 40 and 200, with a ramp between.
 Volume layered(std::int64_t edge = 41, Centering centering = Centering::node) {
     std::mt19937 random(3);
     return test::volume_of<std::uint8_t>(
@@ -32,7 +31,7 @@ Volume layered(std::int64_t edge = 41, Centering centering = Centering::node) {
         });
 }
 
-// Every kind of transfer function: one piece, several, one colour, a plateau of them.
+// Returns transfer functions of one piece, of several, of one colour, and with a plateau.
 std::vector<TransferFunction> transfer_functions() {
     return {TransferFunction::linear({knot(0, {.1, .9, .3}, 1), knot(255, {1, .1, .6}, 9)}),
             TransferFunction::linear({knot(0, {.1, .9, .3}, 0), knot(60, {.5, .9, .3}, 3),
@@ -42,9 +41,11 @@ std::vector<TransferFunction> transfer_functions() {
                                       knot(220, {.1, .9, .3}, 4), knot(255, {1, .1, .6}, 9)})};
 }
 
-// A sum of N segments rounds N times, by at most 6e-8 of what opacities add up to, 1, and a depth
-// of 1e-6 of itself by the scalar's and the lengths' roundings: depth * exp(-depth) < .4. Tables of
-// the sampled way are good to .0026 (linear_runs_test.cpp) where segments are deep, here 9 / 100.
+// Returns the largest difference in 1/255 between a region crossed in one step and slab by slab. A
+// sum of N segments rounds N times, by at most 6e-8 of the sum of opacities, which is up to 1.
+// Roundings of scalars and lengths change an optical depth by 1e-6 of itself, and the opacity by
+// less, since depth * exp(-depth) < .4. Tables differ by up to .0026 (linear_runs_test.cpp) for
+// deep segments; here segments are at most 9 / 100 deep.
 double bound(const Scene& scene) {
     const bool table = scene.slice.classification == Classification::preintegrated;
     return 255 * (1e-7 * *scene.slice.samples + 1e-6 + (table ? 1e-5 : 0));
@@ -76,7 +77,7 @@ TEST(ConstantRegionsTest, KeepThePicture) {
     }
 }
 
-// Against the tracer.
+// Compares with the tracer.
 TEST(ConstantRegionsTest, AreExact) {
     const Volume volume = test::volume_of<std::uint8_t>(
         unit_grid(33), [](double x, double, double) { return x < 16 ? 40 : 200; });
@@ -86,15 +87,16 @@ TEST(ConstantRegionsTest, AreExact) {
     Scene scene = unit_box_scene(steps, Projection::perspective);
     scene.slice.samples = 2000;
     ASSERT_TRUE(takes_regions(volume, scene));
-    // Midpoints are exact but for second order, and there for the two kinks of the ramp between:
-    // h^2 / 8 of how fast colour * extinction changes, .8 * 32 * 7 + .9 * 32 * 6 a unit length.
+    // The midpoint rule has no error but at the two kinks of the ramp between the regions: h^2 / 8
+    // of the slope of colour * extinction, .8 * 32 * 7 + .9 * 32 * 6 per unit of length.
     const double h = 2.5 / 2000;
     const double slabs = 255 * 2 * 352 * h * h / 8;
     EXPECT_LE(image_error(render_tiles(volume, scene), trace(volume, scene, 1e-8)).all.linf,
               slabs + bound(scene));
 }
 
-// Extinctions beyond float's range, where a ray that misses the region has a length of 0.
+// Extinctions beyond float's range. A ray that misses the region has a length of 0 in it, and 0 *
+// infinity must not occur.
 TEST(ConstantRegionsTest, OfExtremeExtinction) {
     const Volume volume = layered();
     Scene scene = unit_box_scene(
@@ -108,7 +110,8 @@ TEST(ConstantRegionsTest, OfExtremeExtinction) {
               bound(scene));
 }
 
-// Trees march their leaves; codes are those of slabs one by one.
+// Leaves of trees are marched, so regions are crossed in one step; targets with codes need every
+// slab's own code.
 TEST(ConstantRegionsTest, InTreesAndNotInCodes) {
     const Volume volume = layered();
     Scene scene = unit_box_scene(transfer_functions().front(), Projection::orthographic);
@@ -125,7 +128,8 @@ TEST(ConstantRegionsTest, InTreesAndNotInCodes) {
     EXPECT_FALSE(takes_regions(volume, scene));
 }
 
-// One sample, a slope of 1e-12, a step at the very value, samples that are no numbers.
+// Regions that are almost constant are sampled: with one differing sample, with a slope of 1e-12,
+// with a step exactly at the region's value, and with NaN samples.
 TEST(ConstantRegionsTest, WhatAlmostIsConstantIsSampled) {
     const auto volume_of = [](float inside, float other) {
         std::vector<float> samples(33 * 33 * 33, inside);
@@ -174,7 +178,8 @@ TEST(ConstantRegionsTest, WhatAlmostIsConstantIsSampled) {
     EXPECT_FALSE(takes_regions(volume_of(100, NAN), scene));
 }
 
-// Blocks of labels, more kinds than are kept, and noise, by random transfer functions and views.
+// Blocks of labels, sometimes of more kinds than are kept, and noise, with random transfer
+// functions and views.
 TEST(ConstantRegionsTest, RandomScenes) {
     std::mt19937 random(11);
     const auto uniform = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same picture twice, and from another context.
+// A context gives the same picture twice; another context gives nearly the same.
 #include "slicing_fixture.h"
 
 namespace lamina {
@@ -35,7 +35,7 @@ TEST(SlicingContexts, EglAgreesWithOsmesa) {
          {Classification::post, Classification::preintegrated}) {
         const Scene scene = scene_for(classification);
         const Image osmesa = render_in(gl::ContextKind::osmesa, volume, scene);
-        // Drivers round differently: 90 slabs of some ten roundings of 6e-8 each, 5e-5 of full
+        // Drivers round differently: 90 slabs with some ten roundings of 6e-8 each are 5e-5 of full
         // scale.
         EXPECT_LE(image_error(osmesa, render_in(gl::ContextKind::egl, volume, scene)).all.linf,
                   255 * 1e-4);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The renderer's pictures run towards the reference tracer's, at the order that mathematics
-// promises.
+// With more slabs, pictures converge to the reference tracer's, at the order that theory predicts.
 #include <cmath>
 
 #include "slicing/slab_trials.h"
@@ -16,7 +15,7 @@ double l2_against(const Image& reference, const Volume& volume, Scene scene, int
     return image_error(render(volume, scene, capabilities), reference).all.l2;
 }
 
-// Slope of log(error) over log(N) by least squares, with its sign turned.
+// Returns the order of convergence: minus the slope of log(error) over log(N), by least squares.
 double order_of(const std::vector<int>& samples, const std::vector<double>& errors) {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -57,8 +56,9 @@ TEST_F(SlicingTest, NarrowPeaksNeedFewerSlabsWithPreintegration) {
     EXPECT_LT(preintegrated, .5);
 }
 
-// Two slabs a voxel, a transfer function with a smooth surface, fetches and filters: the picture
-// may be off by two codes of 8 bits in the worst pixel, and by a quarter of one in the mean square.
+// With two slabs a voxel and a transfer function that shows a smooth surface, the picture may be
+// off by two codes of 8 bits in the worst pixel, and by a quarter of one in the root mean square;
+// both when samples are fetched and when they are filtered.
 TEST_F(SlicingTest, TwoSlabsAVoxelMeetTheReference) {
     const Volume volume =
         generate({"marschner-lobb", std::array<std::int64_t, 3>{48, 48, 48}, SampleType::uint8});
@@ -77,9 +77,9 @@ TEST_F(SlicingTest, TwoSlabsAVoxelMeetTheReference) {
     }
 }
 
-// The texture unit's 8-bit weights: at most 1/256 of the difference between neighbouring samples on
-// each axis, and seen as a difference from exact arithmetic, else this test would not notice a
-// filter that is not the hardware's.
+// The texture unit's 8-bit weights are off by at most 1/256 of the difference between neighbouring
+// samples on each axis. The difference from exact arithmetic must also be above 0: otherwise the
+// filter would not be the hardware's.
 TEST_F(SlicingTest, HardwareFilterHasAnErrorOfItsOwn) {
     const Volume volume =
         generate({"marschner-lobb", std::array<std::int64_t, 3>{32, 32, 32}, SampleType::uint8});
@@ -90,14 +90,14 @@ TEST_F(SlicingTest, HardwareFilterHasAnErrorOfItsOwn) {
     const Image exact = render(volume, scene, capabilities());
     scene.slice.filter = Filter::hardware;
     const double error = image_error(render(volume, scene, capabilities()), exact).all.linf;
-    // The scalar is off by at most 3/256 + half an 8-bit code of the range, extinction by 3 times
-    // that over a chord of at most sqrt(3), and opacity by no more than optical depth.
+    // The scalar is off by at most 3/256 and half an 8-bit code, each of the range; extinction by 3
+    // times that, over a chord of at most sqrt(3); and opacity by no more than optical depth.
     EXPECT_LE(error, 255 * 3 * std::sqrt(3.) * (3. / 256 + .5 / 255));
     EXPECT_GT(error, 0);
 }
 
-// What is planned for a GPU, whose filter cannot be exact, drawn with software's of 16 bits, which
-// is no worse.
+// Draws what is planned for a GPU with an 8-bit filter by software's 16-bit filter, which is no
+// worse.
 TEST_F(SlicingTest, TheHardwareFilterIsTakenWhereItsErrorIsSmall) {
     const Volume volume =
         generate({"gaussians", std::array<std::int64_t, 3>{32, 32, 32}, SampleType::uint16});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes of the cpu engine: those of OpenGL's shaders and blending, pixel by pixel, and those of
-// the core of compositing.
+// The cpu engine's codes equal those of OpenGL's shaders and blending, pixel by pixel, and those of
+// the core (src/compositing).
 #include <algorithm>
 
 #include "compositing/codes.h"
@@ -11,9 +11,9 @@
 namespace lamina {
 namespace {
 
-// How many components of two pictures are not the same code. OpenGL multiplies codes by a rounded
-// 1 / M when it reads them back: 1.2e-7 of the value; codes lie 1.5e-5 apart or more, numbers of
-// half precision that matter here, too.
+// Returns how many components of two pictures are not the same code. OpenGL multiplies codes by a
+// rounded 1 / M when it reads them back, which is off by 1.2e-7 of the value; codes, and numbers of
+// half precision that matter here, lie at least 1.5e-5 apart.
 int differing(const Image& a, const Image& b) {
     int count = 0;
     for (std::size_t i = 0; i < a.rgba.size(); ++i)
@@ -41,7 +41,7 @@ class TileCodesTest : public SlicingTest {
     }
 };
 
-// ramp_test.cpp and emulated_test.cpp hold OpenGL's ramp against simulations in integers.
+// ramp_test.cpp and emulated_test.cpp compare OpenGL's ramp with simulations in integers.
 TEST_F(TileCodesTest, RampsAreTheShadersInEveryPixel) {
     for (const int bits : {1, 4, 8, 13, 16}) {
         for (const AlphaRounding alpha :
@@ -86,7 +86,8 @@ TEST_F(TileCodesTest, DitheredRampsAreTheShadersInEveryPixel) {
     }
 }
 
-// The core itself (compositing/fixed_ray.h), which shares nothing with the cpu engine's vectors.
+// Compares with the core (compositing/fixed_ray.h), which shares no code with the cpu engine's
+// vectors.
 TEST_F(TileCodesTest, StraightRampsAreTheCores) {
     for (const std::optional<Dither>& dither :
          {std::optional<Dither>(), {Dither{11, 5, true, 4}}}) {
@@ -104,9 +105,9 @@ TEST_F(TileCodesTest, StraightRampsAreTheCores) {
     }
 }
 
-// A trilinear field: scalars agree to a unit in their last place where a compiler fuses a product
-// and a sum, which moves one code in 255 * 64 * 1e-7 of the pixels' slabs or fewer; stochastic
-// rounding compares with random numbers just as close.
+// In a trilinear field scalars may differ by a unit in their last place, because compilers may fuse
+// a product and a sum. That changes a code in at most 255 * 64 * 1e-7 of the pixels; stochastic
+// rounding compares with random numbers that are as close.
 TEST_F(TileCodesTest, FieldsHaveTheShadersCodes) {
     const Volume volume =
         generate({"marschner-lobb", std::array<std::int64_t, 3>{31, 27, 29}, SampleType::uint8});
@@ -140,8 +141,8 @@ TEST_F(TileCodesTest, FieldsHaveTheShadersCodes) {
     }
 }
 
-// Native blending of fragments in float: these agree to 1e-6, so that a fragment on the border
-// between two codes, or of half precision, goes to either side now and then.
+// Fragments in float agree to 1e-6, so one that lies on the border between two codes, or two
+// halves, sometimes rounds to the other side.
 TEST_F(TileCodesTest, NativeTargetsHoldWhatLlvmpipeBlends) {
     const Volume volume = gaussians(30);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 61, 47);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from a scene to its image with the cpu engine.
+// Functions that draw a scene with the cpu engine.
 #pragma once
 
 #include "slicing/slice_renderer.h"

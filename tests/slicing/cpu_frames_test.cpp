@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a picture of the cpu engine must not depend on, and what a frame must not take.
+// Pictures of the cpu engine do not depend on instruction set, threads or empty space, and frames
+// allocate no memory.
 #include <tbb/global_control.h>
 
 #include <random>
@@ -99,7 +100,8 @@ TEST(TileFramesTest, FramesAfterTheFirstTakeNoMemory) {
     }
 }
 
-// Of at most 25^3 samples in float; the image needs as much.
+// Returns capabilities with which volumes are cut into bricks of at most 25^3 float samples; the
+// image needs as much memory as one.
 Capabilities small_bricks() {
     Capabilities small = cpu_capabilities();
     small.max_texture_bytes = 16 * 75 * 53;
@@ -118,7 +120,7 @@ TEST(TileFramesTest, FramesOfSeveralBricksTakeNoMemory) {
     }
 }
 
-// Of 5^3 bricks of 16^3 cells about one in twenty has scalars above .2.
+// A volume of 5^3 blocks of 16^3 cells, of which about one in twenty has scalars above .2.
 Volume lumps() {
     std::mt19937 random(5);
     std::array<float, 125> heights{};
@@ -132,7 +134,7 @@ Volume lumps() {
         reference_test::make_grid({70, 70, 70}, Centering::cell, glm::dvec3(1. / 70)), height_at);
 }
 
-// Slabs that come near no brick with something in it would add zeros.
+// Slabs are skipped that come near no visible brick: they would add only zeros.
 TEST(TileFramesTest, EmptySpaceIsSkippedBitForBit) {
     const Volume volume = lumps();
     const TransferFunction top = TransferFunction::linear(
@@ -155,7 +157,7 @@ TEST(TileFramesTest, EmptySpaceIsSkippedBitForBit) {
     }
 }
 
-// From all sides, from inside, and for slabs of many cells.
+// Views from all sides and from inside, and slabs of many cells.
 TEST(TileFramesTest, EmptySpaceIsSkippedInEveryView) {
     const Volume volume = lumps();
     Scene scene = unit_box_scene(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of the cpu engine: against OpenGL's float32, against exact chords and the tracer.
+// Pictures of the cpu engine against OpenGL's in float32, against exact chords and against the
+// tracer.
 #include "cpu_fixture.h"
 #include "reference/chord.h"
 #include "support/volume_of.h"
@@ -15,7 +16,7 @@ Volume lobes(SampleType type) {
     return generate({"marschner-lobb", std::array<std::int64_t, 3>{37, 29, 33}, type});
 }
 
-// Knots for any range, `count` intervals or so.
+// Returns a transfer function of `count` intervals over the volume's range.
 TransferFunction hues(const Volume& volume, int count) {
     const ValueRange range = measure_bricks(volume).whole;
     std::vector<TransferKnot> knots;
@@ -28,9 +29,9 @@ TransferFunction hues(const Volume& volume, int count) {
     return TransferFunction::linear(knots);
 }
 
-// Positions are good to two units in the last place of float (6e-6 of a voxel here), scalars
-// change by less than a half of their range a voxel, and there are 3 of extinction over it: 1e-5
-// of optical depth in the worst of cases, on both sides.
+// Positions are good to two units in the last place of float (here 6e-6 of a voxel), scalars change
+// by less than half of their range in a voxel, and extinction by 3 over the range: so optical
+// depths differ by at most 1e-5 in each picture.
 TEST_F(SlicingTest, TilesShowWhatOpenGlShows) {
     for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32}) {
         const Volume volume = lobes(type);
@@ -74,7 +75,7 @@ TEST_F(SlicingTest, TilesShowWhatOpenGlShowsFromEverywhere) {
     }
 }
 
-// The bound of homogeneous_test.cpp, for the same poses.
+// Returns the bound of homogeneous_test.cpp, whose poses are used here.
 double chord_bound(double depth) {
     return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));
 }
@@ -202,8 +203,8 @@ TEST(TilePictureTest, EmptySpaceIsLeftOutBitForBit) {
     }
 }
 
-// Bytes and words are whole numbers in float, so all that follows is the same: rays through volumes
-// with and without a second sample along x, which are fetched in two ways.
+// Whole numbers stored as bytes and as words give the same picture, with and without a second
+// sample along x, because samples are fetched in a different way if there is none.
 TEST(TilePictureTest, BytesAndWordsGiveThePictureBitForBit) {
     for (const std::array<std::int64_t, 3> size :
          {std::array<std::int64_t, 3>{37, 29, 33}, {1, 29, 33}, {37, 1, 33}, {2, 3, 1}}) {

@@ -43,8 +43,8 @@ TEST_F(TileTreeTest, FloatNodesAreStraightCompositing) {
     }
 }
 
-// A node's code or colour on the border between two goes to either side: that is one rounding, of
-// which tree_test.cpp's bounds allow one a level.
+// A node's code or colour on the border between two may round to either side; that is one rounding,
+// and the bounds of tree_test.cpp allow one for each level.
 TEST_F(TileTreeTest, NodesAreOpenGls) {
     for (const NodeCode code : {NodeCode::minimax, NodeCode::phi, NodeCode::alpha}) {
         for (const auto& [target, alpha_bits] :
@@ -76,7 +76,8 @@ TEST_F(TileTreeTest, ColourGoesThroughTheTree) {
     EXPECT_GT(linf(image, expected), 0);
 }
 
-// The same bricks in both, as OpenGL keeps the volume's own type where it has no exact filter.
+// Both have the same bricks, because OpenGL, too, keeps the volume's own type if it has no exact
+// filter.
 TEST_F(TileTreeTest, BricksAreMarchedInOrder) {
     Capabilities small = cpu_capabilities(), small_textures = capabilities();
     small_textures.exact_float_filter = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays end where what lies behind changes the picture by less than a 1024th of the wanted error.
+// Rays end early when what lies behind changes the picture by less than 1/1024 of max_error.
 #include <random>
 
 #include "cpu_fixture.h"
@@ -21,8 +21,8 @@ class EarlyTerminationTest : public SlicingTest {
         return tiles;
     }
 
-    // What lies behind the end: transmittance times the largest colour, max_error / 1024; and the
-    // roundings of a float32 picture.
+    // Compares with rays that do not end. The bound is what lies behind the end, transmittance
+    // times the largest colour, at most max_error / 1024; and the roundings of a float32 picture.
     void expect_bound(const Volume& volume, const Scene& scene, const std::string& what) const {
         const OmissionSwitch all = keep("early_termination");
         double largest = 1;
@@ -76,7 +76,7 @@ TEST_F(EarlyTerminationTest, KeepsItsBoundInRandomScenes) {
     }
 }
 
-// Of one colour, only opacity is marched.
+// With a single colour, only opacity is marched.
 TEST_F(EarlyTerminationTest, KeepsItsBoundWithOneColor) {
     Scene scene = fog(60, {1, .2, .1});
     scene.transfer_function =
@@ -87,9 +87,8 @@ TEST_F(EarlyTerminationTest, KeepsItsBoundWithOneColor) {
     expect_bound(volume, scene, "one colour");
 }
 
-// Segments that are not evaluated, as the tiles count them. A ray of depth 100 and more ends before
-// half of it, and at the latest a block of 32 slabs after depth 12.5 = ln(255 * 1024), 23 slabs
-// here.
+// Counts the segments that are evaluated. A ray of depth 100 and more ends before half of it, at
+// the latest a block of 32 slabs behind depth 12.5 = ln(255 * 1024), which is 23 slabs here.
 TEST_F(EarlyTerminationTest, LeavesOutWhatLiesBehind) {
     const Volume volume = gaussians(24);
     const Scene scene = fog(130);  // 400 slabs over the depth of the box, 1.7 or so: .55 a slab
@@ -101,8 +100,8 @@ TEST_F(EarlyTerminationTest, LeavesOutWhatLiesBehind) {
     EXPECT_LT(some->fragments(), every->fragments() / 2);
 }
 
-// As deep as a ray can get, almost; deeper than any that is met; and far behind something of a
-// colour of 1e4, which shows through where a colour of 1 would not.
+// Rays do not end early if no ray is deep enough, nor if something of a colour of 1e4 lies behind,
+// which shows through where a colour of 1 would not.
 TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
     const Volume volume = gaussians(24);
     const Facts facts = measure(fog(1), volume, measure_bricks(volume));
@@ -118,8 +117,8 @@ TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
     scene.camera->eye = {-2, .06, .06};
     scene.camera->center = {.5, .0625, .0625};
     scene.camera->height = .1;
-    // 11 deep in front, .005 of 1e4 behind: half of full scale in a picture of which
-    // 1 / 255 / 1024 counts.
+    // An optical depth of 11 lies in front of the colour 1e4: 1e4 exp(-11), a sixth of full scale,
+    // shows through, in a picture in which 1 / 255 / 1024 counts.
     scene.transfer_function = TransferFunction::linear(
         {knot(0, {1, 0, 0}, 22), knot(.5, {1, 0, 0}, 22), knot(.5, {1, 1e4, 1}, 60)});
     ASSERT_TRUE(ends_early(ramp, scene));
@@ -127,8 +126,8 @@ TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
     const Image image = render_tiles(ramp, scene);
     EXPECT_GT(image.pixel(22, 19)[1], .1f);
 
-    // Nearly of that colour just below the largest value, a step of its own, where the ramp ends in
-    // a plateau.
+    // Nearly that colour just below the largest value, at which there is a step; the ramp ends in a
+    // plateau of the largest value.
     const Volume plateau = test::volume_of<float>(
         ramp.grid(), [](double i, double, double) { return std::min(i / 32, 1.); });
     scene.transfer_function =
@@ -138,7 +137,7 @@ TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
     expect_bound(plateau, scene, "bright below the largest value");
 }
 
-// Slabs that are blended one after the other, trees of several levels: all is evaluated.
+// Rays do not end early if slabs are blended one after the other, or in trees of several levels.
 TEST_F(EarlyTerminationTest, IsForRaysThatAreMarchedAsAWhole) {
     const Volume volume = gaussians(24);
     Scene scene = fog(130);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that leap over empty space, on tiles and in OpenGL: the picture stays, bit for bit.
+// Rays that leap over empty space, in the cpu engine and in OpenGL, leave the picture as it is, bit
+// for bit.
 #include <random>
 
 #include "cpu_fixture.h"
@@ -10,7 +11,7 @@ namespace {
 
 class EmptySpaceTest : public SlicingTest {
   protected:
-    // Whether either executor leaps.
+    // Tells whether rays leap; both engines must agree.
     bool leaps(const Volume& volume, const Scene& scene) const {
         const Facts facts = measure(scene, volume, measure_bricks(volume));
         const bool tiles = make_plan(scene, facts, cpu_capabilities(), {}).slice.occupied_only;
@@ -18,7 +19,7 @@ class EmptySpaceTest : public SlicingTest {
         return tiles;
     }
 
-    // `texture_bytes`: at most so many a brick.
+    // Compares pictures with and without leaps. `texture_bytes`: at most so many in a brick.
     void expect_same(const Volume& volume, const Scene& scene, const std::string& what,
                      std::uint64_t texture_bytes = std::uint64_t{1} << 30) const {
         Capabilities tiles = cpu_capabilities(), gl = capabilities();
@@ -44,7 +45,7 @@ class EmptySpaceTest : public SlicingTest {
     }
 };
 
-// Low noise with some lumps and single high samples, of any sizes.
+// Returns a volume of any size: low noise, with some lumps and single high samples.
 Volume random_volume(std::mt19937& random) {
     std::array<std::int64_t, 3> size{};
     for (std::int64_t& edge : size) edge = 1 + static_cast<std::int64_t>(random() % 45);
@@ -65,7 +66,8 @@ Volume random_volume(std::mt19937& random) {
     return reference_test::make_volume(grid, samples);
 }
 
-// Something is seen only above the noise: from a ramp on, in a band between steps, of a palette.
+// Returns a transfer function that shows only values above the noise: a ramp, a band between steps,
+// or a palette.
 TransferFunction random_transfer_function(std::mt19937& random) {
     const double from = 60 + static_cast<double>(random() % 60);
     switch (random() % 3) {
@@ -84,7 +86,8 @@ TransferFunction random_transfer_function(std::mt19937& random) {
     }
 }
 
-// From outside and inside, slabs of a fraction of a cell to many cells, one brick and several.
+// Views from outside and inside, slabs of a fraction of a cell to many cells, one brick and
+// several.
 TEST_F(EmptySpaceTest, IsLeaptOverInRandomScenes) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> place(-.8, 1.8);
@@ -109,7 +112,8 @@ TEST_F(EmptySpaceTest, IsLeaptOverInRandomScenes) {
     EXPECT_GE(leaping, 16);
 }
 
-// In targets of fixed point, emulated and dithered ones, tiles skip slabs in either order.
+// With targets of low precision, where slabs are blended one by one, the cpu engine skips slabs in
+// either order.
 TEST_F(EmptySpaceTest, IsLeaptOverWhereSlabsAreBlended) {
     std::mt19937 random(2);
     for (const Order order : {Order::front_to_back, Order::back_to_front}) {
@@ -129,7 +133,7 @@ TEST_F(EmptySpaceTest, IsLeaptOverWhereSlabsAreBlended) {
     }
 }
 
-// Around the sample at `place` on each axis, several pixels a voxel.
+// Looks at the sample with index `place` on each axis, several pixels a voxel.
 Scene one_sample_scene(double extinction, std::size_t place = 24) {
     Scene scene = unit_box_scene(
         TransferFunction::linear({knot(11, {1, 1, 1}, 0), knot(12, {1, 1, 1}, extinction)}),
@@ -149,8 +153,8 @@ Volume one_sample_volume(std::size_t place) {
     return reference_test::make_volume(grid, samples);
 }
 
-// In the middle of a brick; on the corner of eight, each of which shows a part of what is around
-// the sample; in the last, of one cell.
+// The visible sample lies in the middle of a min/max brick; at the corner of eight, each of which
+// shows a part of it; or in the last brick, which has one cell.
 TEST_F(EmptySpaceTest, HoldsNoVisibleSample) {
     for (const std::size_t place : {22, 24, 41}) {
         const Volume volume = one_sample_volume(place);
@@ -164,7 +168,7 @@ TEST_F(EmptySpaceTest, HoldsNoVisibleSample) {
     }
 }
 
-// Nothing is nearly transparent.
+// A sample that is nearly transparent is not empty space.
 TEST_F(EmptySpaceTest, HoldsNoFaintSample) {
     const Volume volume = one_sample_volume(24);
     const Scene scene = one_sample_scene(1e-12);
@@ -173,7 +177,7 @@ TEST_F(EmptySpaceTest, HoldsNoFaintSample) {
     expect_same(volume, scene, "faint");
 }
 
-// Every brick holds a sample that can be seen: there is nothing to leap over.
+// Every brick holds a visible sample, so there is nothing to leap over.
 TEST_F(EmptySpaceTest, IsNotLookedForWhereThereIsNone) {
     const Volume volume = test::volume_of<std::uint8_t>(
         test::grid_of({41, 41, 41}, Centering::node), [](double i, double j, double k) {
@@ -187,8 +191,9 @@ TEST_F(EmptySpaceTest, IsNotLookedForWhereThereIsNone) {
         EXPECT_NE(omission.name, "empty_space");
 }
 
-// A segment from scalars below what can be seen to scalars above it shows what lies between, though
-// where NaN parts the two no brick does.
+// A pre-integrated segment from scalars below the visible ones to scalars above shows what lies
+// between, even if NaN separates the two and no brick holds visible values. So there must be no
+// leaps.
 TEST_F(EmptySpaceTest, IsNotLeaptOverByPreintegratedSegmentsAcrossNan) {
     const Volume volume = test::volume_of<float>(
         reference_test::make_grid({129, 17, 17}, Centering::node, glm::dvec3(1. / 128)),

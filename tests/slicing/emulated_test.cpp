@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The emulated target holds, code for code, what the core of compositing computes for each ray on
-// the processor.
+// The emulated target holds, code for code, what src/compositing computes for each ray on the
+// processor.
 #include "compositing/codes.h"
 #include "compositing/fixed_ray.h"
 #include "ramp_scene.h"

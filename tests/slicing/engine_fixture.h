@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that run with the cpu engine and with OpenGL.
+// A fixture for tests that run with the cpu engine and with OpenGL.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -12,9 +12,9 @@
 namespace lamina {
 
 inline constexpr double full = 255;
-// Sums of a few hundred roundings of float32 at full scale.
+// Error, in 1/255, of sums of a few hundred roundings of float32 at full scale.
 inline constexpr double float_error = .01;
-// The promise of exact segments (docs/precision.md).
+// Largest error, in 1/255, that exact segments promise (docs/precision.md).
 inline constexpr double promised = .05;
 
 inline double linf(const Image& a, const Image& b) {
@@ -27,7 +27,7 @@ inline Scene exact_scene(const TransferFunction& transfer_function, Projection p
     return scene;
 }
 
-// Noise: every cell has another cubic.
+// Returns noise: every cell has another cubic.
 template <typename Sample>
 Volume noise(std::array<std::int64_t, 3> size, Centering centering, double largest) {
     std::uint32_t state = 12345;
@@ -37,6 +37,8 @@ Volume noise(std::array<std::int64_t, 3> size, Centering centering, double large
     });
 }
 
+// Calls make(lowest scalar, width of the range, extinction of optical depth `depth` over the box's
+// diagonal).
 inline TransferFunction in_view_of(
     const Volume& volume, double depth,
     const std::function<TransferFunction(double, double, double)>& make) {
@@ -85,8 +87,8 @@ inline void look_from(const Volume& volume, const glm::dvec3& direction, double 
     scene.camera->height = .8 * diagonal;
 }
 
-// One cell, seen along its diagonal by parallel rays that all but coincide: the scalar is x y z =
-// t^3.
+// One cell, seen along its diagonal by a single ray; in corner_cell() the scalar along it is x y z
+// = t^3.
 inline Scene diagonal_scene(const TransferFunction& transfer_function) {
     Scene scene = exact_scene(transfer_function, Projection::orthographic);
     scene.camera->center = {.5, .5, .5};

@@ -28,20 +28,20 @@ TEST_P(ExactTest, CubicOfACornerHasItsClosedForm) {
 }
 
 TEST_P(ExactTest, PeakInsideOneCellIsCutAtItsPoints) {
-    // Extinction from s = .2 to .3 alone: t from .2^(1/3) to .3^(1/3).
+    // Extinction lies between s = .2 and .3 alone, so for t from .2^(1/3) to .3^(1/3).
     const TransferFunction box =
         TransferFunction::linear({knot(.2, {.5, 1, 0}, 0), knot(.2, {.5, 1, 0}, 7),
                                   knot(.3, {.5, 1, 0}, 7), knot(.3, {.5, 1, 0}, 0)});
     const Image picture = draw(corner_cell(), diagonal_scene(box));
     const double length = std::sqrt(3.) * (std::cbrt(.3) - std::cbrt(.2));
     const double opacity = -std::expm1(-7 * length);
-    // A crossing is off by 2e-7 / (3 t^2) in t.
+    // The place t of a crossing is off by 2e-7 / (3 t^2).
     EXPECT_NEAR(picture.rgba[3], opacity, 4e-6);
     EXPECT_NEAR(picture.rgba[0], .5 * opacity, 4e-6);
     EXPECT_NEAR(picture.rgba[1], opacity, 4e-6);
 }
 
-// Along y = 1 - x the field x y is a parabola with its top of 1/4 in the middle.
+// Along y = 1 - x the field x y is a parabola with its maximum, 1/4, in the middle.
 TEST_P(ExactTest, TouchingAPointIsNotCrossingIt) {
     const Volume saddle = test::volume_of<float>(test::grid_of({2, 2, 2}, Centering::node),
                                                  [](double x, double y, double) { return x * y; });
@@ -51,16 +51,17 @@ TEST_P(ExactTest, TouchingAPointIsNotCrossingIt) {
         scene.camera->eye = {2.5, -1.5, .5};
         return draw(saddle, scene).rgba[3];
     };
-    // Steps lie 2^-22 earlier, and roundings are some 1e-7: the scalar is above for at most the
-    // root of four times their sum of the ray, which is sqrt(2) long.
+    // Roundings of the scalar are some 1e-7; 2^-22 more is allowed, by which steps are moved where
+    // scalars are sampled (sampled_step_advance). The ray is sqrt(2) long, and the share of it on
+    // which the scalar comes so near to its maximum is at most the root of four times their sum.
     EXPECT_LE(opacity_above(.25 + 1e-6), 0);
     EXPECT_LE(opacity_above(.25), 50 * std::sqrt(2.) * std::sqrt(4 * (0x1p-22 + 1e-7)));
     const double open = std::sqrt(2.) * std::sqrt(4 * .01);  // x (1 - x) >= .24
     EXPECT_NEAR(opacity_above(.24), -std::expm1(-50 * open), 1e-5);
 }
 
-// An optical depth of 4e6: opaque within a hundredth of the cell from one side, and within less
-// than a float32 can place from the other.
+// With an optical depth of 4e6, the cell is opaque within a hundredth of its length from one side,
+// and from the other within less than float32 can resolve.
 TEST_P(ExactTest, DeepCellsHaveTheColourOfTheirFront) {
     const auto steep =
         TransferFunction::linear({knot(0, {0, 0, 0}, 0), knot(1, {1, .5, .25}, 1e7)});
@@ -116,8 +117,8 @@ TEST_P(ExactTest, ThinVolumesMeetTheTracer) {
     }
 }
 
-// Slabs are drawn one by one: their colours are not associated, and float32 blends round 2^-24 a
-// slab.
+// If slabs are drawn one by one, their colours are not associated, and blending in float32 rounds
+// by 2^-24 for each slab.
 TEST_P(ExactTest, SlabsDrawnOneByOneMeetTheTracer) {
     const Volume volume = noise<std::uint8_t>({12, 10, 11}, Centering::cell, 255);
     Scene scene = exact_scene(in_view_of(volume, 4, steps), Projection::perspective);
@@ -133,7 +134,7 @@ TEST_P(ExactTest, SlabsDrawnOneByOneMeetTheTracer) {
     }
 }
 
-// A tree of 16 bits a node adds the roundings of its nodes, and nothing else.
+// A tree of nodes of 16 bits adds the roundings of its nodes, and no other error.
 TEST_P(ExactTest, LeavesOfTreesAreExact) {
     const Volume volume = noise<std::uint8_t>({12, 10, 11}, Centering::cell, 255);
     Scene scene = exact_scene(in_view_of(volume, 4, peak), Projection::perspective);
@@ -142,7 +143,7 @@ TEST_P(ExactTest, LeavesOfTreesAreExact) {
     scene.target = Target::fixed16;
     scene.slice.tree = TreeSettings{.factors = {8, 8}};
     scene.slice.samples = 64;
-    // 8 nodes of 16 bits and the root, each off by a code or two in depth and colour.
+    // 8 nodes of 16 bits and the root, each off by one or two codes in depth and in colour.
     EXPECT_LE(linf(draw(volume, scene), reference), 20 * full / 65535 + promised);
     scene.slice.tree = TreeSettings{.factors = {8, 8}, .nodes = NodeArithmetic::fixed};
     scene.transfer_function =
@@ -165,7 +166,8 @@ TEST_P(ExactTest, CellsBesideNanAreTransparent) {
     EXPECT_GT(linf(picture, draw(source, scene)), 1);
 }
 
-// A region whose value is a step lies on its later side, whatever the range of the samples is.
+// A region whose value is exactly that of a step shows the step's later side, whatever the range of
+// the samples is.
 TEST_P(ExactTest, LabelsAtStepsShowTheirLaterSide) {
     const auto show = [&](auto first, int label) {
         using Sample = decltype(first);
@@ -189,7 +191,8 @@ TEST_P(ExactTest, LabelsAtStepsShowTheirLaterSide) {
     }
 }
 
-// Values that stand for nothing (NetCDF's fill value) lie farther away than float32 has digits.
+// Fill values for missing data (as in NetCDF) are farther from the other values than float32 has
+// digits.
 TEST_P(ExactTest, FillValuesShowNothing) {
     const Volume floats = noise<float>({13, 9, 11}, Centering::cell, 1);
     for (const float fill : {1e12f, 1e20f, 9.96921e36f, -3.4e38f}) {
@@ -197,7 +200,8 @@ TEST_P(ExactTest, FillValuesShowNothing) {
                                    static_cast<const float*>(floats.data()) + 13 * 9 * 11);
         for (const std::size_t i : {200u, 500u, 501u, 900u}) samples[i] = fill;
         const Volume volume = reference_test::make_volume(floats.grid(), samples);
-        // The tracer's double precision ends before: it is asked about values that mean the same.
+        // For such values double precision is not enough either, so the tracer draws smaller ones
+        // that have the same meaning.
         for (const std::size_t i : {200u, 500u, 501u, 900u}) samples[i] = fill > 0 ? 1e9f : -1e9f;
         const Volume same = reference_test::make_volume(floats.grid(), samples);
         const auto shown = TransferFunction::linear(
@@ -206,15 +210,15 @@ TEST_P(ExactTest, FillValuesShowNothing) {
         Scene scene = exact_scene(shown, Projection::perspective);
         look_from(volume, {.4, -.7, .9}, 1.2, scene);
         const Image picture = draw(volume, scene);
-        // No channel exceeds the largest colour, and opacity not 1, but for roundings.
+        // No channel exceeds the largest colour, and no opacity exceeds 1, except by roundings.
         for (const float channel : picture.rgba) ASSERT_LE(std::abs(channel), 1 + 1e-5) << fill;
-        // The cpu engine's pixels beside such values may be off (docs/precision.md).
+        // The cpu engine's pixels beside such values may be wrong (docs/precision.md).
         if (is_native()) continue;
         EXPECT_LE(linf(picture, trace(same, scene, 1e-8)), promised) << fill;
     }
 }
 
-// A step alone has no width of its own.
+// A transfer function of a single step has no width by which values could be scaled.
 TEST_P(ExactTest, AStepAtZeroIsWhereItIs) {
     const Volume volume = test::volume_of<float>(
         test::grid_of({12, 10, 11}, Centering::node),
@@ -226,7 +230,7 @@ TEST_P(ExactTest, AStepAtZeroIsWhereItIs) {
     EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised);
 }
 
-// A few odd values take no digits of those that show.
+// A few outliers do not cost the visible values their digits.
 TEST_P(ExactTest, OutliersChangeOnlyTheirOwnCells) {
     const Volume floats = noise<float>({13, 9, 11}, Centering::cell, 1);
     std::vector<float> samples(static_cast<const float*>(floats.data()),
@@ -252,7 +256,7 @@ TEST_P(ExactTest, OutliersChangeOnlyTheirOwnCells) {
     }
 }
 
-// Large regions of one value, and large empty ones.
+// Large regions of one value and large empty regions are crossed in one step.
 TEST_P(ExactTest, RegionsCrossedInOneStepChangeNothing) {
     const Volume volume = test::volume_of<std::uint8_t>(
         test::grid_of({70, 50, 60}, Centering::cell), [](double x, double y, double z) {
@@ -302,7 +306,7 @@ TEST_P(ExactTest, RaysOfManyCellsAndPointsArePartedWhereLoopsAreLimited) {
     EXPECT_EQ(make_plan(scene, facts, capabilities(), {}).slice.classification,
               Classification::exact);
     EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised);
-    scene.slice.samples = 1;  // too few
+    scene.slice.samples = 1;  // too few for exact segments
     EXPECT_EQ(make_plan(scene, facts, capabilities(), {}).slice.classification,
               limited ? Classification::post : Classification::exact);
     scene.slice.tree = TreeSettings{.factors = {2}};

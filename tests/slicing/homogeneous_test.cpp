@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A homogeneous box has the opacity of the exact chord at any number of slabs, at any angle.
+// A homogeneous box has the opacity that follows from the exact length of the ray's chord, for any
+// number of slabs and any angle.
 #include "reference/chord.h"
 #include "slicing_fixture.h"
 #include "volume/generate.h"
@@ -32,8 +33,9 @@ double longest_chord(const Grid& grid, const View& view) {
     return longest;
 }
 
-// What docs/precision.md says: relative 1e-4 for faint boxes, 1e-5 of full scale for others,
-// growing with depth because the chord's own float32 rounding is multiplied by it.
+// Returns the largest error of an opacity, as docs/precision.md promises: relative 1e-4 for faint
+// boxes, 1e-5 of full scale for others, and more for deep ones, because the depth multiplies the
+// chord's rounding to float32.
 double bound(double depth) {
     return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));
 }
@@ -85,7 +87,8 @@ TEST_F(SlicingTest, HomogeneousBoxHasTheExactChordsOpacityWithNothingLeftOut) {
     }
 }
 
-// One voxel thick, and nearly edge-on: chords that float32 coordinates of the whole box would lose.
+// A box one voxel thick, seen nearly edge-on: float32 coordinates of all of the box would lose its
+// chords.
 TEST_F(SlicingTest, ThinBoxesHaveTheExactChordsOpacity) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{40, 1, 40}, SampleType::uint8});
@@ -106,7 +109,8 @@ TEST_F(SlicingTest, EveryClassificationGivesTheSameHomogeneousBox) {
     const Image post = render(volume, scene, capabilities(), leave_nothing_out());
     scene.slice.classification = Classification::preintegrated;
     const Image preintegrated = render(volume, scene, capabilities(), leave_nothing_out());
-    // One table entry rounded to float32 (6e-8 relative) times optical depths of at most 3.5.
+    // A table entry is rounded to float32 (6e-8 relative), and multiplied by optical depths of at
+    // most 3.5.
     EXPECT_LE(image_error(post, preintegrated).all.linf, 255 * 1e-6);
 }
 

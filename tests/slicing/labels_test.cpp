@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes of labels: whole regions at one value, and steps of the transfer function at these
-// values.
+// Volumes of labels: large regions of one value, at which the transfer function has a step.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,10 +10,10 @@
 namespace lamina {
 namespace {
 
-// At a step's very value the later side counts, at the largest value, too. The labels are planes
-// across x, so that a slab is cut by at most one label's border a plane: of N slabs 2 * labels put
-// their sample on the wrong side, each worth at most the extinction times its length in optical
-// depth, and opacity changes by no more.
+// At the value of a step the later side counts, also at the largest value. The labels are layers
+// across x, and a ray crosses at most 2 * labels borders. Each puts the sample of one slab on the
+// wrong side, which costs at most the extinction times the slab's length in optical depth, and no
+// more in opacity.
 TEST_F(SlicingTest, StepsAtLabelsShowTheirLaterSide) {
     constexpr int labels = 7, slabs = 2048;
     constexpr double extinction = .3;
@@ -34,7 +33,7 @@ TEST_F(SlicingTest, StepsAtLabelsShowTheirLaterSide) {
         scene.camera->height = 12;
         scene.slice.samples = slabs;
         const double longest =
-            2 * std::hypot(13, 7, 7);  // of the box's depth, and of a ray's slant
+            2 * std::hypot(13, 7, 7);  // bound on the box's depth times a ray's slant
         const double bound = 255 * 2 * labels * extinction * longest / slabs;
         for (const auto classification : {Classification::post, Classification::preintegrated}) {
             scene.slice.classification = classification;

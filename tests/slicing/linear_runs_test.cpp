@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pre-integrated segments in closed form, without a table, where the transfer function is one
-// linear piece.
+// Pre-integrated segments in closed form: no table is needed if the transfer function is one linear
+// piece.
 #include <random>
 
 #include "cpu_fixture.h"
@@ -9,7 +9,8 @@
 namespace lamina {
 namespace {
 
-// Linear in space: so is every run through it, and slabs are exact however few there are.
+// A field that is linear in space, and so along every segment: slabs are exact for any number of
+// them.
 Volume ramp() {
     const Grid grid = reference_test::make_grid({2, 2, 2}, Centering::node);
     const std::vector<float> samples{0, .2f, .1f, .3f, .7f, .9f, .8f, 1};
@@ -33,10 +34,10 @@ Plan plan_of(const Volume& volume, const Scene& scene, const OmissionSwitch& omi
                      omissions);
 }
 
-// The weight of a segment's front is off by at most 3e-5 (optics/segment_integral.h), which adds up
-// to as much of the colour's change, here less than 1; a slab's products and sums in float are off
-// by some 2e-7 of 1, its scalars by 1e-6 of theirs and the optical depth of a ray with them: depth
-// * exp(-depth) < .4.
+// The weight of a segment's front is off by at most 3e-5 (optics/segment_integral.h), which along a
+// ray adds up to as much times the colour's change, here less than 1. A slab's products and sums in
+// float are off by some 2e-7 of 1. Scalars, and with them a ray's optical depth, are off by 1e-6 of
+// themselves: depth * exp(-depth) < .4.
 TEST_F(SlicingTest, LinearRunsAreExact) {
     const Volume volume = ramp();
     for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
@@ -53,7 +54,7 @@ TEST_F(SlicingTest, LinearRunsAreExact) {
     }
 }
 
-// The table's layers of length are good to .0025 (plan/slice_planner.cpp).
+// Tables with layers of length have an error of up to .0025 (plan/slice_planner.cpp).
 TEST_F(SlicingTest, LinearRunsAreWhatTheTableSays) {
     std::mt19937 random(5);
     const auto uniform = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
@@ -81,7 +82,7 @@ TEST_F(SlicingTest, LinearRunsAreWhatTheTableSays) {
     }
 }
 
-// Almost one piece, almost thin: these need their table.
+// Transfer functions of almost one piece, or segments that are almost thin enough, need a table.
 TEST(LinearRunsTest, WhatAlmostAppliesHasATable) {
     const Volume volume = ramp();
     const auto is_linear = [&](const TransferFunction& transfer_function, int samples) {
@@ -103,7 +104,8 @@ TEST(LinearRunsTest, WhatAlmostAppliesHasATable) {
         TransferFunction::linear({knot(-2, {.1, .9, .3}, 1), knot(-1e-6, {.1, .9, .3}, 1),
                                   knot(1 + 1e-6, {.2, .9, .3}, 2), knot(3, {1, .1, .6}, 9)}),
         100));
-    // Segments of an optical depth of 1.45 and 1.55; of one colour any depth will do.
+    // Segments of an optical depth of 1.45 are thin enough (thin_depth), those of 1.55 are not;
+    // with one colour any depth is allowed.
     const Scene scene = scene_of(line(5), Projection::orthographic, 100);
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     const double length = (facts.far_depth - facts.near_depth) / 100 * facts.max_length_per_depth;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact segments under strong lights, and of volumes so small that one kink is much of the picture.
+// Exact segments under strong lights, and in volumes so small that one kink of the light is a large
+// part of the picture.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +20,7 @@ double linf(const Image& a, const Image& b) {
     return image_error(a, b).all.linf;
 }
 
-// Of a depth of 5 to 20 through the whole volume.
+// Returns a lit scene. `depth`: about the optical depth along the volume's diagonal.
 Scene scene_of(const Volume& volume, double depth) {
     const ValueRange range = measure_bricks(volume).whole;
     const double diagonal = reference_test::diagonal_of(volume.grid());
@@ -51,7 +52,8 @@ TEST_P(LitKinks, StrongLightsKeepMaxError) {
         Scene scene = scene_of(volume, 5);
         scene.lighting->lights[0].color = glm::dvec3(strength);
         const Image traced = trace(volume, scene, 1e-6);
-        // llvmpipe's loops end before such rays are cut often enough for 1 (plan/choices.h).
+        // llvmpipe limits loops to fewer rounds than an error of 1 would take under strong lights
+        // (plan/choices.h).
         for (const double max_error : {1., 4.}) {
             if (!is_native() && max_error < strength) continue;
             scene.max_error = max_error;

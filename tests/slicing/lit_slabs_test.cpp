@@ -20,8 +20,8 @@ using reference_test::lit_by_one_gradient;
 
 constexpr Classification both[] = {Classification::post, Classification::preintegrated};
 
-// Sums of a few hundred roundings of float32 at full scale, those of 16-bit gradients, 3e-5, and
-// rays in float32 on OpenGL.
+// Error, in 1/255, of sums of a few hundred roundings of float32 at full scale, of 16-bit gradients
+// (3e-5), and of rays in float32 with OpenGL.
 constexpr double float_error = .05;
 
 using LitSlabsOf = EngineTest;
@@ -31,7 +31,8 @@ double linf(const Image& a, const Image& b) {
     return image_error(a, b).all.linf;
 }
 
-// Of the colours, so that single pixels with a kink at an end of a slab do not decide.
+// Returns the root mean square of the differences, in which single pixels with a kink at the end of
+// a slab count little.
 double mean_square(const Image& a, const Image& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.rgba.size(); ++i) {
@@ -50,7 +51,7 @@ Grid unit_grid(std::int64_t edge) {
     return grid;
 }
 
-// Gradients of every size, over [0, 1].
+// Returns a volume over [0, 1] with gradients of every size.
 Volume waves(std::int64_t edge) {
     const auto last = static_cast<double>(edge - 1);
     return test::volume_of<float>(unit_grid(edge), [&](double x, double y, double z) {
@@ -70,7 +71,7 @@ Scene lit_scene(Classification classification, const Lighting& lighting) {
     return scene;
 }
 
-// The slabs are so thin that what they miss, of second order, is .01 of what a few voxels miss.
+// 16 times as many slabs: their error, of second order, is less than .01 of that of few slabs.
 TEST_P(LitSlabsOf, ManySlabsMeetTheTracer) {
     const Volume volume = waves(12);
     for (const Classification each : both) {
@@ -91,9 +92,9 @@ TEST_P(LitSlabsOf, ManySlabsMeetTheTracer) {
     }
 }
 
-// A quadratic field has linear gradients, which are stored to half precision and interpolated
-// exactly, away from the border, where differences have one side. Lights on one side of all
-// gradients leave no kink.
+// A quadratic field has linear gradients, which differences give exactly, except at the border,
+// where they are one-sided (clipped away). All lights lie on one side of all gradients, so light
+// has no kinks.
 TEST(LitSlabs, ErrorFallsWithTheSquareOfTheThickness) {
     const Volume volume = test::volume_of<float>(unit_grid(33), [](double x, double y, double z) {
         const glm::dvec3 from(x / 32 + 1.5, y / 32 + 1.2, z / 32 + .9);
@@ -112,7 +113,7 @@ TEST(LitSlabs, ErrorFallsWithTheSquareOfTheThickness) {
         for (const int slabs : {6, 12, 24}) {
             scene.slice.samples = slabs;
             const double error = mean_square(render_tiles(volume, scene), traced);
-            // The exact order is reached for infinitely many; rounding is a few 1e-6.
+            // The exact factor, 4, is reached in the limit of many slabs; roundings are a few 1e-6.
             if (before > 0) {
                 EXPECT_GT(before / error, 3.2) << name_of(each) << " " << slabs << " " << error;
                 EXPECT_LT(before / error, 5) << name_of(each) << " " << slabs << " " << error;
@@ -122,7 +123,8 @@ TEST(LitSlabs, ErrorFallsWithTheSquareOfTheThickness) {
     }
 }
 
-// Samples are exact, and so are their differences. All rays are parallel.
+// Samples are exact in binary, and so are their differences. Rays are parallel, so light is the
+// same everywhere.
 TEST_P(LitSlabsOf, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     const Grid grid = unit_grid(9);
     const glm::dvec3 gradient(.25, -.125, .5);
@@ -171,7 +173,8 @@ TEST(LitSlabs, AmbientAloneIsTheUnlitPictureBitForBit) {
     }
 }
 
-// A peak in a segment is lit as what is where the peak is, not as what is in the middle.
+// The colour of a narrow peak inside a segment is lit as at the place of the peak, and not as in
+// the segment's middle.
 TEST(LitSlabs, PreintegrationKnowsWhereInASegmentColoursAre) {
     const Volume volume = waves(12);
     Scene scene = lit_scene(Classification::preintegrated, directional());
@@ -203,14 +206,14 @@ TEST(LitSlabs, AutomaticSamplesKeepMaxErrorAgainstTheLitTracer) {
                 chosen.slice.samples = plan.slice.slabs;
                 EXPECT_LE(linf(render_tiles(volume, chosen), traced), max_error)
                     << name_of(each) << " " << plan.slice.slabs;
-                // Unlit rays would have been satisfied with fewer.
+                // The error is that of lit rays: unlit ones would need fewer slabs.
                 EXPECT_GT(plan.slice.slab_trial->error, .3 * max_error);
             }
         }
     }
 }
 
-// Neighbours of what is no number have one-sided gradients.
+// Gradients beside NaN samples are one-sided differences.
 TEST_P(LitSlabsOf, WhatIsNoNumberIsTransparent) {
     const Grid grid = unit_grid(10);
     const Volume volume = test::volume_of<float>(grid, [&](double x, double y, double z) {
@@ -224,12 +227,13 @@ TEST_P(LitSlabsOf, WhatIsNoNumberIsTransparent) {
             scene.slice.samples = slabs;
             return mean_square(draw(volume, scene), traced);
         };
-        // Segments that end in NaN are left out: errors are of first order there.
+        // Segments that end in NaN are left out, which is an error of first order.
         EXPECT_LE(error(1600), error(100) / 8) << name_of(each);
     }
 }
 
-// Of colours that light leaves below 1: fixed-point targets hold no others.
+// Returns a lighting under which colours stay below 1, because fixed-point targets hold no larger
+// ones.
 Lighting dim() {
     Lighting lighting = directional();
     lighting.specular = 0;
@@ -244,10 +248,10 @@ TEST_P(LitSlabsOf, TreesAndClipsAreLit) {
         scene.clip.planes = {{{.5, .5, .5}, {.3, -.5, .7}}};
         scene.slice.samples = 600;
         const Image straight = draw(volume, scene);
-        // 600 slabs of 11 voxels: 1 / 50 of a voxel, whose square is 1 / 2500 of full scale at
-        // most.
+        // 600 slabs over 11 voxels are about 1 / 50 of a voxel thick; the error is at most the
+        // square of that, 1 / 2500 of full scale.
         EXPECT_LE(linf(straight, trace(volume, scene, 1e-6)), 255. / 2500 + float_error);
-        // Nodes in float32 are straight compositing, to rounding.
+        // Nodes in float32 give straight compositing, except for roundings.
         scene.slice.tree = TreeSettings{.factors = {20, 30}};
         EXPECT_LE(linf(draw(volume, scene), straight), float_error) << name_of(each);
         // 20 children and the root, each rounded by half a code in colour and opacity.
@@ -257,8 +261,8 @@ TEST_P(LitSlabsOf, TreesAndClipsAreLit) {
     }
 }
 
-// Codes of 16 bits: per slab its opacity, its colour and what it leaves of the rest are rounded by
-// half a code, and colours before that.
+// With codes of 16 bits, each slab rounds its opacity, its product with colour, and what it leaves
+// of the pixel by half a code, and its colour before that.
 TEST_P(LitSlabsOf, CodesAreLit) {
     const Volume volume = waves(12);
     for (const Classification each : both) {
@@ -280,7 +284,7 @@ TEST_P(LitSlabsOf, BricksKnowTheGradientsOfTheirNeighbours) {
     for (const Classification each : both) {
         Scene scene = lit_scene(each, directional());
         scene.slice.samples = 300;
-        // Segments that a face of a brick cuts are two.
+        // A segment that a face of a brick cuts becomes two, with another rounding.
         EXPECT_LE(linf(draw(volume, scene, {}, small), draw(volume, scene)), 2 * float_error)
             << name_of(each);
     }
@@ -290,7 +294,8 @@ bool leaves_out(const Plan& plan, const std::string& name) {
     return std::ranges::find(plan.omitted, name, &Omission::name) != plan.omitted.end();
 }
 
-// One colour, one piece, one value: all are lit by gradients that differ.
+// Regions of one colour, or of one value, and transfer functions of one piece are not uniform if
+// lit, because gradients differ.
 TEST(LitSlabs, ThePlanLeavesOutNothingThatLightNeeds) {
     const Volume volume = test::volume_of<float>(
         unit_grid(20), [](double x, double, double) { return x < 10 ? 0 : 1; });

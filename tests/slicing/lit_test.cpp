@@ -19,8 +19,8 @@ using reference_test::directional;
 using reference_test::lightings;
 using reference_test::lit_by_one_gradient;
 
-// Sums of a few hundred roundings of float32 at full scale, and those of gradients, 2^-15 of each
-// corner's: less than half of that in light, of which changes are at most 2.
+// Error, in 1/255, of sums of a few hundred roundings of float32 at full scale, and of the rounding
+// of gradients: 2^-15 of each corner's, which changes light by less than half of that.
 constexpr double float_error = .02;
 
 double linf(const Image& a, const Image& b) {
@@ -36,7 +36,7 @@ Volume noise(const Grid& grid, double largest) {
     });
 }
 
-// Gradients of every size, of a few waves.
+// Returns a volume of a few waves, with gradients of every size.
 template <typename Sample>
 Volume waves(const Grid& grid, double largest) {
     return test::volume_of<Sample>(grid, [&](double x, double y, double z) {
@@ -134,7 +134,8 @@ TEST_P(LitTest, ThinVolumesKeepMaxError) {
         keeps_max_error(waves<float>(test::grid_of(size, Centering::cell), 1), .01);
 }
 
-// Samples are exact, and so are their differences. All rays are parallel.
+// Samples are exact in binary, and so are their differences. Rays are parallel, so light is the
+// same everywhere.
 TEST_P(LitTest, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     const Grid grid = turned({8, 6, 7}, Centering::cell);
     const glm::dvec3 gradient(.25, -.125, .5);
@@ -153,7 +154,7 @@ TEST_P(LitTest, ALinearFieldIsTheUnlitPictureTimesAConstant) {
             const glm::dvec3 expected =
                 lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, *scene.lighting,
                                     scene.camera->center - scene.camera->eye);
-            // Lit rays are walked in double precision, and others in floats.
+            // Lit rays are walked in double precision, and unlit ones in floats.
             ASSERT_NEAR(b[3], a[3], float_error / 255);
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * float_error / 255);
         }
@@ -169,7 +170,7 @@ TEST_P(LitTest, AmbientAloneIsTheUnlitPicture) {
     EXPECT_LE(linf(lit, draw(volume, scene)), float_error);
 }
 
-// Neighbours of what is no number have one-sided gradients, and their other cells are seen.
+// Gradients beside NaN samples are one-sided differences; cells without a NaN corner are visible.
 TEST_P(LitTest, WhatIsNoNumberIsTransparent) {
     std::uint32_t state = 7;
     const Volume volume = test::volume_of<float>(
@@ -183,7 +184,7 @@ TEST_P(LitTest, WhatIsNoNumberIsTransparent) {
     EXPECT_LE(linf(draw(volume, scene), traced(volume, scene)), 1);
 }
 
-// The slabs of a tree's leaves are lit as a whole ray is.
+// The part of a ray in a leaf of a tree is lit as in a ray without a tree.
 TEST_P(LitTest, TreesKeepTheColours) {
     const Volume volume = waves<float>(test::grid_of({9, 8, 7}, Centering::node), 1);
     Scene scene = lit_scene(volume, 5, directional(), .01);
@@ -218,19 +219,20 @@ TEST(LitPlans, LeaveOutWhatLightDoesNotNeed) {
     EXPECT_NE(explain(plan, facts, cpu_capabilities()).find("light"), std::string::npos);
 }
 
-// Values that stand for nothing, and a smallest gradient far below all that there are. Rays go
-// near what is hidden beside them, where gradients are long.
+// Fill values for missing data, and a smallest gradient far below all gradients of the data. Rays
+// pass near the hidden fill values, where gradients are long.
 TEST_P(LitTest, ValuesThatStandForNothingKeepMaxError) {
     const Grid grid = test::grid_of({14, 12, 13}, Centering::cell);
     const auto beside = [&](float fill) {
         return test::volume_of<float>(grid, [&](double x, double y, double z) -> double {
             const double away = std::max({std::abs(x - 6), std::abs(y - 5), std::abs(z - 7)});
             if (away < 2) return fill;
-            // Hidden, so that no cell from what shows to nothing is seen.
+            // A hidden layer, so that no visible cell has a fill value at a corner.
             return away < 3 ? 1.2 : .5 + .4 * std::sin(.5 * x + .3 * y * std::sin(.2 * z));
         });
     };
-    // Double precision ends before 1e20: the tracer is asked about values that mean the same.
+    // Double precision is not enough for 1e20, so the tracer draws smaller values with the same
+    // meaning.
     const Volume same = beside(1e9f);
     for (const double smallest : {.01, 1e-9}) {
         Scene scene = unit_box_scene(
@@ -247,7 +249,7 @@ TEST_P(LitTest, ValuesThatStandForNothingKeepMaxError) {
     }
 }
 
-// The border's gradient repeats, however long that of its neighbour is.
+// In the outer half voxels the border's gradient repeats, however long its neighbour's gradient is.
 TEST_P(LitTest, OuterHalfVoxelsHaveTheBordersGradient) {
     const Volume volume = test::volume_of<float>(
         test::grid_of({8, 9, 7}, Centering::cell), [](double x, double y, double z) {
@@ -285,7 +287,7 @@ TEST_P(LitTest, GradientsOfAllSizesKeepMaxError) {
 TEST_P(LitTest, BricksLeaveNoSeam) {
     const Volume volume = waves<float>(test::grid_of({40, 30, 35}, Centering::cell), 1);
     Capabilities small = capabilities();
-    small.max_texture_bytes = 16 * 60 * 45;  // the picture's
+    small.max_texture_bytes = 16 * 60 * 45;  // as much as the picture takes
     Scene scene = lit_scene(volume, 5, directional(), .01);
     look_from(volume, {.4, -.7, .9}, .6, scene);
     const Facts facts = measure(scene, volume, measure_bricks(volume));
@@ -293,7 +295,7 @@ TEST_P(LitTest, BricksLeaveNoSeam) {
     EXPECT_LE(linf(draw(volume, scene, {}, small), traced(volume, scene)), 1);
 }
 
-// One by one, and with nothing left out.
+// Slabs are drawn one by one, and with nothing left out.
 TEST_P(LitTest, SlabsDrawnOneByOneAreLit) {
     const Volume volume = waves<std::uint8_t>(test::grid_of({12, 10, 11}, Centering::cell), 255);
     Scene scene = lit_scene(volume, 5, Lighting{}, .01);

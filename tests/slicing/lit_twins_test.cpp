@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light in shaders and what it is computed from: the twins in C++ give the same numbers.
+// Light in shaders, and the gradients from which it is computed, are equal to those of the twins in
+// C++.
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -23,7 +24,7 @@ using reference_test::Random;
 
 constexpr int edge = 128;
 
-// Row 0 at the bottom.
+// Returns the pixels that a program draws, row 0 at the bottom.
 std::vector<float> run(gl::Program& program) {
     gl::Framebuffer target(gl::Texture::make_2d(gl::TextureFormat::rgba32f, edge, edge));
     target.bind();
@@ -48,7 +49,8 @@ TEST(StoredGradients, KeepDirectionAndLengthOfAllSizes) {
     EXPECT_EQ(store_gradient({0, -0x1p100, 0}), (StoredGradient{{0, -0x4000, 0}, 86}));
 }
 
-// The direction to the eye, so that no light is nearly opposite: there roundings are large.
+// Returns a random direction to the eye. No light is nearly opposite to it, because roundings are
+// large there.
 glm::dvec3 eye_for(const Lighting& lighting, Random& random) {
     while (true) {
         const glm::dvec3 eye = glm::normalize(random.point(-1, 1));
@@ -62,7 +64,7 @@ glm::dvec3 eye_for(const Lighting& lighting, Random& random) {
 }
 
 void compare_light(const Lighting& lighting, const glm::dvec3& eye, Random& random) {
-    // Axes of any length, turned; the shader's gradients are along them.
+    // Rotated axes of any length, along which the program's gradients are given.
     const std::array<glm::dvec3, 3> axes{glm::dvec3(2, 1, 2), glm::dvec3(-2, 2, 1) * .1,
                                          glm::dvec3(1, 2, -2)};
     std::vector<float> gradients;
@@ -103,9 +105,9 @@ void compare_light(const Lighting& lighting, const glm::dvec3& eye, Random& rand
     program.set("smallest_square", static_cast<float>(smallest * smallest));
     const std::vector<float> pixels = run(program);
     const RayLights lights(lighting, eye);
-    // Cosines are sums of three products and carry some five roundings of 2^-24, halfway ones half
-    // as many more, as |l + v| is at least 1. pow() is off by 2^-21 in the logarithm (GLSL 4.60,
-    // section 4.7.1), of which half_power makes its own.
+    // A cosine is a sum of three products, with some five roundings of 2^-24. That with the halfway
+    // vector has half as many more, as |l + v| is at least 1. pow() is off by 2^-21 in the
+    // logarithm (GLSL 4.60, section 4.7.1), which half_power multiplies.
     const double cosine = 8 * 0x1p-24;
     const double terms = lights.largest_effect(1) + lighting.diffuse + lighting.specular;
     const double error = 3 * terms * (cosine + lighting.power * (cosine + .5 * 0x1p-21));
@@ -129,15 +131,15 @@ TEST_F(SlicingTest, LightIsItsTwins) {
     Lighting all = reference_test::directional();
     all.lights.resize(Lighting::most_lights, {glm::dvec3(1, 1, 1), {.2, .1, .3}});
     compare_light(all, eye_for(all, random), random);
-    // The light is behind: no highlight.
+    // A light opposite to the eye makes no highlight.
     Lighting behind;
     behind.smallest_gradient = .1;
     behind.lights = {{glm::dvec3(-3, 1, 2), glm::dvec3(1)}};
     compare_light(behind, glm::normalize(glm::dvec3(3, -1, -2)), random);
 }
 
-// The gradient in the middle of a part of a ray in a cell, over the smallest one. Parts go from a
-// place of sixteenths into eight parts, by half of a cell.
+// Returns a program that draws the gradient in the middle of a part of a ray in a cell, divided by
+// the smallest gradient. Parts begin at multiples of 1/16 and extend by half a cell on each axis.
 gl::Program gradient_program() {
     return gl::full_screen_program(
         "#version 450 core\n"
@@ -189,9 +191,9 @@ void compare_brick(const Volume& volume, const TextureBrick& brick, gl::Program&
                 std::max(steepest, glm::length(at({corner & 1, corner >> 1 & 1, corner >> 2 & 1})));
         const glm::dvec3 expected =
             at((glm::dvec3(i % 9, i / 3 % 9, i / 7 % 9) / 16.) + glm::dvec3(.25));
-        // Of each corner's gradient 2^-15, and some ten roundings of float32.
+        // 2^-15 of each corner's gradient, and some ten roundings of float32.
         const double error = (0x1p-15 + 0x1p-20) * steepest;
-        if (!std::isfinite(glm::dot(expected, expected))) continue;  // beside what is no number
+        if (!std::isfinite(glm::dot(expected, expected))) continue;  // beside a NaN sample
         for (int axis = 0; axis < 3; ++axis)
             ASSERT_NEAR(pixels[static_cast<std::size_t>(4 * i + axis)], expected[axis], error)
                 << cell[0] << " " << cell[1] << " " << cell[2];
@@ -234,7 +236,7 @@ TEST_F(SlicingTest, GradientsOfCellsAreThoseOfTheSamples) {
         test::volume_of<std::uint8_t>(turned(Centering::cell), [](double x, double y, double z) {
             return 128 + 100 * std::sin(x * y + 3 * z) * std::cos(x - 2 * y);
         });
-    // Values that stand for nothing, of all sizes, and some that are none.
+    // Includes fill values of several sizes, and NaN.
     const Volume floats =
         test::volume_of<float>(turned(Centering::cell), [](double x, double y, double z) {
             const int i = static_cast<int>(x + 5 * y + 11 * z) % 29;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random patterns of NaN: transparent are the cells with such a corner, and no others.
+// Random patterns of NaN: the cells with a NaN corner are transparent, and no others.
 #include "cpu_fixture.h"
 #include "simd/instruction_set.h"
 #include "support/volume_of.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double most_extinction = .5;
 
-// Up to 5 samples an axis, one voxel apart; `cell` and `node` mixed.
+// Returns a volume of up to 5 samples on each axis, `cell` or `node`, some of them NaN or infinite.
 Volume with_gaps(std::mt19937& random) {
     Grid grid;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -21,7 +21,7 @@ Volume with_gaps(std::mt19937& random) {
     const auto every = 3 + random() % 10;
     std::int64_t left = grid.sample_count();
     return test::volume_of<float>(grid, [&](double, double, double) {
-        const bool last_chance = --left == 0;  // all of them gaps would be refused
+        const bool last_chance = --left == 0;  // a volume of nothing but gaps would be refused
         return random() % every == 0 && !last_chance ? gap : value(random);
     });
 }
@@ -42,9 +42,10 @@ Scene scene_of(const Volume& volume, std::mt19937& random) {
     return scene;
 }
 
-// In 1/255. A segment that straddles the border of a transparent cell is off by at most all of it;
-// a ray crosses at most 6 planes of samples an axis. Elsewhere the scalar changes by at most
-// sqrt(3) a voxel: within half a segment on one side of its middle, and on average half of that.
+// Returns the largest error in 1/255. A segment across the border of a transparent cell may be
+// completely wrong; a ray crosses at most 6 planes of samples on each axis. Elsewhere the scalar
+// changes by at most sqrt(3) per voxel: so it differs from that in the segment's middle by at most
+// half a segment's change, and on average by half of that.
 double bound(const Volume& volume, const Scene& scene, int slabs) {
     const double slope = std::sqrt(3.);
     const double longest = reference_test::diagonal_of(volume.grid());

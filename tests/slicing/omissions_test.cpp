@@ -73,11 +73,11 @@ TEST_F(SlicingTest, EachOmissionKeepsThePicture) {
     const auto names = omitted_in(volume, scene, capabilities());
     EXPECT_TRUE(has(names, "perspective"));
     EXPECT_TRUE(has(names, "color"));
-    // The same sums in another order of float32 operations: 400 of them.
+    // Sums of 400 terms in another order of float32 operations.
     EXPECT_LE(change(volume, scene, capabilities()), 255 * 400 * 1.2e-7);
 
-    // Faint colours: a segment's depth is below .02, so its colour is off by at most .02/12 of the
-    // colour's range.
+    // Faint segments: the optical depth of each is below .02, so its colour is off by at most .02 /
+    // 12 of the range of colours.
     scene.transfer_function = TransferFunction::linear(
         {knot(0, {0, 0, 1}, 0), knot(.5, {.2, .8, 0}, 1), knot(1, {1, 0, 0}, 3)});
     EXPECT_TRUE(has(omitted_in(volume, scene, capabilities()), "length_layers"));
@@ -94,7 +94,7 @@ TEST_F(SlicingTest, EachOmissionKeepsThePicture) {
     EXPECT_EQ(change(volume, scene, capabilities()), 0);
 }
 
-// Almost, but not: these must not be left out.
+// Conditions that are almost met: these things must not be left out.
 TEST_F(SlicingTest, WhatAlmostAppliesIsNotLeftOut) {
     const Volume volume = gaussians(32);
     Scene scene = unit_box_scene(

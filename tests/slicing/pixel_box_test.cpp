@@ -13,7 +13,7 @@ namespace {
 
 constexpr int width = 64, height = 48;
 
-// Whether the ray of a pixel's centre meets the box in front of the eye.
+// Tells whether the ray through a pixel's centre meets the box in front of the eye.
 bool meets(const IndexBox& box, const Grid& grid, const View& view, int column, int row) {
     const View::Ray ray = view.ray(column, row);
     const glm::dvec3 origin = grid.to_index(ray.origin);
@@ -28,7 +28,7 @@ bool meets(const IndexBox& box, const Grid& grid, const View& view, int column, 
     return enter < leave;
 }
 
-// From outside and inside, near and far.
+// Views from outside and inside, near and far.
 TEST(PixelBox, HoldsAllPixelsWhoseRaysMeetTheBox) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);

@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-// Nothing but one sample of 255 among zeros, and a point of the transfer function between.
+// Returns a volume of zeros but for one sample of 255.
 Volume one_bright_voxel(double x, double y, double z) {
     const Grid grid =
         generate({"constant", std::array<std::int64_t, 3>{33, 33, 33}, SampleType::uint8}).grid();
@@ -35,7 +35,8 @@ TEST(PointCover, RaysThroughTheOnlyFeatureAreCoveredAndFewOthers) {
             EXPECT_GE(cover[i], 1);
         }
         EXPECT_GT(seen, 0);
-        // The sample is a border of eight bricks at most: 8 of 32 cells along each axis.
+        // The sample belongs to at most eight bricks, which together are 8 of 32 cells wide on each
+        // axis.
         EXPECT_LT(std::ranges::count_if(cover, [](float c) { return c > 0; }),
                   static_cast<std::ptrdiff_t>(cover.size() / 4));
     }

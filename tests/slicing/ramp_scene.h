@@ -11,7 +11,8 @@ namespace lamina {
 
 inline constexpr int ramp_width = 256, ramp_height = 4;
 
-// Value x has opacity x / 255 over the volume's depth of one unit; a pixel looks at one voxel.
+// Returns the scene. Value x has opacity x / 255 over the volume's depth of one unit; each pixel
+// looks at one voxel.
 inline Scene ramp_scene(const glm::dvec3& color) {
     std::vector<TransferKnot> points;
     for (int x = 0; x < ramp_width; ++x) {

@@ -21,7 +21,7 @@ struct Case {
     std::vector<int> factors;  // none: straight
 };
 
-// docs/numerics.md, section 2, word by word.
+// Returns the ranks of dithering, written anew from docs/numerics.md, section 2.
 std::vector<int> permutation(int period, std::uint64_t seed) {
     std::vector<int> perm(static_cast<std::size_t>(period));
     std::iota(perm.begin(), perm.end(), 0);
@@ -36,6 +36,7 @@ std::vector<int> permutation(int period, std::uint64_t seed) {
     return perm;
 }
 
+// Computes the code of a pixel whose value is 0 .. 255.
 class Simulation {
   public:
     explicit Simulation(const Case& wanted)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every specialisation of the slicing shaders that a plan can ask for compiles, under OSMesa and by
-// glslangValidator. All kinds of segments with one way of compositing, and all ways of compositing
-// with two kinds of segments: neither's text depends on the other's.
+// glslangValidator. It is enough to test all kinds of segments with one way of compositing, and all
+// ways of compositing with two kinds of segments, because the text of neither depends on the other.
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -24,10 +24,11 @@ struct Specialisation {
     const char* fragment;
     gl::Defines defines;
 };
-// Different plans may ask for the same text: each once.
+// The specialisations, by text: different plans may need the same text, which is compiled once.
 struct Specialisations {
     std::map<std::string, Specialisation> by_text;
-    std::set<std::string> asked;  // what texts are composed of, which takes longer to do
+    // Names and definitions that were added: quicker to compare than texts.
+    std::set<std::string> asked;
 };
 
 void add(Specialisations& all, const char* vertex, const char* fragment,
@@ -40,7 +41,7 @@ void add(Specialisations& all, const char* vertex, const char* fragment,
     all.by_text.try_emplace(text, Specialisation{vertex, fragment, defines});
 }
 
-// Light has to do with rays and samples, not with how these are stored.
+// Adds lit plans. Light depends on rays and samples, but not on how samples are stored.
 void add_lit_plans(std::vector<SlicePlan>& plans) {
     for (int bits = 0; bits < 16; ++bits) {
         for (const int lights : {1, 2, Lighting::most_lights}) {
@@ -83,7 +84,7 @@ std::vector<SlicePlan> every_segment_plan() {
             plan.precise_rays = (bits & 64) != 0;
             plan.linear = (bits & 128) != 0;
             plans.push_back(plan);
-            // Planes have to do with rays alone.
+            // Clip planes affect only rays, so few plans with them are needed.
             if ((bits & ~(1 + 8 + 64)) != 0) continue;
             plans.push_back(plan);
             plans.back().clip.resize(1);
@@ -103,7 +104,8 @@ std::vector<SlicePlan> every_segment_plan() {
     return plans;
 }
 
-// Nothing is left out and almost all is; of one colour, as fixed-point trees need it.
+// Returns a plan with almost everything that segments can need, and one with almost nothing, of one
+// colour, as trees of fixed-point nodes need it.
 std::vector<SlicePlan> two_segment_plans() {
     SlicePlan most;
     most.classification = Classification::preintegrated;
@@ -149,7 +151,7 @@ std::vector<SlicePlan> with_every_dither(const SlicePlan& plan) {
     return plans;
 }
 
-// Of plans without a tree, or with one of fixed-point nodes.
+// Returns plans without a tree, and with a tree of fixed-point nodes, in all ways of compositing.
 std::vector<SlicePlan> every_code_plan() {
     std::vector<SlicePlan> plans, plain;
     for (const SlicePlan& segments : two_segment_plans()) {
@@ -177,7 +179,7 @@ std::vector<SlicePlan> every_code_plan() {
     return plans;
 }
 
-// Of plans with a tree of nodes computed in a program.
+// Returns plans with a tree of nodes in float.
 std::vector<SlicePlan> every_node_plan(const SlicePlan& segments) {
     std::vector<SlicePlan> plans;
     for (const NodeCode code : {NodeCode::minimax, NodeCode::phi, NodeCode::alpha}) {
@@ -201,7 +203,7 @@ std::vector<SlicePlan> every_node_plan(const SlicePlan& segments) {
     return plans;
 }
 
-// Optical depths of exact segments become codes, and nodes of several bricks, as others do.
+// Return plans in which exact segments become codes, and nodes of several bricks.
 SlicePlan exact_codes(bool lit) {
     SlicePlan plan;
     plan.classification = Classification::exact;
@@ -307,15 +309,15 @@ TEST(SlicingShaders, ExtensionsComeBeforeAllElse) {
     EXPECT_GT(extensions, 0);
 }
 
-// But those with framebuffer fetch: glslang knows GL_EXT_shader_framebuffer_fetch in OpenGL ES
-// only.
+// Specialisations with framebuffer fetch are left out, because glslang knows
+// GL_EXT_shader_framebuffer_fetch in OpenGL ES only.
 TEST(SlicingShaders, EverySpecialisationPassesGlslang) {
     if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
         GTEST_SKIP() << "no glslangValidator";
     Specialisations all;
     add_slabs(all);
     add_nodes(all);
-    // Programs share stages: each text once.
+    // Programs share stages, so each text is tested once.
     std::map<std::string, std::string> extensions;
     for (const auto& [text, program] : all.by_text) {
         if (text.find("#define FRAMEBUFFER_FETCH") != std::string::npos) continue;

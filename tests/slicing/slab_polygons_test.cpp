@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The polygons cover every pixel whose ray meets the slab inside the box, and none twice.
+// The polygons of slabs cover every pixel whose ray meets the slab inside the box, and none twice.
 #include "slicing/slab_geometry.h"
 
 #include <gtest/gtest.h>
@@ -12,12 +12,13 @@
 namespace lamina {
 namespace {
 
+// Returns a number whose sign says on which side of the line a .. b a point lies.
 double side(const SlabVertex& a, const SlabVertex& b, double x, double y) {
     return (double{b.column} - a.column) * (y - a.row) - (double{b.row} - a.row) * (x - a.column);
 }
 
-// Strictly inside: pixel centres on an edge belong to one of its two triangles, by the rasteriser's
-// rule.
+// Tells whether a point lies strictly inside a triangle. Pixel centres on an edge belong to one of
+// its two triangles, by the rasteriser's rule.
 bool inside(const SlabVertex* triangle, double x, double y) {
     const double one = side(triangle[0], triangle[1], x, y),
                  two = side(triangle[1], triangle[2], x, y),
@@ -31,7 +32,7 @@ bool on_edge(const SlabVertex* triangle, double x, double y) {
            0;
 }
 
-// Length of the ray's part inside box and slab, in units of depth.
+// Returns the length, in units of depth, of the ray's part inside box and slab.
 double overlap(const View::Ray& ray, const IndexBox& box, double front, double back) {
     for (int axis = 0; axis < 3; ++axis) {
         const double a = (box.min[axis] - ray.origin[axis]) / ray.direction[axis];
@@ -90,8 +91,8 @@ TEST(SlabPolygons, CoverWhatTheRaysMeetExactlyOnce) {
     EXPECT_GT(covered, 10000);
 }
 
-// Corners on the rasteriser's grid of 1/256 pixel, in strictly convex order: it neither moves them
-// nor makes triangles overlap.
+// Corners lie on the rasteriser's grid of 1/256 pixel and form a strictly convex polygon, so the
+// rasteriser neither moves them nor makes triangles overlap.
 TEST(SlabPolygons, AreStrictlyConvexOnTheRasterisersGrid) {
     const Grid grid = reference_test::make_grid({40, 35, 11}, Centering::cell, {.3, .3, 1.1});
     std::mt19937 random(11);

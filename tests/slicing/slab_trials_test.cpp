@@ -47,7 +47,7 @@ Classification classification_of(const Scene& scene, const Tried& tried) {
     return make_plan(scene, tried.facts, cpu_capabilities(), {}, tried.trials).slice.classification;
 }
 
-// Of many frames each is to be quick: where few slabs keep the error, these are drawn.
+// For many frames, each of which should be quick, slabs are drawn if few of them keep the error.
 TEST(SlabTrials, ManyFramesOfSmoothPicturesTakeFewSlabs) {
     const Volume volume = gaussians(48);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
@@ -71,7 +71,7 @@ TEST(SlabTrials, ManyFramesKeepExactSegmentsWhereFewSlabsDoNotDo) {
     EXPECT_EQ(classification_of(scene, tried), Classification::exact);
 }
 
-// Where the error grows with the slabs, or the scene says how many there are, none are tried.
+// Nothing is tried if the error grows with the number of slabs, or if the scene gives their number.
 TEST(SlabTrials, ManyFramesTryNothingWhereSlabsAreGivenOrRounded) {
     const Volume volume = gaussians(24);
     Scene open = unit_box_scene(smooth_transfer_function(), Projection::perspective);
@@ -92,8 +92,8 @@ TEST(SlabTrials, ManyFramesTryNothingWhereSlabsAreGivenOrRounded) {
     expect_exact(scene);
 }
 
-// Pictures of as many slabs as the trials choose keep the error; those of half as many, whose error
-// is some four times as large (both rules are of second order), do not.
+// Pictures with the number of slabs that the trials choose keep max_error. Those with half as many
+// do not: their error is some four times as large, because both rules are of second order.
 TEST(SlabTrials, KeepTheErrorWithFewSlabs) {
     for (const Volume& volume : {gaussians(32), mixing(24)}) {
         for (const Classification classification :
@@ -118,8 +118,8 @@ TEST(SlabTrials, KeepTheErrorWithFewSlabs) {
     }
 }
 
-// More rays than are tried at first: that is known for all of them, also where the volume has
-// kinks.
+// The picture has more rays than are tried at first; the error is kept on all of them, also if the
+// volume has kinks.
 TEST(SlabTrials, KeepTheErrorOfAllRays) {
     for (const Volume& volume : {gaussians(16), mixing(16)}) {
         Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 480, 360);
@@ -130,7 +130,8 @@ TEST(SlabTrials, KeepTheErrorOfAllRays) {
     }
 }
 
-// Of very many rays some 2^20 are tried, with a goal that leaves room for the rest.
+// If the picture has very many rays, some 2^20 are tried, with a smaller goal that allows for the
+// rest.
 TEST(SlabTrials, TryNoMoreRaysThanAMillion) {
     const Volume volume = gaussians(8);
     const Scene scene =
@@ -155,7 +156,7 @@ TEST(SlabTrials, NothingIsTriedThatNobodyAskedFor) {
     EXPECT_TRUE(try_slabs(scene, volume).trials.exact.empty());
 }
 
-// Of one extinction and colour every number of slabs shows the same.
+// With one extinction and colour every number of slabs gives the same picture.
 TEST(SlabTrials, OneSlabOfAConstant) {
     const Volume volume = gaussians(8);
     Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {.2, .4, .8}, 2)}),
@@ -164,7 +165,7 @@ TEST(SlabTrials, OneSlabOfAConstant) {
     EXPECT_EQ(tried.chosen().slabs, 1);
 }
 
-// An opaque step: its silhouette moves with the slabs, whatever their number.
+// An opaque step, whose silhouette moves with the slabs for any number of them.
 TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
     const Volume volume = mixing(16);
     Scene scene = unit_box_scene(
@@ -175,24 +176,24 @@ TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
     const Tried tried = try_slabs(scene, volume);
     const SlabTrial chosen = tried.chosen();
     EXPECT_GT(chosen.error, scene.max_error);
-    // 15 cells and their diagonal: 26 voxels along the view at most. More than some slabs a voxel
-    // would not help.
+    // The diagonal of 15 cells is 26 voxels; more than a few slabs a voxel would not help.
     EXPECT_LE(chosen.slabs, 4 * 26);
 }
 
-// What is claimed is the error of the picture itself: on every ray of a small picture.
+// Expects that the claimed error is that of the picture itself; the picture is so small that every
+// ray is traced.
 void expect_claim_kept(const Volume& volume, const Scene& scene, const char* name) {
     const Tried tried = try_slabs(scene, volume);
     const SlabTrial chosen = tried.chosen();
     const double found =
         image_error(draw(volume, scene, tried), trace(volume, scene, 1e-7)).all.linf;
     EXPECT_EQ(chosen.traced, scene.width * scene.height) << name;
-    // The pictures are the same but for early termination and the tracer's tolerance of 4e-5: .01
-    // / 255 each at most, and the rounding to float.
+    // The pictures differ only by early termination and the tracer's tolerance of 4e-5, .01 / 255
+    // each at most, and by rounding to float.
     EXPECT_NEAR(found, chosen.error, .03) << name << ", " << chosen.slabs << " slabs";
 }
 
-// The peak lies between values that N and 3 N slabs meet, whatever N.
+// The peak lies between the values that N and 3 N slabs sample, for any N.
 TEST(SlabTrials, NarrowPeaksAreNotMissedByAllPictures) {
     const Volume ramp =
         generate({"ramp", std::array<std::int64_t, 3>{256, 4, 1}, SampleType::uint8});
@@ -214,7 +215,8 @@ TEST(SlabTrials, NarrowPeaksAreNotMissedByAllPictures) {
     }
 }
 
-// Sixty bright voxels among zeros: most rays meet none, and slabs step over the shells of the peak.
+// Sixty bright voxels among zeros: most rays meet none, and slabs step over the thin shells in
+// which the peak lies.
 TEST(SlabTrials, SmallThingsAreNotMissedByAllPictures) {
     reference_test::Random random(7);
     const Grid grid = reference_test::make_grid({64, 64, 64}, Centering::node, glm::dvec3(1. / 63));
@@ -240,7 +242,7 @@ TEST(SlabTrials, ThinSilhouettesOfLabelsAreNotMissedByAllPictures) {
     expect_claim_kept(volume, scene, "labels");
 }
 
-// Of a larger picture not all rays are traced: the edges are, and some all over it.
+// In a larger picture not all rays are traced, but edges are, and some rays all over it.
 TEST(SlabTrials, OfLargePicturesRaysAreTracedWhereTheyMissMost) {
     const Volume volume = mixing(16);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 480, 360);
@@ -261,8 +263,8 @@ Tried measure_filter(const Scene& scene, const Volume& volume) {
     return try_slabs(scene, volume, gpu());
 }
 
-// Scalars of weights of 8 bits, as the cpu engine has them on request, in as many slabs as the
-// trials of them choose: with automatic slabs all errors together, else that of the weights.
+// The cpu engine draws with 8-bit weights, in the number of slabs that the trials choose: if that
+// is automatic, all errors together keep the bound, else the error of the weights is measured.
 TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
     for (const Volume& volume : {gaussians(32), mixing(24)}) {
         Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes for the tests of the slicing renderer, and the way from a scene to its image.
+// Scenes for the tests of the slicing renderer, and functions that draw them with OpenGL and with
+// the tracer.
 #pragma once
 
 #include <functional>
@@ -59,7 +60,7 @@ inline TransferFunction smooth_transfer_function() {
                                      knot(.5, {.8, .7, .2}, 2.5), knot(1, {1, .2, .1}, 6)});
 }
 
-// Looks at the unit box from outside, at an oblique angle.
+// Returns a scene that looks at the unit box from outside, at an oblique angle.
 inline Scene unit_box_scene(const TransferFunction& transfer_function, Projection projection,
                             int width = 64, int height = 48) {
     Scene scene;

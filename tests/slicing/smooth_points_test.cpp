@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact segments that follow curves in place of straight pieces, on cells that cross many of these.
+// Exact segments that follow curves in place of many straight pieces, in cells that cross many of
+// these.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ const Volume& cells() {
     return volume;
 }
 
-// Curves of one, two and three channels; `unit` shrinks with the depth that a cell may have.
+// Returns smooth transfer functions of one colour and of several. `unit`: the unit length; a
+// smaller one makes cells deeper.
 std::vector<TransferFunction> curves(double unit) {
     std::vector<TransferKnot> sampled;
     for (int i = 0; i <= 200; ++i) {
@@ -56,7 +58,7 @@ TEST(SmoothPoints, KeepToTheirClaim) {
             const Image straight = render_tiles(cells(), scene, keep("smooth_points"));
             EXPECT_LE(linf(straight, truth), promised) << unit;
             EXPECT_GT(linf(straight, picture), 0) << unit;
-            scene.max_error = .5;  // too small
+            scene.max_error = .5;  // too small for curves
             EXPECT_EQ(linf(render_tiles(cells(), scene), straight), 0) << unit;
         }
     }

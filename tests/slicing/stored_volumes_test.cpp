@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of volumes that stay in their files are, bit for bit, those of the same volumes in
+// Pictures of volumes that stay on disk are equal, bit for bit, to those of the same volumes in
 // memory.
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace lamina {
 namespace {
 
-// Bricks come from the volume in memory; rays look at `drawn`.
+// Returns a renderer that draws `drawn`; min/max bricks are measured in the volume in memory.
 std::unique_ptr<CpuSliceRenderer> renderer_of(const Volume& drawn, const Volume& in_memory,
                                               const Scene& scene,
                                               const Capabilities& capabilities) {
@@ -35,7 +35,7 @@ void expect_same(const Volume& volume, const Scene& scene, const char* what,
     const Image expected = draw(*in_memory, scene);
     const auto in_files = renderer_of(test::stored(volume), volume, scene, capabilities);
     EXPECT_EQ(draw(*in_files, scene).rgba, expected.rgba) << what;
-    if (!in_files->volume()) return;  // one value: no sample is looked at
+    if (!in_files->volume()) return;  // a constant volume: no sample is read
     ASSERT_NE(in_files->volume()->pages(), nullptr) << what;
     in_files->volume()->pages()->clear();
     in_files->volume()->pages()->set_capacity(0);
@@ -53,7 +53,8 @@ Scene scene_of(const Volume& volume, Classification classification,
     return scene;
 }
 
-// A brick of the cache along z and more along y; cut off somewhere.
+// A size in samples, in which bricks of the cache (32 cells) at the far ends are cut off on x and
+// y.
 constexpr std::array<std::int64_t, 3> some_size{75, 40, 33};
 
 template <typename Sample>
@@ -167,7 +168,7 @@ TEST(StoredVolumes, InFixedPointTreesLookTheSame) {
     expect_same(volume, scene, "tree");
 }
 
-// What shows nothing is not read, and what is in memory is not read again.
+// Pages that show nothing are not read, and pages in memory are not read again.
 TEST(StoredVolumes, ReadWhatShowsAndThatOnce) {
     const Volume volume = test::volume_of<std::uint8_t>(
         test::grid_of({256, 128, 128}, Centering::node),
@@ -184,7 +185,7 @@ TEST(StoredVolumes, ReadWhatShowsAndThatOnce) {
     const auto renderer = renderer_of(in_files, volume, scene, cpu_capabilities());
     draw(*renderer, scene);
     EXPECT_GT(reads.samples_read, 0);
-    // Two pages by one by one, and the pages that their last samples also belong to.
+    // Two pages on x and one on y and z, and the neighbours that share their last samples.
     EXPECT_LE(reads.samples_read, 3 * 2 * 2 * BrickCache::sample_count);
     reads.samples_read = 0;
     scene.camera->eye += glm::dvec3(1, 2, 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Render targets: what one slab leaves in each, and both compositing orders.
+// Render targets: the codes or values that one slab leaves in each, and both compositing orders.
 #include "base/error.h"
 #include "slicing_fixture.h"
 
@@ -30,7 +30,8 @@ TEST_F(SlicingTest, FixedTargetsHoldTheNearestCode) {
             for (std::size_t channel = 0; channel < 4; ++channel) {
                 const double code = codes * image.pixel(3, 3)[channel];
                 EXPECT_NEAR(code, std::round(code), 1e-2);
-                // Half a code for rounding, and float32 before it (2e-7 of 65535 codes).
+                // Half a code for rounding to the code, and .02 for roundings of float32 before it
+                // (2e-7 of 65535 codes).
                 EXPECT_NEAR(code, codes * expected[channel], .5 + .02);
             }
         }
@@ -74,8 +75,8 @@ TEST_F(SlicingTest, NanCellsAreTransparentWhereAskedFor) {
          {Classification::post, Classification::preintegrated}) {
         for (const Capabilities& can : {capabilities(), fetching}) {
             scene.slice.classification = classification;
-            // A segment that straddles the border of a transparent cell is off by its own opacity:
-            // at most extinction 6 over two segments of 1.8/800.
+            // A segment across the border of a transparent cell is off by its own opacity: at most
+            // extinction 6 over two segments of 1.8 / 800.
             EXPECT_LE(image_error(render(volume, scene, can), reference).all.linf,
                       255 * 6 * 4 * 1.8 / 800);
         }

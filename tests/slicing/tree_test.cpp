@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compositing trees whose nodes are computed in a program, against the same slabs blended in
-// float32.
+// Compositing trees whose nodes are computed by shaders, against the same slabs blended in float32.
 #include <algorithm>
 #include <random>
 
@@ -80,9 +79,10 @@ TEST_F(TreeTest, FloatNodesAreStraightCompositing) {
                 render(example.volume, straight, capabilities(), keep("early_termination"));
             const Image blended =
                 render(example.volume, straight, capabilities(), leave_nothing_out());
-            // Blending rounds sums below 1 once a slab, by up to 2^-25 each for colour and opacity,
-            // and always in the same way where the volume is smooth; behind full opacity it lets
-            // as much through (LaMar's pigeon hole, in float32; docs/precision.md).
+            // Blending rounds sums below 1 once for each slab, by up to 2^-25 each for colour and
+            // opacity, and always in the same direction if the volume is smooth. As much shows
+            // through behind full opacity (LaMar's pigeon-hole error, in float32;
+            // docs/precision.md).
             EXPECT_LE(linf(blended, expected), 255 * samples * 0x1p-24) << example.name;
             for (const std::vector<int>& factors :
                  {std::vector<int>{32, 32}, {7, 3, 5}, {1}, {2, 2, 2, 2, 2, 2, 2, 2, 2, 2}}) {
@@ -96,10 +96,11 @@ TEST_F(TreeTest, FloatNodesAreStraightCompositing) {
     }
 }
 
-// docs/numerics.md, section 4: a minimax write costs the opacity at most 1.445 Y / 2 (1.64 with 32
-// children, 1.83 with 64) and the root .5, together less than these bounds. Colours may be off by
-// another .5, with convex weights; these scenes, which are not the worst, leave room for it. With
-// an alpha of 16 bits both roundings of .5 are left, and 1.83 / 257.
+// Writing a minimax code costs the opacity at most 1.445 Y / 2 (docs/numerics.md, section 4), which
+// is 1.64 with 32 children and 1.83 with 64, and the root costs .5: together less than these
+// bounds. Colours may be off by another .5, with convex weights; in these scenes, which are not the
+// worst, the bounds hold nevertheless. With an alpha of 16 bits only both roundings of .5 remain,
+// and 1.83 / 257.
 TEST_F(TreeTest, ColourGoesThroughTheTree) {
     for (const Example& example : examples()) {
         for (const auto& [samples, factor, most] :
@@ -116,9 +117,9 @@ TEST_F(TreeTest, ColourGoesThroughTheTree) {
     }
 }
 
-// Nodes' images in fixed point hold colours above 1 by a scale; only the picture is clamped.
-// Colours are coarser by that scale: half a code of it for each of two levels, beside the alpha
-// codes.
+// Fixed-point images of nodes hold colours above 1 divided by the largest colour; only the picture
+// is clamped. So colours are coarser by that factor: half a code times it for each of two levels,
+// in addition to the errors of alpha codes.
 TEST_F(TreeTest, ColoursAboveOneGoThroughTheTree) {
     const Example faint{
         "faint, bright", generated("mixing"),
@@ -130,7 +131,7 @@ TEST_F(TreeTest, ColoursAboveOneGoThroughTheTree) {
     EXPECT_LE(linf(render(faint.volume, scene, capabilities()), expected), 3 * 1.64 + 3 * .5 + .5);
 }
 
-// docs/numerics.md, section 3: Phi of a thin dense sheet rounds to 1.
+// Phi of a thin dense sheet rounds to 1 (docs/numerics.md, section 3).
 TEST_F(TreeTest, PhiFailsOnSheetsAndAutoDoesNotChooseIt) {
     const Example sheets = examples()[2];
     const Image expected =
@@ -163,7 +164,7 @@ TEST_F(TreeTest, AutoStaysUnderItsBound) {
     }
 }
 
-// One colour: images of one channel.
+// With one colour, images of nodes have one channel.
 TEST_F(TreeTest, MonochromeTreesNeedOneChannel) {
     const TransferFunction grey =
         TransferFunction::linear({knot(0, {.5, .5, .5}, .1), knot(255, {.5, .5, .5}, 6)});
@@ -177,14 +178,15 @@ TEST_F(TreeTest, MonochromeTreesNeedOneChannel) {
     EXPECT_LE(linf(with_color, expected), 2.2);
 }
 
-// Bricks of a volume, and bands of rows, change nothing beyond the rounding of a leaf's sum.
+// Bricks of the volume and bands of rows change nothing but the rounding of a leaf's sum.
 TEST_F(TreeTest, BricksAndBandsKeepThePicture) {
     const Example example = examples()[1];
     const Scene scene = scene_of(example, 500, Target::float32, {20, 25});
     const Image expected = render(example.volume, scene, capabilities());
     Capabilities small = capabilities();
     small.max_3d_texture_size = 24;
-    // Segments are cut where bricks meet, so that `post` samples other middles there.
+    // Segments are cut where bricks meet, and post-classified segments sample their middles, so the
+    // straight picture must have the same bricks.
     Scene straight = scene_of(example, 500, Target::float32, {});
     const Image straight_bricks = render(example.volume, straight, small);
     EXPECT_LE(linf(render(example.volume, scene, small), straight_bricks), 255 * 1e-5);
@@ -195,8 +197,8 @@ TEST_F(TreeTest, BricksAndBandsKeepThePicture) {
     EXPECT_EQ(linf(render(example.volume, scene, hardware, double_rays), expected), 0);
 }
 
-// Extinction hardly varies, so that an error in a node's Phi reaches the root multiplied by the
-// node's share: a level adds at most .5 for rounding each of two swizzled children and .5 for OVER.
+// Extinction hardly varies, so an error in a node's Phi reaches the root multiplied by the node's
+// share. A level adds at most .5 for rounding each swizzled child and .5 for each OVER.
 TEST_F(TreeTest, NativeFixedNodesAddErrorsByLevels) {
     const TransferFunction white =
         TransferFunction::linear({knot(0, {1, 1, 1}, .9), knot(255, {1, 1, 1}, 1)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions that exist in GLSL and in C++ give the same numbers.
+// Functions that exist both in GLSL and in C++ give the same numbers.
 #include <cmath>
 
 #include "gl/framebuffer.h"
@@ -31,16 +31,17 @@ TEST_F(SlicingTest, OpacityFromDepthIsItsTwinsToFloat32) {
     const Image image = run(program);
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {  // depths from 7e-9 to 64
         const double expected = opacity_from_depth(image.rgba[i]);
-        // Below 1/4 seven float32 operations of a series that never cancels, truncated at 5e-8 of
-        // the result. Above 1 - exp(-x): GLSL lets exp be off by 3 + 2|x| units in its last place,
-        // llvmpipe's is by less than 4: of 2^-24 each, absolute, since exp(-x) < 1.
+        // The relative error is at most 3e-7 (shaders/optics/opacity.glsl), and a rounding of the
+        // result. The absolute error allowed above 1/4 is that of 1 - exp(-x) with an exp() that is
+        // off by 4 units of 2^-24; the present shader stays far below it.
         const double relative = expected * 4e-7, absolute = image.rgba[i] < .25f ? 0 : 4 * 0x1p-24;
         EXPECT_NEAR(image.rgba[i + 1], expected, relative + absolute) << image.rgba[i];
     }
 }
 
-// Front scalar by column, back scalar by row, over a transfer function with a ramp, a peak and a
-// step. `lit`: of the front parts.
+// Compares integrate_run() of knot_table.glsl with KnotTable, for all front scalars (by column) and
+// back scalars (by row), over a transfer function with a ramp, a peak and a step. `lit`: compares
+// the front parts.
 void compare_runs(bool colored, int layers, bool filtered, bool lit = false) {
     const glm::dvec3 grey(.6, .6, .6);
     const auto color = [&](const glm::dvec3& other) { return colored ? other : grey; };
@@ -80,8 +81,8 @@ void compare_runs(bool colored, int layers, bool filtered, bool lit = false) {
             const SegmentIntegral& expected = both.whole;
             const float* const pixel = image.pixel(column, row);
             // Node coordinates near 300 in float32 are good to 3e-5 of a cell, over which
-            // extinction changes by at most 30 / 3 (the peak's few nodes): 3e-4 of optical depth
-            // per world length, and some as much again for the ends of the pieces.
+            // extinction changes by at most 30 / 3 (the peak has few nodes). That is 3e-4 of
+            // optical depth per world length, and about as much for the ends of the pieces.
             EXPECT_NEAR(pixel[3], lit ? both.front.alpha : expected.optical_depth, 3e-4)
                 << front << " " << back;
             if (!colored) continue;

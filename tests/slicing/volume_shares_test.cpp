@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Renderers that draw one picture together, each its share of the volume: their pictures,
-// composited in the order of the shares, are that of one renderer.
+// Several renderers draw one picture together, each its share of the volume: their pictures,
+// composited in the order of the shares, equal that of a single renderer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,10 +15,11 @@ namespace {
 
 constexpr std::array<int, 5> counts{2, 3, 5, 8, 32};
 
-// What rounding in float32 may do, in 1/255. In a picture of one renderer blocks of slabs and runs
-// of cells are summed in double; of several, each share's sum is rounded to float (6e-8 of each
-// channel), as are sums behind one another. A ray that is opaque ends by its own optical depth,
-// behind which nothing changes a channel by more than max_error / 1024: in one share as in all.
+// Returns the largest difference, in 1/255, that rounding and early termination allow. A single
+// renderer sums blocks of slabs and runs of cells in double. With several, each share's sum is
+// rounded to float (6e-8 of each channel), and so are sums composited behind one another. An opaque
+// ray ends by its own optical depth, in each share as in one renderer; what lies behind changes a
+// channel by at most max_error / 1024.
 double tolerance(const Scene& scene, int shares) {
     return 255 * 6e-8 * 4 * (shares + 1) + scene.max_error * hidden_share * (shares + 1);
 }
@@ -102,8 +103,8 @@ TEST(VolumeShares, OfLitVolumesMakeOnePicture) {
         });
     }
 }
-// Whether light that bends is cut turns on roundings, and shows more than they do: walks must be
-// the same to the last digit wherever they begin.
+// A rounding may decide that a segment is cut because its light bends, and the cut changes the
+// picture by more than a rounding. So walks must be the same to the last digit wherever they begin.
 TEST(VolumeShares, CutLightThatBendsInTheSamePlaces) {
     const Volume waves = test::volume_of<std::uint8_t>(
         test::grid_of({72, 60, 50}, Centering::node), [](double x, double y, double z) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worlds as small as atoms and as large as galaxies give the picture of one of size 1.
+// Worlds as small as atoms and as large as galaxies give the same picture as a world of size 1.
 #include "cpu_fixture.h"
 #include "support/volume_of.h"
 
@@ -11,7 +11,7 @@ struct World {
     Scene scene;
 };
 
-// Everything `size` times as large, with as much opacity.
+// Returns a world `size` times as large, with the same opacities.
 World resized(const World& world, double size) {
     Grid grid = world.volume.grid();
     grid.origin *= size;
@@ -48,7 +48,7 @@ std::vector<World> worlds() {
     return all;
 }
 
-// Powers of two change no digit.
+// Multiplying by powers of two changes no digit.
 constexpr std::array exponents{-300, -110, 70, 300};
 
 TEST(TileWorldSizes, PowersOfTwoChangeNoBit) {
@@ -79,8 +79,8 @@ TEST_F(SlicingTest, WorldsOfPowersOfTwoChangeNoBit) {
     }
 }
 
-// Coordinates that are no powers of two are rounded once: some 1e-16 of a picture that is good to
-// far less. The tracer knows nothing of units.
+// Sizes that are not powers of two round coordinates once, by some 1e-16, far less than the
+// picture's error. The tracer does not scale by units.
 TEST(TileWorldSizes, EverySizeIsTheTracers) {
     for (const World& world : worlds()) {
         const Image reference = trace(world.volume, world.scene, 1e-6);

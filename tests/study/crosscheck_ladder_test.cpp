@@ -27,7 +27,7 @@ class CrosscheckLadder : public testing::Test {
         scene.camera->center = {.5, .5, .5};
         scene.width = 12;
         scene.height = 9;
-        scene.max_error = 1e-6;  // never kept, so that the ladder ends because of its tets
+        scene.max_error = 1e-6;  // never reached: the ladder ends by its tets
         settings.samples = {8};
         settings.ladder_tets = 2000;
         settings.say = [this](const std::string& text) { said += text; };
@@ -48,7 +48,8 @@ TEST_F(CrosscheckLadder, EndsWithTheFirstMeshOfTooManyTets) {
         EXPECT_LE(each.tets, 2000);
         EXPECT_EQ(each.stopped, &each == &ladder.projections.back());
     }
-    // The scene states no mesh: the pictures are those of .02, or of the last one before it.
+    // The scene states no mesh: its pictures are those of tolerance .02, or of the last mesh before
+    // it.
     EXPECT_EQ(ladder.tolerance, std::max(.02, ladder.projections.back().tolerance));
     EXPECT_FALSE(ladder.pictures.projected.rgba.empty());
 }

@@ -31,20 +31,22 @@ TEST(ErrorBudget, PartsAddUpInEveryPixel) {
     double largest = 0;
     for (std::size_t i = 0; i < budget.raw.e.size(); ++i) {
         const double sum = budget.parts[0].e.e[i] - budget.parts[1].e.e[i] + budget.parts[2].e.e[i];
-        // With u = 2^-53: a difference of float32 values up to 1 is exact or rounded by u; times
-        // 255, rounded by 255 u again: 4 differences, 4 * 2 * 255 u. Two sums, of up to 510 and
-        // 765: 1275 u. Together 3315 u = 3.7e-13.
+        // Bound with u = 2^-53: a difference of float32 values up to 1 is exact or rounded by u;
+        // times 255, it is rounded by 255 u again. So 4 differences give 4 * 2 * 255 u, and two
+        // sums, of up to 510 and 765, give 1275 u: together 3315 u = 3.7e-13.
         EXPECT_NEAR(budget.raw.e[i], sum, 1e-12);
         largest = std::max(largest, std::abs(budget.raw.e[i] - sum));
     }
     EXPECT_LE(budget.residual, 1e-12);
     EXPECT_NEAR(budget.residual, largest, 1e-12);
     EXPECT_GT(budget.raw_error.all.linf, 1);
-    // <s1, d> + <s2, d> + <s3, d> = <d, d>: sums of 140 products of relative error 140 u each.
+    // <s1, d> + <s2, d> + <s3, d> = <d, d>: sums of 140 products, each with a relative error of 140
+    // u.
     EXPECT_NEAR(budget.parts[0].share + budget.parts[1].share + budget.parts[2].share, 1, 1e-12);
 }
 
-// Pixel by pixel, with the tolerances above and two more differences.
+// Compares pixel by pixel, with twice the tolerance of the test before: there are two more
+// differences.
 TEST(ErrorBudget, TellsGradientsOfLitScenesFromTheMesh) {
     FourPictures pictures{noise(1), noise(2), noise(3), noise(4)};
     pictures.unlit_volume = noise(5);
@@ -65,7 +67,7 @@ TEST(ErrorBudget, TellsGradientsOfLitScenesFromTheMesh) {
     EXPECT_NEAR(shares, 1, 1e-12);
 }
 
-// Mesh and volume differ by 1/16 without light and by 4/16 with it.
+// Mesh and volume differ by 1/16 without lighting and by 4/16 with it.
 TEST(ErrorBudget, GradientsCanDominate) {
     FourPictures pictures{all_of(.25F), all_of(.5F), all_of(.25F), all_of(.5F)};
     pictures.unlit_volume = all_of(.5F);
@@ -77,19 +79,20 @@ TEST(ErrorBudget, GradientsCanDominate) {
     EXPECT_DOUBLE_EQ(budget.parts[0].share, .25);
 }
 
-// Constant pictures: every norm is the difference itself, in 1/255.
+// Pictures are constant, so every norm is the difference itself, in 1/255.
 TEST(ErrorBudget, FindsTheDominantPart) {
     struct Case {
         FourPictures pictures;
         std::size_t dominant;
         double e[3], shares[3];
     };
-    // Multiples of 1/16 are exact; raw differences of 4/16, 4/16, 4/16 and 1/16.
+    // Multiples of 1/16 are exact. The raw differences are 4/16, 4/16, 4/16 and 1/16.
     const std::vector<Case> cases = {
         {{all_of(.5F), all_of(.75F), all_of(.5F), all_of(.75F)}, 0, {.25, 0, 0}, {1, 0, 0}},
         {{all_of(.5F), all_of(.5F), all_of(.25F), all_of(.5F)}, 1, {0, -.25, 0}, {0, 1, 0}},
         {{all_of(.5F), all_of(.5F), all_of(.5F), all_of(.75F)}, 2, {0, 0, .25}, {0, 0, 1}},
-        // Mesh +2/16 and projection -3/16 cancel in part; slicing -2/16 adds: raw +1/16.
+        // Mesh +2/16 and projection -3/16 cancel in part, and slicing -2/16 is subtracted: raw
+        // +1/16.
         {{all_of(.5F), all_of(.625F), all_of(.375F), all_of(.4375F)},
          2,
          {.125, -.125, -.1875},
@@ -109,7 +112,7 @@ TEST(ErrorBudget, FindsTheDominantPart) {
     }
 }
 
-// The largest error in one pixel is not the one that dominates: L2 counts.
+// The dominant part has the largest L2, not the largest error in one pixel.
 TEST(ErrorBudget, DominantIsByL2) {
     FourPictures pictures{all_of(.5F), all_of(.5F), all_of(.625F), all_of(.5F)};
     pictures.traced_mesh.pixel(1, 1)[0] = pictures.projected.pixel(1, 1)[0] = .75F;

@@ -23,7 +23,7 @@ TEST(Journal, KeepsRecordsInTheirOrder) {
         for (int i = 0; i < 4; ++i) {
             journal.append({{"run", opening}, {"round", i}, {"frame_ms", {0.1, 1e-300}}});
             written.push_back({{"run", opening}, {"round", i}, {"frame_ms", {0.1, 1e-300}}});
-            // On the disk when append() returns, not when the journal is closed.
+            // The record is on disk when append() returns, not only when the journal is closed.
             EXPECT_EQ(Journal::read(path), written);
         }
     }
@@ -40,7 +40,7 @@ TEST(Journal, ARecordIsALine) {
               message.substr(0, 20));
 }
 
-// Whatever a kill leaves of the line that was being written.
+// A kill may leave any beginning of the last line.
 TEST(Journal, ATornLastLineIsTakenAway) {
     const TemporaryFolder folder;
     const auto path = folder / "j.jsonl";
@@ -71,8 +71,8 @@ TEST(Journal, OneAtATimeMayWrite) {
     {
         Journal journal(path);
         journal.append({{"run", "a"}});
-        // A lock of flock() belongs to one opening of the file: a second one in this process is
-        // refused as one of another process is.
+        // flock() locks belong to one opening of a file, so a second opening in this process is
+        // refused like one in another process.
         expect_error([&] { Journal second(path); }, {"j.jsonl", "another lamina study"});
         journal.append({{"run", "b"}});
     }
@@ -87,7 +87,7 @@ TEST(Journal, GarbageIsAnError) {
         write_bytes_to(path, text);
         expect_error([&] { Journal journal(path); }, {"j.jsonl", "line 2"});
         expect_error([&] { Journal::read(path); }, {"j.jsonl", "line 2"});
-        EXPECT_EQ(read_bytes_of(path), text);  // not ours: left alone
+        EXPECT_EQ(read_bytes_of(path), text);  // a file that lamina did not write is left unchanged
     }
     expect_error([&] { Journal::read(folder / "absent.jsonl"); }, {"absent.jsonl"});
     expect_error([&] { Journal journal(folder / "absent" / "j.jsonl"); }, {"cannot write"});

@@ -17,7 +17,8 @@ Steps steps_of(std::initializer_list<double> tolerances, std::int64_t most, bool
     return steps;
 }
 
-// The power is 3, with a millisecond a tet.
+// Returns a cost after two meshes: the number of tets grows with the power 3 of 1 / tolerance, and
+// each tet takes a millisecond.
 LadderCost after_two_meshes() {
     LadderCost cost;
     cost.add(.1, 1000, 1);
@@ -30,14 +31,14 @@ TEST(LadderCost, FollowsThePowerThatWasSeen) {
     EXPECT_NEAR(cost.expected_seconds(steps_of({.025, .0125}, 1000000, true)), 64 + 512, 1e-9);
 }
 
-// The third mesh has 64,000 tets, and the fourth would have 512,000.
+// The third mesh has 64,000 tets; the fourth would have 512,000, and gets the most, 100,000.
 TEST(LadderCost, EndsWithTheMeshThatHasTheMost) {
     const LadderCost cost = after_two_meshes();
     EXPECT_NEAR(cost.expected_seconds(steps_of({.025, .0125, .00625}, 100000, true)), 64 + 100,
                 1e-9);
     EXPECT_NEAR(cost.expected_seconds(steps_of({.025, .0125, .00625}, 100000, false)),
                 64 + 100 + 100, 1e-9);
-    // The scene's own mesh comes in any case.
+    // The scene's own mesh is made in any case.
     Steps with_own = steps_of({.0125, .00625}, 100000, true);
     with_own.push_back({.003125, 200000, false});
     EXPECT_NEAR(cost.expected_seconds(with_own), 100 + 200, 1e-9);
@@ -48,7 +49,7 @@ TEST(LadderCost, BoundsWhatIsNotKnown) {
     const double one = seconds(steps_of({.1}, 100000, false));
     EXPECT_GT(one, 0);
     EXPECT_NEAR(seconds(steps_of({.1, .05, .02}, 100000, false)), 3 * one, 1e-9);
-    // However long the ladder, its last mesh has more than half of all tets.
+    // However long a ladder is, its last mesh is assumed to have more than half of all tets.
     const double ladder = seconds(steps_of({.1, .05, .02, .01, .005}, 100000, true));
     EXPECT_LT(ladder, 2 * one);
     EXPECT_GT(ladder, one);

@@ -25,12 +25,12 @@ Scene lit_scene() {
     return scene;
 }
 
-// The smallest gradient is the data's, for the picture and for what it is measured against.
+// The smallest gradient is chosen from the data once, for the picture and for its reference.
 TEST(LitStudy, ChoosesTheSmallestGradientAndTracesWithLight) {
     DataStore data;
     StudyFrames frames(lit_scene(), data, cpu_capabilities(), std::make_shared<TableCache>());
     ASSERT_TRUE(frames.scene().lighting->smallest_gradient.is_given());
-    // .01 of the range of values, which is up to 1, over the distance of samples.
+    // .01 of the range of values, which is at most 1, over the distance of samples.
     EXPECT_GT(*frames.scene().lighting->smallest_gradient, .005 * 11);
     EXPECT_LE(*frames.scene().lighting->smallest_gradient, .01 * 12);
     ReferenceStore references;

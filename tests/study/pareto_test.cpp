@@ -8,7 +8,7 @@
 namespace lamina::study {
 namespace {
 
-// As defined: no other point is as good in both and better in one.
+// Returns the front by its definition: no other point is as good in both numbers and better in one.
 std::vector<bool> front_by_definition(const std::vector<CostAndError>& points) {
     std::vector<bool> front;
     for (const CostAndError& a : points) {
@@ -25,7 +25,7 @@ std::vector<bool> front_by_definition(const std::vector<CostAndError>& points) {
 TEST(Pareto, FrontIsAsDefined) {
     std::mt19937 random(7);
     for (int trial = 0; trial < 2000; ++trial) {
-        // Few values of both: points that are equal in one or in both are among them.
+        // With few values, many points are equal in one number or in both.
         const int values = 1 + trial % 9;
         std::uniform_int_distribution<int> value(0, values);
         std::vector<CostAndError> points(static_cast<std::size_t>(trial % 24));

@@ -30,7 +30,7 @@ std::size_t count_of(const std::string& text, const std::string& word) {
     return found;
 }
 
-// What is between `before` and `after`.
+// Returns the text between `before` and `after`.
 std::string part_of(const std::string& page, const std::string& before, const std::string& after) {
     const std::size_t from = page.find(before) + before.size();
     return page.substr(from, page.find(after, from) - from);
@@ -56,7 +56,7 @@ TEST(ReportPage, HoldsTheDocumentWhateverItsStrings) {
     const std::string page = report_page(report);
     EXPECT_EQ(Json::parse(document_in(page)), report);
     EXPECT_EQ(page.find("<img"), std::string::npos);
-    // The document's element and the module's: no more, no fewer than of any page.
+    // There are two <script> elements on every page: the document and the module.
     EXPECT_EQ(count_of(page, "<script"), 2u);
     EXPECT_EQ(count_of(page, "</script"), 2u);
     EXPECT_EQ(count_of(page, "<!--"), 1u);  // the licence
@@ -107,7 +107,7 @@ TEST(ReportPage, HasAllOfItsFilesWithinAndNothingElse) {
         EXPECT_EQ(count_of(page, std::string(file.text)), 1u) << file.name;
     }
     EXPECT_GE(files, 3u);
-    // The only address is the name space that SVG elements are made in, which no browser fetches.
+    // The page has one address only: the name space of SVG elements, which browsers do not fetch.
     const std::regex address(R"([a-z]+://[^"'\s)]*)");
     std::set<std::string> addresses;
     for (std::sregex_iterator m(page.begin(), page.end(), address), end; m != end; ++m) {
@@ -134,7 +134,8 @@ TEST(ReportPage, NeedsTitleAndFindings) {
     EXPECT_THROW(report_page(report), Json::out_of_range);
 }
 
-// Markup from strings would let a report's text act; scripts cannot end their element themselves.
+// Scripts must not make markup from text, or a report's text could act; nor may they contain what
+// ends their own element.
 TEST(ReportFiles, MakeNoMarkupFromText) {
     for (const EmbeddedFile& file : embedded_report_files()) {
         if (!file.name.ends_with(".js")) continue;

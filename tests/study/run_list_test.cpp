@@ -86,7 +86,7 @@ TEST_F(RunLists, IdsChangeWithAllThatDecidesWhatIsMeasured) {
     scene["camera"]["eye"][0] = 1.75;
     expect_other_ids("the scene's file");
     scene = kept_scene;
-    study["rounds"] = 4;  // of the same runs, another study
+    study["rounds"] = 4;  // the runs are the same, the study is another one
     EXPECT_EQ(ids_of(list()), ids_of(before));
     EXPECT_NE(list().id(), before.id());
     study = kept;
@@ -120,7 +120,7 @@ TEST_F(RunLists, ListsOfDifferentDataDoNotMatch) {
     };
     RunList now = list_of({"1", "", "3"});
     match_data(now, "now", list_of({"1", "2", ""}),
-               "runs.json");  // what one cannot read is no other
+               "runs.json");  // unreadable contents match any
     EXPECT_EQ(to_json(now)["data"], to_json(list_of({"1", "2", "3"}))["data"]);
     expect_error(
         [&] {
@@ -135,8 +135,8 @@ TEST_F(RunLists, WhatIsTheSameAsAnotherRunIsDroppedAndSaid) {
                       {{"render.slice.samples", {16, 32}}},
                       {{"render.target", {"float32", "fixed8"}}, {"render.slice.samples", 8}}};
     const RunList made = list();
-    // Of a scene: 8, 16, (8), (16), 32, float32 8, fixed8 8; that the target is float32 without
-    // being asked for is not known to the list.
+    // For each scene: 8, 16, (8), (16), 32, float32 8, fixed8 8. The list does not know that a run
+    // without a target is drawn in float32.
     EXPECT_EQ(made.runs.size(), 2u * 5);
     ASSERT_EQ(made.dropped.size(), 1u);
     EXPECT_EQ(made.dropped[0].runs, 2u * 2);
@@ -156,9 +156,9 @@ TEST_F(RunLists, NullTakesAKeyAway) {
         without += samples->is_null() ? 1 : 0;
     }
     EXPECT_EQ(without, 4);
-    check_runs(made, file);  // all of them can be read
+    check_runs(made, file);  // throws if a run cannot be read
 
-    // Where the scene has no such key nothing is made of it, and the run is that of the scene.
+    // If the scene lacks the key, null leaves it out, and the run is that of the scene.
     study["sweep"] = {{"render.slice.tree.factors", {nullptr, {4, 4}}}};
     const StudyFile other = load();
     const RunList trees = list_runs(other);
@@ -189,7 +189,7 @@ TEST_F(RunLists, ContextIsNoKeyOfTheScene) {
         EXPECT_FALSE(document_of(run, file).contains("context"));
     }
     EXPECT_EQ(contexts.count("cpu"), 4u);
-    EXPECT_EQ(contexts.count("osmesa"), 4u);  // null: as the base says
+    EXPECT_EQ(contexts.count("osmesa"), 4u);  // null takes the context of `base`
 }
 
 TEST_F(RunLists, DropRulesAreCounted) {
@@ -197,13 +197,14 @@ TEST_F(RunLists, DropRulesAreCounted) {
         {{"where", {{"scene", "a"}, {"render.target", "fixed8"}}}, {"because", "first"}},
         {{"where", {{"render.slice.samples", {16, nullptr}}}}, {"because", "second"}}};
     const RunList made = list();
-    // Scene a: float32 with 8 is left; b: fixed8 and float32 with 8.
+    // Scene a keeps float32 with 8; scene b keeps fixed8 and float32 with 8.
     EXPECT_EQ(made.runs.size(), 3u);
     ASSERT_EQ(made.dropped.size(), 2u);
     EXPECT_EQ(made.dropped[0].because, "first");
     EXPECT_EQ(made.dropped[0].runs, 3u);
     EXPECT_EQ(made.dropped[1].because, "second");
-    EXPECT_EQ(made.dropped[1].runs, 2u + 4);  // whatever the first rule has taken is counted there
+    // Runs that several rules match count for the first one.
+    EXPECT_EQ(made.dropped[1].runs, 2u + 4);
     for (const StudyRun& run : made.runs)
         EXPECT_EQ(*find_setting(run.settings, "render.slice.samples"), 8);
 }
@@ -242,7 +243,7 @@ TEST_F(RunLists, CountsBeforeTheyAreMade) {
     expect_error([&] { list_runs(file); }, {"study.json", "sweep", "2000000000", "100000"});
     for (int i = 0; i < 5; ++i)
         study["sweep"]["transfer_function.points.0.k" + std::to_string(i)] = values;
-    EXPECT_EQ(run_count(load()), std::uint64_t{(1ull << 63) - 1});  // 2 * 10^24
+    EXPECT_EQ(run_count(load()), std::uint64_t{(1ull << 63) - 1});  // 2 * 10^24 saturates
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
 
-// Of `of` into exactly `levels` factors of at least 2, one factor taken off after the other.
+// Counts the factorizations of `of` into exactly `levels` factors of at least 2, by recursion.
 std::int64_t count_by_recursion(int of, int levels) {
     if (levels == 0) return of == 1 ? 1 : 0;
     std::int64_t count = 0;
@@ -51,13 +51,13 @@ std::vector<SweepGrid> read(const json& sweep) {
 }
 
 TEST(Factorizations, OfAPowerOfTwoAreItsCompositions) {
-    // 2^10 into k factors: the exponents are compositions of 10 into k parts, C(9, k - 1) of them.
+    // Exponents of 2^10 in k factors are compositions of 10 into k parts: there are C(9, k - 1).
     EXPECT_EQ(factorizations(1024, 1).size(), 1u);
     EXPECT_EQ(factorizations(1024, 2).size(), 1u + 9);
     EXPECT_EQ(factorizations(1024, 3).size(), 1u + 9 + 36);
     EXPECT_EQ(factorizations(1024, 4).size(), 1u + 9 + 36 + 84);
     EXPECT_EQ(factorizations(1024, 10).size(), 512u);  // all compositions: 2^9
-    EXPECT_EQ(factorizations(1024, 16).size(), 512u);  // no factor is 1
+    EXPECT_EQ(factorizations(1024, 16).size(), 512u);  // no factor may be 1
 }
 
 TEST(Factorizations, HaveTheProductAndNoFactorBelowTwoAndNoRepeats) {
@@ -95,7 +95,7 @@ TEST(SweepGrid, CountSaturates) {
     const SweepAxis four{"a", {1, 2, 3, 4}}, two{"a", {1, 2}};
     SweepGrid grid{std::vector<SweepAxis>(31, four)};
     EXPECT_EQ(grid.count(), std::uint64_t{1} << 62);
-    grid.axes.push_back(two);  // 2^63: one too many
+    grid.axes.push_back(two);  // 2^63, one too many
     EXPECT_EQ(grid.count(), most);
     grid.axes.insert(grid.axes.end(), 100, four);
     EXPECT_EQ(grid.count(), most);
@@ -152,9 +152,9 @@ TEST(Sweep, BadFactorizationsAreErrors) {
         {"sweep.k.level", "did you mean \"levels\""});
 }
 
-// A short file must not ask for lists that no memory holds.
+// A short file must not ask for lists that fill the memory.
 TEST(Sweep, MoreFactorizationsThanRunsAreErrors) {
-    const json most_of_one{{"factorizations", 65536}};  // 2^15 of them
+    const json most_of_one{{"factorizations", 65536}};  // it has 2^15 factorizations
     EXPECT_EQ(read({{"a", most_of_one}, {"b", most_of_one}, {"c", most_of_one}})[0].axes.size(),
               3u);
     json four;
@@ -166,7 +166,7 @@ TEST(Sweep, MoreFactorizationsThanRunsAreErrors) {
     expect_error(
         [] {
             read({{"k", {{"factorizations", 60480}}}});
-        },  // 1096512 of them
+        },  // it has 1096512 factorizations
         {"study.json", "sweep.k", "more than 100000"});
 }
 

@@ -10,7 +10,7 @@ TEST(TimeLeft, IsOfWhatWasSeen) {
     TimeLeft left;
     left.add_first(10, 2);
     left.add_first(20, 4);
-    // 15 s for a first visit, and 3 s of them for what later visits do.
+    // A first visit takes 15 s, of which 3 s are what a later visit does.
     EXPECT_DOUBLE_EQ(left.of(4, 0), 60);
     EXPECT_DOUBLE_EQ(left.of(4, 10), 90);
     left.add_later(5);

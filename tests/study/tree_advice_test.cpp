@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A study of one scene, whose baseline is its first run.
+// A study of one scene, with its first run as the baseline.
 struct MadeUpStudy {
     StudyResults results;
 
@@ -22,7 +22,7 @@ struct MadeUpStudy {
         results.list.baselines = {0};
         results.environment = {{"machine", "one"}};
     }
-    // No factors: no tree.
+    // Adds a run; without factors it has no tree.
     RunResult& add(const char* target, const std::vector<int>& factors, double l2, double ratio) {
         StudyRun run;
         run.settings = {{"render.target", target}};
@@ -83,7 +83,7 @@ TEST(TreeAdvice, TakesTheSmallestErrorAtEachNumberOfNodes) {
     EXPECT_EQ(groups[0].best().run, 3u);
     ASSERT_NE(groups[0].straight, nullptr);
     EXPECT_EQ(groups[0].straight->run, 1u);
-    // Floats are apart, and last.
+    // Trees in floats are a group of their own, which is the last.
     EXPECT_EQ(groups[1].name, "float32");
     EXPECT_TRUE(groups[1].in_floats);
     EXPECT_EQ(groups[1].best().run, 7u);
@@ -117,7 +117,7 @@ TEST(TreeAdvice, SaysWhenATreeGainsNothing) {
               "does not tell from that without a tree, in 2.00 times the time of fixed8.");
 }
 
-// Failed runs have no error, and the report has the tables before all else.
+// Failed runs are left out, and the report has the tables first.
 TEST(TreeAdvice, IsTheAnswerOfTheReport) {
     MadeUpStudy study = trees_of_two_targets();
     study.add("fixed8", {256, 4}, 0, 1).failed = "no memory";
@@ -134,7 +134,7 @@ TEST(TreeAdvice, IsTheAnswerOfTheReport) {
     EXPECT_EQ(nodes, (std::vector<std::string>{"1", "2 to 10", "11 to 100"}));
     EXPECT_EQ(tables[0]["rows"][1]["L2 without a tree / its L2"], 160);
     EXPECT_EQ(tables[0]["rows"][1]["× baseline"], 1.1);
-    // Trees in floats would win by their target, so they are apart.
+    // Trees in floats have their own table: their target alone would make them best.
     ASSERT_EQ(tables[1]["rows"].size(), 1u);
     EXPECT_EQ(tables[1]["rows"][0]["take"], "32x32");
     ASSERT_EQ(tables[2]["rows"].size(), 2u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// write_report_page REPORT.json PAGE.html: the page of a report, for the test in a browser.
+// write_report_page REPORT.json PAGE.html: writes the page of a report, for the test in a browser.
 #include <cstdio>
 #include <exception>
 #include <fstream>

@@ -11,7 +11,7 @@
 
 namespace lamina::test {
 
-// Returns the tets whose centroid fulfils keep(centroid).
+// Returns the mesh with only those tets for which keep(centroid) is true.
 template <typename Keep>
 MeshData carved(MeshData mesh, const Keep& keep) {
     std::erase_if(mesh.tets, [&](const Tet& tet) {
@@ -22,15 +22,16 @@ MeshData carved(MeshData mesh, const Keep& keep) {
     return mesh;
 }
 
-// Three sticks around the z axis that do not touch, each with its high end over the low end of the
-// next: a cycle of three for an eye above or below. Their low ends are 2 * width wide, their high
-// ends .04 high.
+// Returns three tets, long sticks around the z axis that do not touch. Each has its high end over
+// the low end of the next, so that for an eye above or below they hide one another in a cycle.
+// Their low ends are 2 * width wide, their high ends .04 high.
 inline MeshData three_sticks(const std::array<double, 3>& width) {
     MeshData mesh;
     for (std::size_t i = 0; i < 3; ++i) {
         const double turn = 2 * std::numbers::pi / 3 * static_cast<double>(i);
         const glm::dvec3 along(std::cos(turn), std::sin(turn), 0), across(-along.y, along.x, 0);
-        // A side of a triangle, longer at both ends, that rises from one end to the other.
+        // A stick lies along a side of a triangle, protrudes at both ends, and rises from one end
+        // to the other.
         const glm::dvec3 low = -2.0 * along + across + glm::dvec3(0, 0, -1);
         const glm::dvec3 high = 2.0 * along + across + glm::dvec3(0, 0, 1);
         const auto first = static_cast<std::int32_t>(mesh.points.size());
@@ -44,10 +45,10 @@ inline MeshData three_sticks(const std::array<double, 3>& width) {
     return mesh;
 }
 
-// A triangular prism from z = 0 to z = 1 whose top is turned by `degrees`, cut into eight tets
-// around its centre with diagonals that run round in one sense. Turned backwards it is convex;
-// turned forwards its sides are dented along the diagonals, and for an eye above or below the six
-// tets at the sides hide one another in a ring, across shared faces.
+// Returns a triangular prism from z = 0 to z = 1 whose top is turned by `degrees`. It is cut into
+// eight tets around its centre; the diagonals of its sides all go round in the same sense. For
+// degrees < 0 it is convex. For degrees > 0 its sides are dented along the diagonals, and for an
+// eye above or below, the six tets at the sides hide one another in a cycle across shared faces.
 inline MeshData twisted_prism(double degrees) {
     MeshData mesh;
     for (int i = 0; i < 6; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clips for tests, and what they keep of a ray.
+// Clips for tests, and the length of a ray that a clip keeps.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -18,7 +18,7 @@ struct NamedClip {
     Clip clip;
 };
 
-// Clips of the unit box, with names.
+// Returns clips of the unit box, with names.
 inline std::vector<NamedClip> clips_of_unit_box() {
     const glm::dvec3 middle(.5);
     return {
@@ -35,8 +35,8 @@ inline std::vector<NamedClip> clips_of_unit_box() {
         {"nothing, between two", {{{{.6, .5, .5}, {1, .1, 0}}, {{.4, .5, .5}, {-1, -.1, 0}}}, {}}}};
 }
 
-// The world length of a ray in a box with faces along the axes that the clip keeps: the interval
-// of each half-space is intersected in long double.
+// Returns the world length that the clip keeps of a ray in an axis-aligned box. It intersects the
+// ray's intervals in all half-spaces, in long double.
 inline double kept_length(const Clip& clip, const View::Ray& ray, const glm::dvec3& min,
                           const glm::dvec3& max) {
     using Real = long double;

@@ -12,9 +12,9 @@
 
 namespace lamina::test {
 
-// The Delaunay tetrahedra of random points in a tetrahedron and its four corners, by insertion
-// (Bowyer 1981, Watson 1981). The points lie on a grid of integers below 2^20, so that all
-// determinants are exact in 128 bits. The mesh is convex: it fills the tetrahedron.
+// Makes the Delaunay mesh of random points in a tetrahedron and of its four corners, by insertion
+// of points (Bowyer 1981, Watson 1981). The points lie on a grid of integers below 2^20, so that
+// all determinants are exact in 128 bits. The mesh is convex: it fills the tetrahedron.
 class DelaunayMesh {
   public:
     static MeshData make(int points, std::uint32_t seed, double scale = 1.0 / (1 << 20)) {
@@ -69,7 +69,8 @@ class DelaunayMesh {
         cells_ = {{{0, 1, 2, 3}, {-1, -1, -1, -1}, true}};
     }
 
-    // Strictly inside the tetrahedron, along a coarse serpentine so that walks are short.
+    // Returns random points strictly inside the tetrahedron, ordered along a coarse serpentine, so
+    // that the walk from one to the next is short.
     static std::vector<Point> random_points(int count, std::uint32_t seed) {
         std::mt19937 random(seed);
         std::vector<Point> points;
@@ -92,7 +93,8 @@ class DelaunayMesh {
 
     std::int32_t cell_at(const Point& point) const {
         std::int32_t at = last_;
-        for (std::size_t turn = 0;; ++turn) {  // remembering stochastic walk, without the luck
+        // A remembering stochastic walk, but without random choices.
+        for (std::size_t turn = 0;; ++turn) {
             const Cell& cell = cells_[static_cast<std::size_t>(at)];
             std::size_t tried = 0;
             while (tried < 4 && inside(cell, (turn + tried) % 4, point) >= 0) ++tried;
@@ -124,7 +126,8 @@ class DelaunayMesh {
         for (const std::int32_t old : cavity) free_.push_back(old);
     }
 
-    // All cells whose spheres hold the point: marked dead, their memory is used again later.
+    // Returns all cells whose circumspheres contain the point, and marks them as dead; their memory
+    // is reused later.
     std::vector<std::int32_t> cells_around(const Point& point) {
         std::vector<std::int32_t> cavity{cell_at(point)};
         cells_[static_cast<std::size_t>(cavity[0])].alive = false;
@@ -151,7 +154,8 @@ class DelaunayMesh {
         return last_;
     }
 
-    // The sides of a new cell, which has the new point as corner 0, meet at one edge each.
+    // Joins a new cell, whose corner 0 is the new point, with its neighbours among the new cells:
+    // two of them share a face at the new point if they share its opposite edge.
     template <typename Waiting>
     void join_sides(std::int32_t made, Waiting& waiting) {
         const Tet corners = cells_[static_cast<std::size_t>(made)].corners;

@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// Lets no file grow beyond `bytes` while it exists: to a writer, this is a full disk.
+// While it exists, no file can grow beyond `bytes`: writes fail as on a full disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {

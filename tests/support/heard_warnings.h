@@ -8,7 +8,7 @@
 
 namespace lamina::test {
 
-// Hears the warnings of its thread, and of the tasks that it starts, while it lives.
+// While it exists, collects the warnings of its thread and of the tasks that the thread starts.
 class HeardWarnings {
   public:
     HeardWarnings() : scope_(client()) {}

@@ -19,7 +19,8 @@ inline double volume_of_tet(const MeshData& mesh, const Tet& tet) {
     return glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0)) / 6;
 }
 
-// Expects positive tets that share whole faces, use every point and fill the grid's box.
+// Expects that tets are positively oriented, share complete faces, use every point and fill the
+// grid's box.
 inline void expect_fills_box(const MeshData& mesh, const Grid& grid) {
     double volume = 0, least = 1e300;
     for (const Tet& tet : mesh.tets) {
@@ -30,7 +31,7 @@ inline void expect_fills_box(const MeshData& mesh, const Grid& grid) {
     const glm::dvec3 size = grid.index_max() - grid.index_min();
     const double box = size.x * glm::length(grid.step[0]) * size.y * glm::length(grid.step[1]) *
                        size.z * glm::length(grid.step[2]);
-    EXPECT_NEAR(volume, box, 1e-12 * box);  // 1e5 roundings that do not conspire: some 1e-14
+    EXPECT_NEAR(volume, box, 1e-12 * box);  // the errors of 1e5 roundings add up to some 1e-14
     const TetMesh checked(mesh, "mesh");
     const MeshFindings& findings = checked.findings();
     EXPECT_TRUE(findings.conforming());
@@ -39,7 +40,7 @@ inline void expect_fills_box(const MeshData& mesh, const Grid& grid) {
     EXPECT_EQ(findings.duplicates, 0);
     EXPECT_EQ(findings.folded_faces, 0);
     EXPECT_EQ(findings.unused_points, 0);
-    // Open faces inside the box would be cracks.
+    // Open faces (without a neighbour) inside the box would be cracks.
     for (const TetFace& open : checked.open_faces()) {
         glm::dvec3 middle(0);
         for (const std::int32_t corner : corners_of_face(checked.tets()[open.tet], open.face)) {
@@ -55,7 +56,7 @@ inline void expect_fills_box(const MeshData& mesh, const Grid& grid) {
     }
 }
 
-// The largest |trilinear - linear| met at `samples` random points of each tet.
+// Returns the largest |trilinear - linear| at `samples` random points of each tet.
 inline double sampled_error(const MeshData& mesh, const Volume& volume, int samples) {
     std::mt19937 random(7);
     std::exponential_distribution<double> weight;
@@ -66,7 +67,8 @@ inline double sampled_error(const MeshData& mesh, const Volume& volume, int samp
             double sum = 0, linear = 0;
             glm::dvec3 place(0);
             for (const std::int32_t corner : tet) {
-                const double w = weight(random);  // uniform in the tet once divided by their sum
+                // Divided by their sum, the weights are uniform in the tet.
+                const double w = weight(random);
                 sum += w;
                 linear += w * values[static_cast<std::size_t>(corner)];
                 place += w * mesh.points[static_cast<std::size_t>(corner)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of mesh files in every coding, put together independently of the library.
+// Makes the bytes of mesh files in every encoding, independently of the library.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ std::string bytes_as(const std::vector<double>& values, bool big_endian) {
     for (const double value : values) {
         const T stored = static_cast<T>(value);
         char word[sizeof(T)];
-        std::memcpy(word, &stored, sizeof(T));  // the tests take a little-endian machine
+        std::memcpy(word, &stored, sizeof(T));  // tests run on little-endian machines only
         if (big_endian) std::reverse(word, word + sizeof(T));
         bytes.append(word, sizeof(T));
     }
@@ -82,10 +82,11 @@ inline std::string zlib(const std::string& bytes) {
     return packed;
 }
 
+// An encoding of a .vtu file.
 struct VtuStyle {
     std::string format = "ascii";  // ascii, binary, raw, base64
     bool compressed = false, header64 = false, big_endian = false;
-    std::string junk = "";  // behind each compressed block
+    std::string junk = "";  // bytes appended to each compressed block
 
     std::string name() const {
         return format + (compressed ? "_zlib" : "") + (header64 ? "_64" : "_32") +
@@ -103,6 +104,7 @@ inline std::vector<VtuStyle> all_vtu_styles() {
     return styles;
 }
 
+// Makes .vtu files in one encoding.
 class VtuMaker {
   public:
     explicit VtuMaker(VtuStyle style) : style_(std::move(style)) {}
@@ -165,7 +167,8 @@ class VtuMaker {
             const std::string all = header({static_cast<double>(bytes.size())}) + bytes;
             return text ? base64(all) : all;
         }
-        constexpr std::size_t block = 56;  // several blocks, the last of them not full or full
+        // Bytes; arrays then have several blocks, and the last one may be full or not.
+        constexpr std::size_t block = 56;
         std::vector<double> words{std::ceil(static_cast<double>(bytes.size()) / block), block,
                                   static_cast<double>(bytes.size() % block)};
         std::string packed;
@@ -185,7 +188,7 @@ inline std::string make_vtu(const TestGrid& grid, const VtuStyle& style = {}) {
     return VtuMaker(style).file({grid});
 }
 
-// Legacy VTK, of version 3.0 or 5.1.
+// Makes legacy VTK files of version 3.0 or 5.1.
 class VtkMaker {
   public:
     VtkMaker(bool binary, bool version5) : binary_(binary), version5_(version5) {}
@@ -228,7 +231,7 @@ class VtkMaker {
         return text;
     }
 
-    // The name of a type of VTK XML files in legacy ones.
+    // Returns the name in legacy files of a type of VTK XML files.
     static std::string legacy(const std::string& type) {
         static const std::vector<std::pair<std::string, std::string>> names{
             {"Int8", "char"},          {"UInt8", "unsigned_char"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Long thin tets at random places that do not touch: many hide one another in rings.
+// Makes meshes of long thin tets at random places that do not touch. Many of them hide one another
+// in cycles.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ namespace lamina::test {
 
 using NeedleCorners = std::array<glm::dvec3, 4>;
 
-// Tells whether some plane across the axis has the tets on different sides.
+// Tells whether some plane at right angles to the axis separates the two tets.
 inline bool apart_along(const glm::dvec3& axis, const NeedleCorners& a, const NeedleCorners& b) {
     double a_low = INFINITY, a_high = -INFINITY, b_low = INFINITY, b_high = -INFINITY;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -29,8 +30,8 @@ inline bool apart_along(const glm::dvec3& axis, const NeedleCorners& a, const Ne
     return a_low > b_high + gap || b_low > a_high + gap;
 }
 
-// Convex bodies are apart if and only if they are apart along the normal of a face or across two of
-// their edges (separating axes).
+// Tells whether two tets are apart: by the separating axis theorem they are if a face normal, or
+// the cross product of an edge of each, separates them.
 inline bool apart(const NeedleCorners& a, const NeedleCorners& b) {
     constexpr std::array<std::array<std::size_t, 2>, 6> edges{
         {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
@@ -48,7 +49,8 @@ inline bool apart(const NeedleCorners& a, const NeedleCorners& b) {
     return false;
 }
 
-// `count` needles or fewer, in the unit cube and around it, with random values at their points.
+// Returns at most `count` needles, with their middles in the unit cube and random values at their
+// points.
 inline MeshData needle_soup(int count, std::uint32_t seed, double length, double width) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);

@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// Composites a picture behind what `front` has, in double.
+// Composites a picture behind `front`, in double precision.
 inline void put_behind(const Image& picture, PreciseImage& front) {
     for (std::size_t i = 0; i < front.rgba.size(); i += 4) {
         const double left = 1 - front.rgba[i + 3];

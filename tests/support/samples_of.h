@@ -7,7 +7,7 @@
 
 namespace lamina::testing {
 
-// The samples of a volume whose type is T.
+// Returns the samples of a volume in memory, whose type must be T.
 template <typename T>
 std::vector<T> samples_of(const Volume& volume) {
     const auto* const first = static_cast<const T*>(volume.data());

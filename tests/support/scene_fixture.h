@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// The smallest scene: everything that can be left out is.
+// Returns the smallest scene: every key that may be left out is left out.
 inline nlohmann::json minimal_scene() {
     return nlohmann::json::parse(R"({
         "version": 1,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tetrahedral meshes of boxes for tests: regular, and as irregular as one likes.
+// Makes tetrahedral meshes of boxes for tests: regular ones, and irregular ones with thin tets.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace lamina::test {
 
-// The corners (i, j, k) of cells[0] x cells[1] x cells[2] unit cubes, six tets each along the main
-// diagonal (Kuhn), with the scalar f(point).
+// Returns the mesh of cells[0] x cells[1] x cells[2] unit cubes, each cut into six tets around its
+// main diagonal (Kuhn), with the scalar field(point).
 template <typename Field>
 MeshData kuhn_box(const std::array<std::int32_t, 3>& cells, const Field& field) {
     MeshData mesh;
@@ -42,9 +42,10 @@ MeshData kuhn_box(const std::array<std::int32_t, 3>& cells, const Field& field) 
     return mesh;
 }
 
-// The unit cube, cut `splits` times: a random tet gets a point inside, which makes four of it. The
-// point is drawn towards a corner, an edge or a face, down to `least` of the way: needles, slivers
-// and edge-length ratios of 1 / least and more.
+// Returns the unit cube, split `splits` times: a random tet is split into four at a point inside
+// it. Barycentric weights of the point, before they are normalised, go down to `least`, so the
+// point may lie near a corner, an edge or a face. This makes needles, slivers and edge-length
+// ratios of 1 / least and more.
 template <typename Field>
 MeshData split_box(std::uint32_t seed, int splits, double least, const Field& field) {
     MeshData mesh = kuhn_box({1, 1, 1}, field);
@@ -65,7 +66,7 @@ MeshData split_box(std::uint32_t seed, int splits, double least, const Field& fi
         std::array<Tet, 4> parts{tet, tet, tet, tet};
         const auto point = static_cast<std::int32_t>(mesh.points.size());
         mesh.points.push_back(place);
-        bool inside = true;  // also after rounding
+        bool inside = true;  // whether all four tets are positive after rounding
         for (std::size_t i = 0; i < 4; ++i) {
             parts[i][i] = point;
             const auto at = [&](std::size_t k) {

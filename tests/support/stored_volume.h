@@ -14,7 +14,7 @@
 
 namespace lamina::test {
 
-// The samples of a volume in memory, as if they were in files.
+// Gives the samples of a volume in memory as if they were in files.
 class SourceInMemory : public SampleSource {
   public:
     explicit SourceInMemory(Volume volume, std::array<std::int64_t, 3> block = {0, 0, 0})

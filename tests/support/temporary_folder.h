@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-// A folder of its own for a test, removed with all that is in it.
+// Makes a new folder for a test, and removes it with all that is in it.
 class TemporaryFolder {
   public:
     TemporaryFolder() {

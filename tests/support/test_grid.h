@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An unstructured grid as files hold it, and the mesh that it should become.
+// An unstructured grid as mesh files hold it, and the mesh that the library should read from it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,12 +15,14 @@
 
 namespace lamina::testing {
 
+// An array of data, as a file holds it.
 struct TestArray {
-    std::string name, type;  // type: of VTK XML
+    std::string name, type;  // type: as in VTK XML files
     int components = 1;
     std::vector<double> values;
 };
 
+// A cell of the grid, with the type number of VTK.
 struct TestCell {
     int type = 10;
     std::vector<int> corners;
@@ -59,8 +61,8 @@ struct TestGrid {
     }
 };
 
-// Two tets, a hexahedron, a wedge and a pyramid side by side, with a triangle and a line, and
-// arrays of several types. All numbers are exact in their types.
+// Returns a grid of tets, a hexahedron, a voxel cell, a wedge and a pyramid, with a triangle and a
+// line, and with arrays of several types. All numbers are exact in their types.
 inline TestGrid mixed_grid() {
     TestGrid grid;
     for (int i = 0; i < 24; ++i) {
@@ -119,7 +121,8 @@ inline MeshData expected_mesh(const TestGrid& grid) {
         if (cell.type == 10 || cell.type == 24) {
             mesh.tets.push_back({c[0], c[1], c[2], c[3]});
         } else {
-            // 25: a quadratic hexahedron, and so on. Of quadratic cells only the corners count.
+            // VTK types above 20 are quadratic cells (25: a quadratic hexahedron), of which only
+            // the corners count.
             const int straight = cell.type < 20 ? cell.type : cell.type == 29 ? 12 : cell.type - 13;
             const std::size_t corners = straight > 12 ? static_cast<std::size_t>(19 - straight) : 8;
             const SplitCell split = split_cell(straight, std::span(c).first(corners), grid.points);

@@ -12,7 +12,7 @@ inline TransferKnot knot(double value, const glm::dvec3& color, double extinctio
     return {value, {color, extinction}};
 }
 
-// A smooth function over [0, 1], of 17 points.
+// Returns a smooth function over [0, 1] with 17 points.
 inline TransferFunction smooth() {
     std::vector<TransferKnot> knots;
     for (int i = 0; i <= 16; ++i) {
@@ -22,7 +22,7 @@ inline TransferFunction smooth() {
     return TransferFunction::linear(knots);
 }
 
-// A function with a peak that is narrow beside its surroundings, and a step.
+// Returns a function with a narrow peak and a step.
 inline TransferFunction peak_and_step() {
     return TransferFunction::linear(
         {knot(0, glm::dvec3(1, 0, 0), 0), knot(.3, glm::dvec3(1, .5, 0), 0),

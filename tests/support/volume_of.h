@@ -21,7 +21,7 @@ inline Grid grid_of(const std::array<std::int64_t, 3>& size, Centering centering
     return grid;
 }
 
-// A volume with the samples f(i, j, k).
+// Returns a volume with the samples f(i, j, k).
 template <typename Sample = float, typename Function>
 Volume volume_of(const Grid& grid, const Function& f) {
     const auto samples = std::make_shared<std::vector<Sample>>();
@@ -37,13 +37,14 @@ Volume volume_of(const Grid& grid, const Function& f) {
     return Volume(grid, type, std::shared_ptr<const void>(samples, samples->data()));
 }
 
-// Samples drawn from 0..255, all different noise.
+// Returns a volume of random samples from 0 to 255; each seed gives others.
 inline Volume noise(const Grid& grid, std::uint32_t seed) {
     std::mt19937 random(seed);
     return volume_of<std::uint8_t>(grid, [&](double, double, double) { return random() % 256; });
 }
 
-// The trilinear field in index space, as its definition says: an eightfold sum, border repeated.
+// Returns the trilinear field at a point of index space, by its definition: a sum over eight
+// samples, with the border values repeated.
 inline double trilinear_at(const Volume& volume, const glm::dvec3& index) {
     const auto& size = volume.grid().size;
     double sum = 0;

@@ -14,7 +14,7 @@ INSTANTIATE_TEST_SUITE_P(All, Arithmetic, every_instruction_set, instruction_set
 
 constexpr std::size_t count = 1 << 18;
 
-// Numbers first .. last, equally spaced.
+// Returns numbers from first to last, equally spaced.
 std::vector<float> spaced(double first, double last) {
     std::vector<float> numbers(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -22,7 +22,7 @@ std::vector<float> spaced(double first, double last) {
     return numbers;
 }
 
-// 2^first .. 2^last, equally spaced in the exponent.
+// Returns numbers from 2^first to 2^last, equally spaced in the exponent.
 template <class T = float>
 std::vector<T> octaves(double first, double last) {
     std::vector<T> numbers(count);
@@ -32,7 +32,7 @@ std::vector<T> octaves(double first, double last) {
     return numbers;
 }
 
-constexpr double ulp = 0x1p-24;  // half of a float's last place: one rounding
+constexpr double ulp = 0x1p-24;  // the error of one rounding to float, relative
 
 TEST_P(Arithmetic, Exponential) {
     const std::vector<float> x = spaced(-87, 88);
@@ -40,9 +40,10 @@ TEST_P(Arithmetic, Exponential) {
     vector_exp(x, result);
     for (std::size_t i = 0; i < count; ++i) {
         const double expected = std::exp(static_cast<double>(x[i]));
-        // The last sum and, of x p(x) with |x| < .35 < e^x / 2, its product and the sum before:
-        // 1 + 2/2 roundings; half of the polynomial's other ones; and 127 * 2.1e-4 of a rounding
-        // in x itself. The polynomial is within 1e-8 of the function.
+        // With |f| < .35, e^f is 1 + f p(f). The last sum rounds once. The product, and the last
+        // sum in p, count at most half a rounding each, because |f| < e^f / 2. Earlier roundings,
+        // and that of f itself (127 * 2.1e-4 of one), add less than one. The polynomial is within
+        // 1e-8 of the function.
         ASSERT_NEAR(result[i], expected, expected * (3 * ulp + 1e-8)) << x[i];
     }
 }
@@ -65,15 +66,16 @@ TEST_P(Arithmetic, Logarithm) {
     vector_log(x, result);
     for (std::size_t i = 0; i < count; ++i) {
         const double expected = std::log(static_cast<double>(x[i]));
-        // log(m): m + 1, the quotient, the polynomial's last sum and the product with it round, and
-        // what is before that sum is a hundredth of it: 4.1 roundings of at most ln(2) / 2; the two
-        // sums with n log(2) round once each. The series ends at 2e-9.
+        // log(m) is at most ln(2) / 2 = .347 and has 4.1 roundings: m + 1, the quotient, the
+        // polynomial's last sum and the product with it; earlier ones count a hundredth. Of the two
+        // sums with n log(2), one rounds a number of up to .36 and the other the result. The series
+        // is cut at 2e-9.
         const double tolerance = (4.1 * .347 + .36) * ulp + std::abs(expected) * ulp;
         ASSERT_NEAR(result[i], expected, tolerance + 1e-9) << x[i];
     }
 }
 
-// Near 1 there is nothing but log(m).
+// Near 1, where n is 0, the result is log(m) alone, so the error is relative.
 TEST_P(Arithmetic, LogarithmNearOneIsRelative) {
     const std::vector<float> x = spaced(.75, 1.375);
     std::vector<float> result(count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector functions of codes, OVER, dithering and random bits are those of src/compositing, bit
+// The vector functions of codes, OVER, dithering and random bits equal those of src/compositing bit
 // for bit. Scaled values and numbers are chosen as in tests/compositing/shader_twins_test.cpp.
 #include <array>
 #include <cmath>
@@ -75,7 +75,7 @@ TEST_P(Codes, OverOf8BitsForAllPairs) {
     }
 }
 
-// Random operands; every fourth is an end of the codes, where sums are largest.
+// Random operands; a quarter of them are 0 or the largest code, for which sums are largest.
 TEST_P(Codes, OverOfRandomOperands) {
     for (int bits = 1; bits <= max_code_bits; ++bits) {
         const std::uint32_t largest = largest_code(bits);
@@ -87,8 +87,8 @@ TEST_P(Codes, OverOfRandomOperands) {
     }
 }
 
-// Of four: two anywhere in 0..M, one at or beside a whole number by up to 2^-27 or 2^-33, one at or
-// beside a half.
+// Returns a scaled value, by index modulo 4: two are anywhere in 0..M, one is at or beside a whole
+// number, by up to 2^-27 or 2^-33, and one at or beside a half.
 double scaled_value(std::uint32_t index, std::uint32_t largest) {
     const std::uint32_t bits = random_bits(index, 0, 0, 3);
     if (index % 4 < 2) return static_cast<double>(largest) * bits * 0x1p-32;
@@ -97,7 +97,8 @@ double scaled_value(std::uint32_t index, std::uint32_t largest) {
     return std::fmax(whole + beside / ((index & 8) != 0 ? 4 : 256), 0);
 }
 
-// `size` numbers; every second the one where a comparison with the value's rest turns.
+// Returns a number in 0 .. size - 1: random, or the one at which a comparison with the value's
+// fraction changes its result.
 std::uint32_t chosen_number(std::uint32_t index, double scaled, double size) {
     if ((index & 16) != 0) return static_cast<std::uint32_t>((scaled - std::floor(scaled)) * size);
     return static_cast<std::uint32_t>(random_bits(index, 1, 0, 3) * 0x1p-32 * size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that run once on every instruction set of the machine.
+// A fixture for tests that run once with every instruction set of the machine.
 #pragma once
 
 #include <gtest/gtest.h>

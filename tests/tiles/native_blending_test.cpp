@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// blend() against the blending unit of software OpenGL: the same pixels after every fragment.
+// blend() gives the same pixels, after every fragment, as the blending unit of software OpenGL.
 #include <glad/gl.h>
 
 #include <array>
@@ -23,15 +23,16 @@ constexpr std::size_t pixels = edge * edge;
 
 using Planes = std::array<std::vector<float>, 4>;
 
+// Returns a random number in 0 .. 1.
 float unit(std::size_t i, int layer, std::uint32_t channel) {
     const std::uint32_t random =
         random_bits(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(layer), channel, 9);
     return static_cast<float>(random >> 8) * 0x1p-24f;
 }
 
-// Associated colours and opacities: of four pixels one with opacities around 1/1000, one with
-// numbers at or beside the middle between two 8-bit codes, the others anywhere; some opaque, some
-// empty; a few colours beyond 1.
+// Returns associated colours and opacities. Of four pixels one has opacities around 1/1000, one has
+// colours at or beside the middle between two 8-bit codes, and two are random. Some are opaque,
+// some empty, and some colours exceed 1.
 Planes fragments_of(int layer) {
     Planes planes;
     for (std::uint32_t channel = 0; channel < 4; ++channel) planes[channel].resize(pixels);
@@ -72,7 +73,8 @@ gl::TextureFormat format_of(Target target) {
     }
 }
 
-// Draws the same fragments both ways and hands over the pixels after every layer.
+// Draws the same fragments with OpenGL and with blend(), and calls compare(drawn, computed, layer)
+// after every layer.
 template <class F>
 void composite_both_ways(const TargetBlend& target, F compare) {
     gl::Program program = gl::full_screen_program(
@@ -115,7 +117,7 @@ void expect_equal(Target format, Order order) {
         target, [&](const std::vector<float>& drawn, const Planes& computed, int layer) {
             for (std::size_t i = 0; i < 4 * pixels; ++i) {
                 const float ours = computed[i % 4][i / 4];
-                float theirs = drawn[i];  // of fixed-point targets within a rounding of code / M
+                float theirs = drawn[i];  // if fixed-point: code / M, rounded
                 if (is_fixed_point(format)) theirs = std::round(theirs * target.largest);
                 if (ours == theirs) continue;
                 if (different++ < 5) {

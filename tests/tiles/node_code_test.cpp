@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The codes of optical depth in float32 against compositing/codes.h, as its twin in
-// shaders/compositing is tested.
+// The vector functions of node codes, in float32, against compositing/codes.h.
 #include "compositing/codes.h"
 
 #include <algorithm>
@@ -19,8 +18,8 @@ INSTANTIATE_TEST_SUITE_P(All, NodeCodes, every_instruction_set, instruction_set_
 
 constexpr std::size_t count = 1 << 16;
 constexpr double ulp = 0x1p-24;
-// Absolute, of logarithms of numbers up to 1024 (arithmetic_test.cpp): 1.8 roundings and one of the
-// result, up to 6.9, itself.
+// Absolute error of log_of() for numbers up to 1024 (arithmetic_test.cpp): 1.8 ulp, and one
+// rounding of the result, which is up to 6.9.
 constexpr double log_error = 9 * ulp;
 
 template <class F>
@@ -39,8 +38,9 @@ TEST_P(NodeCodes, Encode) {
         vector_encode(code, share, depth, result);
         for (std::size_t i = 2; i < count; ++i) {
             const double expected = encode_depth(code, depth[i], share);
-            // Opacity's 3e-7 with the roundings of the quotient before it and of two divisions by
-            // 1 + ln(1 / share) / e; beyond sigma = 1 the logarithm over e.
+            // Relative error: 3e-7 of the opacity, and the roundings of the quotient before it and
+            // of two divisions by 1 + ln(1 / share) / e. Beyond sigma = 1 the minimax code is a
+            // logarithm over e, with an absolute error.
             const double sigma = depth[i] / static_cast<double>(share);
             const bool logarithm = code == NodeCode::minimax && sigma > 1;
             const double absolute = logarithm ? log_error / std::numbers::e + 2 * ulp : 0;
@@ -63,16 +63,17 @@ TEST_P(NodeCodes, Decode) {
         vector_decode(code, share, small, small_result);
         for (std::size_t i = 0; i < count; ++i) {
             const double expected = decode_depth(code, value[i], share);
-            // A depth of at least 1/4 knows its logarithm to 1.8 roundings and its own, below that
-            // the series to 6; u = value (1 + ln(1 / share) / e) is known to two of numbers below
-            // 4, which the logarithm passes on as it does the rounding of 1 - u.
+            // Relative error: for values of at least 1/4 the logarithm, of at least .28, has 1.8
+            // roundings and its own; for smaller values the series has 6.
             double relative = 2.5 / .28 * ulp;
             double absolute = 0;
             if (code == NodeCode::minimax) {
-                // u's roundings, 3 of numbers up to 3.6 with the argument of exp(), e-fold, and
-                // exp()'s 3; below u = 1 - 1/e the slope of log(1 - u) times u, at most e - 1.
+                // u = value (1 + ln(1 / share) / e) and the argument of exp() have 3 roundings of
+                // numbers up to 3.6, multiplied by e, and exp() has 3. Below u = 1 - 1/e the
+                // logarithm passes on errors of u by its slope times u, at most e - 1, which is
+                // less.
                 relative += (3 * 2 * 3.6 * std::numbers::e + 3) * ulp;
-                // Beyond depth 1 the transmittance is a difference of such numbers.
+                // Beyond depth 1 the transmittance is a difference of numbers up to 3.6.
                 if (expected > 1) absolute = 4 * 3.6 * ulp * std::exp(expected);
             }
             ASSERT_NEAR(result[i], expected, expected * relative + absolute) << value[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programmable blending of a tile's planes against compositing/*.h, bit for bit. Floats hold codes
-// exactly.
+// Programmable blending of a tile's planes equals compositing/codes.h bit for bit. Floats hold
+// codes exactly.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -19,7 +19,7 @@ constexpr std::uint32_t count = 1 << 14;
 
 using Planes = std::array<std::vector<float>, 4>;
 
-// Random codes; every fourth is an end of them.
+// Returns random codes; a quarter of them are 0 or the largest code.
 Planes random_codes(std::uint32_t largest, std::uint32_t seed) {
     Planes planes;
     for (std::uint32_t channel = 0; channel < 4; ++channel) {

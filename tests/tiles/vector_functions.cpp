@@ -11,7 +11,7 @@
 LAMINA_SIMD_BEGIN
 namespace {
 
-// result[i] = f(arguments[i] ...), vector by vector.
+// Sets result[i] to f(arguments[i] ...), vector by vector.
 template <class V, class F, class... Arguments>
 void for_vectors(std::span<typename V::Scalar> result, F f, const Arguments&... arguments) {
     for (std::size_t i = 0; i < result.size(); i += V::lanes)

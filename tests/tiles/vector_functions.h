@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector functions of tiles/*-inl.h over arrays, with the instruction set in use. All arrays of
-// a call have one length, a multiple of 16; results go where the arguments' order ends.
+// The vector functions of tiles/*-inl.h over arrays, for tests; they use the instruction set in
+// use. All arrays of a call have the same length, a multiple of 16. The last argument gets the
+// results.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ using Floats = std::span<const float>;
 using Numbers = std::span<const double>;
 using Bits = std::span<const std::uint32_t>;
 
-// Floats of a vector.
+// Returns the number of floats in a vector.
 int vector_lanes();
 
 void vector_exp(Floats x, std::span<float> result);
@@ -35,7 +36,7 @@ void vector_under(OverRounding rounding, double largest, const CodeOperands& cod
 void vector_code_nearest(Numbers scaled, std::span<double> result);
 void vector_round_alpha(AlphaRounding rounding, Numbers scaled, Bits random,
                         std::span<double> result);
-// Result i is of scaled[i] and rank[i].
+// result[i] is the code of scaled[i] in a slab of rank[i].
 void vector_dither(double largest, int period, int increment, Numbers scaled, Bits rank,
                    std::span<double> result);
 void vector_over_stochastic(double largest, Numbers source, Numbers alpha, Numbers below,
@@ -43,7 +44,7 @@ void vector_over_stochastic(double largest, Numbers source, Numbers alpha, Numbe
 void vector_random_bits(Bits column, Bits row, Bits sample, std::uint32_t seed,
                         std::span<std::uint32_t> result);
 
-// Planes of pixels: red, green, blue, alpha.
+// The planes of some pixels: red, green, blue, alpha.
 struct FloatPlanes {
     std::span<float> planes[4];
 };

@@ -47,7 +47,8 @@ TEST(Attempts, OneSceneHasOneRowThatGoesOn) {
     EXPECT_EQ(attempts.newest(), 0u);
     EXPECT_EQ(attempts.rows()[0].draw_ms, 11);
     EXPECT_EQ(attempts.rows()[0].frame_ms, .375 * 11);
-    // Drawn again, it is traced from the start: what is known stays until there is more.
+    // Drawing the first scene again starts its trace anew: the row keeps its error until a larger
+    // share of the pixels is measured again.
     attempts.measured(.25, {2, 0, 1});
     EXPECT_EQ(attempts.rows()[0].share_measured, .5);
     EXPECT_EQ(attempts.rows()[0].error.linf, 3);
@@ -95,7 +96,7 @@ TEST(Attempts, FindsThoseThatDifferInTheTreeAlone) {
     EXPECT_EQ(attempts.alike(without_tree), (std::vector<std::size_t>{0, 1, 3}));
 }
 
-// What a spreadsheet reads: a list of rows of cells (RFC 4180).
+// Returns the rows of cells that a spreadsheet reads from the text (RFC 4180).
 std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
     std::vector<std::vector<std::string>> rows(1, std::vector<std::string>(1));
     bool quoted = false;
@@ -137,7 +138,7 @@ TEST(Attempts, CsvHasAllOfThem) {
     EXPECT_EQ(told,
               (std::vector<std::string>{"1", "slice", "auto", "fixed8", "8x8", "64", "2", "", "3.5",
                                         "-0.125", "0.5", "0.25", "12.5", "9.5", "800", "600"}));
-    // Nothing is lost: the last cell is the scene.
+    // The last cell is the complete scene.
     EXPECT_EQ(scene_text(parse_scene(rows[2].back(), "again.json")), scene_text(scene));
 }
 
@@ -156,7 +157,7 @@ TEST(TextFile, IsThereInFullOrNotAtAll) {
         }
     }
     const auto entries = std::filesystem::directory_iterator(folder.path());
-    EXPECT_EQ(std::distance(begin(entries), end(entries)), 2);  // nothing is left behind
+    EXPECT_EQ(std::distance(begin(entries), end(entries)), 2);  // no temporary file remains
 }
 
 }  // namespace

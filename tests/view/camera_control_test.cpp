@@ -33,7 +33,8 @@ class CameraControls : public testing::Test {
     Document document_;
     Camera camera_;
     CameraControl control_;
-    // 400 x 200 from (10, 20).
+    // The picture in the window, in pixels: 400 x 200, its corner at (10, 20); and the bounds of
+    // the data.
     CameraControl::Around around_{{{10, 20}, {400, 200}, 800}, {{-1, -1, -1}, {1, 1, 1}}, nullptr};
     double seconds_ = 1;
 };
@@ -44,7 +45,7 @@ TEST_F(CameraControls, DragsMeanWhatTheButtonSays) {
         bool shift;
         Camera expected;
     };
-    const glm::dvec2 drag(.25, .1);  // of the height: 50 to the right, 20 up
+    const glm::dvec2 drag(.25, .1);  // in heights of the picture: 50 pixels to the right, 20 up
     for (const Case& a : {Case{PointerButton::left, false, orbited(camera_, drag)},
                           Case{PointerButton::left, true, panned(camera_, drag)},
                           Case{PointerButton::middle, false, panned(camera_, drag)},
@@ -94,7 +95,7 @@ TEST_F(CameraControls, KeysSeeAlongAxes) {
     EXPECT_EQ(now().projection, Projection::orthographic);
     EXPECT_TRUE(key(key::home));
     EXPECT_TRUE(document_.scene().camera.is_automatic());
-    EXPECT_FALSE(key('1'));  // there is no camera yet
+    EXPECT_FALSE(key('1'));  // while the camera is automatic, no key turns it
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(Comparison, IsOfBLessA) {
     comparison.follow(shown_of(b, scene));
     ASSERT_TRUE(comparison.active());
     const std::vector<float>& e = comparison.difference()->e;
-    // Numbers of 24 bits, times 255.
+    // Rounding of float32 colours up to 1 (24 bits), in 1/255.
     const float rounding = 255 * 0x1p-24f;
     EXPECT_NEAR(e[2], -3, rounding);
     EXPECT_NEAR(e[4], 2, rounding);
@@ -65,7 +65,7 @@ TEST(Comparison, IsOfBLessA) {
     const auto colors = comparison.colors();
     const std::vector<std::uint8_t> expected = difference_codes(e, 5);
     EXPECT_EQ(colors->rgb, expected);
-    EXPECT_EQ(comparison.colors(), colors);  // not made again
+    EXPECT_EQ(comparison.colors(), colors);  // the same picture is returned, not a new one
     comparison.range = 1;
     EXPECT_NE(comparison.colors(), colors);
 }
@@ -85,17 +85,17 @@ TEST(Comparison, NeedsTheSameViewAndAFullPicture) {
     shown = shown_of(a, other);
     comparison.follow(shown);
     EXPECT_EQ(comparison.missing(), "A is not drawn in this view yet");
-    // Once the worker has drawn it there:
+    // The worker has drawn the pinned settings in this view.
     PinnedPicture again = *comparison.pinned();
     again.scene.camera = other.camera;
     shown.pinned = std::make_shared<const PinnedPicture>(again);
     comparison.follow(shown);
     EXPECT_TRUE(comparison.active());
-    // Not what was pinned before.
+    // Pin other settings: the worker's picture, which has the earlier ones, does not count.
     comparison.pin(scene, shown_of(a, scene));
     comparison.follow(shown);
     EXPECT_FALSE(comparison.active());
-    // Other data have nothing in common with it.
+    // Loading other data removes the pinned picture.
     shown.full_revisions.data = 2;
     comparison.follow(shown);
     EXPECT_FALSE(comparison.pinned());

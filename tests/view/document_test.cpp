@@ -51,7 +51,8 @@ TEST(Document, OneDragIsOneStep) {
 
 TEST(Document, UndoBringsPointsBackThatTheFunctionDoesNotNeed) {
     Document document = opened();
-    document.transfer().add_density(105, .35);  // on the line
+    // On the line between the two points, so it changes nothing.
+    document.transfer().add_density(105, .35);
     document.transfer_edited("add");
     document.end_step();
     EXPECT_EQ(document.scene().transfer_function->knots().size(), 2u);
@@ -72,7 +73,8 @@ TEST(Document, SettingsAreSteps) {
     EXPECT_THROW(document.set_setting("render.slice.samples", -1), Error);
     document.end_step();
     document.set_setting("render.max_error", .5);
-    document.set_setting("render.max_error", .4);  // a slider that is drawn
+    // A slider that is dragged: one step with the value before.
+    document.set_setting("render.max_error", .4);
     EXPECT_EQ(document.undo_name(), "render.max_error");
     document.undo();
     EXPECT_EQ(document.scene().max_error, 1);

@@ -31,7 +31,7 @@ Volume waves(int size) {
     return {grid, SampleType::float32, {std::move(samples), first}};
 }
 
-// A scene that leaves all to be chosen, of a file.
+// Worker with a scene that names a volume file and leaves everything else automatic.
 class DrawWorkers : public testing::Test {
   protected:
     DrawWorkers() {
@@ -47,7 +47,7 @@ class DrawWorkers : public testing::Test {
         ++request_.revisions.camera;
     }
 
-    // What was chosen is taken over, as the document does.
+    // Puts the worker's choices into the request, as the viewer's document does.
     void take_chosen() {
         request_.scene = *shown()->chosen;
         request_.scene.file = file_;
@@ -60,7 +60,7 @@ class DrawWorkers : public testing::Test {
 
     std::shared_ptr<const Shown> shown() const { return worker_.shown(); }
 
-    // Fails where it does not come true within a time that no machine needs.
+    // Waits until `reached` is true. Fails after 100 s, longer than any machine needs.
     std::shared_ptr<const Shown> wait(const std::function<bool(const Shown&)>& reached) {
         std::unique_lock lock(mutex_);
         std::shared_ptr<const Shown> now;
@@ -115,7 +115,7 @@ TEST_F(DrawWorkers, TheFullPictureIsTheSessions) {
     ask();
     const auto next = wait_full();
     EXPECT_NE(next->full->rgba, first->full->rgba);
-    // The file that would be saved draws the same.
+    // The resolved scene, saved and loaded, draws the same picture.
     save_scene(*next->resolved, folder_ / "saved.json");
     EXPECT_EQ(Session(load_scene(folder_ / "saved.json"), native).draw().rgba, next->full->rgba);
 }
@@ -169,7 +169,7 @@ TEST_F(DrawWorkers, TheTracerReplacesThePictureAndMeasuresIt) {
     EXPECT_EQ(end->truth->rgba, truth.rgba);
     EXPECT_EQ(end->share_traced, 1);
     EXPECT_EQ(end->kind, PictureKind::traced);
-    // As `lamina compare` has it of two EXR files, which are in float32.
+    // Compares in float32, as `lamina compare` does with two EXR files.
     const ErrorNorms error = error_of(picture, to_float(truth));
     EXPECT_EQ(end->error.linf, error.linf);
     EXPECT_EQ(end->error.mean, error.mean);

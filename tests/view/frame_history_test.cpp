@@ -17,7 +17,7 @@ FrameStatistics statistics_of(double ms, std::map<std::string, double> stages) {
 
 TEST(FrameHistory, StagesAreThoseThatWereDoneAndAddUp) {
     FrameHistory history;
-    // Tables and upload are within set_up: 30 ms of it are its own.
+    // The stage set_up contains tables and upload: 50 - 8 - 12 = 30 ms are its own.
     history.add(statistics_of(100, {{"facts", 20},
                                     {"plan", 5},
                                     {"set_up", 50},
@@ -32,7 +32,7 @@ TEST(FrameHistory, StagesAreThoseThatWereDoneAndAddUp) {
                                                   {"upload", 12},
                                                   {"draw", 15},
                                                   {"other", 10}}));
-    // What was not done again still has its time.
+    // Statistics keep the times of stages that this frame did not repeat: they are left out.
     history.add(statistics_of(20, {{"facts", 2},
                                    {"plan", 1},
                                    {"set_up", 50},
@@ -45,7 +45,7 @@ TEST(FrameHistory, StagesAreThoseThatWereDoneAndAddUp) {
               (Stages{{"facts", 2}, {"plan", 1}, {"draw", 16}, {"other", 1}}));
     EXPECT_EQ(history.longest_ms(), 100);
     EXPECT_EQ(history.median_ms(true), 20);
-    // Clocks are read apart: no stage goes beyond the whole.
+    // Stages and frames are timed by separate clock reads: a stage is cut to the frame's time.
     history.add(statistics_of(10, {{"draw", 10.5}}), true);
     EXPECT_EQ(history.frames()[2].stages, (Stages{{"draw", 10}}));
 }

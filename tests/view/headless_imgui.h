@@ -5,7 +5,7 @@
 
 namespace lamina::test {
 
-// ImGui without a window: what is drawn goes nowhere.
+// ImGui without a window: draw lists are made and dropped.
 class HeadlessImGui {
   public:
     HeadlessImGui() {
@@ -16,14 +16,14 @@ class HeadlessImGui {
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
         io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-        // A table of keys is the backend's: here a key has its own number.
+        // A backend maps ImGui's keys to its own codes. Here each key is its own code.
         for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
     }
     ~HeadlessImGui() { ImGui::DestroyContext(); }
     HeadlessImGui(const HeadlessImGui&) = delete;
     HeadlessImGui& operator=(const HeadlessImGui&) = delete;
 
-    // A frame with one window that `contents` fills.
+    // Draws a frame with one window, which `contents` fills.
     template <typename Contents>
     void frame(const Contents& contents) {
         ImGui::GetIO().DeltaTime = 1.f / 60;

@@ -24,7 +24,8 @@ TEST(KeyEffects, ReasonsAreOfTheSceneAsItIs) {
     EXPECT_NE(why_without_effect(slicing, "render.emulate.bits"), "");
     EXPECT_NE(why_without_effect(slicing, "render.slice.dither.seed"), "");
     EXPECT_NE(why_without_effect(slicing, "mesh.tolerance"), "");
-    EXPECT_NE(why_without_effect(slicing, "camera.eye"), "");  // it is automatic
+    // The camera is automatic: it has no eye yet.
+    EXPECT_NE(why_without_effect(slicing, "camera.eye"), "");
     EXPECT_EQ(why_without_effect(slicing, "camera"), "");
     const Scene emulated =
         scene_with(R"({"target": "emulated", "slice": {"dither": {}, "samples": 9}})");

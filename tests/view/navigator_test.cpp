@@ -11,7 +11,7 @@
 namespace lamina::view {
 namespace {
 
-// Coordinates of some 10, a few operations: 1e-12 is generous.
+// Bound for rounding: coordinates are about 10, and a few operations lose about 1e-15 each.
 constexpr double rounding = 1e-12;
 
 void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = rounding) {
@@ -34,7 +34,8 @@ double distance_of(const Camera& camera) {
     return glm::length(camera.eye - camera.center);
 }
 
-// Where a point is in the picture: shares of its height from the middle, right and up.
+// Returns the place of a point in the picture, from its middle, to the right and up, in heights of
+// the picture.
 glm::dvec2 place_of(const Camera& camera, const glm::dvec3& point) {
     const ViewAxes axes = axes_of(camera);
     const glm::dvec3 from_eye = point - camera.eye;
@@ -60,10 +61,11 @@ TEST(Navigator, OrbitKeepsCentreAndDistance) {
     }
 }
 
-// Half a turn for one height, about `up`.
+// A drag over the picture's whole height turns by 180 degrees; a quarter of it by 45.
 TEST(Navigator, OrbitTurnsBySoMuch) {
     for (const Camera& camera : cameras()) {
-        const Camera turned_by = orbited(camera, {-.25, 0});  // to the left: the eye goes right
+        // A drag to the left moves the eye to the right.
+        const Camera turned_by = orbited(camera, {-.25, 0});
         expect_near(turned_by.eye, turned(camera, 45).eye);
         const Camera back = orbited(orbited(camera, {0, .1}), {0, -.1});
         expect_near(back.eye, camera.eye);
@@ -81,7 +83,7 @@ TEST(Navigator, OrbitStopsOneDegreeFromThePoles) {
     }
 }
 
-// What is dragged stays under the pointer.
+// The point that is dragged or zoomed at stays under the pointer.
 TEST(Navigator, PanAndZoomKeepThePointUnderThePointer) {
     const glm::dvec2 place(.31, -.22), drag(.1, .05);
     for (const Camera& camera : cameras()) {
@@ -110,12 +112,12 @@ TEST(Navigator, LookAtBringsAPointToTheMiddle) {
                 EXPECT_NEAR(distance_of(next), distance_of(camera), rounding);
         }
     }
-    Camera above = cameras()[0];  // what lies straight below can be looked at, too
+    Camera above = cameras()[0];  // looking straight down, along `up`, works, too
     const Camera down = looking_at(above, above.eye - glm::normalize(above.up));
     EXPECT_TRUE(std::isfinite(axes_of(down).right.x));
 }
 
-// All corners are in the picture, and one of them touches its edge.
+// All corners of the box are in the picture, and one of them touches the picture's edge.
 TEST(Navigator, FitShowsAllOfABox) {
     const Grid::Bounds box{{-1, 0, 2}, {4, 2, 9}};
     for (const Camera& camera : cameras()) {
@@ -160,6 +162,7 @@ TEST(Navigator, TheOtherProjectionKeepsTheSize) {
         const Camera next = with_projection(camera, other);
         EXPECT_EQ(next.projection, other);
         EXPECT_NEAR(height_at_center(next), height_at_center(camera), rounding);
+        // An orthographic eye may move, so going back is expected to keep the eye of `next`.
         expect_near(with_projection(next, camera.projection).eye,
                     camera.projection == Projection::perspective ? camera.eye : next.eye);
     }

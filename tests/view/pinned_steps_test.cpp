@@ -29,7 +29,7 @@ Scene small_scene() {
         "scene.json");
 }
 
-// A document that is drawn as the viewer does it, one step after the other.
+// A document drawn in steps by SessionSteps, as the viewer's worker does it.
 class DrawnDocument {
   public:
     DrawnDocument() : steps_(native, [this](const Shown& shown) { take(shown); }) {
@@ -90,7 +90,7 @@ TEST(PinnedPicture, IsDrawnAgainInTheViewOfTheOther) {
         EXPECT_EQ(comparison.pinned()->picture->rgba, drawn_alone(a_turned).rgba);
         EXPECT_EQ(drawn.shown().full->rgba, drawn_alone(drawn.document.scene()).rgba);
     }
-    // It is B that is traced, and B whose settings go on.
+    // B, the current settings, is what is traced and what later frames draw, not the pinned A.
     turn(drawn.document);
     drawn.draw(true);
     EXPECT_EQ(drawn.shown().share_traced, 1);
@@ -109,7 +109,7 @@ TEST(PinnedPicture, MovingPicturesAreOfTheOther) {
     drawn.precision.pin(drawn.document, drawn.shown());
     drawn.document.edit([](Scene& scene) { scene.target = Target::float32; });
     turn(drawn.document);
-    drawn.draw();  // A comes last
+    drawn.draw();  // draws B, then A
     turn(drawn.document);
     Shown last;
     SessionSteps steps(native, [&](const Shown& shown) { last = shown; });
@@ -122,7 +122,7 @@ TEST(PinnedPicture, MovingPicturesAreOfTheOther) {
         while (steps.unfinished()) steps.step({});
     };
     run();
-    ASSERT_TRUE(last.pinned);  // drawn in this view after B
+    ASSERT_TRUE(last.pinned);  // A, drawn in this view after B
     turn(drawn.document);
     request.scene = drawn.document.scene();
     request.revisions = drawn.document.revisions();
@@ -139,7 +139,7 @@ TEST(PinnedPicture, ThatCannotBeDrawnIsSaidAndTheOtherGoesOn) {
     drawn.draw();
     drawn.precision.pin(drawn.document, drawn.shown());
     PinnedPicture impossible = *drawn.precision.comparison.pinned();
-    // Fixed nodes need one colour, which only the plan knows.
+    // Nodes that are `fixed` need a volume of one colour, which is known only once a plan is made.
     impossible.scene.slice.tree = TreeSettings{.factors = {8, 8}, .nodes = NodeArithmetic::fixed};
     turn(drawn.document);
     Shown last;
@@ -177,7 +177,7 @@ TEST(PrecisionInSight, RowsFollowTheTracer) {
     EXPECT_EQ(drawn.document.scene().target, Target::float32);
 }
 
-// A warning of a file that is read once belongs to all of its pictures.
+// A file is read once for several pictures; a warning about it is shown with each of them.
 TEST(SessionSteps, ShowWarningsOnceAndAsLongAsTheyHold) {
     const TemporaryFolder folder;
     std::ofstream(folder / "surplus.nrrd")

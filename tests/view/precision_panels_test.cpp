@@ -34,7 +34,7 @@ Shown shown_of(const Document& document) {
     return shown;
 }
 
-// To look at a panel changes nothing, whatever there is to be seen.
+// Drawing panels changes no document, in any state of the comparison.
 TEST(PrecisionPanels, AreDrawnAndChangeNothing) {
     test::HeadlessImGui imgui;
     ErrorPanel error;
@@ -50,7 +50,7 @@ TEST(PrecisionPanels, AreDrawnAndChangeNothing) {
         PanelContext context{document, shown, {}, known};
         for (Panel* const panel : panels) imgui.frame([&] { panel->draw(context); });
     };
-    draw(&precision);  // nothing is open
+    draw(&precision);  // no document is open
     document.open(small_scene());
     document.size_follows_window = false;
     draw(nullptr);
@@ -76,8 +76,7 @@ TEST(PrecisionPanels, AreDrawnAndChangeNothing) {
     EXPECT_EQ(precision.attempts.rows()[0].share_measured, .5);
 }
 
-// Where an item of a window is, found by looking for it: the first place down its middle that has a
-// pointer's click change the document.
+// Finds a row of the panel by clicking down the window's middle until a click changes the document.
 TEST(PrecisionPanels, AClickOnARowGoesBackToIt) {
     test::HeadlessImGui imgui;
     AttemptsPanel panel;
@@ -99,7 +98,8 @@ TEST(PrecisionPanels, AClickOnARowGoesBackToIt) {
     for (float y = 0; y < 300 && document.scene().target == Target::float32; y += 3) {
         io.MousePos = {30, y};
         frame();
-        if (ImGui::IsAnyItemActive() || y < 40) continue;  // above: the file's name and buttons
+        // Above 40 pixels: the file's name and buttons.
+        if (ImGui::IsAnyItemActive() || y < 40) continue;
         io.MouseDown[0] = true;
         frame();
         io.MouseDown[0] = false;

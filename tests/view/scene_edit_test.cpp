@@ -69,7 +69,7 @@ TEST(SceneEdit, ColoursLookAsBeforeInAnotherSpace) {
     before.background = {.2, .5, 1};
     const Scene after = with_setting(before, "image.color_space", "display");
     EXPECT_EQ(after.background, display_of_color(before.background));
-    // Beyond 1 there is no display value.
+    // Components above 1 have no display value, so they stay.
     EXPECT_EQ(converted_color({.5, 0, 7}, ImageColorSpace::display, ImageColorSpace::linear).z, 7);
 }
 

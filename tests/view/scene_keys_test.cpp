@@ -12,12 +12,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The paths of all properties that a schema names, whatever stands around them.
+// Collects the paths of all properties below `here`, a part of the schema, through references,
+// lists and alternatives.
 void collect(const Json& schema, const Json& here, const std::string& path,
              std::set<std::string>& paths) {
     if (here.contains("$ref")) {
         const std::string word = here.at("$ref").get<std::string>().substr(8);
-        // A control of its own shows colours as one.
+        // One control shows a colour; the parts of its schema are no keys.
         if (word != "color") collect(schema, schema.at("$defs").at(word), path, paths);
     }
     if (here.contains("properties")) {

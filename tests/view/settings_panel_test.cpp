@@ -25,7 +25,8 @@ std::set<std::string> keys() {
     return paths;
 }
 
-// What tests/view/scene_keys_test.cpp holds to the schema is what the panel draws.
+// The panel draws a control for each of scene_keys(), which scene_keys_test.cpp compares with the
+// schema.
 TEST(SettingsPanel, HasAControlForEveryKey) {
     Document document = opened(R"({"version": 1, "volume": {"generate": "gaussians"}})");
     const Shown shown;
@@ -35,7 +36,7 @@ TEST(SettingsPanel, HasAControlForEveryKey) {
     panel.all_open = true;
     imgui.frame([&] { panel.draw(context); });
     EXPECT_EQ(panel.drawn(), keys());
-    EXPECT_FALSE(document.can_undo());  // to look at keys changes none
+    EXPECT_FALSE(document.can_undo());  // drawing changes nothing
 }
 
 TEST(SettingsPanel, DrawsScenesOfAllKinds) {

@@ -50,7 +50,7 @@ TEST(StartingValues, OfWhatWasAutomaticAreWhatWasChosen) {
               (nlohmann::ordered_json{0, 0, 1}));
 }
 
-// Groups that a scene may lack: without them the file has them not.
+// A group that may be absent is not in the file of a scene without it.
 TEST(StartingValues, GroupsThatMayBeAbsentAreNotWritten) {
     const nlohmann::ordered_json plain =
         settings_of(parse_scene(R"({"version": 1, "volume": {"generate": "ramp"}})", "scene"));

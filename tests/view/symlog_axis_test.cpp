@@ -32,7 +32,7 @@ TEST(SymlogAxis, NeverFalls) {
         double before = axis.place(ends.lo);
         double number = ends.lo;
         for (int i = 1; i <= 20000; ++i) {
-            // Some neighbours among doubles, some far apart.
+            // Alternate between the next larger double and a number far from it.
             number = i % 2 == 0 ? std::nextafter(number, 1e300)
                                 : ends.lo + (ends.hi - ends.lo) * (i / 20000.);
             const double here = axis.place(number);
@@ -50,7 +50,7 @@ TEST(SymlogAxis, IsItsOwnInverseWithinWhatItsHeaderSays) {
         const SymlogAxis axis(ends.lo, ends.hi, ends.linear);
         const double most = std::max(std::abs(ends.lo), std::abs(ends.hi));
         for (int i = 0; i < 10000; ++i) {
-            // Even and logarithmic from either end.
+            // Alternate between even and logarithmic spacing.
             const double share =
                 i % 2 == 0 ? uniform(random) : std::pow(10., -12 * uniform(random));
             const double x = std::clamp(ends.lo + (ends.hi - ends.lo) * share, ends.lo, ends.hi);
@@ -62,9 +62,9 @@ TEST(SymlogAxis, IsItsOwnInverseWithinWhatItsHeaderSays) {
 
 TEST(SymlogAxis, IsLinearNearZeroAndLogarithmicFarFromIt) {
     const SymlogAxis axis(0, 1e9, 1);
-    // log1p(x) / x is 1 to x / 2.
+    // log1p(x) / x differs from 1 by x / 2.
     EXPECT_NEAR(axis.place(2e-6) / axis.place(1e-6), 2, 2e-6);
-    // log1p(x) is ln x to 1 / x, here of 9.2 - 6.9.
+    // log1p(x) differs from ln x by 1 / x: 1e-3 of a step whose length is ln 10.
     EXPECT_NEAR((axis.place(1e5) - axis.place(1e4)) / (axis.place(1e4) - axis.place(1e3)), 1, 1e-3);
 }
 

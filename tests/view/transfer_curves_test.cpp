@@ -28,7 +28,7 @@ TEST(TransferCurves, GiveTheFunctionBackBitForBit) {
     expect_round_trip(TransferFunction::linear({TransferKnot{}}));
     expect_round_trip(of_scene(R"({"points": [{"value": 28, "color": "tomato", "extinction": 0},
                                               {"value": 255, "extinction": 0.6}]})"));
-    // Steps of either curve, and palettes.
+    // Steps of extinction or of colour, and palettes.
     expect_round_trip(of_scene(
         R"({"points": [{"value": 0, "extinction": 0.1}, {"value": 1, "extinction": 0.3},
             {"value": 1, "extinction": 0.7}, {"value": 2, "color": "red", "extinction": 0.7},
@@ -88,12 +88,12 @@ TEST(TransferCurves, FindSlopesOfOpacity) {
         EXPECT_EQ(curves.colors.size(), 4u);
         EXPECT_EQ(curves.density[1].value, 10);
         EXPECT_TRUE(curves.density[1].inside.empty());
-        // All have few digits.
+        // Lengths are found as numbers of few digits.
         EXPECT_DOUBLE_EQ(curves.density[0].opacity_length, length);
         EXPECT_DOUBLE_EQ(curves.density[2].opacity_length, length);
         EXPECT_TRUE(curves.function() == function);
     }
-    // The length that opacities are shown for is taken where it fits.
+    // If the length that the editor shows opacities for fits a slope, it is chosen.
     const TransferFunction function =
         TransferFunction::linear_opacity({{0, {1, 0, 0}, 0}, {10, {1, 1, 0}, .97}}, .37);
     EXPECT_EQ(curves_of(function, .37).density[0].opacity_length, .37);
@@ -110,7 +110,8 @@ TEST(TransferCurves, FindSlopesFromAndToOpacityOne) {
     EXPECT_TRUE(curves.function() == function);
 }
 
-// Colours on the way were rounded by whoever made the slope.
+// A slope of opacity is stored as many points, whose colours were rounded when it was made. They
+// are kept bit for bit until a colour stop changes.
 TEST(TransferCurves, KeepColoursBetweenStopsUntilAStopChanges) {
     const TransferFunction function = TransferFunction::linear_opacity(
         {{0, {.1, .2, .7}, 0}, {10, {.9, .3, 0}, .97}, {11.3, {.2, .2, .2}, .1}}, 1);

@@ -29,7 +29,8 @@ TransferEditor editor_of(const TransferFunction& function) {
     return editor;
 }
 
-// Four points that no others follow; numbers that are no short binary fractions.
+// Returns an editor with four points whose numbers are no short binary fractions, so that a
+// rounding would show.
 TransferEditor four_points() {
     return editor_of(
         TransferFunction::linear({knot(.1, {.1, .9, .3}, .11), knot(1.7, {1, .2, .7}, .7),
@@ -50,7 +51,8 @@ TEST(TransferEditor, DragsOnePointAndNoOther) {
     const TransferCurves& after = editor.curves();
     EXPECT_EQ(after.density[1].value, 1.7 + .25);
     EXPECT_EQ(after.density[1].extinction, axis.number(axis.place(.7) + .1));
-    EXPECT_EQ(after.colors[1].value, after.density[1].value);  // it moves along
+    // The colour stop at the same value moves along.
+    EXPECT_EQ(after.colors[1].value, after.density[1].value);
     EXPECT_EQ(after.colors[1].color, before.colors[1].color);
     for (const std::size_t other : {0u, 2u, 3u}) {
         EXPECT_EQ(after.density[other], before.density[other]);
@@ -79,13 +81,14 @@ TEST(TransferEditor, PointsDoNotPassEachOther) {
     TransferEditor editor = four_points();
     editor.select_only({Curve::density, 1});
     drag(editor, {100, 0});
-    // A step with the next point. A third has no place there.
+    // The point reaches the value of the next one and makes a step. Two points are a step; a third
+    // stops below that value.
     EXPECT_EQ(editor.curves().density[1].value, 3.3);
     editor.select_only({Curve::density, 0});
     drag(editor, {100, 0});
     EXPECT_LT(editor.curves().density[0].value, 3.3);
     EXPECT_GT(editor.curves().density[0].value, 3.2999);
-    // Extinction stays on the axis.
+    // Extinction stays within the axis, 0 to 10.
     editor.select_all(Curve::density);
     drag(editor, {0, -100});
     for (const DensityPoint& point : editor.curves().density) EXPECT_EQ(point.extinction, 0);
@@ -99,7 +102,7 @@ TEST(TransferEditor, SeveralPointsKeepTheirDistances) {
     editor.toggle({Curve::density, 2});
     drag(editor, {-100, 0});
     EXPECT_EQ(editor.curves().density[1].value, .1);
-    EXPECT_NEAR(editor.curves().density[2].value, .1 + 1.6, 1e-15);  // roundings of numbers below 4
+    EXPECT_NEAR(editor.curves().density[2].value, .1 + 1.6, 1e-15);  // rounding of numbers below 4
 }
 
 TEST(TransferEditor, StepsAreMadeAndMoved) {
@@ -107,14 +110,14 @@ TEST(TransferEditor, StepsAreMadeAndMoved) {
     EXPECT_TRUE(editor.make_step({Curve::density, 1}));
     EXPECT_EQ(editor.curves().density.size(), 5u);
     EXPECT_EQ(editor.curves().density[2].value, 1.7);
-    EXPECT_FALSE(editor.make_step({Curve::density, 1}));  // there are two already
+    EXPECT_FALSE(editor.make_step({Curve::density, 1}));  // there are two points already
     EXPECT_TRUE(editor.set_extinction(2, 5));
     EXPECT_EQ(editor.function().at(1.7).extinction, 5);
     EXPECT_LT(editor.function().at(1.6999).extinction, 1);
     editor.select_only({Curve::density, 1});
     editor.toggle({Curve::density, 2});
     drag(editor, {100, 0});
-    // Both stay together, just below the next point.
+    // Both points of the step move together, and stop just below the next point.
     EXPECT_EQ(editor.curves().density[1].value, editor.curves().density[2].value);
     EXPECT_LT(editor.curves().density[2].value, 3.3);
 }
@@ -185,7 +188,7 @@ TEST(TransferEditor, AnyDragsLeaveAFunction) {
         editor.toggle({Curve::density, std::min(any, density.size() - 1)});
         editor.begin_move();
         const TransferCurves before = editor.curves();
-        // Points that are a rounding apart may come to be three at one value: then all stay.
+        // Points a rounding apart may come to be three at one value: then the move is refused.
         if (!editor.move({4 * uniform(random), uniform(random)}, axis)) {
             ++refused;
             EXPECT_TRUE(editor.curves() == before);
@@ -206,7 +209,7 @@ TEST(TransferEditor, ASlopeOfOpacityFollowsItsEnds) {
     const std::vector<ExtinctionKnot> second = editor.curves().density[1].inside;
     editor.select_only({Curve::density, 0});
     drag(editor, {2, .3});
-    // The other slope does not touch the point that moved.
+    // Moving its first point leaves the slope from the second to the third alone.
     EXPECT_EQ(editor.curves().density[1].inside, second);
     const DensityPoint& from = editor.curves().density[0];
     const double opacity = opacity_of(from.extinction, 1);
@@ -229,7 +232,7 @@ TEST(TransferEditor, OpacityOneIsAStepBesideASlope) {
     const auto expected =
         TransferFunction::linear_opacity({{0, {1, 1, 1}, 0}, {4, {1, 1, 1}, 1}}, 2);
     EXPECT_TRUE(editor.function() == expected);
-    // A peak has no width at opacity 1.
+    // A peak of opacity 1 between two slopes is a single point.
     EXPECT_TRUE(editor.add_density(9, 0));
     const auto peak = TransferFunction::linear_opacity(
         {{0, {1, 1, 1}, 0}, {4, {1, 1, 1}, 1}, {9, {1, 1, 1}, 0}}, 2);
@@ -255,7 +258,7 @@ TEST(TransferEditor, DensityScalesAllExtinctionsAndKeepsSlopes) {
     TransferEditor editor = editor_of(function);
     editor.begin_move();
     EXPECT_TRUE(editor.attenuate(3));
-    EXPECT_TRUE(editor.attenuate(4));  // of where it began
+    EXPECT_TRUE(editor.attenuate(4));  // both factors are relative to the start of the move
     editor.end_move();
     EXPECT_TRUE(editor.function() == function.attenuated(4));
     EXPECT_EQ(editor.curves().density.size(), 2u);

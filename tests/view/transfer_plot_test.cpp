@@ -12,7 +12,7 @@ namespace {
 
 using Curve = TransferHandle::Curve;
 
-// A plot that fills a window, and a pointer and keys to use it with.
+// A TransferPlot in a window without a screen, with simulated pointer and keys.
 class TransferPlotUse : public testing::Test {
   protected:
     TransferPlotUse() {
@@ -23,7 +23,7 @@ class TransferPlotUse : public testing::Test {
         histogram_.lo = histogram_.least = 0;
         histogram_.hi = histogram_.most = 255;
         histogram_.shares = {.5, .25, 0, .25};
-        // A window takes the pointer from its second frame on.
+        // ImGui gives a new window the pointer from the second frame on.
         frame();
         frame();
     }
@@ -43,7 +43,7 @@ class TransferPlotUse : public testing::Test {
         return pixel(plot_.frame().x(point.value), plot_.frame().y(point.extinction));
     }
 
-    // ImGui knows whole places alone.
+    // ImGui rounds the pointer down to whole pixels.
     static ImVec2 pixel(float x, float y) { return {std::floor(x), std::floor(y)}; }
 
     void point_at(const ImVec2& at) {
@@ -73,7 +73,7 @@ class TransferPlotUse : public testing::Test {
         release(button);
         wait();
     }
-    // So long that two clicks are no double click.
+    // Draws 40 frames, longer than the time between the clicks of a double click.
     void wait() {
         for (int i = 0; i < 40; ++i) frame();
     }
@@ -97,7 +97,7 @@ TEST_F(TransferPlotUse, DragsAPoint) {
     const DensityPoint last = editor_.curves().density[2];
     drag(from, {from.x + 30, from.y - 20});
     EXPECT_EQ(last_edit_, "move");
-    // Places on the screen are single-precision numbers below 1024.
+    // Screen coordinates below 1024 in float32: 1e-3 pixels bound their rounding.
     EXPECT_NEAR(editor_.curves().density[1].value, value + plot_.frame().values(30),
                 plot_.frame().values(1e-3f));
     EXPECT_GT(editor_.curves().density[1].extinction, .4);
@@ -135,7 +135,7 @@ TEST_F(TransferPlotUse, SelectsAndNudges) {
     click(place_of(2));
     ImGui::GetIO().KeyShift = false;
     EXPECT_EQ(editor_.selection().size(), 2u);
-    // A rectangle around the first two.
+    // Selects the first two points with a rectangle.
     click({plot_.frame().min.x + 5, plot_.frame().min.y + 5});
     EXPECT_TRUE(editor_.selection().empty());
     const ImVec2 corner = place_of(1);

@@ -15,7 +15,7 @@ double nothing(const glm::dvec3&) {
     return 0;
 }
 
-// Against the exact sign of each face by itself.
+// Expects the exact sign of each face, computed for each face alone.
 void expect_exact(const TetMesh& mesh, const Eye& eye) {
     const FaceSigner signer(mesh, eye);
     for (std::size_t tet = 0; tet < mesh.tets().size(); ++tet) {
@@ -43,12 +43,12 @@ TEST(FaceSigns, OfOneTet) {
     EXPECT_EQ(signs({{.1, .1, .1}}), all_farther);  // inside
     // Beyond face 0 (x + y + z = 1), on the inner side of the three others.
     EXPECT_EQ(signs({{1, 1, 1}}), (all_farther & ~farther_bit(0)) | nearer_bit(0));
-    // On the axis beyond corner 3: faces 1 (x = 0) and 2 (y = 0) edge-on.
+    // On the z axis beyond corner 3: faces 1 (x = 0) and 2 (y = 0) are edge-on.
     EXPECT_EQ(signs({{0, 0, 2}}), farther_bit(3) | nearer_bit(0));
-    // Looking along -z from above: the same two edge-on.
+    // Looking along -z from above: the same two faces are edge-on.
     EXPECT_EQ(signs({{0, 0, -3}, true}), farther_bit(3) | nearer_bit(0));
     EXPECT_EQ(signs({{0, 0, 3}, true}), farther_bit(0) | nearer_bit(3));
-    // At a corner only the face opposite is not edge-on.
+    // At a corner, all faces but the opposite one are edge-on.
     EXPECT_EQ(signs({{0, 0, 0}}), farther_bit(0));
 }
 

@@ -10,7 +10,8 @@
 
 namespace lamina::test {
 
-// Eyes around and inside a mesh, at infinity, on points of it, and exactly in planes of its faces.
+// Returns eyes around and inside a mesh, at infinity, on points of it, and exactly in planes of its
+// faces.
 inline std::vector<Eye> eyes(const TetMesh& mesh, int rounds) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> uniform(-1, 1);

@@ -34,7 +34,7 @@ TetMesh carved_delaunay(int points, unsigned share) {
             "sponge"};
 }
 
-// Two boxes, the second one against the first or so much beside it.
+// Returns two boxes with this gap between them; if it is 0, they touch.
 TetMesh two_boxes(double gap) {
     MeshData mesh = test::kuhn_box({1, 1, 1}, nothing), other = mesh;
     const auto first = static_cast<std::int32_t>(mesh.points.size());
@@ -49,7 +49,8 @@ TetMesh two_boxes(double gap) {
     return {std::move(mesh), "boxes"};
 }
 
-// By looking at all pairs: faces with a corner of another outside, or one against them.
+// Finds gap faces by looking at all pairs: faces with a corner of another face outside of their
+// plane, or with a face of opposite direction in it.
 std::vector<std::int32_t> gap_faces_of_all(const TetMesh& mesh) {
     std::vector<std::int32_t> found;
     const auto open = mesh.open_faces();
@@ -87,8 +88,9 @@ TEST(GapFaces, AreThoseWithSomethingOutside) {
     }
 }
 
-// One point of a flat side of 32 faces is moved by an ulp: inwards the faces around it have the
-// rest of the side outside of them, outwards the rest has the point outside of it, too.
+// One point of a flat side of 32 faces is moved by an ulp. If it moves inwards, the faces around it
+// have other faces of the side outside of their planes; if outwards, the other faces have the point
+// outside of theirs, too.
 TEST(GapFaces, SeeADentOfAnUlp) {
     MeshData data = test::kuhn_box({4, 4, 4}, nothing);
     const auto at = static_cast<std::size_t>(std::ranges::find(data.points, glm::dvec3(2, 2, 4)) -
@@ -103,7 +105,8 @@ TEST(GapFaces, SeeADentOfAnUlp) {
     }
 }
 
-// The tree, the boxes and the faces that are left out against all pairs of open faces.
+// Compares the search, with its tree, boxes and left-out faces, with a test of all pairs of open
+// faces.
 TEST(OpenFaceConstraints, AreAllPairsThatShow) {
     for (const TetMesh& mesh : {carved_kuhn(), carved_delaunay(120, 3), two_boxes(.5),
                                 TetMesh(test::twisted_prism(20), "prism")}) {

@@ -15,7 +15,7 @@
 namespace lamina {
 namespace {
 
-// The smallest seen area of broken constraints over all orders of a mesh of some tets.
+// Returns the smallest seen area of broken constraints over all orders of a mesh of few tets.
 double least_broken(const TetMesh& mesh, const Eye& eye) {
     OrderGraph graph(mesh, true);
     graph.look_from(eye);
@@ -46,14 +46,14 @@ TEST(OrderCycles, ThreeSticks) {
         EXPECT_EQ(exact.report().cyclic_tets, 3);
         EXPECT_EQ(exact.report().broken, 1);
         for (std::int32_t tet = 0; tet < 3; ++tet) EXPECT_EQ(exact.cycle_of(tet), 0);
-        // The smallest of the three overlaps.
+        // The best order breaks the smallest of the three overlaps.
         EXPECT_NEAR(exact.report().broken_area, least_broken(mesh, eye), 1e-15);
     }
     exact.sort({{1, 0, 0}, true});  // from the side
     EXPECT_EQ(exact.report().cycles, 0);
     EXPECT_EQ(exact.report().broken, 0);
     for (std::int32_t tet = 0; tet < 3; ++tet) EXPECT_EQ(exact.cycle_of(tet), -1);
-    // Williams's way looks across shared faces only, and has none to look across.
+    // MPVO (Williams) looks only across shared faces, and sticks share none.
     VisibilityOrder mpvo(mesh, OrderMethod::mpvo);
     mpvo.sort({{0, 0, -1}, true});
     EXPECT_EQ(mpvo.report().cycles, 0);
@@ -71,7 +71,7 @@ TEST(OrderCycles, InAConnectedMesh) {
         const std::int64_t violations = face_violations(mesh, eye, sorted);
         EXPECT_GE(violations, 1) << name_of(method);
         EXPECT_LE(violations, order.report().broken) << name_of(method);
-        if (method == OrderMethod::exact) {  // the bottom behind everything, the top before it
+        if (method == OrderMethod::exact) {  // bottom farthest, top nearest
             EXPECT_EQ(sorted.front(), 0);
             EXPECT_EQ(sorted.back(), 1);
         }
@@ -80,7 +80,7 @@ TEST(OrderCycles, InAConnectedMesh) {
     }
     VisibilityOrder exact(mesh, OrderMethod::exact);
     exact.sort(eye);
-    // Gaps at the dents add small cycles to the ring, so that the heuristic is not at its best.
+    // Gaps at the dents add small cycles to the ring, so the heuristic is not optimal here.
     const double least = least_broken(mesh, eye);
     EXPECT_GE(exact.report().broken_area, least * (1 - 1e-12));
     EXPECT_LE(exact.report().broken_area, 2 * least);
@@ -88,7 +88,7 @@ TEST(OrderCycles, InAConnectedMesh) {
     EXPECT_EQ(exact.report().cycles, 0);
 }
 
-// Sticks above sticks: two cycles, apart and in order.
+// Two groups of sticks, one above the other, have two cycles, which are kept apart and in order.
 TEST(OrderCycles, AreKeptApart) {
     MeshData data = test::three_sticks({.1, .2, .3});
     const MeshData above = test::three_sticks({.3, .1, .2});
@@ -109,8 +109,8 @@ TEST(OrderCycles, AreKeptApart) {
     EXPECT_NE(exact.cycle_of(0), exact.cycle_of(3));
 }
 
-// Random sticks, which cut one another and make many cycles: components, and the order between
-// them, against reachability by brute force.
+// Random sticks cut one another and make many cycles. Compares components, and the order between
+// them, with reachability by brute force.
 TEST(OrderCycles, ComponentsAgainstReachability) {
     MeshData data;
     std::uint32_t state = 1;
@@ -119,7 +119,7 @@ TEST(OrderCycles, ComponentsAgainstReachability) {
         return static_cast<double>(state >> 8) / (1 << 24);
     };
     constexpr std::int32_t count = 60;
-    for (std::int32_t i = 0; i < count; ++i) {  // long thin tets anywhere: they may overlap
+    for (std::int32_t i = 0; i < count; ++i) {  // long thin tets at random places: they may overlap
         const glm::dvec3 a(uniform(), uniform(), uniform()), b(uniform(), uniform(), uniform());
         const glm::dvec3 u(.02 * uniform(), .02 * uniform(), 0),
             v(0, .02 * uniform(), .02 * uniform());

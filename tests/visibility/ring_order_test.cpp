@@ -19,14 +19,14 @@ struct PixelCounts {
     int covered = 0, wrong = 0, missing = 0;
 };
 
-// Whether a pixel is inside the limit of a place; no limit is all pixels.
+// Tells whether a pixel is in an area; null is all pixels.
 bool is_drawn(const PixelArea* pixels, int column, int row) {
     return pixels == nullptr || (column >= pixels->first_column && column <= pixels->last_column &&
                                  row >= pixels->first_row && row <= pixels->last_row);
 }
 
-// Compares, pixel by pixel, what is drawn there with the exact list of tets on the ray: each once,
-// the farther before the nearer. Ways of less than 1e-9 do not count.
+// Compares the tets drawn in each pixel with the exact list of tets on its ray: each must be drawn
+// once, the farther before the nearer. Segments shorter than 1e-9 do not count.
 PixelCounts judge(const TetMesh& mesh, const View& view, const DrawOrder<std::int32_t>& order) {
     const FaceTree tree(mesh, mesh.open_faces());
     RayWalk walk(mesh, tree);
@@ -37,7 +37,7 @@ PixelCounts judge(const TetMesh& mesh, const View& view, const DrawOrder<std::in
             const View::Ray ray = view.ray(column, row);
             walk.aim(ray.origin, ray.direction);
             walk.list(segments);
-            std::map<std::int32_t, int> left;  // times that a tet is still to be drawn
+            std::map<std::int32_t, int> left;  // how often each tet must still be drawn
             for (const TetSegment& segment : segments) {
                 if (segment.out.at - std::max(segment.in.at, 0.0) > 1e-9) left[segment.tet] = 1;
             }
@@ -105,7 +105,8 @@ TEST(RingOrder, EveryPixelHasItsTetsOnceAndInOrder) {
     EXPECT_GT(limited, 10);
 }
 
-// An order of whole tets is wrong for the same meshes, so the judge can tell.
+// For the same meshes an order without RingOrder is wrong in some pixels, so judge() can find
+// errors.
 TEST(RingOrder, AnOrderOfWholeTetsIsWrongSomewhere) {
     const TetMesh mesh(test::three_sticks({.3, .2, .25}), "sticks");
     const View view(camera_at({.2, .1, 6}, {0, 0, 0}, Projection::perspective), 200, 160);
@@ -115,9 +116,9 @@ TEST(RingOrder, AnOrderOfWholeTetsIsWrongSomewhere) {
 }
 
 TEST(RingOrder, TetsThatOverlapAreLeftAndCounted) {
-    // Two sheets of tets folded through one another.
+    // Turns the first stick over, so that it cuts others.
     MeshData mesh = test::three_sticks({.3, .3, .3});
-    for (std::size_t i = 0; i < 4; ++i) mesh.points[i].z *= -1;  // the first stick now cuts others
+    for (std::size_t i = 0; i < 4; ++i) mesh.points[i].z *= -1;
     const TetMesh crossed(mesh, "crossed");
     VisibilityOrder order(crossed, OrderMethod::exact);
     const View view(camera_at({.2, .1, 6}, {0, 0, 0}, Projection::perspective), 100, 80);
@@ -125,7 +126,7 @@ TEST(RingOrder, TetsThatOverlapAreLeftAndCounted) {
     EXPECT_EQ(judge(crossed, view, found).missing, 0);
 }
 
-// What draws in parts of the picture follows lists cut into batches.
+// Batches, which are parts of a list, keep the pixels of their items.
 TEST(DrawOrder, PartsKeepTheirPixels) {
     const std::vector<int> items{0, 1, 2, 3, 4, 5, 6, 7};
     const std::vector<LimitedRun> runs{

@@ -24,7 +24,7 @@ class RandomTriangles {
         return std::uniform_real_distribution<double>(from, to)(random_);
     }
     glm::dvec3 point() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
-    // With corners in the sense that the sign asks for.
+    // Returns a triangle whose sign_as_seen() is `sign`.
     Triangle seen(const Eye& eye, int sign) {
         Triangle t{point(), point(), point()};
         if (sign_as_seen(eye, t[0], t[1], t[2]) != sign) std::swap(t[1], t[2]);
@@ -40,8 +40,8 @@ class RandomTriangles {
     std::mt19937 random_;
 };
 
-// Where the ray through `through` meets the triangle, as a parameter that is 1 at `through` (at
-// infinity: 0 there); nothing where it does not.
+// Returns the parameter at which the ray through `through` meets the triangle, 0 at `through` and
+// growing with the distance; nothing if it misses.
 std::optional<double> hit(const Eye& eye, const glm::dvec3& through, const Triangle& t) {
     const glm::dvec3 origin = eye.at_infinity ? through : eye.position;
     const glm::dvec3 direction = eye.at_infinity ? eye.position : through - eye.position;
@@ -68,8 +68,9 @@ bool cut_one_another(const Triangle& s, const Triangle& t) {
     return false;
 }
 
-// Against rays: 1000 through the exit find an overlap of 2 per cent of it with a probability of
-// 1 - .98^1000 > 1 - 2e-9. Eyes among the triangles, too: what is behind the eye is not seen.
+// Compares with 1000 rays through the exit, which find an overlap of 2 per cent of it with a
+// probability of 1 - .98^1000 > 1 - 2e-9. Some eyes are among the triangles: what is behind the eye
+// is not seen.
 TEST(SeenTriangle, ShowsWhatRaysMeet) {
     RandomTriangles random(4);
     int shown = 0, hidden = 0, cut = 0;
@@ -94,7 +95,7 @@ TEST(SeenTriangle, ShowsWhatRaysMeet) {
         EXPECT_TRUE(before == 0 || !shows) << round;
         const double share = seen_overlap(eye, exit, entry) / seen_area(eye, exit);
         EXPECT_TRUE(behind + before == 0 || share > 0) << round;
-        // For eyes at infinity rays are as uniform in the view as they are on the triangle.
+        // If the eye is at infinity, rays that are uniform on the triangle are uniform in the view.
         EXPECT_TRUE(!shows || behind > 0 || share < (eye.at_infinity ? .02 : .3)) << round;
         shown += shows;
         hidden += before > 0;
@@ -104,7 +105,8 @@ TEST(SeenTriangle, ShowsWhatRaysMeet) {
     EXPECT_GT(cut, 200);
 }
 
-// Touching along an edge, at a corner, or edges that cross exactly as seen: exact zeros.
+// Triangles that touch along an edge or at a corner, or whose edges cross exactly as seen, give
+// exact zeros.
 TEST(SeenTriangle, TouchingIsNoOverlap) {
     const Eye above{{0, 0, -1}, true};
     const Triangle exit{glm::dvec3(0, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0)};
@@ -115,19 +117,22 @@ TEST(SeenTriangle, TouchingIsNoOverlap) {
         return SeenTriangle(above, exit).shows(above, seen);
     };
     const auto p = [](double x, double y, double z) { return glm::dvec3(x, y, z); };
-    EXPECT_FALSE(shows({p(0, 0, -1), p(0, 1, -1), p(-1, 0, -1)}));          // along x = 0
-    EXPECT_FALSE(shows({p(1, 0, -1), p(1, 1, -2), p(0, 1, -1)}));           // along the hypotenuse
-    EXPECT_FALSE(shows({p(1, 0, 0), p(1, 1, 0), p(0, 1, 0)}));              // and in the same plane
-    EXPECT_FALSE(shows({p(0, 0, -1), p(-1, 0, -1), p(0, -1, -1)}));         // at a corner
-    EXPECT_TRUE(shows({p(0, 0, -1), p(1, 0, -1), p(0, 1, -1)}));            // all of it, behind
-    EXPECT_TRUE(shows({p(0, 0, 0), p(1, 0, 0), p(0, 1, 0)}));               // on it
-    EXPECT_FALSE(shows({p(0, 0, 1), p(1, 0, 1), p(0, 1, 1)}));              // before it
+    EXPECT_FALSE(shows({p(0, 0, -1), p(0, 1, -1), p(-1, 0, -1)}));  // along x = 0
+    EXPECT_FALSE(shows({p(1, 0, -1), p(1, 1, -2), p(0, 1, -1)}));   // along the hypotenuse
+    // Along the hypotenuse, in the same plane.
+    EXPECT_FALSE(shows({p(1, 0, 0), p(1, 1, 0), p(0, 1, 0)}));
+    EXPECT_FALSE(shows({p(0, 0, -1), p(-1, 0, -1), p(0, -1, -1)}));  // at a corner
+    // The same triangle, behind the exit.
+    EXPECT_TRUE(shows({p(0, 0, -1), p(1, 0, -1), p(0, 1, -1)}));
+    EXPECT_TRUE(shows({p(0, 0, 0), p(1, 0, 0), p(0, 1, 0)}));               // in the exit
+    EXPECT_FALSE(shows({p(0, 0, 1), p(1, 0, 1), p(0, 1, 1)}));              // before the exit
     EXPECT_TRUE(shows({p(1e-30, 1e-30, -1), p(-1, 0, -1), p(0, -1, -1)}));  // just over the corner
     EXPECT_TRUE(shows({p(0, 0, 0), p(1, 0, -1), p(0, 1, 0)}));  // hinged at an edge, behind
     EXPECT_FALSE(shows({p(0, 0, 0), p(1, 0, 1), p(0, 1, 0)}));  // hinged, before
 }
 
-// A star of David as seen, one triangle behind the eye: no plane through an edge parts them.
+// One triangle is behind the eye, and both look like a star of David: no plane through an edge of
+// one separates their pyramids.
 TEST(SeenTriangle, BehindTheEye) {
     const Eye eye{{0, 0, 0}, false};
     const auto ring = [](double start, double z, double sense) {
@@ -158,7 +163,7 @@ TEST(SeenThrough, KeepsEveryBoxWithSomethingShown) {
         const Eye eye{random.point(), round % 3 == 0};
         const Triangle exit = random.seen(eye, 1);
         const SeenThrough through(SeenTriangle(eye, exit), {glm::dvec3(-9), glm::dvec3(9)});
-        // A point behind the exit on a ray through it, in a corner of the box.
+        // Takes a point behind the exit, on a ray through it, as a corner of the box.
         const glm::dvec3 on = random.point_on(exit);
         const glm::dvec3 ray = eye.at_infinity ? eye.position : on - eye.position;
         const glm::dvec3 corner = on + random.uniform(0, 2) * ray;
@@ -177,7 +182,8 @@ TEST(SeenArea, OfKnownTriangles) {
     const Triangle octant{glm::dvec3(5, 0, 0), glm::dvec3(0, 5, 0), glm::dvec3(0, 0, 5)};
     EXPECT_NEAR(seen_area({{0, 0, 0}}, octant), pi / 2, 1e-15);  // an eighth of the sphere
     EXPECT_NEAR(seen_area({{0, 0, -7}, true}, octant), 12.5, 1e-14);
-    // The octant through its part next to the z axis, between y = 0 and y = x: half of it.
+    // The octant seen through a window next to the z axis, between y = 0 and y = x: half of the
+    // octant.
     const Triangle window{glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0)};
     EXPECT_NEAR(seen_overlap({{0, 0, 0}}, window, octant), pi / 4, 1e-15);
 }

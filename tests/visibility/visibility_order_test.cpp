@@ -47,9 +47,9 @@ TEST(VisibilityOrder, RegularMeshesHaveNoViolation) {
     expect_no_violation(mesh, OrderMethod::exact, 4);
 }
 
-// Delaunay meshes have no cycles, nor has Kuhn's split (which is regular, too), nor what is left of
-// one when tets are taken away: gaps are included (Edelsbrunner, An acyclicity theorem for cell
-// complexes in d dimensions, 1990).
+// Delaunay meshes have no cycles, nor have Kuhn meshes (which are regular triangulations), nor has
+// what remains if tets are removed from one, gaps included (Edelsbrunner, An acyclicity theorem for
+// cell complexes in d dimensions, 1990).
 TEST(VisibilityOrder, CarvedMeshesHaveNoViolation) {
     const auto no_bar = [](const glm::dvec3& c) {
         return c.x < 2 || c.x > 4 || c.y < 3 || c.y > 5;
@@ -66,7 +66,7 @@ TEST(VisibilityOrder, CarvedMeshesHaveNoViolation) {
     }
 }
 
-// The check itself: an order turned round breaks every face that is not edge-on.
+// Tests face_violations() itself: a reversed order breaks every face that is not edge-on.
 TEST(OrderCheck, CountsWhatIsWrong) {
     const TetMesh mesh(test::DelaunayMesh::make(300, 2), "delaunay");
     const Eye eye{{.3, -2, .4}};
@@ -87,7 +87,7 @@ TEST(OrderCheck, CountsWhatIsWrong) {
     EXPECT_EQ(face_violations(mesh, eye, order), 0);
     std::reverse(order.begin(), order.end());
     EXPECT_EQ(face_violations(mesh, eye, order), hiding);
-    // One tet at the wrong end breaks its own faces only.
+    // A single tet at the wrong end breaks only its own faces.
     std::reverse(order.begin(), order.end());
     const FaceSigns signs = FaceSigner(mesh, eye).signs(static_cast<std::size_t>(order.front()));
     std::int64_t nearer = 0;
@@ -144,14 +144,14 @@ TEST(VisibilityOrder, DependsOnNothingElse) {
              {OrderMethod::mpvo, OrderMethod::exact, OrderMethod::centroid}) {
             const auto once = sorted_by(mesh, method, eye, 1);
             EXPECT_EQ(once, sorted_by(mesh, method, eye, 4)) << name_of(method);
-            VisibilityOrder used(mesh, method);  // what it sorted before leaves no trace
+            VisibilityOrder used(mesh, method);  // earlier calls of sort() leave no trace
             used.sort({{-5, 1, 0}});
             EXPECT_TRUE(std::ranges::equal(once, used.sort(eye))) << name_of(method);
         }
     }
 }
 
-// Cycles too, once they were met.
+// Memory for cycles is taken once, too, at the first view that has some.
 TEST(VisibilityOrder, TakesItsMemoryOnce) {
     std::mt19937 random(3);
     const TetMesh sponge(test::carved(test::DelaunayMesh::make(200, 9),

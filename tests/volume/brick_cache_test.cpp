@@ -25,7 +25,7 @@ Volume numbers() {
     return test::volume_of<std::uint16_t>(test::grid_of(size, Centering::node), number_at);
 }
 
-// Each brick is filled with its own number.
+// Returns a cache whose bricks are filled with their own numbers; counts the filled bricks.
 BrickCache numbered(std::atomic<int>& filled) {
     return BrickCache(size, 4096, [&](std::span<const BrickCache::Wanted> wanted) {
         for (const BrickCache::Wanted& each : wanted) {
@@ -56,7 +56,7 @@ TEST(BrickCache, RepeatsTheBorder) {
     EXPECT_EQ(samples[BrickCache::sample_count - 1], number_at(299, 129, 69));
 }
 
-// Threads ask for more than there is room for.
+// Four threads hold more bricks in turn than fit in memory.
 TEST(BrickCache, KeepsWhatIsHeldAndForgetsTheRest) {
     std::atomic<int> filled{0};
     BrickCache cache = numbered(filled);
@@ -107,7 +107,7 @@ TEST(BrickCache, ForgetsWhatWasUsedLongestAgo) {
         cache.hold(1, [&](std::size_t) { return brick; });
     };
     for (std::uint32_t brick = 0; brick < 3 * slots; ++brick) {
-        use(0);  // again and again
+        use(0);  // keeps brick 0 in use
         use(brick);
     }
     EXPECT_EQ(filled, static_cast<int>(3 * slots));
@@ -121,7 +121,7 @@ TEST(BrickCache, ReadsExpectedNeighboursTogether) {
     cache.set_capacity(std::uint64_t{1} << 40);
     const std::vector<std::uint32_t> expected{8, 9, 11, 15, 16};
     cache.expect(expected);
-    cache.hold(1, [](std::size_t) { return 9u; });  // with 8, 11, 15
+    cache.hold(1, [](std::size_t) { return 9u; });  // reads 8, 11 and 15, too
     cache.hold(1, [](std::size_t) { return 12u; });
     EXPECT_EQ(calls, (std::vector<std::size_t>{4, 1}));
 }
@@ -132,7 +132,7 @@ TEST(BrickCache, PassesAnErrorOnAndTriesAgain) {
         if (fails) fail("volume.raw: truncated");
     });
     constexpr std::uint32_t used = 3;
-    cache.expect({&used, 1});  // none of its neighbours
+    cache.expect({&used, 1});  // no neighbour is expected
     const auto use = [&] { cache.hold(1, [](std::size_t) { return used; }); };
     expect_error([&] { use(); }, {"truncated"});
     fails = false;

@@ -121,7 +121,7 @@ TEST(Generate, MixingIsLightFluidBelowAndHeavyFluidAbove) {
     for (std::size_t i = 0; i < codes.size(); ++i) mean[i % 64] += codes[i] / 4096.0;
     EXPECT_EQ(mean[0], 0);
     EXPECT_EQ(mean[63], 255);
-    EXPECT_GT(mean[32], 255 * 0.2);  // both fluids are there in the middle
+    EXPECT_GT(mean[32], 255 * 0.2);  // both fluids are in the middle
     EXPECT_LT(mean[32], 255 * 0.8);
 }
 
@@ -132,8 +132,8 @@ TEST(Generate, SheetsAreThinAndDense) {
         EXPECT_TRUE(code == 0 || code == 255);
         full += code == 255;
     }
-    // 5 sheets of one or two samples in columns of 64, fewer where a sheet leaves the box, more for
-    // the steep one.
+    // 5 sheets take one or two samples each in columns of 64: fewer where a sheet leaves the box,
+    // more in the steep one.
     EXPECT_GT(full, codes.size() * 3 / 64);
     EXPECT_LT(full, codes.size() * 12 / 64);
 }

@@ -16,7 +16,7 @@ Grid make_grid(std::array<std::int64_t, 3> size, Centering centering) {
     return grid;
 }
 
-// Rotated by 30 degrees about z, z mirrored, anisotropic.
+// Returns a grid that is rotated by 30 degrees about z, mirrored in z, and anisotropic.
 Grid rotated_grid() {
     Grid grid = make_grid({5, 4, 3}, Centering::node);
     const double c = std::sqrt(0.75);

@@ -13,7 +13,7 @@ namespace {
 
 using Rgb = std::array<int, 3>;
 
-constexpr int room = 8, titles = 20;  // pixels around slices, and of the line above
+constexpr int room = 8, titles = 20;  // pixels: margin of slices, height of a title line
 
 Rgb pixel(const CodedImage& image, int column, int row) {
     const std::size_t at = static_cast<std::size_t>(3 * (row * image.width + column));
@@ -24,7 +24,7 @@ Rgb grey(int code) {
     return {code, code, code};
 }
 
-// The value of sample (x, y, z) is x + 3 y + 6 z, but for one that is NaN.
+// Returns a volume with the value x + 3 y + 6 z at sample (x, y, z), except one NaN.
 Volume counted(Grid grid) {
     grid.size = {3, 2, 4};
     const auto values = std::make_shared<std::vector<float>>();
@@ -35,8 +35,8 @@ Volume counted(Grid grid) {
     return {grid, SampleType::float32, std::shared_ptr<const void>(values, values->data())};
 }
 
-// Four samples along z are to be at least 256 pixels: a sample is 64 x 64 pixels. The titles are
-// narrower than the slices.
+// The four samples along z, the longest axis, take at least 256 pixels, so a sample is 64 x 64
+// pixels. The titles are narrower than the slices.
 TEST(MiddleSlices, ShowEveryPlaneWithItsSecondAxisUp) {
     constexpr int edge = 64;
     const CodedImage image = middle_slices(counted({}), {0, 25.5});  // code = 10 * value
@@ -62,8 +62,8 @@ TEST(MiddleSlices, ShowEveryPlaneWithItsSecondAxisUp) {
     EXPECT_EQ(pixel(image, first, image.height - room - edge - 1), grey(150));
 }
 
-// With a spacing of 0.5, 1 and 2 the lengths are 1.5, 2 and 8: z has 16 samples' lengths of x, each
-// 16 pixels.
+// With spacings of 0.5, 1 and 2 the axes are 1.5, 2 and 8 long. So z is as long as 16 samples of x,
+// which get 16 pixels each.
 TEST(MiddleSlices, HaveTheAspectOfTheWorld) {
     Grid grid;
     grid.step = {glm::dvec3(0.5, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 2)};

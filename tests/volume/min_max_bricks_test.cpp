@@ -21,7 +21,8 @@ Volume make_volume(std::array<std::int64_t, 3> size, SampleType type,
     return Volume(grid, type, std::shared_ptr<const void>(samples, samples->data()));
 }
 
-// Every brick against a loop over the samples that interpolation within its cells can touch.
+// Compares the range of every brick with that of a loop over the samples that interpolation within
+// its cells can touch.
 void expect_ranges(const MinMaxBricks& bricks, const std::array<std::int64_t, 3>& size,
                    const std::vector<float>& values) {
     const std::int64_t edge = MinMaxBricks::edge;
@@ -46,7 +47,7 @@ void expect_ranges(const MinMaxBricks& bricks, const std::array<std::int64_t, 3>
 }
 
 TEST(MinMaxBricks, AgreeWithALoopOverAllSamples) {
-    const std::array<std::int64_t, 3> size{51, 17, 34};  // last bricks: part, whole, one cell
+    const std::array<std::int64_t, 3> size{51, 17, 34};  // cells in the last bricks: 2, 4, 1
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
     std::vector<float> values(51 * 17 * 34);

@@ -48,7 +48,7 @@ TEST(RangeAnswers, AreThoseOfEachRange) {
     expect_right_answers<float>(SampleType::float32, 15000);
 }
 
-// Bricks are so many that all ranges are answered at once.
+// There are so many bricks that the constructor computes the answers for all ranges.
 TEST(RangeAnswers, OfManyBytesAreThoseOfEachRange) {
     expect_right_answers<std::uint8_t>(SampleType::uint8, (1 << 20) + 1);
 }

@@ -15,7 +15,7 @@ using Triple = std::array<std::int64_t, 3>;
 
 constexpr Triple size{90, 40, 1};
 
-// Brick 2 along x has one value.
+// The value at a place. Some min/max bricks along x have a single value.
 double step_at(double x, double y, double /*z*/) {
     return x >= 4 && x <= 14 ? 7 : static_cast<double>(static_cast<int>(x + 90 * y) % 251);
 }

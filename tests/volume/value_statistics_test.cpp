@@ -16,7 +16,8 @@ namespace {
 using test::grid_of;
 using test::volume_of;
 
-// By the definition, which sorts: the smallest value that at least this share does not exceed.
+// Returns a percentile by its definition: the smallest value that at least this share of the values
+// does not exceed.
 double percentile_of(const std::vector<double>& sorted, int thousandths) {
     std::size_t rank = 1;
     while (1000 * rank < static_cast<std::size_t>(thousandths) * sorted.size()) ++rank;
@@ -35,7 +36,7 @@ std::vector<double> sorted_finite(const Volume& volume) {
     return values;
 }
 
-// The intervals cover all values, and each holds what the definition says.
+// Checks that the intervals cover all values, and that each count is that of its values.
 void expect_counts(const Histogram& histogram, const std::vector<double>& values) {
     ASSERT_EQ(histogram.edges.size(), histogram.counts.size() + 1);
     for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
@@ -72,7 +73,7 @@ TEST(ValueStatistics, WholeNumbersAreExact) {
             EXPECT_EQ(found.percentiles[i], percentile_of(values, ValueStatistics::places[i])) << i;
         expect_counts(found.histogram, values);
         EXPECT_EQ(found.histogram.edges.front(), values.front());
-        // Each interval holds as many whole numbers.
+        // All intervals hold equally many whole numbers.
         const double width = found.histogram.edges[1] - found.histogram.edges[0];
         EXPECT_EQ(width, std::ceil((values.back() - values.front() + 1) / 256));
         EXPECT_EQ(width, std::floor(width));
@@ -97,7 +98,7 @@ TEST(ValueStatistics, FloatsAreExact) {
         if (i == 6) return std::numeric_limits<double>::infinity();
         return std::copysign(std::exp2(exponent(random)), sign(random));
     }));
-    // A small variation far from zero: all values share their leading bits.
+    // Values vary little but lie far from zero, so that all share their leading bits.
     expect_exact(
         volume_of<float>(grid, [&](double, double, double) { return 1e6 + 4 * share(random); }));
     expect_exact(volume_of<float>(
@@ -110,7 +111,7 @@ TEST(ValueStatistics, OneValueAndNoValue) {
     const Grid grid = grid_of({4, 4, 4}, Centering::node);
     const ValueStatistics same =
         measured(volume_of<float>(grid, [](double, double, double) { return 0.1; }));
-    const double value = static_cast<double>(0.1F);  // outside of which no percentile may be
+    const double value = static_cast<double>(0.1F);  // the value of every percentile
     for (const double percentile : same.percentiles) EXPECT_EQ(percentile, value);
     EXPECT_EQ(same.histogram.edges, (std::vector<double>{value, value}));
     EXPECT_EQ(same.histogram.counts, std::vector<std::int64_t>{64});
@@ -138,14 +139,14 @@ TEST(ValueStatistics, PointsOfMeshesAreExact) {
     for (std::size_t i = 0; i < ValueStatistics::places.size(); ++i)
         EXPECT_EQ(found.percentiles[i], percentile_of(values, ValueStatistics::places[i])) << i;
     expect_counts(found.histogram, values);
-    // A range that overflows, and one of denormal numbers.
+    // One range overflows; one has only denormal numbers.
     for (const double reach : {std::numeric_limits<double>::max(), 5e-324}) {
         const std::vector<double> wide{-reach, -reach / 2, 0, reach / 2, reach};
         expect_counts(measure_values(wide).histogram, wide);
     }
 }
 
-// 1000 values and one of 1 in 1000: the first of them all. Large counts do not overflow.
+// The percentile of 1 in 1000 among 1000 values is the first of them. Large counts do not overflow.
 TEST(ValueStatistics, RanksAreExact) {
     EXPECT_EQ(ValueStatistics::rank(1, 1000), 1);
     EXPECT_EQ(ValueStatistics::rank(1, 1001), 2);
@@ -155,7 +156,7 @@ TEST(ValueStatistics, RanksAreExact) {
     EXPECT_EQ(ValueStatistics::rank(500, many), many / 2);
 }
 
-// Bars stand on one line, and one of twice the logarithm of 1 + count is twice as high.
+// Bars have heights proportional to the logarithm of 1 + count.
 TEST(HistogramPicture, BarsAreLogarithmsOfCounts) {
     std::vector<double> values(15, 0.0);  // log 16
     values.insert(values.end(), 3, 1.0);  // log 4
@@ -168,7 +169,8 @@ TEST(HistogramPicture, BarsAreLogarithmsOfCounts) {
         }
         return high;
     };
-    // 512 pixels of bars from column 8 on, two each; the first column of a bar may carry a mark.
+    // The bars take 512 pixels from column 8 on, two each. The first column of a bar may carry a
+    // mark.
     EXPECT_EQ(bar_height(9), 160);
     EXPECT_EQ(bar_height(8 + 510), 80);
     EXPECT_EQ(bar_height(8 + 255), 0);

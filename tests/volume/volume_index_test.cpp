@@ -45,7 +45,7 @@ void expect_equal(const VolumeIndex& index, const Volume& volume) {
     EXPECT_EQ(index.values.some, values.some);
 }
 
-// Against what is measured in memory, in whole rows and in blocks.
+// The index, made in whole rows or in blocks, is that of the volume in memory.
 TEST(VolumeIndex, IsWhatIsMeasuredInMemory) {
     for (const Volume& volume : {waves<std::uint8_t>(), waves<std::int16_t>(),
                                  waves<std::uint16_t>(), waves<float>(), holes()}) {
@@ -108,7 +108,7 @@ TEST_F(VolumeIndexFile, NeverFollowsALinkAndReplacesNothingElse) {
     expect_index_or_nothing(file());
 }
 
-// Cut short at any place, and with any byte changed, it is no index.
+// An index file that is cut short anywhere, or has any byte changed, is rejected.
 TEST_F(VolumeIndexFile, ThatIsDamagedIsNotUsed) {
     write();
     const std::string bytes = read_bytes_of(file());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Zarr arrays, HDF5 files and DICOM slices that zarr, h5py and pydicom wrote.
+// Compares what lamina reads with Zarr arrays, HDF5 files and DICOM slices that zarr, h5py and
+// pydicom wrote (array_oracle.py).
 #include <sys/wait.h>
 
 #include <cmath>
@@ -57,7 +58,8 @@ std::vector<double> expected_values(const std::filesystem::path& file) {
     return values;
 }
 
-// Each step is off by less than 1e-6 of itself: headers have 10 digits, coordinates are float32.
+// Compares a grid with the expected one. Steps may be off by some 1e-6 of themselves, because
+// headers have 10 digits and coordinates are float32.
 void expect_place(const Grid& grid, const nlohmann::json& expected) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         EXPECT_EQ(grid.size[axis], expected["size"][axis].get<std::int64_t>());
@@ -72,7 +74,7 @@ void expect_place(const Grid& grid, const nlohmann::json& expected) {
     }
 }
 
-// Whether it can stay in its files: then it is the same there.
+// Tells if a volume can stay in its files, and checks that its samples are then those in memory.
 bool stays_as_it_is(const Volume& whole, const std::filesystem::path& path,
                     const VolumeRequest& request) {
     std::optional<Volume> by_parts;
@@ -137,7 +139,7 @@ TEST(ArrayOracle, ReadsWhatOthersWrite) {
         ASSERT_EQ(values.size(), expected.size());
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (std::isnan(expected[i]) && std::isnan(values[i])) continue;
-            // What is drawn is float32 at most.
+            // Values are drawn in float32 at most.
             ASSERT_EQ(values[i], static_cast<double>(static_cast<float>(expected[i]))) << i;
         }
     }

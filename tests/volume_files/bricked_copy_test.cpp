@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 using test::in_files;
 
-// Half of them zeros: some chunks have nothing else.
+// Returns bytes of which the first half are zeros, so that some chunks hold only zeros.
 std::string some_bytes(std::size_t count) {
     return std::string(count / 2, '\0') + test::noise_bytes(count - count / 2);
 }
@@ -70,7 +70,7 @@ TEST_F(BrickedCopies, OfPackedFiles) {
                      gzipped(some_bytes(4 * count))));
 }
 
-// Every bit counts, those of the headers and of the list of chunks, too.
+// Flips bits in all files of a copy, also in headers and hashes, and removes files.
 TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
     const std::size_t count = 131 * 67 * 70;
     const fs::path path = nrrd("type: uint8\ndimension: 3\nsizes: 131 67 70\nencoding: gzip\n",
@@ -83,7 +83,7 @@ TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
     }
     std::ranges::sort(files);
     int refused = 0;
-    test::HeardWarnings said;  // if the copy is not used at all
+    test::HeardWarnings said;  // filled if the copy is not used
     const auto expect_truth_or_error = [&] {
         said.texts.clear();
         try {
@@ -109,7 +109,7 @@ TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
         expect_truth_or_error();
         write_bytes_to(file, bytes);
     }
-    EXPECT_GT(refused, 10);  // those of chunks
+    EXPECT_GT(refused, 10);  // damaged chunks
     for (const fs::path& file : files) {
         const std::string bytes = read_bytes_of(file);
         fs::remove(file);
@@ -119,7 +119,7 @@ TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
     }
 }
 
-// One of several channels, and one of several times: what is not taken is passed over.
+// Copies one of several channels and times; samples of the others are skipped.
 TEST_F(BrickedCopies, OfAPartOfAPackedFile) {
     const std::size_t count = 3 * 31 * 17 * 23 * 2;
     const fs::path path = nrrd(
@@ -134,7 +134,7 @@ TEST_F(BrickedCopies, OfAPartOfAPackedFile) {
     }
 }
 
-// Of types that are drawn as others, and of files that are read as a whole.
+// Copies samples of a type that is drawn as another, and a file of zeros.
 TEST_F(BrickedCopies, OfWhatIsDrawn) {
     expect_copy(nrrd("type: int8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n",
                      some_bytes(31 * 17 * 23)));
@@ -142,7 +142,7 @@ TEST_F(BrickedCopies, OfWhatIsDrawn) {
     expect_copy(nrrd("type: uint8\ndimension: 3\nsizes: 600 600 300\nencoding: gzip\n", empty));
 }
 
-// Where memory is short, chunks are flatter.
+// Chunks are flatter if the memory limit is low.
 TEST_F(BrickedCopies, InLayersThatFitTheMemory) {
     set_memory_limit(std::uint64_t{1} << 20);
     const fs::path path = nrrd("type: uint8\ndimension: 3\nsizes: 300 200 70\nencoding: gzip\n",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The data sets that the project's example scenes use, as their own README describes them.
+// Checks the data sets of the project's example scenes against their README.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

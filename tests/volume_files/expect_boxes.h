@@ -20,7 +20,8 @@ inline std::string noise_bytes(std::size_t count) {
     return bytes;
 }
 
-// Any box of samples of a volume that stays in its files is that of the volume in memory.
+// Checks that a volume that stays in its files (`by_parts`) has the samples of the volume in memory
+// (`whole`), in random boxes.
 inline void expect_boxes(const Volume& whole, const Volume& by_parts, int trials = 200) {
     ASSERT_TRUE(whole.in_memory());
     ASSERT_FALSE(by_parts.in_memory());

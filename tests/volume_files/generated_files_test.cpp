@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What generate_nrrd() writes and the reader reads.
+// Files that generate_nrrd() writes hold the volumes that generate() returns.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -15,14 +15,14 @@
 namespace lamina {
 namespace {
 
-// Whether a process is there and is more than a record for its parent.
+// Tells if a process runs: it exists and is no zombie, a record that its parent has not collected.
 bool is_running(pid_t process) {
     std::ifstream stream("/proc/" + std::to_string(process) + "/stat");
     std::string number, name, state;
     return static_cast<bool>(stream >> number >> name >> state) && state != "Z";
 }
 
-// Work that waits for ever, as opening a pipe does, in a process whose starter is killed.
+// The work waits for ever, as opening a pipe may do, and the starter of its process is killed.
 TEST(IsolatedProcess, EndsWhenItsStarterIsKilled) {
     int line[2] = {-1, -1};
     ASSERT_EQ(pipe(line), 0);
@@ -40,7 +40,7 @@ TEST(IsolatedProcess, EndsWhenItsStarterIsKilled) {
     EXPECT_TRUE(is_running(isolated));
     kill(starter, SIGKILL);
     waitpid(starter, nullptr, 0);
-    // It looks every second.
+    // The isolated process looks every second if its starter still runs.
     for (int tenths = 0; tenths < 200 && is_running(isolated); ++tenths)
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_FALSE(is_running(isolated));

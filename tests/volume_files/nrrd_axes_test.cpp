@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NRRD: one channel or time of several; data in several files; every scalar type.
+// NRRD files with several channels or times, in several files, and of every scalar type.
 #include <gtest/gtest.h>
 
 #include "nrrd_files.h"
@@ -62,12 +62,12 @@ TEST_F(NrrdAxes, ChannelAndTimeAreTakenTogetherAndInPackedData) {
         VolumeRequest request;
         request.channel = 1;
         request.time = 2;
-        // channel + 2 * (y + 2 * (time + 3 * z))
+        // Samples at channel 1 and time 2: channel + 2 * (y + 2 * (time + 3 * z)).
         EXPECT_EQ(samples_of<std::uint8_t>(open_nrrd(path, request)), (Samples{9, 11, 21, 23}));
     }
 }
 
-// More than is cut up in memory at once.
+// Data larger than the scratch memory of TakenReader are read in pieces.
 TEST_F(NrrdAxes, LargeDataAreTakenPieceByPiece) {
     std::vector<std::uint16_t> values(std::size_t{3} * 1200 * 1100 * 2);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint16_t>(i * 7);
@@ -154,11 +154,11 @@ TEST_F(NrrdAxes, EveryScalarTypeIsRead) {
                  {"sample 2 of 2", "'9223372036854775808'"});
 }
 
-// The world is LPS: whatever space a file tells, what was at one place of the body stays there.
+// World axes are LPS. Samples of a file in another space keep their places in the body.
 TEST_F(NrrdAxes, NamedSpacesOfPatientsBecomeLps) {
     struct Space {
         const char* name;
-        double right, front;  // signs of x and y beside LPS
+        double right, front;  // signs of x and y relative to LPS
     };
     for (const Space& space :
          {Space{"left-posterior-superior", 1, 1}, Space{"LPS", 1, 1}, Space{"scanner-xyz", 1, 1},
@@ -179,7 +179,7 @@ TEST_F(NrrdAxes, NamedSpacesOfPatientsBecomeLps) {
         EXPECT_EQ(grid.step[1], glm::dvec3(-4, 3, 0));
         EXPECT_EQ(grid.step[2], glm::dvec3(0, 0, 2));
     }
-    // Nothing is known of other spaces, which stay as they are.
+    // Grids in other spaces, which name no directions of the body, stay as they are.
     const Grid other =
         open_nrrd(write("a.nrrd",
                         "NRRD0005\ntype: uint8\ndimension: 3\nspace: 3D-left-handed\nsizes: 2 2 3\n"

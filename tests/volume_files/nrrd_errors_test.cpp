@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kind of bad file: one line that names the file, what was found and what was expected.
+// Bad NRRD files of every kind. Each error is one line that names the file, what was found and what
+// was expected.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -19,7 +20,7 @@ using NrrdErrors = testing::NrrdFiles;
 
 const std::string good = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 3 2\nencoding: raw\n";
 
-// `good` with one field changed.
+// Returns `good` with the line of one field replaced.
 std::string with(const std::string& field, const std::string& line) {
     std::string text = good;
     const auto begin = text.find(field + ":");
@@ -70,7 +71,8 @@ TEST_F(NrrdErrors, MissingAndBadFields) {
     expect_says(error_of(write("a.nrrd", good + "type: uint8\n\n" + data)), {"type"});
 }
 
-// teem would print them into buffers of some 1000 bytes. Remarks may be long.
+// teem would print lines with errors into buffers of some 1000 bytes. Remarks, which it never sees,
+// may be long.
 TEST_F(NrrdErrors, LongLines) {
     for (const std::string field : {"axis mins: ", "labels: ", "foo: ", "kinds: ", "no colon "}) {
         std::string line = field;
@@ -169,7 +171,7 @@ TEST_F(NrrdErrors, DamagedBzip2) {
     const std::string text = with("encoding", "encoding: bzip2\n") + "\n";
     std::string packed = bzip2("abcdefghijklmnopqrstuvwx");
     packed[packed.size() - 4] =
-        static_cast<char>(packed[packed.size() - 4] ^ 1);  // in the checksum of the whole
+        static_cast<char>(packed[packed.size() - 4] ^ 1);  // in the file's checksum
     expect_says(error_of(write("a.nrrd", text + packed)), {"damaged bzip2 data", "checksum"});
     expect_says(error_of(write("a.nrrd", text + std::string(100, 'x'))),
                 {"damaged bzip2 data: no bzip2 header"});
@@ -196,7 +198,7 @@ TEST_F(NrrdErrors, BadText) {
     expect_says(error_of(write("a.nrrd", text + std::string(1 << 20, '7'))), {"sample 1 of 3"});
 }
 
-// teem calls fields missing that it cannot read.
+// teem calls fields missing that it cannot read; lamina's messages must not.
 TEST_F(NrrdErrors, FieldsThatAreThereAreNotCalledMissing) {
     const std::string sizes = "1000000000 1000000000 1000000000";
     expect_says(error_of(write("a.nrrd", with("sizes", "sizes: " + sizes + "\n") + "\n")),
@@ -209,7 +211,7 @@ TEST_F(NrrdErrors, FieldsThatAreThereAreNotCalledMissing) {
     expect_says(error_of(write("a.nrrd", with("sizes", "sizes: 4 3\n") + "\n")), {"sizes"});
 }
 
-// 2^32, which teem takes for 0, and what it takes for the number before it.
+// teem would take 2^32 for 0, and "1 2" for 1.
 TEST_F(NrrdErrors, SkipsThatAreNoNumbers) {
     const std::string data(24, 'x');
     for (const std::string skip : {"4294967296", "4294967297", "-1", "1.5", "1 2", "x"}) {
@@ -222,7 +224,7 @@ TEST_F(NrrdErrors, SkipsThatAreNoNumbers) {
     }
 }
 
-// What is below half the smallest float above zero, 7.006e-46, is nearer to 0 than to that.
+// A number below half the smallest float above zero, that is below 7.006e-46, is rounded to 0.
 TEST_F(NrrdErrors, SmallNumbersAreRounded) {
     const auto path = write("a.nrrd",
                             "NRRD0004\ntype: float\ndimension: 3\nsizes: 3 2 1\nencoding: ascii\n\n"

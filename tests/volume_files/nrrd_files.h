@@ -40,7 +40,7 @@ std::string bytes_of_values(const std::vector<T>& values, bool big_endian = fals
     for (const T& value : values) {
         char word[sizeof(T)];
         std::memcpy(word, &value,
-                    sizeof(T));  // the tests, unlike the library, take a little-endian machine
+                    sizeof(T));  // the tests, unlike the library, need a little-endian machine
         if (big_endian) std::reverse(word, word + sizeof(T));
         bytes.append(word, sizeof(T));
     }
@@ -70,7 +70,7 @@ inline std::string bzip2(const std::string& bytes) {
     return packed;
 }
 
-// What open_nrrd says about a file; empty, and a failure, when it reads it.
+// Returns open_nrrd()'s error about a file. If it reads the file, the test fails.
 inline std::string error_of(const std::filesystem::path& path) {
     try {
         open_nrrd(path);

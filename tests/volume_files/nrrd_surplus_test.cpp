@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// More data than the header speaks of: the volume is read, and one warning counts what is not used.
+// Files with more data than the header promises are read, and one warning counts the bytes that are
+// not used.
 #include <gtest/gtest.h>
 
 #include "nrrd_files.h"
@@ -23,7 +24,7 @@ std::string header(const std::string& encoding, const std::string& more = "") {
 
 class NrrdSurplus : public testing::NrrdFiles {
   protected:
-    // Of reading a file with the usual samples.
+    // Returns the warnings of reading a file, and checks that it holds `samples`.
     std::vector<std::string> warnings_of(const std::filesystem::path& path) {
         warnings_.clear();
         const auto found = samples_of<std::uint8_t>(open_nrrd(path));
@@ -53,7 +54,7 @@ TEST_F(NrrdSurplus, NoneIsSilent) {
     EXPECT_TRUE(warnings_of(write("a.nrrd", header("bzip2") + bzip2(samples.substr(0, 5)) +
                                                 bzip2(samples.substr(5))))
                     .empty());
-    // The header itself speaks of what is behind the data.
+    // A negative byte skip says that bytes follow the data, so these are no surplus.
     EXPECT_TRUE(
         warnings_of(write("a.nrrd", header("raw", "byte skip: -4\n") + samples + "xyz")).empty());
 }
@@ -78,13 +79,13 @@ TEST_F(NrrdSurplus, PackedData) {
     expect_warning(header("bzip2") + bzip2(samples + "12"), {"found 2 bytes of bzip2 data more"});
 }
 
-// A bomb: one byte more than is counted.
+// A decompression bomb gives one byte more than are counted.
 TEST_F(NrrdSurplus, IsCountedSoFar) {
     const std::string bomb(most_counted_surplus + 1, '\0');
     expect_warning(header("gzip") + gzip(samples + bomb), {"found at least 6"});
 }
 
-// The end of what is too much belongs to the checksum, too.
+// Surplus bytes are decompressed up to their checksum, which is missing here.
 TEST_F(NrrdSurplus, IsCheckedAsFarAsItIsCounted) {
     const std::string packed = gzip(samples + "12");
     expect_says(

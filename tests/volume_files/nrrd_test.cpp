@@ -46,7 +46,7 @@ void expect_samples(const std::filesystem::path& path, SampleType type) {
     EXPECT_EQ(samples_of<T>(volume), test_values<T>()) << path;
 }
 
-// Each type in every encoding, byte order and attachment.
+// Reads a type in every encoding and byte order, with the header attached and detached.
 template <typename T, typename Files>
 void expect_all_encodings(Files write, const std::string& name, SampleType type) {
     const auto values = test_values<T>();
@@ -153,7 +153,8 @@ TEST_F(Nrrd, PlacesSamplesBySpacingsAndMins) {
         "spacings: 2 3 NaN\naxis mins: 10 20 30\naxis maxs: NaN NaN 34\ncenters: cell node cell\n";
     const Grid grid =
         grid_of(write("a.nrrd", header("uint8", "raw", "little", more) + std::string(24, 'x')));
-    EXPECT_EQ(grid.to_world({0, 0, 0}), glm::dvec3(11, 20, 31));  // a cell's min is its border
+    EXPECT_EQ(grid.to_world({0, 0, 0}),
+              glm::dvec3(11, 20, 31));  // an axis min of cells is the first cell's border
     EXPECT_EQ(grid.to_world({1, 1, 1}), glm::dvec3(13, 23, 33));  // two cells of 2 in 30..34
 }
 
@@ -177,7 +178,7 @@ TEST_F(Nrrd, WritesWhatItReads) {
     Grid grid;
     grid.size = {4, 3, 2};
     grid.centering = {Centering::node, Centering::cell, Centering::node};
-    const double c = std::sqrt(0.75);  // digits that need all 17
+    const double c = std::sqrt(0.75);  // numbers of 17 digits
     grid.step = {glm::dvec3{c, 0.5, 0} / 3.0, glm::dvec3{-0.5, c, 0} / 7.0,
                  glm::dvec3{0, 0, -1 / 3.0}};
     grid.origin = {1e-17, -1e10 / 3, 0.1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What NumPy, nibabel, tifffile and VTK write, and say that it holds, is what is read: sizes,
-// places, types and values.
+// Compares what lamina reads with what NumPy, nibabel, tifffile and VTK wrote and say about it:
+// sizes, places, types and values.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -52,8 +52,8 @@ class ReaderOracles : public ::testing::TestWithParam<const char*> {
         if (one["lps"].is_boolean()) {
             EXPECT_EQ(grid.axes == WorldAxes::left_posterior_superior, one["lps"]);
         }
-        // Headers hold places in single precision or as text of 6 digits and more: 1e-6 of the
-        // largest number in them, which is 40, and of the longest step, 3.
+        // Headers hold places in float32 or as text of 6 or more digits. Tolerances are 1e-6 of the
+        // largest coordinate, 40, and of the longest step, 3.
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const glm::dvec3 step = vector_of(one["steps"][axis]);
             const double origin = one["origin"][axis];

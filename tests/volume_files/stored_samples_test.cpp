@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples of every type become what is drawn; what float32 cannot hold is counted.
+// Converts samples of every type to the types that are drawn, and checks the warning about values
+// that float32 does not hold.
 #include "volume_files/stored_samples.h"
 
 #include <gtest/gtest.h>

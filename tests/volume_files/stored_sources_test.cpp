@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes that stay in their files: any box of samples is that of the volume in memory.
+// Volumes that stay in their files give the same samples as in memory, box by box.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -49,7 +49,7 @@ class StoredSources : public ::testing::Test {
         for (int z = 0; z < 3; ++z)
             for (int y = 0; y < 2; ++y)
                 for (int x = 0; x < 2; ++x)
-                    if (x + y + z != 2)  // missing: the fill value
+                    if (x + y + z != 2)  // missing chunks have the fill value
                         write(fmt::format("a.zarr/{}.{}.{}", z, y, x),
                               noise_bytes(8 * 9 * 16 * bytes));
         return folder_ / "a.zarr";
@@ -112,7 +112,7 @@ TEST_F(StoredSources, ZarrArrays) {
     expect_boxes(zarr({{"dtype", ">u2"}}));
 }
 
-// Holes are known without reading them, and are 0.
+// Holes are known to be 0 without reading them, if the file system reports them.
 TEST_F(StoredSources, HolesOfSparseFiles) {
     const std::string header =
         "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1024 1024 64\nencoding: raw\n\n";
@@ -129,7 +129,7 @@ TEST_F(StoredSources, HolesOfSparseFiles) {
     EXPECT_FALSE(source.known_as_zero({{0, 0, 0}, {1024, 1024, 64}}));
     EXPECT_FALSE(source.known_as_zero({{5, 101, 40}, {1, 1, 1}}));
     const int again = open(path.c_str(), O_RDONLY);
-    const bool holes = lseek(again, 1 << 20, SEEK_DATA) > (1 << 20);  // the file system knows them
+    const bool holes = lseek(again, 1 << 20, SEEK_DATA) > (1 << 20);  // reported by the file system
     close(again);
     EXPECT_EQ(source.known_as_zero({{0, 64, 0}, {1024, 900, 32}}), holes);
 }

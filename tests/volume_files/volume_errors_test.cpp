@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged and bad files of each format: one line that names the file, what was found and what was
-// expected. The good ones are those of the fuzz targets' corpora.
+// Damaged and bad files of each format. Each error is one line that names the file, what was found
+// and what was expected. The good files come from the fuzz targets' corpora.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ class VolumeErrors : public ::testing::Test {
         return folder_ / name;
     }
 
-    // Of a file of these bytes, whatever it is.
+    // Expects an error of reading a file of these bytes that has `parts` in it.
     void expect(const std::string& name, const std::string& bytes,
                 std::initializer_list<std::string> parts, const VolumeRequest& request = {}) {
         const auto path = write(name, bytes);

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 class ZarrErrors : public ::testing::Test {
   protected:
-    // A good array of 2 x 3 x 4 bytes in one chunk.
+    // Returns the .zarray of a good array of 2 x 3 x 4 bytes in one chunk.
     static json good() {
         return {{"zarr_format", 2},      {"shape", {2, 3, 4}}, {"chunks", {2, 3, 4}},
                 {"dtype", "|u1"},        {"order", "C"},       {"fill_value", 0},
@@ -77,7 +77,7 @@ TEST_F(ZarrErrors, Chunks) {
     expect_bad(array, {"found no chunk", "0/0/0"});
 }
 
-// No memory is taken for samples that are nowhere.
+// Takes no memory for samples that the small files cannot hold.
 TEST_F(ZarrErrors, PromisesOfSmallFiles) {
     json array = good();
     array["shape"] = {100000, 100000, 100};
@@ -119,7 +119,7 @@ TEST_F(ZarrErrors, Images) {
     bad(transformed({{"type", "affine"}}), {"affine"});
 }
 
-// What a library does in a process of its own does not end this one.
+// A library that crashes or hangs in an isolated process does not end this one.
 TEST(IsolatedRead, CrashesAndHangsAreErrors) {
     expect_error(
         [] { read_isolated("a.h5", "libx", [](IsolatedLine&) -> ReadSamples { std::abort(); }); },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `lamina render` with several processes that draw each picture together. Rank 0 is the program;
-// the others do what it says.
+// `lamina render` with several processes that draw each picture together. Rank 0 reads the command
+// line; the other ranks follow its Leader.
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -52,7 +52,7 @@ int lead(const Ranks& ranks, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // One thread at a time calls MPI, not always the same.
+    // Different threads call MPI, but only one at a time.
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
     if (provided < MPI_THREAD_SERIALIZED) {

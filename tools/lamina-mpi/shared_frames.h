@@ -9,10 +9,10 @@
 
 namespace lamina {
 
-// Throws if ranks cannot draw the scene together, or not with what --context names.
+// Throws if ranks cannot draw the scene together, or not with this --context.
 void check_shared(const Scene& scene, const Auto<ContextChoice>& context);
 
-// Frames that all ranks draw together; rank 0 has the picture. The leader must outlive them.
+// Frames that all ranks draw together; rank 0 has the pictures. The leader must outlive them.
 class SharedFrames : public Frames {
   public:
     SharedFrames(Leader& leader, const Scene& scene, SceneData& data,
@@ -30,7 +30,7 @@ class SharedFrames : public Frames {
     const Plan& plan() override { return own().plan(); }
     std::string explanation() override { return own().renderer().explanation(); }
     Warnings warnings() override { return own().renderer().warnings(); }
-    void set_up() override {}  // opening does it
+    void set_up() override {}  // done when the scene is opened
     void draw(std::stop_token stop = {}) override;
     void read(Image& picture) const override;
     void add_to(FrameStatistics& statistics) override;
@@ -47,7 +47,7 @@ class SharedFrames : public Frames {
     std::optional<Camera> camera_;  // none: the scene's
 };
 
-// Writes out what each rank took for a frame.
+// Returns the reports as JSON for --stats.
 nlohmann::ordered_json to_json(const std::vector<RankReport>& reports);
 
 }  // namespace lamina

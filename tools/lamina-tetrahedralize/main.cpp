@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Delaunay tetrahedra of points, by TetGen. A program of its own for two reasons: TetGen's licence
-// (AGPL) then covers nothing but this program, and TetGen may print, throw numbers or end the
-// process without harm to the one that asked.
+// Delaunay tetrahedra of points, by TetGen. This is a separate program for two reasons: TetGen's
+// licence (AGPL) covers this program only, and TetGen may print, throw numbers or end the process
+// without harm to the program that started it.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <tetgen.h>
@@ -54,7 +54,7 @@ std::vector<char> read_all(std::FILE* stream) {
     return bytes;
 }
 
-// TetGen would end by an assertion if all points lay in one plane.
+// Throws if all points have an equal coordinate: TetGen would fail an assertion.
 void check_extent(const REAL* points, std::size_t count) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         bool differ = false;
@@ -92,7 +92,7 @@ void read_points(tetgenio& io) {
     check_extent(io.pointlist, points);
 }
 
-// The numbers are those of TetGen's terminatetetgen().
+// Returns the meaning of a number that TetGen's terminatetetgen() throws.
 const char* meaning_of(int failure) {
     switch (failure) {
         case 1:
@@ -126,7 +126,7 @@ void tetrahedralize(tetgenio& in, tetgenio& out) {
     }
 }
 
-// Means that the answer cannot be written.
+// Thrown if the answer cannot be written.
 class NoRoom : public std::runtime_error {
   public:
     NoRoom() : std::runtime_error("cannot write to stdout: " + std::string(std::strerror(errno))) {}
@@ -136,7 +136,7 @@ void write_all(std::FILE* stream, const void* bytes, std::size_t count) {
     if (std::fwrite(bytes, 1, count, stream) != count) throw NoRoom();
 }
 
-// TetGen's corners are in our order already: det(b - a, c - a, d - a) > 0.
+// Writes tets and neighbours. TetGen's order of corners is lamina's: det(b - a, c - a, d - a) > 0.
 void write_tets(std::FILE* stream, const tetgenio& io) {
     const auto count = static_cast<std::size_t>(io.numberoftetrahedra);
     const TetrahedralizeCount header = io.numberoftetrahedra;
@@ -147,7 +147,7 @@ void write_tets(std::FILE* stream, const tetgenio& io) {
     if (std::fflush(stream) != 0) throw NoRoom();
 }
 
-// Returns a stream for the answer. What TetGen prints on stdout goes to stderr from now on.
+// Returns a stream for the answer. Text that TetGen prints on stdout goes to stderr from now on.
 std::FILE* take_stdout() {
     std::fflush(stdout);
     const int answer = dup(STDOUT_FILENO);
@@ -158,8 +158,9 @@ std::FILE* take_stdout() {
     return stream;
 }
 
-// Near its limits TetGen may also run into an assertion or leave its memory. Even then there is one
-// line and exit code 1. Only calls that are allowed in a signal handler are used.
+// Signal handler for crashes: near its limits TetGen may fail an assertion or access invalid
+// memory. Prints one line and exits with code 1, with calls that are allowed in a signal handler
+// only.
 extern "C" void report_crash(int) {
     constexpr char message[] =
         "lamina-tetrahedralize: TetGen broke down (are all points nearly in one plane, or "
@@ -169,7 +170,7 @@ extern "C" void report_crash(int) {
 }
 
 void catch_crashes() {
-    static std::array<char, 1 << 16> stack;  // a crash may have used up the program's own
+    static std::array<char, 1 << 16> stack;  // the program's own stack may be used up
     stack_t place{};
     place.ss_sp = stack.data();
     place.ss_size = stack.size();
@@ -180,7 +181,7 @@ void catch_crashes() {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) sigaction(signal, &action, nullptr);
 }
 
-// Returns false if the process that asked has ended already.
+// Ends this process when the parent ends. Returns false if it has ended already.
 bool end_with_parent(const char* parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     return std::to_string(getppid()) == parent;
@@ -192,7 +193,7 @@ int fail(const char* message, int exit_code = 1) {
     return exit_code;
 }
 
-// Does not throw.
+// Reads the points, writes the answer and returns the exit code. Does not throw.
 int answer_question() {
     catch_crashes();
     try {

@@ -13,7 +13,8 @@
 
 namespace lamina::view {
 
-// Interpolation changes nothing if a pixel of the picture covers one of the screen.
+// Makes the texture. Its interpolation has no effect if a pixel of the picture covers one of the
+// screen.
 PictureTexture::PictureTexture(const GladGLContext& gl) : gl_(gl) {
     gl_.GenTextures(1, &name_);
     gl_.BindTexture(GL_TEXTURE_2D, name_);
@@ -49,7 +50,7 @@ ImDrawList& background() {
     return *ImGui::GetBackgroundDrawList();
 }
 
-// On a dark ground, inside of `min` and `max`.
+// Draws a label on a dark ground between `min` and `max`.
 void draw_label(const std::string& text, const ImVec2& min, const ImVec2& max, bool right) {
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float gap = em(.5f);
@@ -104,7 +105,8 @@ void ComparisonView::draw(Comparison& comparison, const PictureArea& area, const
     }
 }
 
-// The line is a window of its own, so that a drag of it does not move the camera.
+// Draws the wipe. Its line is an ImGui window of its own, so that dragging it does not move the
+// camera.
 void ComparisonView::draw_wipe(Comparison& comparison, const std::string& a, const std::string& b) {
     const float width = max_.x - min_.x;
     const auto share = static_cast<float>(comparison.wipe);
@@ -133,7 +135,7 @@ void ComparisonView::draw_wipe(Comparison& comparison, const std::string& a, con
     ImGui::PopStyleVar(2);
 }
 
-// Draws both pictures whole, at half their size.
+// Draws both pictures in full, at half their size.
 void ComparisonView::draw_side_by_side(const std::string& a, const std::string& b) {
     ImDrawList& list = background();
     list.AddRectFilled(min_, max_, theme::plot_back);
@@ -147,7 +149,7 @@ void ComparisonView::draw_side_by_side(const std::string& a, const std::string& 
     draw_label(b, {middle.x, min_.y}, max_, false);
 }
 
-// Colours and their scale, as lamina::difference_png has it.
+// Draws the difference in colours, with the scale of lamina::difference_png().
 void ComparisonView::draw_difference(Comparison& comparison) {
     colors_.take(comparison.colors());
     ImDrawList& list = background();

@@ -13,7 +13,7 @@
 
 namespace lamina::view {
 
-// The picture as a texture of the window's OpenGL.
+// A picture as a texture of the window's OpenGL.
 class PictureTexture {
   public:
     explicit PictureTexture(const GladGLContext& gl);
@@ -32,18 +32,18 @@ class PictureTexture {
     int width_ = 0, height_ = 0;
 };
 
-// Draws two pictures in the window's place for one.
+// Draws two pictures for comparison in the picture's place in the window.
 class ComparisonView {
   public:
     explicit ComparisonView(const GladGLContext& gl);
 
-    // Draws over the picture in `area`, if there is something to be compared. `a`, `b`: names of
-    // the two pictures.
+    // Draws over the picture in `area` if a comparison is active. `a`, `b`: names of the two
+    // pictures.
     void draw(Comparison& comparison, const PictureArea& area, const std::string& a,
               const std::string& b);
 
   private:
-    // A texture with the picture that it shows.
+    // A texture, and the picture that it shows.
     struct Slot {
         explicit Slot(const GladGLContext& gl) : texture(gl) {}
         void take(const std::shared_ptr<const ScreenPicture>& picture);
@@ -57,7 +57,7 @@ class ComparisonView {
     void draw_difference(Comparison& comparison);
 
     Slot other_, edited_, colors_;
-    ImVec2 min_{}, max_{};  // of the picture in the window
+    ImVec2 min_{}, max_{};  // corners of the picture in the window
 };
 
 }  // namespace lamina::view

@@ -20,7 +20,7 @@ int report(const std::string& message, int exit_code) {
     return exit_code;
 }
 
-// Returns the size that a text like "800x600" states, or nothing if it states none.
+// Returns the size in a text like "800x600", or nothing if it has another form.
 std::optional<glm::ivec2> size_of(const std::string& text) {
     int width = 0, height = 0;
     char cross = 0, more = 0;

@@ -8,19 +8,21 @@
 
 namespace lamina::view {
 
-// Times of the window's frames since they were last asked for.
+// Times of the window's frames since start().
 class Measurements {
   public:
     Measurements() { start(); }
     void start();
-    void add_latency(double ms) { latencies_.push_back(ms); }  // from input to picture on screen
-    void add_frame(double ms) { frames_.push_back(ms); }       // to make one, until it is shown
-    // One line of JSON, with what is known of the picture's error.
+    // From input to the picture on screen.
+    void add_latency(double ms) { latencies_.push_back(ms); }
+    // From the begin of a frame until it is shown.
+    void add_frame(double ms) { frames_.push_back(ms); }
+    // Returns one line of JSON with the times and the picture's known error.
     std::string text(const std::string& name, const Shown& shown) const;
 
   private:
     std::vector<double> latencies_, frames_;
-    double cpu_seconds_ = 0, seconds_ = 0;  // at the start
+    double cpu_seconds_ = 0, seconds_ = 0;  // at start()
 };
 
 }  // namespace lamina::view

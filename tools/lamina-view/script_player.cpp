@@ -20,7 +20,7 @@ namespace lamina::view {
 namespace {
 
 struct Usage {
-    std::size_t least, most;  // words that follow
+    std::size_t least, most;  // words after the command
     const char* text;
 };
 
@@ -230,7 +230,7 @@ void ScriptPlayer::begin_drag(const ScriptCommand& command) {
     then([=, this] { window_.button(button, false, shift, false); });
 }
 
-// Begins to wait. An error in the window ends the waiting.
+// Begins to wait. An error in the window ends the wait with Error.
 void ScriptPlayer::begin_wait(const ScriptCommand& command, double seconds) {
     const std::string& what = command.words[0];
     until_ = 0;
@@ -243,7 +243,7 @@ void ScriptPlayer::begin_wait(const ScriptCommand& command, double seconds) {
     if (what == "full") return until([this] { return viewer_.is_full(); });
     if (what == "truth") return until([this] { return viewer_.is_truth(); });
     if (what == "saved") return until([this] { return !viewer_.is_saving(); });
-    if (what == "file") {  // looked for now and then
+    if (what == "file") {  // looked for every .05 s
         if (command.words.size() != 2) command.fail("wait file FILE");
         waiting_ = [this, file = command.words[1]](double now) {
             until_ = now + .05;

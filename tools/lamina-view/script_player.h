@@ -17,30 +17,30 @@ namespace lamina::view {
 struct ScriptCommand {
     std::string where;  // "FILE:LINE"
     std::string name;
-    std::vector<std::string> words;  // what follows
+    std::vector<std::string> words;  // words after the name
 
-    double number(std::size_t word) const;  // throws Error if it is none
+    double number(std::size_t word) const;  // throws Error if the word is no number
     [[noreturn]] void fail(const std::string& expected) const;
 };
 
 // Reads a script. Throws Error, also for unknown commands.
 std::vector<ScriptCommand> load_script(const std::filesystem::path& file);
 
-// Returns GLFW's number of a key by its name ("A", "7", "Home"); throws Error.
+// Returns GLFW's number of a key ("A", "7", "Home"). Throws Error for another name.
 int key_of(const ScriptCommand& command, const std::string& name);
 
 class Viewer;
 class Window;
 
-// Plays a script, one command a frame, as if a user did it.
+// Plays a script with simulated input, one command in a frame.
 class ScriptPlayer {
   public:
     ScriptPlayer(std::vector<ScriptCommand> commands, Window& window, Viewer& viewer);
 
-    // Carries out commands before a frame. Throws Error if a command cannot be carried out, or
-    // something went wrong in the window.
+    // Carries out commands before a frame. Throws Error if a command is impossible, or after an
+    // error in the window.
     void advance(double seconds);
-    // When it has to go on; nothing: when something happens.
+    // Returns when advance() must be called next; nothing: after the next event.
     std::optional<double> next(double seconds) const;
     bool done() const { return next_ == commands_.size() && actions_.empty() && !waiting_; }
     Measurements& measurements() { return measurements_; }
@@ -60,10 +60,10 @@ class ScriptPlayer {
     Window& window_;
     Viewer& viewer_;
     std::size_t next_ = 0;
-    std::deque<std::function<void()>> actions_;  // of the command that is being done
+    std::deque<std::function<void()>> actions_;  // of the current command
     Waiting waiting_;
-    bool looked_ = false;  // whether what is waited for is there already
-    double until_ = 0;     // of a wait for a time
+    bool looked_ = false;  // the condition was tested once
+    double until_ = 0;     // next time to look for a file
     Measurements measurements_;
 };
 

@@ -15,9 +15,9 @@
 
 namespace lamina::view {
 namespace {
-
-constexpr float side_width = 25, bottom_height = 19, status_height = 1.8f;  // of the font's height
-// Seconds after which a picture is drawn in full if it is held still during a drag.
+// In heights of the font.
+constexpr float side_width = 25, bottom_height = 19, status_height = 1.8f;
+// Time in seconds after which the picture is drawn in full if a drag pauses.
 constexpr double still_seconds = .3;
 constexpr int key_f1 = 290;
 
@@ -55,7 +55,7 @@ Viewer::Viewer(const GladGLContext& gl, const SessionOptions& options, std::func
     }
 }
 
-// The settings are a convenience: if they cannot be kept, there is no one left to tell.
+// Saves the viewer's settings. Errors are ignored: the window is gone.
 Viewer::~Viewer() {
     if (settings_file_.empty()) return;
     try {
@@ -198,11 +198,12 @@ void Viewer::follow_worker() {
     }
 }
 
-// Data that cannot be read leave what was open before.
+// If a file could not be read, goes back to the document that was open before.
 void Viewer::go_back_if_failed() {
     if (shown_->failure.empty() || shown_->failed_request != requested_.number) return;
     if (shown_->loaded == document_.revisions().data) return;
-    if (document_.revisions() != requested_.revisions) return;  // another one is on its way
+    // Another file was requested meanwhile.
+    if (document_.revisions() != requested_.revisions) return;
     message_ = shown_->failure;
     bad_ = true;
     document_ = shown_->loaded == before_.revisions().data ? before_ : Document();
@@ -290,7 +291,7 @@ void Viewer::frame(float width, float height, float pixels, double seconds) {
     draw_status(width, height);
     prompt_.draw();
     help_window(help_);
-    // Changes made in one gesture are undone together.
+    // Changes of one gesture are undone together: a step ends when no key or button is down.
     const bool* const keys = ImGui::GetIO().KeysDown;
     if (!ImGui::IsAnyItemActive() && !ImGui::IsAnyMouseDown() &&
         std::none_of(keys, keys + IM_ARRAYSIZE(ImGui::GetIO().KeysDown), std::identity()))
@@ -301,7 +302,8 @@ void Viewer::frame(float width, float height, float pixels, double seconds) {
 
 void Viewer::draw_picture(float left, float top, float width, float height, float pixels) {
     if (!uploaded_) return;
-    // One pixel of the picture is one of the screen, unless it is coarse or does not fit.
+    // A pixel of the picture is a pixel of the screen, unless the picture is coarse or does not
+    // fit.
     const Scene& scene = document_.scene();
     const bool coarse = shown_->kind == PictureKind::moving || shown_->kind == PictureKind::none;
     const auto across = static_cast<float>(coarse ? scene.width : texture_.width());
@@ -326,7 +328,8 @@ void Viewer::draw_comparison() {
 }
 
 // Finds the value under the pointer, unless the picture moves: the value would belong to another
-// place when it is read.
+// Finds the value under the pointer, unless the picture moves: it would then be the value of
+// another place when it is read.
 void Viewer::find_value() {
     seen_.reset();
     const bool at_rest = shown_->kind == PictureKind::full || shown_->kind == PictureKind::traced;

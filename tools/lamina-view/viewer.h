@@ -20,48 +20,46 @@
 
 namespace lamina::view {
 
-// The window's main loop: input changes the document, the worker draws it, and a frame shows the
-// picture.
+// The viewer without its window: input changes the document, the worker draws it, and frame() shows
+// the picture.
 class Viewer {
   public:
-    // `wake` is called, from any thread, when there is something new to be shown. `settings_file`:
-    // empty if none is kept.
+    // `wake`: called from any thread when there is something new to show. `settings_file`: empty if
+    // no settings are kept.
     Viewer(const GladGLContext& gl, const SessionOptions& options, std::function<void()> wake,
            std::filesystem::path settings_file);
     ~Viewer();
 
-    // Opens a scene or data file. What is wrong with it is shown.
+    // Opens a scene or data file. Errors are shown.
     void open(const std::filesystem::path& file);
-    // Saves the full picture once it is there. Returns what is wrong with the name, or an empty
-    // text.
+    // Saves the full picture once it is drawn. Returns why the name is refused, or an empty text.
     std::string save(const std::filesystem::path& file);
     void set_trace(bool trace);
     void set_coarse(bool coarse);
     void show_panels(bool panels);
-    void fix_size(int width, int height);  // of the picture, whatever the window's
-    // Returns the size that the window needs for a picture of another size that is to be seen pixel
-    // by pixel.
+    void fix_size(int width, int height);  // of the picture, independent of the window
+    // Returns, once, the window size that shows a picture of a new size pixel by pixel.
     std::optional<glm::ivec2> take_wanted_size();
 
     void handle(const InputEvent& event);
     // Declares the window's contents to ImGui. `width`, `height`: of the window, in ImGui's units;
-    // `pixels`: of the screen for one of them; `seconds`: now.
+    // `pixels`: screen pixels per unit; `seconds`: the time.
     void frame(float width, float height, float pixels, double seconds);
-    // Returns the time at which a frame is needed even without input.
+    // Returns when a frame is needed even without input.
     std::optional<double> next_frame() const;
     std::string title() const;
     bool is_closing() const { return closing_; }
 
     const Shown& shown() const { return *shown_; }
-    // States of the last request: drawn in full, and traced to its end. A request that cannot be
-    // drawn counts as at rest, too.
+    // Tell whether the last request is drawn in full, and traced to its end. A request that cannot
+    // be drawn counts as done.
     bool is_full() const;
     bool is_truth() const;
     bool is_saving() const { return !waiting_.empty() || saving_.busy(); }
     bool is_failed() const;
     bool is_busy() const { return worker_.busy() || saving_.busy(); }
     bool awaits_moving_picture() const { return requested_.moving && worker_.busy(); }
-    std::string failure() const;  // what is wrong, or empty
+    std::string failure() const;  // last error, or empty
 
   private:
     void follow_worker();
@@ -87,7 +85,7 @@ class Viewer {
 
     std::filesystem::path settings_file_;
     ViewerSettings settings_;
-    Document document_, before_;  // before_: while a file is opened, the one that was open
+    Document document_, before_;  // before_: the document before the file that is being opened
     DrawWorker worker_;
     Saving saving_;
     PictureTexture texture_;
@@ -102,17 +100,18 @@ class Viewer {
 
     std::shared_ptr<const Shown> shown_;
     std::shared_ptr<const ScreenPicture> uploaded_;
-    DrawRequest requested_;  // without its scene
+    DrawRequest requested_;  // last request, without its scene
     std::uint64_t requests_ = 0;
-    std::optional<DrawRequest::Clock::time_point> input_at_;  // of what is not requested yet
+    // First input that is not requested yet.
+    std::optional<DrawRequest::Clock::time_point> input_at_;
     std::uint64_t opened_ = 0;  // Revisions::data of the last file that could be opened
     bool wants_size_ = false;
-    glm::vec2 beside_{0};  // of the window, what is not the picture's
+    glm::vec2 beside_{0};  // size of the window beside the picture
     float pixels_ = 1;
-    double changed_at_ = 0;  // when something was last changed while it was dragged
-    std::vector<std::filesystem::path> waiting_;  // to be saved
-    std::string message_;                         // of what went wrong or was done last
-    bool bad_ = false;                            // it went wrong
+    double changed_at_ = 0;                       // time of the last change during a drag
+    std::vector<std::filesystem::path> waiting_;  // files to save once the picture is full
+    std::string message_;                         // last error or result
+    bool bad_ = false;                            // message_ is an error
     bool help_ = false, closing_ = false;
 };
 

@@ -22,8 +22,8 @@ namespace lamina::view {
 namespace {
 
 constexpr int first_width = 1280, first_height = 860;
-// GLFW 3.3 loses some of the events by which another thread wakes it (on X11), so that while one
-// works it is looked for what is new. Seconds.
+// Seconds between looks for news while another thread works: GLFW 3.3 on X11 loses some of the
+// events by which the thread wakes it.
 constexpr double busy_pause = .02;
 
 std::string glfw_message() {
@@ -68,7 +68,7 @@ Window::Window(const WindowOptions& options) : window_(make_window()) {
     set_theme(std::max(scale, 1.f));
     ImGui_ImplGlfw_InitForOpenGL(window_, false);
     ImGui_ImplOpenGL3_Init("#version 330 core");
-    // A script does the same for everybody: nothing is remembered.
+    // With a script no settings are read, so that it does the same for every user.
     viewer_ = std::make_unique<Viewer>(
         gl_, options.session,
         [this] {
@@ -97,7 +97,7 @@ Window& Window::of(GLFWwindow* window) {
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-// While a script plays, what happens to the window's own pointer and keys does not count.
+// While a script plays, the user's own pointer and keys are ignored.
 void Window::set_callbacks() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
@@ -164,9 +164,9 @@ void Window::wheel(const glm::dvec2& steps) {
     viewer_->handle({.kind = InputEvent::Kind::wheel, .seconds = glfwGetTime(), .place = steps});
 }
 
-// ImGui takes the modifiers from their own keys.
+// ImGui takes modifiers from their own keys, so a script presses these, too.
 void Window::key(int key, bool down, bool shift, bool control) {
-    if (key < 0) return;  // one that GLFW does not know
+    if (key < 0) return;  // unknown to GLFW
     touched_ = true;
     const int action = down ? GLFW_PRESS : GLFW_RELEASE;
     if (player_) {
@@ -215,16 +215,16 @@ void Window::run() {
     }
 }
 
-// Returns when there is a reason for a frame.
+// Returns when a frame is needed.
 void Window::wait_for_events() {
-    // While the camera moves, the processor is the picture's.
+    // While the camera moves, the processor is left to the picture.
     if (frames_left_ > 0 && !viewer_->awaits_moving_picture()) {
         --frames_left_;
         return glfwPollEvents();
     }
     touched_ = false;
     for (;;) {
-        // Asked in this order: what is not busy any more has said what is new.
+        // busy is read first: work that ends after that sets news_, so no news is lost.
         const bool busy = viewer_->is_busy();
         if (touched_ || news_.exchange(false)) break;
         const double now = glfwGetTime();
@@ -249,8 +249,7 @@ std::optional<double> Window::next_frame(double now) const {
     return next && then ? std::min(*next, *then) : next ? next : then;
 }
 
-// Gives ImGui a key or button that went down as down for one frame at least, even if it has gone up
-// since.
+// Passes a button that went down to ImGui for at least one frame, even if it is up again.
 void Window::give_input_to_imgui() {
     ImGuiIO& io = ImGui::GetIO();
     io.MousePos = pointer_.x < 0
@@ -294,7 +293,7 @@ void Window::measure(double began) {
     player_->measurements().add_latency(std::chrono::duration<double, std::milli>(since).count());
 }
 
-// OpenGL has the lowest row first.
+// OpenGL's first row is the lowest.
 void Window::write_screenshot(int width, int height) {
     std::vector<std::uint8_t> codes(4 * static_cast<std::size_t>(width) *
                                     static_cast<std::size_t>(height));

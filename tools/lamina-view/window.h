@@ -23,13 +23,13 @@ class ScriptPlayer;
 class Viewer;
 
 struct WindowOptions {
-    std::filesystem::path file;    // to be opened; empty: none
-    std::filesystem::path script;  // to be played; empty: none
+    std::filesystem::path file;    // file to open; empty: none
+    std::filesystem::path script;  // script to play; empty: none
     std::optional<glm::ivec2> picture_size;
     SessionOptions session;
 };
 
-// The window with its OpenGL and ImGui. One at a time.
+// The window with its OpenGL context and ImGui. Only one may exist at a time.
 class Window {
   public:
     // Throws Error if there is no display or no OpenGL 3.3.
@@ -38,11 +38,11 @@ class Window {
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    // Runs until it is closed, or its script is over. Throws Error for a command that a script
-    // cannot do.
+    // Shows frames until the window is closed or the script ends. Throws Error if a command of the
+    // script fails.
     void run();
 
-    // Input of a user or a script. Places are in the window, from its upper left corner.
+    // Input of the user or of a script. Places are in the window, from its upper left corner.
     void move(const glm::dvec2& place);
     void button(PointerButton button, bool down, bool shift, bool control);
     void wheel(const glm::dvec2& steps);
@@ -66,13 +66,14 @@ class Window {
     GladGLContext gl_{};
     std::unique_ptr<Viewer> viewer_;
     std::unique_ptr<ScriptPlayer> player_;
-    int frames_left_ = 3;            // ImGui needs some until what happened shows
+    int frames_left_ = 3;            // frames to draw: ImGui shows some effects of input late
     bool touched_ = false;           // something happened to the window
     std::atomic<bool> news_{false};  // the viewer has something new to show
     std::string title_;
     std::filesystem::path screenshot_;
     glm::dvec2 pointer_{-1};
-    std::array<bool, 3> down_{}, went_down_{};  // by button; went_down_: since the last frame
+    // By button; went_down_: down at some time since the last frame.
+    std::array<bool, 3> down_{}, went_down_{};
     std::chrono::steady_clock::time_point measured_ = {};
 };
 

@@ -7,7 +7,7 @@
 namespace lamina {
 namespace {
 
-// "slice|project|trace" lists values, "NAME|FILE" does not.
+// Returns the words of "slice|project|trace". In "NAME|FILE" capitals are placeholders: no list.
 std::vector<std::string> choices_of(const std::string& value) {
     if (value.find('|') == std::string::npos) return {};
     std::vector<std::string> choices;

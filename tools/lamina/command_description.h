@@ -7,15 +7,15 @@
 
 namespace lamina {
 
-// An option or a positional argument, as the command line declares it.
+// An option or a positional argument, as the verb declares it to CLI11.
 struct OptionDescription {
-    std::vector<std::string> names;    // "-o", "--output"; of a positional its name alone
-    std::string value;                 // what stands for its value: "FILE"; empty: it takes none
-    std::vector<std::string> choices;  // the values that there are, where they are a fixed list
+    std::vector<std::string> names;    // "-o", "--output"; the name of a positional argument
+    std::string value;                 // placeholder of its value: "FILE"; empty if it takes none
+    std::vector<std::string> choices;  // all values, if they are a fixed list
     std::string text;
     std::string group;
     bool positional = false;
-    bool optional_value = false;  // only as --name=VALUE
+    bool optional_value = false;  // a value must be given as --name=VALUE
 };
 
 // A verb, or the program itself.
@@ -26,8 +26,8 @@ struct CommandDescription {
     std::vector<CommandDescription> verbs;
 };
 
-// Verbs, options and texts that manual pages and completions are made from: the declarations that
-// --help prints.
+// Returns the verbs, options and texts from which manual pages and completions are made. They are
+// the declarations that --help prints.
 CommandDescription describe(const CLI::App& app);
 
 }  // namespace lamina

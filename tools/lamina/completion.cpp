@@ -43,7 +43,7 @@ std::string names_of(const CommandDescription& verb) {
     return names;
 }
 
-// A case of the verb `name`.
+// Returns the bash case that completes the verb `name` by `words`.
 std::string offer(const std::string& name, const std::string& words) {
     return fmt::format(
         "            {}) mapfile -t COMPREPLY < <(compgen -W \"{}\" -- \"$word\") ;;\n", name,
@@ -129,7 +129,7 @@ _{0}() {{
 _{0} "$@"
 )";
 
-// In single quotes, for _describe and _arguments.
+// Returns the text in single quotes, escaped for _describe and _arguments of zsh.
 std::string zsh_quoted(const std::string& text) {
     std::string result;
     for (const char c : text) {

@@ -31,7 +31,7 @@ namespace {
 constexpr const char* crosscheck_name = "crosscheck";
 const std::vector<std::string> file_names{"traced_volume.exr", "traced_mesh.exr", "sliced.exr",
                                           "projected.exr",     "budget.json",     "report.html"};
-constexpr const char* kept_name = "crosscheck-kept";  // folder of finished steps, while it runs
+constexpr const char* kept_name = "crosscheck-kept";  // finished steps, kept until all are done
 
 struct CrosscheckOptions {
     SceneOptions scene;
@@ -76,7 +76,7 @@ void write_all(const std::filesystem::path& folder, const study::Crosscheck& mad
         print_result("{}\n", printable(finding));
 }
 
-// Tolerances that were asked for and are not drawn are said.
+// Warns if --tolerances is given for a scene whose mesh has no tolerance.
 void say_of_one_mesh(const CrosscheckOptions& options, const Scene& scene) {
     if (options.quiet || options.settings.ends_by_itself || study::makes_meshes(scene)) return;
     print_message(
@@ -90,7 +90,7 @@ void say(const CrosscheckOptions& options, const std::string& text) {
     if (!options.quiet) print_message("lamina: {}\n", printable(text));
 }
 
-// Finished steps are found by what they depend on, so those of other scenes are never taken.
+// Kept steps are named by a hash of their input, so those of other scenes are never taken.
 study::CrosscheckSettings settings_of(const CrosscheckOptions& options,
                                       const std::filesystem::path& kept) {
     if (std::filesystem::exists(kept) && !options.resume) {
@@ -109,7 +109,7 @@ study::CrosscheckSettings settings_of(const CrosscheckOptions& options,
     return settings;
 }
 
-// Removes what study::crosscheck() keeps, and nothing else.
+// Removes the files that study::crosscheck() keeps, and the folder if it is then empty.
 void remove_kept(const std::filesystem::path& kept) {
     std::error_code ignored;
     for (const auto& file : std::filesystem::directory_iterator(kept, ignored)) {
@@ -121,7 +121,7 @@ void remove_kept(const std::filesystem::path& kept) {
             name.extension() == ".vtu" || name.extension() == ".npy" || name.extension() == ".json";
         if (hash && kind) std::filesystem::remove(file.path(), ignored);
     }
-    std::filesystem::remove(kept, ignored);  // not if it has other files
+    std::filesystem::remove(kept, ignored);  // fails if other files are left
 }
 
 study::Crosscheck kept_crosscheck(const Scene& scene, const study::CrosscheckSettings& settings,
@@ -141,8 +141,7 @@ void run(const CrosscheckOptions& options) {
     check_ladder(options.settings);
     nlohmann::json ignored;
     Scene scene = load_scene(options.scene, {}, ignored);
-    // The methods are compared on a volume and a mesh of it; this is checked before anything is
-    // made.
+    // Both methods need the volume; this is checked before anything is made.
     if (!scene.has_volume())
         fail("{}: volume: is missing, expected the volume that both methods show",
              scene.file.string());

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t largest_number = 1'000'000'000, most_steps = 100'000;
 
-// Whole numbers from 0 with colons between; empty if it is anything else.
+// Returns up to four whole numbers >= 0 that colons separate; empty if the text is anything else.
 std::vector<std::int64_t> numbers_of(const std::string& text) {
     std::vector<std::int64_t> numbers;
     const char* at = text.data();
@@ -40,7 +40,7 @@ std::string name_at(const FilePattern& pattern, std::int64_t step) {
     return names_of(pattern, step, step, 1).value().front();
 }
 
-// The text of a path in a scene's document: "volume": PATH or "volume": {"path": PATH}.
+// Returns the path in "volume": PATH or "volume": {"path": PATH} of a scene's document, or null.
 std::string* path_in(nlohmann::json& document, const char* key) {
     const auto found = document.is_object() ? document.find(key) : document.end();
     if (found == document.end()) return nullptr;
@@ -78,7 +78,8 @@ TimeRange time_range(const std::string& text) {
     return range;
 }
 
-// A '%' of a folder's name is no number.
+// Returns the pattern in the file's name, and replaces it in `path` by the first step's name;
+// nothing if there is no '%'. In a folder's name '%' has no meaning.
 std::optional<FilePattern> DataSeries::take(std::string& path, const std::string& what) const {
     const std::size_t name = path.rfind('/') + 1;  // 0 if there is no folder
     if (path.find('%', name) == std::string::npos) return {};
@@ -152,7 +153,8 @@ void DataSeries::check(const Scene& scene) const {
     if (mesh == nullptr) {
         if (scene.volume_file() == nullptr)
             throw UsageError("--time: the scene's volume is generated, expected files");
-        load_volume(at(scene, steps_.back()));  // how many steps it has is known once it is read
+        // The number of steps is known only once the file is read.
+        load_volume(at(scene, steps_.back()));
         return;
     }
     const std::int64_t there = steps_of_mesh(mesh->path);

@@ -13,7 +13,7 @@
 
 namespace lamina {
 
-// The steps of a series that --time names: first, first + step, ... up to last.
+// The steps that --time names: first, first + step, ... up to last.
 struct TimeRange {
     std::int64_t first = 0, last = 0, step = 1;
 
@@ -24,22 +24,22 @@ struct TimeRange {
 // at most 100000 steps. Throws UsageError.
 TimeRange time_range(const std::string& text);
 
-// Data of a scene that change with time: files whose names differ in a number, "head_%04d.nrrd";
-// the steps of a .pvd; or the time axis of a volume's file.
+// Data of a scene that change with time: files whose names differ in a number, as in
+// "head_%04d.nrrd"; the steps of a .pvd; or the time axis of a volume's file.
 class DataSeries {
   public:
-    // `file`: the command line's scene, data file, or pattern of data files. Throws UsageError for
-    // a text with % that is no pattern.
+    // `file`: scene, data file, or pattern of data files on the command line. Throws UsageError if
+    // it has a '%' but is no pattern.
     DataSeries(std::string file, const TimeRange& range);
 
-    // The file that the first step's scene is read from. For a pattern it is the pattern's first
-    // file.
+    // Returns the file that the scene of the first step is read from; if `file` is a pattern, the
+    // pattern's first file.
     const std::string& first_file() const { return first_file_; }
     // Replaces the patterns in a scene's document by the first step's files.
     void begin(nlohmann::json& document);
 
     const std::vector<std::int64_t>& steps() const { return steps_; }
-    // The scene with the data of another step.
+    // Returns the scene with the data of another step.
     Scene at(Scene scene, std::int64_t step) const;
     // Returns the files that only this step reads.
     std::vector<std::filesystem::path> files_of_step(const Scene& scene, std::int64_t step) const;

@@ -79,7 +79,7 @@ Json describe(const TetMesh& mesh, const ValueStatistics& statistics) {
     return info;
 }
 
-// Returns the first scalar at points, or nothing if the mesh has none.
+// Returns the values of the first scalar at points, or nothing if the mesh has none.
 std::span<const double> first_scalar(const TetMesh& mesh) {
     if (mesh.point_scalars().empty()) return {};
     return mesh.point_scalars().front().values;
@@ -92,7 +92,7 @@ CodedImage picture_of(const TetMesh& mesh, const ValueStatistics& statistics) {
                              [&](int width) { return histogram_picture(statistics, width); });
 }
 
-// Returns one word if all axes agree, else one word an axis.
+// Returns one word if all axes agree, else a list of a word for each axis.
 Json json_of(const std::array<Centering, 3>& centering) {
     const auto word = [](Centering c) { return c == Centering::cell ? "cell" : "node"; };
     if (centering[0] == centering[1] && centering[1] == centering[2]) return word(centering[0]);
@@ -108,12 +108,12 @@ Json describe(const Volume& volume, const MinMaxBricks& bricks, const ValueStati
     info["type"] = name_of(volume.type());
     info["centers"] = json_of(grid.centering);
     info["bounds"] = {{"min", json_vector(bounds.min)}, {"max", json_vector(bounds.max)}};
-    info["range"] = nullptr;  // no finite value
+    info["range"] = nullptr;  // null: no finite value
     if (!bricks.whole.empty()) info["range"] = Json::array({bricks.whole.lo, bricks.whole.hi});
     info["nan_count"] = bricks.non_finite;
     info["spacing"] = json_vector(
         {glm::length(grid.step[0]), glm::length(grid.step[1]), glm::length(grid.step[2])});
-    info["origin"] = json_vector(grid.origin);  // the centre of the first sample
+    info["origin"] = json_vector(grid.origin);  // centre of the first sample
     add_statistics(statistics, info);
     return info;
 }
@@ -154,7 +154,7 @@ std::string percentiles_text(const Json& percentiles) {
 std::string histogram_text(const Json& histogram) {
     const auto edges = histogram["edges"].get<std::vector<double>>();
     const auto counts = histogram["counts"].get<std::vector<std::int64_t>>();
-    // All rows have as many intervals, but for the last.
+    // Each row has `together` intervals, the last one maybe fewer.
     const std::size_t together = (counts.size() + most_rows - 1) / most_rows;
     std::vector<std::int64_t> sums;
     std::vector<std::string> ends{row_end(edges, 0)};
@@ -190,7 +190,7 @@ CodedImage above_one_another(const CodedImage& above, const std::function<CodedI
 }
 
 nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png) {
-    std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
+    std::optional<AtomicFile> picture;  // opened first: an unwritable path fails at once
     if (!png.empty()) picture.emplace(png);
     const TetMesh mesh(read_mesh(file), file);
     const ValueStatistics statistics = measure_values(first_scalar(mesh));
@@ -203,7 +203,7 @@ nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string
 
 nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png,
                                         const VolumeRequest& request) {
-    std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
+    std::optional<AtomicFile> picture;  // opened first: an unwritable path fails at once
     if (!png.empty()) picture.emplace(png);
     const VolumeData data(open_volume(file, request, {.residence = VolumeUse::Residence::as_fits}));
     const auto& [volume, bricks, values] = data;

@@ -51,7 +51,7 @@ GeneratorRequest request_of(const GenerateOptions& options) {
     if (!options.size.empty()) request.size = parse_grid_size(options.size);
     try {
         generated_grid(request);
-    } catch (const Error& error) {  // all its input comes from the command line
+    } catch (const Error& error) {  // its whole input comes from the command line
         throw UsageError(error.what());
     }
     return request;

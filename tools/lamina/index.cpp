@@ -35,7 +35,7 @@ void run(const IndexOptions& options) {
     const Volume volume = open_volume(options.file, request_of(options.raw),
                                       {.residence = VolumeUse::Residence::in_files});
     const std::filesystem::path file = index_file_of(volume);
-    expect_index_or_nothing(file);  // before the long work
+    expect_index_or_nothing(file);  // before measuring, which takes long
     const VolumeIndex index = measure_index(volume);
     write_index(volume, index, file);
     if (options.quiet) return;

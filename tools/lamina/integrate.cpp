@@ -24,7 +24,7 @@ SegmentIntegral integral_of(const IntegrationCase& segment) {
                              segment.length);
 }
 
-// 17 significant digits suffice to read every double back unchanged.
+// Returns the results as JSON. 17 significant digits give every double back unchanged.
 std::string text_of(const std::vector<SegmentIntegral>& results) {
     std::string text = "[";
     for (const SegmentIntegral& result : results) {

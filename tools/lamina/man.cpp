@@ -28,7 +28,7 @@ constexpr const char* environment =
     ".TP\n.B LAMINA_INSTRUCTIONS\nKeeps the cpu engine to these instructions: SSE4, AVX2, AVX3 "
     "or NEON. No picture changes.\n";
 
-// Text as roff prints it: no request at the start of a line, hyphens that can be copied.
+// Escapes text for roff: no line begins with a request, and hyphens can be copied.
 std::string roff(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -136,7 +136,7 @@ constexpr const char* opening =
     "(`compare`, `selftest`); 130 and "
     "143 ended by Ctrl-C and SIGTERM.\n\n";
 
-// Text of a table's cell, read as it stands.
+// Escapes text for a cell of a Markdown table, so that it is shown as it is.
 std::string cell(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -146,7 +146,7 @@ std::string cell(const std::string& text) {
     return result;
 }
 
-// Inside of code in a table a bar alone needs care.
+// Returns code for a cell of a Markdown table. In code only a bar must be escaped.
 std::string code(const std::string& text) {
     std::string result = "`";
     for (const char c : text) result += c == '|' ? "\\|" : std::string(1, c);
@@ -172,7 +172,7 @@ std::string usage_line(const CommandDescription& verb) {
     return text;
 }
 
-// --help and --version are the same everywhere.
+// Tells whether every verb has the option: --help and --version are left out of the tables.
 bool is_common(const OptionDescription& option) {
     return std::ranges::any_of(option.names, [](const std::string& name) {
         return name == "--help" || name == "--version";
@@ -192,8 +192,7 @@ std::string section(const CommandDescription& verb) {
     return text;
 }
 
-// Returns all verbs of a program as one page of Markdown (docs/commands.md), which ends with a
-// newline.
+// Returns the Markdown page of all verbs (docs/commands.md), which ends with a newline.
 std::string markdown_page(const CommandDescription& program) {
     std::string text = opening;
     for (const CommandDescription& verb : program.verbs)

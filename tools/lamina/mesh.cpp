@@ -26,7 +26,7 @@
 namespace lamina {
 namespace {
 
-constexpr std::int64_t fewest_tets = 6;  // a box has so many
+constexpr std::int64_t fewest_tets = 6;  // of a box of one cell
 constexpr std::int64_t most_tets = (std::int64_t{1} << 29) - 1;
 
 struct MeshOptions {
@@ -37,14 +37,14 @@ struct MeshOptions {
     RawOptions raw;
 };
 
-// The data that a mesh is made from, and the settings.
+// The volume that a mesh is made from, and how.
 struct MeshTask {
     Volume volume;
     MeshSettings settings;
     std::optional<TransferFunction> transfer_function;
 };
 
-// The output file, or the two files that .node stands for.
+// The output: one .vtu file, or a .node file with its .ele.
 class MeshOutput {
   public:
     explicit MeshOutput(const std::filesystem::path& path) : paths_{path} {
@@ -65,10 +65,10 @@ class MeshOutput {
         } else {
             write_node(*file_, mesh);
             write_ele(*elements_, mesh);
-            file_->complete();  // both are complete before either gets its name
+            file_->complete();  // both files are written before either is renamed
             elements_->complete();
-            // The old .node is removed first. Otherwise a process killed between the two renames
-            // would leave an old .node beside a new .ele, and they would be read as one mesh.
+            // The old .node is removed first: if the process is killed between the two renames, an
+            // old .node beside a new .ele would be read as one mesh.
             std::filesystem::remove(file_->path());
             elements_->commit();
         }

@@ -37,7 +37,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array methods{OrderMethod::mpvo, OrderMethod::exact, OrderMethod::centroid,
                              OrderMethod::none};
-constexpr int timed_sorts = 3;  // of each view, after one that is not timed
+constexpr int timed_sorts = 3;  // for each view, after a sort that is not timed
 constexpr int most_eyes = 10'000, most_pixels = 16'384;
 
 struct OrderOptions {
@@ -67,7 +67,7 @@ Size parse_view_size(const std::string& text) {
 
 struct Input {
     TetMesh mesh;
-    std::optional<Camera> camera;  // the scene's
+    std::optional<Camera> camera;  // the scene's own, if it has one
 };
 
 Input load(const std::string& file) {
@@ -85,15 +85,15 @@ Input load(const std::string& file) {
     return {pipeline.data().mesh(pipeline.scene())->mesh, *pipeline.scene().camera};
 }
 
-// Halton's sequence: the digits of `index`, from 1, to the base are mirrored at the point.
+// Halton's sequence: mirrors the digits of `index` (1, 2, ...) in base `base` at the point.
 double radical_inverse(int index, int base) {
     double value = 0, digit = 1;
     for (; index > 0; index /= base) value += (index % base) * (digit /= base);
     return value;
 }
 
-// The views are in turn from around the mesh, the same without perspective, and from inside its
-// box.
+// Returns the camera of a view. In turn: perspective from outside the mesh, orthographic from
+// there, and perspective from inside its box.
 Camera camera_of(int index, const TetMesh& mesh) {
     const glm::dvec3 extent = mesh.bounds().max - mesh.bounds().min;
     const double diagonal = glm::length(extent);
@@ -103,7 +103,7 @@ Camera camera_of(int index, const TetMesh& mesh) {
     const double ring = std::sqrt(1 - height * height);
     const glm::dvec3 outwards(ring * std::cos(turn), ring * std::sin(turn), height);
     Camera camera;
-    camera.up = {-std::sin(turn), std::cos(turn), 0};  // at a right angle to `outwards`
+    camera.up = {-std::sin(turn), std::cos(turn), 0};  // perpendicular to `outwards`
     camera.center = 0.5 * mesh.bounds().min + 0.5 * mesh.bounds().max;
     camera.eye = camera.center + 1.4 * diagonal * outwards;
     camera.height = diagonal;
@@ -116,12 +116,12 @@ Camera camera_of(int index, const TetMesh& mesh) {
     return camera;
 }
 
-// The results of one way of sorting, over all views.
+// Results of one order method over all views.
 struct Outcome {
     std::vector<double> ms;
     std::int64_t violations = 0;
     OrderPixels pixels;
-    std::int64_t cycles = 0, cyclic_tets = 0;  // the most in one view
+    std::int64_t cycles = 0, cyclic_tets = 0;  // largest numbers in one view
 
     double wrong_share() const {
         return pixels.covered > 0

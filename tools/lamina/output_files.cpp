@@ -19,7 +19,7 @@ namespace {
 
 using Identity = std::pair<dev_t, ino_t>;
 
-// Returns the same identity for all names of a file, and nothing if there is no such file.
+// Returns device and inode of a file, equal for all its names; nothing if there is no such file.
 std::optional<Identity> identity_of(const std::filesystem::path& path) {
     struct stat found = {};
     if (stat(path.c_str(), &found) != 0) return std::nullopt;

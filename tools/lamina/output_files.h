@@ -11,37 +11,35 @@
 
 namespace lamina {
 
-// The name of stdout for outputs, and of stdin for scenes.
+// Name that means stdout for outputs, and stdin for scenes.
 inline constexpr const char* standard_stream = "-";
 
-// The output that an option names: a file, or stdout. Throws Error if it cannot be written.
+// Opens the output that an option names: a file, or stdout. Throws Error if it cannot be written.
 std::unique_ptr<OutputFile> open_named(const std::string& name);
 
-// Throws UsageError if a file that a command writes is one that it reads, or is written twice:
-// by the same name or another, through a link, or as another name of the same bytes on the disk.
-// Empty paths are passed over; "-" is stdout, which can be written once.
+// Throws UsageError if a file that a command writes is also read, or written twice, under any of
+// its names (links included). Empty paths are ignored; "-" is stdout, which can be written once.
 void expect_different_files(const std::vector<std::filesystem::path>& read,
                             const std::vector<std::filesystem::path>& written);
 
-// Checks the folder that a verb will write into, before it reads, computes or writes anything else.
-// Throws UsageError if one of these names in it is a file of `read`, and Error if it is there and
-// the verb did not write it (base/output_file.h), unless `force`.
+// Checks the folder that a verb will write into, before the verb reads, computes or writes
+// anything. Throws UsageError if one of the files `names` in it is in `read`; and, unless `force`,
+// Error if one exists that the verb did not write (base/output_file.h).
 void expect_own_folder(const std::filesystem::path& folder, const std::string& verb,
                        const std::vector<std::string>& names,
                        const std::vector<std::filesystem::path>& read, bool force);
 
-// The help of --force.
+// Text of --force for --help.
 inline constexpr const char* force_help =
     "Replace files of the folder that this verb did not write, but never one that it reads";
 
-// Returns the files that a scene is made of: its own, and those that it names: volume, mesh and
-// colour map.
+// Returns the files that a scene needs: its own, and the volume, mesh and colour map that it names.
 std::vector<std::filesystem::path> files_of(const Scene& scene);
 
 enum class PictureFormat { exr, png, npy };
 
-// Returns the format of `output` (-o): that of its suffix, or `format` (--format) for stdout.
-// Throws UsageError if the two leave it open or contradict each other.
+// Returns the format of `output` (-o): by its suffix, or `format` (--format) for stdout. Throws
+// UsageError if the two do not determine it or contradict each other.
 PictureFormat picture_format(const std::string& output, const std::string& format);
 
 }  // namespace lamina

@@ -36,8 +36,8 @@ std::string found_programs() {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-// Shortens a message, because it may quote a long input. Its beginning says what is wrong and its
-// end what is expected, so both are kept.
+// Shortens a message that may quote a long input. Its beginning says what is wrong and its end what
+// is expected, so both stay.
 std::string of_bounded_length(const std::string& message) {
     constexpr std::size_t most = 2000, most_of_end = 500;  // bytes: far more than any message needs
     if (message.size() <= most) return message;
@@ -49,15 +49,15 @@ int report(const std::string& message, int exit_code) {
     return exit_code;
 }
 
-// Prints a warning once, although a file may be read for many pictures.
+// Prints a warning once, even if several pictures repeat it.
 void print_warning(const std::string& text, std::set<std::string>& printed) {
     if (Progress::is_quiet() || !printed.insert(text).second) return;
     print_message("lamina: warning: {}\n", of_bounded_length(text));
 }
-
-// Memory that stays free until an allocation fails. Destructors of nested JSON values allocate, and
-// an exception that leaves a destructor ends the process: they find this memory while they unwind.
-constexpr std::size_t reserve_bytes = 256 << 10;  // malloc maps it alone, so free() returns it all
+// Memory kept in reserve until an allocation fails. Destructors of nested JSON values allocate, and
+// an exception that leaves a destructor ends the process; while the stack unwinds they use this
+// memory. It is large enough for malloc to map it separately, so that free() returns all of it.
+constexpr std::size_t reserve_bytes = 256 << 10;
 std::atomic<void*> reserve = nullptr;
 
 void release_reserve() {
@@ -65,7 +65,7 @@ void release_reserve() {
     throw std::bad_alloc();
 }
 
-// Names an unknown verb. CLI11 would only say that a subcommand is missing.
+// Throws UsageError for an unknown verb; CLI11 would only say that a subcommand is missing.
 void check_verb(const CLI::App& app, int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') return;
     std::string verbs;
@@ -86,7 +86,7 @@ int run(const Program& program, int argc, char** argv) {
     program.add_verbs(app, exit_code);
     for (CLI::App* const verb : app.get_subcommands({})) {
         verb->set_version_flag("--version", version_text);
-        // A name that says what it is needs no type beside it in --help.
+        // --help shows no type beside positional arguments: their names suffice.
         for (CLI::Option* const option : verb->get_options())
             if (option->get_positional()) option->type_name("");
     }
@@ -105,7 +105,7 @@ int run(const Program& program, int argc, char** argv) {
     return exit_code;
 }
 
-// Does not throw.
+// Runs the verb and reports failures. Does not throw.
 int run_and_report(const Program& program, int argc, char** argv, const SignalStop& signals) {
     std::set<std::string> printed;
     const WarningTaker print = [&](const std::string& text) { print_warning(text, printed); };
@@ -117,7 +117,7 @@ int run_and_report(const Program& program, int argc, char** argv, const SignalSt
     } catch (const Interrupted& interrupted) {
         return report(interrupted.what(), signals.exit_code());
     } catch (const std::bad_alloc&) {
-        std::fputs("lamina: out of memory\n", stderr);  // needs no memory
+        std::fputs("lamina: out of memory\n", stderr);  // allocates nothing
         return 1;
     } catch (const std::exception& error) {
         return report(error_text(error), 1);

@@ -64,15 +64,15 @@ Json event(const Profile::Span& span, std::int64_t start_ns) {
             {"args", counts_of(span)}};
 }
 
-// A profile of the program from its construction on, as a file in Chrome's trace event format,
-// which Perfetto and chrome://tracing open.
+// A profile of the program, from this object's construction, as a file in Chrome's trace event
+// format for Perfetto and chrome://tracing.
 class ProfileFile {
   public:
     // Throws Error if the file cannot be written.
     explicit ProfileFile(const std::string& name) : file_(open_named(name)) {}
 
-    // Writes the file. `title`: of the whole; `context`: what drew. Returns the number of spans
-    // that were too many to be kept, which the file states, too.
+    // Writes the file. `title`: name of the process in it; `context`: what draws. Returns the
+    // number of spans that were not kept because there were too many; the file has it, too.
     std::int64_t write(const std::string& title, const std::string& context);
 
   private:
@@ -86,8 +86,8 @@ std::int64_t ProfileFile::write(const std::string& title, const std::string& con
     if (profile_.spans_left_out() > 0) other["spans_left_out"] = profile_.spans_left_out();
     file_->write("{\"displayTimeUnit\":\"ms\",\"otherData\":" + json_text(other) +
                  ",\"traceEvents\":[\n");
-    // Events are written one after the other: a document of all would take twenty times the memory
-    // of the spans.
+    // Events are written one by one: one JSON document of all would take twenty times the spans'
+    // memory.
     file_->write(json_text(metadata("process_name", Profile::first_row, "name", title)));
     const auto write_event = [&](const Json& event) { file_->write(",\n" + json_text(event)); };
     const auto has_spans = [&](int row) {
@@ -97,7 +97,7 @@ std::int64_t ProfileFile::write(const std::string& title, const std::string& con
     for (int row = 0; row < profile_.row_count(); ++row) {
         if (!has_spans(row)) continue;
         write_event(metadata("thread_name", row, "name", name_of_row(row)));
-        // The row of OpenGL comes below those of the host.
+        // OpenGL's row comes below those of the host's threads.
         const int place = row == Profile::opengl_row ? profile_.row_count() : row;
         write_event(metadata("thread_sort_index", row, "sort_index", place));
     }
@@ -145,7 +145,7 @@ void write_profile(ProfileFile& profile, const RenderOptions& options,
                                      Profile::most_spans, left_out));
 }
 
-// The explanation goes to stdout or, if a file goes to stdout, to stderr, line by line.
+// Prints the explanation to stdout or, if stdout carries a file, to stderr, line by line.
 void print_explanation(const RenderOptions& options, const std::string& explanation) {
     const bool taken = options.output.piped() || options.stats == standard_stream ||
                        options.profile == standard_stream;
@@ -154,7 +154,7 @@ void print_explanation(const RenderOptions& options, const std::string& explanat
     for (std::string line; std::getline(lines, line);) write_message(line + "\n");
 }
 
-// The scene as the command line has it, with its JSON and the steps that --time names.
+// The scene as the command line gives it, with its JSON and the steps of --time.
 struct ReadScene {
     Scene scene;
     nlohmann::json document;
@@ -204,7 +204,7 @@ void say_written(const RenderOptions& options, const Scene& scene, const RunStat
                                  run.picture.drawn_by, took));
 }
 
-// Does one `lamina render`, from the files to the picture and the statistics.
+// Does one `lamina render`: reads the files, draws, writes the picture and the statistics.
 void run(const RenderOptions& options, const RenderExtras& extras) {
     std::optional<ProfileFile> profile;
     if (!options.profile.empty()) profile.emplace(options.profile);

@@ -22,7 +22,7 @@ std::unique_ptr<OutputFile> open_file(const std::string& output) {
     return open_named(output);
 }
 
-// The scene's own picture, and the times of --frames.
+// Output of one picture: the scene's own. With --frames it also times further frames.
 class SinglePicture : public RenderOutput {
   public:
     SinglePicture(const OutputOptions& options, const OutputScene& scene)
@@ -43,13 +43,13 @@ class SinglePicture : public RenderOutput {
         attributes["renderer"] = run.picture.renderer;
         run.picture.counts["clamped_pixels"] = write_picture(picture_, pipeline, image, attributes);
         run.picture.stages_ms["write"] = writing.end();
-        // The picture is that of the first frame.
+        // The picture is the first frame, so writing it counts in first_picture_ms.
         run.first_picture_ms += run.picture.stages_ms["write"];
         return name_;
     }
 
   private:
-    // The camera turns further from frame to frame.
+    // Times frames_ frames, between which the camera turns.
     void time_frames(Pipeline& pipeline, RunStatistics& run) const {
         run.frames_ms.clear();  // the scene's own frame was the warm-up
         const Camera own = *pipeline.scene().camera;

@@ -22,12 +22,12 @@
 
 namespace lamina {
 
-// Additions of a program to the verb `render`; all of them may be empty.
+// Additions of a program to the verb `render`. Each may be empty.
 struct RenderExtras {
-    // Throws if the program cannot draw the scene with that --context.
+    // Throws if the program cannot draw the scene with this --context.
     std::function<void(const Scene& scene, const Auto<ContextChoice>& context)> check;
     FramesMaker make_frames;
-    // Adds to what --stats writes, after the last frame.
+    // Adds keys to the JSON of --stats, after the last frame.
     std::function<void(nlohmann::ordered_json&)> add_statistics;
 };
 
@@ -35,17 +35,17 @@ CLI::App& add_render_with(CLI::App& app, const RenderExtras& extras);
 
 using PictureAttributes = std::map<std::string, std::string>;  // of an EXR file
 
-// A picture that `render -o` writes: a file, or stdout for "-". Made before rendering begins, so
-// that a path that cannot be written fails at once.
+// A picture file of `render -o`, or stdout for "-". It is opened before rendering begins, so that a
+// path that cannot be written fails at once.
 class PictureFile {
   public:
-    // Throws Error, and UsageError if stdout is a terminal.
+    // Throws Error; UsageError if the output is stdout and stdout is a terminal.
     PictureFile(const std::string& output, PictureFormat format);
 
-    // `space`: of image and background. Returns how many pixels had to be clamped (PNG).
+    // `space`: that of image and background. Returns the number of clamped pixels (PNG).
     std::size_t write(const Image& image, const glm::dvec3& background,
                       const PictureAttributes& attributes, ImageColorSpace space);
-    // Writes a picture in double precision, which NPY keeps.
+    // Writes a picture in double precision, which NPY keeps; the other formats round it to float32.
     std::size_t write(const PreciseImage& image, const glm::dvec3& background,
                       const PictureAttributes& attributes, ImageColorSpace space);
 
@@ -56,7 +56,7 @@ class PictureFile {
 
 // Options of `lamina render` for its output.
 struct OutputOptions {
-    std::string output;               // -o; empty: nothing, "-": stdout
+    std::string output;               // -o; empty: no picture, "-": stdout
     std::string format;               // --format
     int frames = 0;                   // --frames; 0: none
     std::optional<double> turn_by;    // --turn-by
@@ -65,37 +65,37 @@ struct OutputOptions {
     bool force = false;               // --force
 
     bool piped() const;
-    void check() const;  // throws UsageError if they contradict one another
+    void check() const;  // throws UsageError if options contradict one another
 };
 
 void add_output_options(CLI::App& verb, OutputOptions& options);
 
-// A scene to be drawn, with the settings of drawing. All of it outlives the output.
+// A scene and how to draw it. The referenced objects must outlive the output.
 struct OutputScene {
-    const Scene& scene;  // as it was read
+    const Scene& scene;  // as read
     const PipelineOptions& how;
-    const Stopwatch& watch;                       // from the start of the run
-    std::function<void(const std::string&)> say;  // to the user
+    const Stopwatch& watch;                       // started with the program
+    std::function<void(const std::string&)> say;  // prints a message for the user
 };
 
-// The pictures that one run writes.
+// Writes the pictures of one `lamina render`.
 class RenderOutput {
   public:
     virtual ~RenderOutput() = default;
-    // Draws and writes the pictures, and returns their names in words. `attributes`: those of the
-    // scene's own picture, except for the renderer. The pipeline has planned.
+    // Draws and writes the pictures, and returns a text that names them. `attributes`: those of the
+    // scene's own picture, without the renderer. The pipeline must have planned.
     virtual std::string draw(Pipeline& pipeline, RunStatistics& run,
                              PictureAttributes attributes) = 0;
 };
 
-// Writes the picture that the pipeline has drawn last: `picture`, or the tracer's, in double
-// precision. Returns the number of pixels that were clamped.
+// Writes the picture that the pipeline drew last: `picture`, or the tracer's in double precision.
+// Returns the number of clamped pixels.
 std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& picture,
                            const PictureAttributes& attributes);
 
-// Opens the output, null if there is none: paths that cannot be written fail at once. `others`:
-// files that are written, too. Throws UsageError if one of them or of the output is a file that
-// the scene reads. `series`: of --time, else null; it outlives the output.
+// Opens the output, so that paths that cannot be written fail at once; returns null if there is
+// none. `others`: further files that are written. Throws UsageError if the scene reads one of the
+// written files. `series`: the steps of --time, or null; it must outlive the output.
 std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const OutputScene& scene,
                                           const DataSeries* series,
                                           std::vector<std::filesystem::path> others);

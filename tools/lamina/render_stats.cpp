@@ -106,7 +106,7 @@ Json to_json(const Work& work) {
     return json;
 }
 
-// Returns the counts of the work that Plan::work predicts.
+// Returns the actual counts that correspond to the predictions of Plan::work.
 Json actual_work(const FrameStatistics& picture, const Plan& plan) {
     Json json = Json::object();
     if (plan.method == Method::slice && picture.native) json["segments"] = picture.fragments;
@@ -116,7 +116,7 @@ Json actual_work(const FrameStatistics& picture, const Plan& plan) {
     return json;
 }
 
-// Measuring the data, facts and trials are one stage here.
+// Returns the stages for --stats, in which the measuring of data, facts and trials are one stage.
 std::map<std::string, double> stages_of(const FrameStatistics& picture) {
     std::map<std::string, double> stages = picture.stages_ms;
     for (const char* const part : {"facts", "trials"}) {
@@ -144,7 +144,7 @@ Json plan_to_json(const Plan& plan) {
     unreachable_enum();
 }
 
-// Views that an earlier run drew may be all that there are.
+// Returns statistics of the times; null without frames, if earlier runs had written all pictures.
 Json times_to_json(const std::vector<double>& frames) {
     if (frames.empty()) return {{"median", nullptr}, {"min", nullptr}, {"max", nullptr}, {"n", 0}};
     return {{"median", median(frames)},
@@ -165,8 +165,8 @@ void keep_largest(const std::map<std::string, std::int64_t>& counts,
 
 void RunStatistics::add(const FrameStatistics& next) {
     if (frames_ms.empty()) {
-        // Stages before the first picture belong to the plan that --stats writes; a later view has
-        // planned again.
+        // Stages before the first picture belong to the plan that --stats writes; later views plan
+        // again.
         std::map<std::string, double> stages = std::move(picture.stages_ms);
         stages.insert(next.stages_ms.begin(), next.stages_ms.end());
         picture = next;

@@ -12,20 +12,20 @@
 
 namespace lamina {
 
-// The statistics of a run of `lamina render` (--stats): those of its first picture, with the
-// largest counts and errors of all pictures, and the times of all.
+// Statistics of one `lamina render` (--stats): those of its first picture, with the largest counts
+// of all pictures, and the times of all frames.
 struct RunStatistics {
-    FrameStatistics picture = {};  // before the first one: of what led to it
+    FrameStatistics picture = {};  // until the first picture: the stages before it
     std::vector<double> frames_ms = {};
     // Time from the start of reading the scene to the written picture, without the frames of
     // --frames.
     double first_picture_ms = 0;
 
-    // Takes the next picture into account.
+    // Adds the next picture's statistics.
     void add(const FrameStatistics& next);
 };
 
-// Raises each of `largest` to the count of its name, if that is larger.
+// Raises each value of `largest` to the count of the same name, if that is larger.
 void keep_largest(const std::map<std::string, std::int64_t>& counts,
                   std::map<std::string, std::int64_t>& largest);
 

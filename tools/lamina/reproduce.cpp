@@ -54,7 +54,7 @@ std::vector<papers::PaperItem<Stage>> chosen_items(
                                  options.item, names_of(items)));
 }
 
-// Returns the files that items may write, the report on them and its page.
+// Returns the names of all files that may be written: those of the items, the report and its page.
 template <typename Stage>
 std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& items,
                                   const std::string& paper) {
@@ -64,7 +64,7 @@ std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& i
     return files;
 }
 
-// Returns those of the items' data files that exist.
+// Returns the items' data files that exist.
 std::vector<std::filesystem::path> data_files() {
     const std::filesystem::path data = papers::KrausStage::data_folder();
     if (data.empty()) return {};
@@ -74,7 +74,7 @@ std::vector<std::filesystem::path> data_files() {
     return files;
 }
 
-// Makes the context when an item first draws, and keeps it.
+// Makes the context and the Stage when an item first draws, and keeps them.
 template <typename Stage>
 class Stagehand {
   public:
@@ -135,7 +135,7 @@ void reproduce(const std::vector<papers::PaperItem<Stage>>& all, const Reproduce
                                           item.name, report.size(), items.size(), folder.string()));
         }
         print_result("{:<14} {}\n", item.name, result["note"].get<std::string>());
-        flush_results();  // now, into a pipe too: items take minutes
+        flush_results();  // at once: an item may take minutes
         const nlohmann::ordered_json panels = papers::take_panels(result);
         page["findings"].push_back({{"anchor", item.name}, {"text", result["in_short"]}});
         page["comparisons"].push_back(papers::page_section(item.name, result, panels, folder));
@@ -149,7 +149,7 @@ void reproduce(const std::vector<papers::PaperItem<Stage>>& all, const Reproduce
     page_file.commit();
 }
 
-// Throws UsageError for words that name no OpenGL context.
+// Returns the OpenGL context of a word. Throws UsageError if it names none.
 gl::ContextKind opengl_kind(const std::string& word) {
     const Auto<ContextChoice> choice = context_choice(word);
     if (choice.is_automatic()) return gl::ContextKind::any;

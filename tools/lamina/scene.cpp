@@ -25,7 +25,8 @@ struct SceneVerbOptions {
     bool quiet = false;
 };
 
-// Data below the scene's folder are named from there, so that both can be moved together.
+// Makes the path relative if the data are below the scene's folder. A path relative to the scene
+// lets both be moved.
 void name_from(const std::filesystem::path& folder, nlohmann::ordered_json& source) {
     if (source.is_object() && source.contains("path")) return name_from(folder, source["path"]);
     if (!source.is_string()) return;
@@ -46,7 +47,7 @@ std::string scene_text(const SceneVerbOptions& options, const Scene& scene,
     return json_text(result, 2) + "\n";
 }
 
-// JSON is UTF-8: with another name the scene would name a file that is not there.
+// Throws Error if the file's name is not UTF-8: JSON is, so the scene would name another file.
 void expect_utf8(const std::filesystem::path& file) {
     const std::string name = file.string();
     if (parse_json(json_text(nlohmann::json(name))) == name) return;

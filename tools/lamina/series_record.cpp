@@ -22,8 +22,7 @@ namespace {
                     pattern, found));
 }
 
-// Returns the directive that begins with the percent sign at `at`: "%%", or a number such as
-// "%04d".
+// Returns the directive that begins with the percent sign at `at`: "%%", or a number like "%04d".
 std::string directive_at(const std::string& pattern, std::size_t at) {
     std::size_t end = at + 1;
     if (pattern[end] == '%') return "%%";
@@ -31,7 +30,7 @@ std::string directive_at(const std::string& pattern, std::size_t at) {
         const auto digit = [&] { return std::isdigit(static_cast<unsigned char>(pattern[end])); };
         ++end;
         if (digit() && pattern[end] != '0') ++end;
-        if (end != at + 3) end = at + 1;  // "%0d" is no number of digits
+        if (end != at + 3) end = at + 1;  // "%0d" has no number of digits
     }
     if (pattern[end] != 'd')
         reject(pattern, fmt::format("found \"{}\"", pattern.substr(at, end - at + 1)));
@@ -40,7 +39,7 @@ std::string directive_at(const std::string& pattern, std::size_t at) {
 
 using Hashes = std::map<std::string, std::string>;
 
-// Returns nothing if the document is not a record of this key.
+// Returns the hashes in the record, or nothing if the document is not a record of this key.
 Hashes hashes_in(const nlohmann::json& document, const std::string& key) {
     if (!document.is_object() || document.value("key", nlohmann::json()) != nlohmann::json(key))
         return {};
@@ -105,7 +104,7 @@ SeriesRecord::SeriesRecord(std::filesystem::path file, std::string key)
     try {
         hashes_ = hashes_in(load_json(file_), key_);
     } catch (const Error&) {
-        hashes_.clear();  // all of the series is drawn again
+        hashes_.clear();  // everything is drawn again
     }
 }
 

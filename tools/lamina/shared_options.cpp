@@ -30,7 +30,7 @@ namespace {
 
 constexpr double least = 1 << 20, most = 0x1p62;
 
-// Bytes, or as many K, M, G or T of 1024.
+// Returns the number of bytes in a text such as "800M": K, M, G and T are powers of 1024.
 double bytes_of(const std::string& text) {
     char* end = nullptr;
     double bytes = std::strtod(text.c_str(), &end);
@@ -60,7 +60,7 @@ double distance_of(const std::string& word, const RawOptions& options) {
     return distance;
 }
 
-// Two numbers with a character between them.
+// Returns two numbers with the character `between` between them.
 template <typename Number>
 std::pair<Number, Number> pair_of(const char* option, const std::string& text, char between,
                                   const char* expected) {
@@ -82,7 +82,7 @@ ValueRange range_of(const std::string& text) {
     return {lo, hi};
 }
 
-// Throws UsageError if the name is neither a map's nor a file's; a damaged file stays an Error.
+// Throws UsageError if the name is neither a map's nor a file's. A damaged file is an Error.
 Colormap colormap_of(const std::string& name_or_path, ImageColorSpace space) {
     try {
         return load_colormap(name_or_path, space);
@@ -108,7 +108,8 @@ void add_memory_option(CLI::App& verb) {
 }
 
 void add_only_below_option(CLI::App& verb) {
-    // The verb runs while its App is there, and the scope with it.
+    // The callback holds the scope, so it lasts as long as the verb's App, that is, while the verb
+    // runs.
     const auto scope = std::make_shared<std::optional<OnlyBelowScope>>();
     verb.add_option_function<std::string>(
             "--only-below",
@@ -173,14 +174,15 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
     document = piped ? load_json_from_stdin() : scene_document(file, request);
     std::vector<std::string> keys;
     const auto apply = [&](const std::string& key, const std::string& value) {
-        // A volume is written as an object if it has more settings than its path.
+        // A volume is an object in JSON if it has other settings than its path.
         const bool of_volume = key.starts_with("volume.") && document.contains("volume");
         if (of_volume && document["volume"].is_string())
             document["volume"] = {{"path", document["volume"]}};
         set_key(document, key, value);
         keys.push_back(key);
     };
-    (void)JsonReader(document, file);  // a scene is an object: keys of a list could not be set
+    // Throws if the document is no object, in which no keys could be set.
+    (void)JsonReader(document, file);
     std::vector<std::string> settings = more;
     settings.insert(settings.end(), options.settings.begin(), options.settings.end());
     for (const std::string& setting : settings) {
@@ -253,8 +255,8 @@ Wishes wishes_of(const ViewOptions& options, ImageColorSpace space) {
     Wishes wishes;
     if (!options.colormap.empty()) {
         Colormap colormap = colormap_of(options.colormap, space);
-        // Positions in files of colour maps are rarely values of data: they are stretched over
-        // these.
+        // Positions in a colour map's file are rarely values of the data, so the map is stretched
+        // over them.
         if (!is_colormap_name(options.colormap)) colormap.own_range = false;
         wishes.transfer.colormap = std::move(colormap);
     }

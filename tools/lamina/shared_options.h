@@ -14,14 +14,13 @@
 
 namespace lamina {
 
-// Adds --memory SIZE, which sets the memory limit (base/memory.h) when the command line is
-// read.
+// Adds --memory SIZE, which sets the memory limit (base/memory.h) when the command line is parsed.
 void add_memory_option(CLI::App& verb);
 
 // Adds --only-below FOLDER: the verb opens no data outside the folder (base/input_file.h).
 void add_only_below_option(CLI::App& verb);
 
-// The layout of a file without a header, from the command line.
+// Options that give the layout of a file without a header.
 struct RawOptions {
     std::string layout;  // "X,Y,Z,TYPE" or "X,Y,Z,TYPE,SX,SY,SZ"; empty: the file has a header
     std::int64_t offset = 0;
@@ -41,19 +40,18 @@ struct SceneOptions {
     RawOptions raw;                     // --raw, of a volume without a header
 };
 
-// Returns the scene of a scene file, or the one that draws a data file
-// (scene_files/scene_reader.h). `more`: settings that other options stand for. `document`:
-// becomes the scene's JSON with all settings. `edit`: changes the document before it is read. A
-// mistake in --set, --method or one of `more` is one of usage (UsageError, exit 2); one in the file
-// is not.
+// Returns the scene of a scene file, or the scene that draws a data file
+// (scene_files/scene_reader.h). `more`: settings that other options stand for. `document`: set to
+// the scene's JSON with all settings. `edit`: changes the document before it is read. A mistake in
+// --set, --method or `more` throws UsageError (exit 2), one in the file Error.
 Scene load_scene(const SceneOptions& options, const std::vector<std::string>& more,
                  nlohmann::json& document, const std::function<void(nlohmann::json&)>& edit = {});
 
-// Returns the scene as a document that load_scene() reads. Its key `render` is that of `document`,
-// with the scene's method.
+// Returns the scene as a document that load_scene() reads. Its `render` is that of `document`, with
+// the scene's method.
 nlohmann::ordered_json document_of(const Scene& scene, const nlohmann::json& document);
 
-// Options that change the look of a picture without JSON.
+// Options that change the view without JSON.
 struct ViewOptions {
     ViewTurn turn;
     double zoom = 1, density = 1;
@@ -62,14 +60,15 @@ struct ViewOptions {
 
 void add_view_options(CLI::App& verb, ViewOptions& options);
 
-// Returns the changes that the options make to the scene. Reads the file of --colormap, if that is
-// given. Throws UsageError.
+// Returns the changes that the options make to the scene. Reads the file of --colormap, if given.
+// Throws UsageError.
 Wishes wishes_of(const ViewOptions& options, ImageColorSpace space);
 
 // Returns the other options as values of --set: "image.width=800".
 std::vector<std::string> settings_of(const ViewOptions& options);
 
-// Returns the scene with transfer function and camera chosen from its volume, whatever it draws.
+// Returns the scene with transfer function and camera chosen for its volume, even if it draws a
+// mesh.
 Choices chosen_by_volume(const Scene& scene);
 
 }  // namespace lamina

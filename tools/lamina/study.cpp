@@ -62,7 +62,8 @@ std::vector<std::filesystem::path> files_read(const std::vector<study::StudyData
     return read;
 }
 
-// Returns the list of the study that the folder belongs to. `begun`: this shard has records in it.
+// Returns the run list in the folder, or nothing if there is none. Throws Error if it is another
+// study's, or, unless `resume`, if this shard has records in it. `begun`: it has.
 std::optional<study::RunList> check_folder(const study::RunList& list,
                                            const study::StudyFolder& folder, bool begun,
                                            bool resume) {
@@ -88,7 +89,7 @@ void say_what_is_left_out(const study::RunList& list, const StudyOptions& option
         say(options, fmt::format("{} runs left out: {}", dropped.runs, dropped.because));
 }
 
-// Prints the amount of work that the file means, before anything runs.
+// Prints the amount of work before it begins.
 void say_what_it_makes(const study::RunList& list, const StudyOptions& options) {
     say(options,
         fmt::format("{}: {} runs of {} scenes, each timed in {} rounds of {} frames", options.study,

@@ -47,7 +47,7 @@ TimeSeries::TimeSeries(const OutputOptions& options, const OutputScene& scene,
     for (const std::string& name : names()) written.push_back(path_of(name));
     expect_different_files(inputs, written);
     expect_own_folder(folder(), series_verb, names(), inputs, force_);
-    // A folder that cannot be written fails at once.
+    // Fails at once if the folder cannot be written.
     if (std::filesystem::exists(folder()))
         const AtomicFile unused(path_of(names_.record_name(series_word)));
 }
@@ -59,13 +59,13 @@ std::vector<std::string> TimeSeries::names() const {
     return names;
 }
 
-// A hash of all that every picture depends on.
+// Hash of what is common to all pictures; see input_of() for the rest.
 std::string TimeSeries::key_of(const PictureAttributes& attributes) const {
     ContentHash hash;
     for (const auto& [name, text] : attributes) hash.add(text);
     const auto of_first = series_.files_of_step(scene_.scene, series_.steps().front());
     for (const std::filesystem::path& file : files_of(scene_.scene)) {
-        // The scene's own text is among the attributes, with what --set changed in it.
+        // The text of the scene file, as --set changed it, is among the attributes.
         if (file != scene_.scene.file && std::ranges::count(of_first, file) == 0)
             hash.add(hash_of_file(file));
     }
@@ -75,7 +75,7 @@ std::string TimeSeries::key_of(const PictureAttributes& attributes) const {
     return hash.hex();
 }
 
-// A hash of what is one step's alone.
+// Hash of what only this step's picture depends on.
 std::string TimeSeries::input_of(std::int64_t step) const {
     ContentHash hash;
     hash.add(static_cast<double>(step));
@@ -87,7 +87,7 @@ std::vector<std::int64_t> TimeSeries::missing(const SeriesRecord& record) const 
     std::vector<std::int64_t> steps;
     for (const std::int64_t step : series_.steps()) {
         check_interrupt();
-        // Input is hashed if a file may be kept.
+        // Hash the input, which is slow, only if the picture exists.
         const bool there = !force_ && std::filesystem::exists(path_of(name_at(step)));
         if (!there || !record.has(name_at(step), input_of(step))) steps.push_back(step);
     }
@@ -96,7 +96,7 @@ std::vector<std::int64_t> TimeSeries::missing(const SeriesRecord& record) const 
 
 TimeSeries::Loaded TimeSeries::load(const Scene& resolved, std::int64_t step) const {
     PipelineOptions how = scene_.how;
-    how.wishes = {};  // they are in the scene already
+    how.wishes = {};  // the resolved scene has their results
     auto pipeline = std::make_unique<Pipeline>(series_.at(resolved, step), SceneData(), how);
     std::string input = input_of(step);
     pipeline->load();

@@ -12,15 +12,15 @@
 
 namespace lamina {
 
-// Pictures of `render --time`: one of each step of the data, all with the transfer function, the
-// camera and the settings of the first step. The next step is read while one is drawn. Pictures
-// that an earlier run wrote of the same scene and data are kept.
+// Pictures of `render --time`: one for each step of the data, with the transfer function, camera
+// and settings chosen for the first step. While a step is drawn, the next one is read. Pictures
+// that an earlier run made from the same scene and data are kept.
 class TimeSeries : public RenderOutput {
   public:
-    // Throws UsageError if the options do not give names and a format of the files.
+    // Throws UsageError if the options give no file names or no format.
     static void check(const OutputOptions& options);
 
-    // Throws as Turntable does.
+    // Throws as Turntable() does.
     TimeSeries(const OutputOptions& options, const OutputScene& scene, const DataSeries& series,
                const std::vector<std::filesystem::path>& read,
                const std::vector<std::filesystem::path>& others);
@@ -28,13 +28,13 @@ class TimeSeries : public RenderOutput {
     std::string draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) override;
 
   private:
-    // A step with its data, read ahead.
+    // A step that was read ahead.
     struct Loaded {
         std::unique_ptr<Pipeline> pipeline;
         std::string input;
     };
 
-    std::vector<std::string> names() const;  // in the folder, the record last
+    std::vector<std::string> names() const;  // in the folder; the last one is the record
     std::string name_at(std::int64_t step) const { return names_.name(static_cast<int>(step)); }
     std::filesystem::path folder() const { return names_.folder().empty() ? "." : names_.folder(); }
     std::filesystem::path path_of(const std::string& name) const { return names_.folder() / name; }

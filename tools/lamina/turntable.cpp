@@ -19,12 +19,12 @@ namespace {
 constexpr const char* turntable_verb = "render --turntable";
 constexpr const char* turntable_word = "turntable";
 
-// A hash of all that the pictures depend on.
+// Returns a hash of everything that the pictures depend on.
 std::string key_of(const OutputScene& of, const PictureAttributes& attributes, int views) {
     ContentHash hash;
     for (const auto& [name, text] : attributes) hash.add(text);
     for (const std::filesystem::path& file : files_of(of.scene)) {
-        // The scene's own text is among the attributes, with what --set changed in it.
+        // The text of the scene file, as --set changed it, is among the attributes.
         if (file != of.scene.file) hash.add(hash_of_file(file));
     }
     hash.add(of.how.omissions.none ? 1.0 : 0.0);
@@ -34,7 +34,7 @@ std::string key_of(const OutputScene& of, const PictureAttributes& attributes, i
     return hash.hex();
 }
 
-// The scene of a view has the view's camera.
+// Returns the text of the scene with a view's camera, for the picture's attributes.
 std::string scene_text_of(const std::string& scene, const Camera& camera) {
     nlohmann::json document = parse_json(scene);
     document["camera"] = camera_json(camera);
@@ -59,7 +59,7 @@ Turntable::Turntable(const OutputOptions& options, const OutputScene& scene,
     for (const std::string& name : names()) written.push_back(path_of(name));
     expect_different_files(read, written);
     expect_own_folder(folder(), turntable_verb, names(), read, force_);
-    // A folder that cannot be written fails at once.
+    // Fails at once if the folder cannot be written.
     if (std::filesystem::exists(folder()))
         const AtomicFile unused(path_of(names_.record_name(turntable_word)));
 }

@@ -11,15 +11,15 @@
 namespace lamina {
 
 // Pictures of `render --turntable`: views around the camera's axis `up` through its centre, at
-// equal angles over 360 degrees, the scene's own first. Views that an earlier run wrote of the same
-// scene and data are kept.
+// equal angles over 360 degrees, beginning with the scene's own. Views that an earlier run made
+// from the same scene and data are kept.
 class Turntable : public RenderOutput {
   public:
-    // Throws UsageError if the options do not give names and a format of the files.
+    // Throws UsageError if the options give no file names or no format.
     static void check(const OutputOptions& options);
 
-    // Throws UsageError if it would replace a file of `read` or write one of `others`, and Error
-    // if a file is there that no turntable wrote, unless options.force.
+    // Throws UsageError if a picture would replace a file of `read` or one of `others`; and, unless
+    // options.force, Error if a file exists that no turntable wrote.
     Turntable(const OutputOptions& options, const OutputScene& scene,
               const std::vector<std::filesystem::path>& read,
               const std::vector<std::filesystem::path>& others);
@@ -27,7 +27,7 @@ class Turntable : public RenderOutput {
     std::string draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) override;
 
   private:
-    std::vector<std::string> names() const;  // in the folder, the record last
+    std::vector<std::string> names() const;  // in the folder; the last one is the record
     std::filesystem::path folder() const { return names_.folder().empty() ? "." : names_.folder(); }
     std::filesystem::path path_of(const std::string& name) const { return names_.folder() / name; }
     std::vector<int> missing(const SeriesRecord& record) const;

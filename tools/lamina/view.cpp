@@ -34,7 +34,7 @@ std::vector<std::string> arguments_of(const ViewVerbOptions& options) {
     return arguments;
 }
 
-// This process becomes the viewer: signals and exit code are its own.
+// Replaces this process by the viewer, which then handles signals and sets the exit code.
 [[noreturn]] void become_viewer(const ViewVerbOptions& options) {
     std::vector<std::string> arguments = arguments_of(options);
     std::vector<char*> pointers;

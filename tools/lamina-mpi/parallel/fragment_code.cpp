@@ -15,8 +15,8 @@
 namespace lamina {
 namespace {
 
-// Returns true if any of `pixels` pixels has a bit that is set. All their bits are joined first,
-// which is faster than a test for each.
+// Returns true if any of `pixels` pixels has a bit that is set. All bits are joined by OR first,
+// which is faster than testing each pixel.
 template <int pixels>
 bool any_shows(const float* row, int column) {
     std::uint64_t words[2 * pixels], any = 0;
@@ -53,8 +53,8 @@ float share_of(Code code) {
     return static_cast<float>(code) * (1.0f / std::numeric_limits<Code>::max());
 }
 
-// Formats: the bytes of a pixel, and how it is encoded and decoded. `largest`: the rows' largest
-// colour, of which codes are shares.
+// The formats: bytes of a pixel, and how it is encoded and decoded. `largest`: largest colour in
+// the rows; codes are shares of it.
 struct Float32 {
     static constexpr bool has_codes = false;
     static constexpr std::size_t size = 16;
@@ -141,8 +141,8 @@ void with_format(FragmentFormat format, const Use& use) {
     unreachable_enum();
 }
 
-// Unsigned numbers with 7 bits in a byte, lowest first; a byte's highest bit says that more follow.
-// 32 bits need up to 5 bytes.
+// Numbers are stored with 7 bits in each byte, lowest first. A byte's highest bit tells that more
+// bytes follow. 32 bits need up to 5 bytes.
 constexpr std::size_t most_number_bytes = 5;
 std::byte* write_number(std::uint32_t number, std::byte* to) {
     for (; number >= 0x80; number >>= 7) *to++ = std::byte(number | 0x80);
@@ -158,8 +158,7 @@ std::uint32_t read_number(const std::byte*& from) {
     }
 }
 
-// The largest colour that is not associated, at least 1: colours above 1 have associated values
-// above the opacity.
+// Returns the largest colour (not associated), at least 1.
 float largest_color(const Image& picture, const ActiveRuns& runs, const RowSpan& rows) {
     float largest = 1;
     for (int row = rows.first; row < rows.end; ++row) {
@@ -174,7 +173,7 @@ float largest_color(const Image& picture, const ActiveRuns& runs, const RowSpan&
     return largest;
 }
 
-// Encodes a row, which ends with a run of no pixels.
+// Encodes a row. A run of no pixels ends it.
 template <typename Format>
 std::byte* encode_row(const Image& picture, const ActiveRuns& runs, int row, float largest,
                       std::byte* to) {
@@ -221,7 +220,7 @@ std::vector<RowSpan> divide_rows(const std::vector<std::int64_t>& weights, const
     int row = rows.first;
     for (int i = 0; i < count; ++i) {
         RowSpan span{row, row};
-        // A row belongs to the span in which its middle lies.
+        // A row belongs to the span that contains its middle.
         const auto ends_in = [&](std::int64_t weight) {
             return i + 1 == count || (2 * sum + weight) * count < 2 * all * (i + 1);
         };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of ranks as bytes for other ranks: pixels that show nothing are not sent.
+// Encodes pictures for transfers between ranks. Pixels that show nothing are not sent.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace lamina {
 
-// Formats in which pixels travel between ranks.
+// Formats of pixels between ranks; --wire chooses one.
 enum class Wire {
-    float32,  // 16 bytes a pixel: nothing is lost
+    float32,  // 16 bytes a pixel, no loss
     half,     // 8 bytes: four halves, associated
-    coded,    // 5 bytes, then 8: docs/cluster.md
+    coded,    // 5 bytes in the first transfer, 8 in later ones: docs/cluster.md
 };
 
 const char* name_of(Wire wire);
-Wire wire_of(const std::string& word);  // throws UsageError if it is none of these
+Wire wire_of(const std::string& word);  // throws UsageError for another word
 
 struct RowSpan {
     int first = 0, end = 0;
@@ -41,7 +41,7 @@ class ActiveRuns {
 
     ActiveRuns(const Image& picture, const RowSpan& rows);
 
-    // The runs of a row, from left to right.
+    // Return the runs of a row, from left to right.
     const Run* begin(int row) const { return runs_.data() + starts_[place(row)]; }
     const Run* end(int row) const { return runs_.data() + starts_[place(row) + 1]; }
 
@@ -59,19 +59,19 @@ enum class FragmentFormat {
     float32,  // associated RGBA, 16 bytes
     half,     // associated RGBA rounded to half, 8 bytes
     fixed16,  // associated RGBA as codes of 16 bits, 8 bytes
-    // RGB, not associated, as codes of 8 bits, and opacity as a code of 16 bits: 5 bytes. The
-    // weights of fragments in a pixel add up to 1 at most, so the pixel is off by at most half a
-    // code of 8 bits, however many fragments there are.
+    // Colour, not associated, as codes of 8 bits, and opacity as a code of 16 bits: 5 bytes. The
+    // weights of the fragments in a pixel add up to at most 1, so the pixel is off by at most half
+    // a code of 8 bits, however many fragments it has.
     fixed8,
 };
 
 // Writes rows as bytes: first the largest colour, of which codes are shares; then each row's runs,
-// each as its length, the number of pixels left out before it, and its pixels. `runs`: runs of at
-// least these rows.
+// each as its length, the number of hidden pixels before it, and its pixels. `runs`: those of these
+// rows at least.
 void encode_rows(const Image& picture, const ActiveRuns& runs, const RowSpan& rows,
                  FragmentFormat format, std::vector<std::byte>& bytes);
 
-// Composites rows behind the picture that `front` already has there.
+// Composite rows behind the rows that `front` already has.
 void put_rows_behind(const std::vector<std::byte>& bytes, const RowSpan& rows,
                      FragmentFormat format, Image& front);
 void put_rows_behind(const Image& picture, const ActiveRuns& runs, const RowSpan& rows,

@@ -26,7 +26,7 @@
 namespace lamina {
 namespace {
 
-// A scene of a volume and its omissions as texts, which rank 0 sends to the others.
+// A scene of a volume and its omissions as texts that rank 0 broadcasts to the other ranks.
 class SceneMessage {
   public:
     SceneMessage() = default;  // on the other ranks, before it arrives
@@ -36,7 +36,7 @@ class SceneMessage {
 
     Scene scene() const;  // throws Error
     OmissionSwitch omissions() const;
-    // Folder that the data must be in (base/client.h); empty: anywhere.
+    // Returns the folder that data must be in (base/client.h); empty: any.
     const std::string& only_below() const { return only_below_; }
 
   private:
@@ -47,7 +47,7 @@ class SceneMessage {
     std::string only_below_;
 };
 
-// A command of rank 0 to the others, sent as bytes. A comment names the kinds that use a member.
+// A command of rank 0 to the others, sent as bytes. The comments name the kinds that use a member.
 struct Command {
     enum class Kind { open, draw, close, end };
 
@@ -99,8 +99,8 @@ void send(const Ranks& ranks, Command command) {
     MPI_Wait(&request, MPI_STATUS_IGNORE);
 }
 
-// Waits for a command, which may take minutes while rank 0 reads data. It sleeps, because MPI's own
-// waiting takes a whole processor, which other ranks need.
+// Waits for a command, which may take minutes while rank 0 reads data. Sleeps between tests,
+// because MPI's own wait would occupy a processor that other ranks need.
 Command next_command(const Ranks& ranks) {
     Command command;
     MPI_Request request = MPI_REQUEST_NULL;
@@ -133,7 +133,7 @@ class Follower {
   public:
     explicit Follower(const Ranks& ranks) : ranks_(ranks) {}
 
-    // Carries out a command. Returns false if it was the last.
+    // Carries out a command. Returns false after the last one.
     bool follow(const Command& command) {
         switch (command.kind) {
             case Command::Kind::open: {
@@ -162,7 +162,7 @@ class Follower {
   private:
     const Ranks& ranks_;
     std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();
-    std::filesystem::path only_below_;  // for all scenes: the program has one command line
+    std::filesystem::path only_below_;  // the same for all scenes of a command line
     std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
 };
 
@@ -213,7 +213,7 @@ void run_follower(const Ranks& ranks) {
         try {
             if (!follower.follow(command)) return;
         } catch (const Error&) {
-            // All ranks know of the error, and rank 0 decides what follows.
+            // All ranks know of the error (agree()), and rank 0 decides what follows.
         }
     }
 }

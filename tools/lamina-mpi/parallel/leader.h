@@ -14,7 +14,7 @@
 namespace lamina {
 
 // Directs the other ranks from rank 0: they open every scene that it opens and draw every frame
-// with it (run_follower()), until it is destroyed.
+// with it (run_follower()), until the Leader is destroyed.
 class Leader {
   public:
     explicit Leader(const Ranks& ranks) : ranks_(ranks) {}
@@ -23,16 +23,17 @@ class Leader {
     ~Leader();
 
     const Ranks& ranks() const { return ranks_; }
-    void set_wire(Wire wire) { wire_ = wire; }  // for scenes that are opened later
+    void set_wire(Wire wire) { wire_ = wire; }  // for scenes opened from now on
 
-    // Opens a scene on all ranks and returns its number. `data`: rank 0's; the other ranks load the
-    // scene's data themselves. Throws Error if ranks cannot share the scene or one of them fails.
+    // Opens a scene on all ranks and returns its number. `data`: used by rank 0; the other ranks
+    // load the scene's data themselves. Throws Error if ranks cannot share the scene or if one of
+    // them fails.
     int open(const Scene& scene, SceneData data, const OmissionSwitch& omissions, bool many_frames);
     SharedRenderer& renderer(int scene) { return *renderers_.at(scene); }
-    // Draws a frame on all ranks, with another camera or as before.
+    // Draws a frame on all ranks; `camera`: replaces the last one.
     void draw(int scene, const std::optional<Camera>& camera = {});
     void close(int scene);
-    // Reports of all ranks on the first frame; empty before it.
+    // Returns the reports of all ranks on the first frame; empty before it.
     const std::vector<RankReport>& first_reports() const { return first_reports_; }
 
   private:
@@ -44,8 +45,8 @@ class Leader {
     std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
 };
 
-// Does what rank 0's Leader commands until that is destroyed. If a step fails on any rank
-// (agree()), rank 0 prints why, and its exit code is that of the job.
+// Carries out the commands of rank 0's Leader until that is destroyed. If a step fails on any rank
+// (agree()), rank 0 prints the reason, and its exit code is the job's.
 void run_follower(const Ranks& ranks);
 
 }  // namespace lamina

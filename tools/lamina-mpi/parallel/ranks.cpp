@@ -62,7 +62,7 @@ RankResources::RankResources(const Ranks& ranks) {
                         &machine);
     int count = 1;
     MPI_Comm_size(machine, &count);
-    // All ranks get the smallest limit, so that a volume is in memory on all of them or on none.
+    // All ranks get the smallest limit, so that a volume is in memory on all ranks or on none.
     std::uint64_t memory = memory_limit() / static_cast<unsigned>(count);
     MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_UINT64_T, MPI_MIN, ranks.comm());
     set_default_memory_limit(memory);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MPI, which only this room and the program lamina-mpi use. An error of MPI ends the whole job,
-// which is MPI's default.
+// MPI, which only this folder and the program lamina-mpi use. An error of MPI ends the whole job,
+// as is MPI's default.
 #pragma once
 
 #include <mpi.h>
@@ -13,7 +13,7 @@
 
 namespace lamina {
 
-// The processes of a job, as one of them sees them.
+// The ranks (processes) of a job, as one of them sees them.
 class Ranks {
   public:
     explicit Ranks(MPI_Comm comm);
@@ -23,7 +23,7 @@ class Ranks {
     int count() const { return count_; }
     bool leads() const { return number_ == 0; }
 
-    // Gives all ranks the text that one of them has.
+    // Sends the text of rank `from` to all ranks.
     void broadcast(std::string& text, int from = 0) const;
 
   private:
@@ -31,18 +31,17 @@ class Ranks {
     int number_ = 0, count_ = 1;
 };
 
-// Does a step of the job on every rank and waits for the others. `work` must not wait for another
-// rank. If it throws on any rank, this function throws on all of them: on rank 0 its own exception,
-// or an Error with the message and the number of the first rank that failed; on the others an
-// Error.
+// Calls work() on every rank and waits for the others. `work` must not wait for other ranks. If it
+// throws on any rank, this function throws on all of them: on rank 0 its own exception, or an Error
+// with message and number of the first rank that failed; on the others an Error.
 void agree(const Ranks& ranks, const std::function<void()>& work);
 
-// Does a step in which ranks wait for one another. If it throws on one rank, the others would wait
-// forever; so the whole job ends with a message.
+// Calls work(), in which ranks wait for one another. If it throws on one rank, the others would
+// wait forever, so the whole job ends with a message.
 void do_or_abort(const Ranks& ranks, const std::function<void()>& work);
 
-// Limits this rank to its part of the machine's memory, and its threads, while it lives, to its
-// part of the processors: ranks on the same set of processors divide these among themselves.
+// Limits this rank to its share of the machine's memory and, while it lives, to its share of the
+// processors: ranks with the same set of processors divide it among them.
 class RankResources {
   public:
     explicit RankResources(const Ranks& ranks);

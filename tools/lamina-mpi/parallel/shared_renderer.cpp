@@ -18,7 +18,7 @@
 namespace lamina {
 namespace {
 
-// Rows that get one weight together: all ranks exchange the weights, and 8 rows make these few.
+// Number of rows with a common weight: all ranks exchange weights, and with 8 rows these are few.
 constexpr int band = 8;
 
 void clear_rows(const RowSpan& rows, Image& image) {
@@ -26,7 +26,7 @@ void clear_rows(const RowSpan& rows, Image& image) {
         std::fill(image.pixel(0, rows.first), image.pixel(0, rows.end), 0.0f);
 }
 
-// Formats of the first way of a pixel from rank to rank, and of later ways (docs/cluster.md).
+// Return the formats of a pixel's first transfer, and of later ones (docs/cluster.md).
 FragmentFormat first_format(Wire wire) {
     if (wire == Wire::coded) return FragmentFormat::fixed8;
     return wire == Wire::half ? FragmentFormat::half : FragmentFormat::float32;
@@ -41,7 +41,8 @@ void add(const IndexBox& box, std::string& text) {
         text += fmt::format(" {:a} {:a} {:a}", corner.x, corner.y, corner.z);
 }
 
-// A hash of all that the renderers of one picture must have in common: the plan, and their shares.
+// Returns a hash of what the renderers of one picture must have in common: the plan, and the
+// shares.
 std::string digest_of(const SlicePlan& plan, const std::vector<IndexBox>& shares) {
     const TableRequest& table = plan.table.request;
     std::string text = fmt::format(
@@ -63,8 +64,8 @@ std::string digest_of(const SlicePlan& plan, const std::vector<IndexBox>& shares
          scene.file.string(), key, found, expected);
 }
 
-// OVER is associative in float only: rounding to codes depends on compositing slab after slab, from
-// the first to the last.
+// Returns the scene. Throws Error if ranks cannot share it. OVER is associative only in floats:
+// with rounding to codes the result depends on compositing slab after slab in order.
 Scene checked(Scene scene) {
     if (scene.target.value_or(Target::float32) != Target::float32)
         refuse(scene, "render.target", name_of(scene.target), "float32");
@@ -76,8 +77,8 @@ Scene checked(Scene scene) {
 
 }  // namespace
 
-// Says which rank composites which rows. Groups are ranks that are contiguous in depth. Rows are
-// divided among the members of a group; the rows of one member are divided again among the groups.
+// Tells which rank composites which rows. Groups are ranks that are contiguous in depth. Rows are
+// divided among the members of a group, and the rows of one member again among the groups.
 class PictureComposer::Layout {
   public:
     Layout(const std::vector<int>& order, const std::vector<std::int64_t>& weights,
@@ -95,7 +96,7 @@ class PictureComposer::Layout {
 
     int groups() const { return groups_; }
 
-    // Transfers within the group of a rank.
+    // Returns the transfers within the group of a rank.
     std::vector<Transfer> in_group(int rank) const {
         const auto place = std::ranges::find(order_, rank) - order_.begin();
         const int group = static_cast<int>(place) / size_;
@@ -135,7 +136,7 @@ class PictureComposer::Layout {
     int rank_of(int group, int member) const {
         return order_[static_cast<std::size_t>(group * size_ + member)];
     }
-    // The last group may have fewer members.
+    // Returns the rank that composites `part` in a group; the last group may have fewer members.
     int owner(int group, int part) const { return rank_of(group, part % members(group)); }
     const std::vector<RowSpan>& rows_of(int part) const {
         return rows_[static_cast<std::size_t>(part)];
@@ -146,7 +147,7 @@ class PictureComposer::Layout {
 
     const std::vector<int>& order_;
     int size_ = 1, groups_ = 1;
-    std::vector<std::vector<RowSpan>> rows_;  // by part of a group, then by group
+    std::vector<std::vector<RowSpan>> rows_;  // by part, then by group
 };
 
 void PictureComposer::compose(const std::vector<int>& order, Image& picture) {

@@ -52,7 +52,7 @@ std::string text_without_view(Scene scene) {
     return scene_text(scene);
 }
 
-// RFC 4180: a cell with a comma, a quote or the end of a line is put in quotes.
+// Returns a cell of CSV. RFC 4180: a cell with a comma, a quote or a line end is put in quotes.
 std::string quoted(const std::string& cell) {
     if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
     std::string text(1, '"');
@@ -61,7 +61,7 @@ std::string quoted(const std::string& cell) {
     return text;
 }
 
-// Cells of what is not known are empty.
+// Returns a row of CSV; unknown numbers are empty cells.
 std::string csv_row(const Attempt& row) {
     const bool measured = row.share_measured > 0;
     const auto number = [](double value) { return fmt::format("{:.6g}", value); };

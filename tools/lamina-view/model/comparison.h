@@ -13,19 +13,19 @@
 
 namespace lamina::view {
 
-// a - b, of pictures of one size.
+// Returns a - b for pictures of equal size.
 PictureDifference difference_of(const Image& a, const Image& b);
 // Returns the signed difference of one pixel (red, green, blue and opacity) in the channel in which
 // it is largest.
 float largest_difference(const float* a, const float* b);
 
-// Returns the largest |e|, rounded up to 1, 2 or 5 times a power of ten: a scale that the whole
-// difference fits into. Pictures that are equal get the smallest one.
+// Returns the largest |e| rounded up to 1, 2 or 5 times a power of ten, as the end of a scale; at
+// least smallest_range.
 double fitting_range(const PictureDifference& difference);
 inline constexpr double smallest_range = 1e-4;
 
-// Tells whether pictures of both scenes show the same from the same place, pixel by pixel; they do
-// not if a camera is not chosen yet.
+// Tells whether pictures of both scenes show the same view, pixel by pixel; false if a camera is
+// automatic.
 inline bool same_view(const Scene& a, const Scene& b) {
     if (a.camera.is_automatic() || b.camera.is_automatic()) return false;
     const Camera &from = *a.camera, &to = *b.camera;
@@ -34,44 +34,43 @@ inline bool same_view(const Scene& a, const Scene& b) {
            from.fov_y == to.fov_y && from.height == to.height;
 }
 
-// The picture A beside the edited picture B: a pinned picture, or as much of B as the tracer has
-// drawn so far.
+// The picture A to compare the edited picture B with: a pinned picture, or the tracer's picture of
+// B as far as it is drawn.
 enum class CompareWith { pinned, truth };
 enum class CompareBy { nothing, flip, wipe, side_by_side, difference };
 
-// A comparison of two pictures, both of them full: while B moves there is nothing to compare.
+// A comparison of two full pictures. While B moves, nothing is compared.
 class Comparison {
   public:
     CompareWith with = CompareWith::pinned;
     CompareBy by = CompareBy::nothing;
-    bool flipped = false;         // CompareBy::flip: the other picture is seen
-    double wipe = .5;             // of the picture's width, left of which the other one is seen
-    std::optional<double> range;  // of the difference's colours, in 1/255; none: what fits
-    float strength = 1;           // of these colours over the picture, 0 to 1
+    bool flipped = false;         // CompareBy::flip: A is shown in place of B
+    double wipe = .5;             // share of the picture's width that shows A, from the left
+    std::optional<double> range;  // end of the colour scale, in 1/255; none: fitting_range()
+    float strength = 1;           // opacity of these colours over the picture, 0 to 1
 
-    // Makes the full picture that is shown, which is of this scene, A.
+    // Pins the full picture that is shown, of this scene, as A.
     void pin(const Scene& scene, const Shown& shown);
     void unpin();
-    // Exchanges the places of the two pictures.
+    // Shows A in place of B, or B again.
     void flip();
-    void next_way();  // of CompareBy, but for flip
+    void next_way();  // the next CompareBy, without flip
     void next_with();
     const std::shared_ptr<const PinnedPicture>& pinned() const { return pinned_; }
 
-    // Takes the pictures to show: A, if it was drawn again, and B.
+    // Takes the pictures to compare: A, if it was drawn again, and B.
     void follow(const Shown& shown);
-    // Reason why there is nothing to be seen beside B; empty if there is.
+    // Returns why nothing can be compared with B; empty if something can.
     const std::string& missing() const { return missing_; }
     bool active() const { return by != CompareBy::nothing && missing_.empty(); }
 
-    // Pictures and difference that follow() found; null if there are none.
+    // Return the pictures and the difference that follow() found, or null.
     const std::shared_ptr<const ScreenPicture>& other() const { return other_; }
     const std::shared_ptr<const ScreenPicture>& edited() const { return edited_; }
     const std::shared_ptr<const PictureDifference>& difference() const { return difference_; }
-    ErrorNorms norms() const { return norms_; }  // of the difference: B less the other one
-    double shown_range() const;                  // `range`, or what fits
-    // The difference in false colours (lamina::difference_codes), as far as it is known; elsewhere
-    // B.
+    ErrorNorms norms() const { return norms_; }  // of B minus the other picture
+    double shown_range() const;                  // `range`, or the fitting one
+    // Returns the difference in false colours (lamina::difference_codes); where it is not known, B.
     std::shared_ptr<const ScreenPicture> colors();
 
   private:

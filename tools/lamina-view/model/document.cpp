@@ -39,7 +39,7 @@ bool same_camera(const Camera& a, const Camera& b) {
            a.fov_y == b.fov_y && a.height == b.height;
 }
 
-// Only a session that is begun again reads other data.
+// Tells whether both scenes use the same data; other data need a new session.
 bool same_data(const Json& a, const Json& b) {
     for (const char* key : {"volume", "scalar", "nan"})
         if (setting_at(a, key) != setting_at(b, key)) return false;
@@ -84,7 +84,7 @@ void Document::open(Scene scene) {
     dirty_ = false;
 }
 
-// Opacities are shown for the length that the scene has them for.
+// Takes the scene's transfer function into the editor, and shows opacities for its own length.
 void Document::take_transfer_function() {
     if (scene_.transfer_function.is_given()) transfer_.take(*scene_.transfer_function);
     for (const DensityPoint& point : transfer_.curves().density)
@@ -123,7 +123,7 @@ void Document::transfer_edited(const std::string& name) {
     if (transfer_.curves() == curves_ && scene_.transfer_function.is_given()) return;
     record(name);
     curves_ = transfer_.curves();
-    // The function may be unchanged although its points are others.
+    // Points may differ although the function is the same.
     if (scene_.transfer_function == transfer_.function()) return;
     scene_.transfer_function = transfer_.function();
     ++revisions_.transfer_function;

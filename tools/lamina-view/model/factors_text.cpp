@@ -23,7 +23,7 @@ std::string trimmed(const std::string& text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// A list, or a text that the scene's reader knows.
+// Returns the factors as a list, or as a text that the scene's reader understands.
 Json factors_json(const std::string& text) {
     if (text.front() != '[') return text;
     Json list = Json::parse(text, nullptr, false);
@@ -55,7 +55,8 @@ Scene with_factors(const Scene& scene, const std::string& text) {
     if (given_tree(tree_of(scene)) != nullptr)
         return with_setting(scene, path + ".factors", factors);
     Json group = {{"factors", factors}};
-    if (scene.method == Method::project) group["nodes"] = "fixed";  // tets have no others
+    // Trees of tets have no other nodes.
+    if (scene.method == Method::project) group["nodes"] = "fixed";
     return with_setting(scene, path, group);
 }
 

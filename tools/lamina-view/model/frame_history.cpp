@@ -48,8 +48,8 @@ const std::vector<std::string>& FrameHistory::stage_names() {
     return names;
 }
 
-// A stage keeps the time of its last run: it ran for this picture if that differs from the time
-// before. Tables and upload are a part of setting up.
+// Statistics keep the last time of each stage: a stage was done for this picture if its time
+// differs from the one before. Tables and upload are contained in set_up.
 void FrameHistory::add(const FrameStatistics& statistics, bool moving) {
     std::map<std::string, double> done;
     for (const auto& [stage, ms] : statistics.stages_ms) {
@@ -66,7 +66,8 @@ void FrameHistory::add(const FrameStatistics& statistics, bool moving) {
     double known = 0;
     for (const std::string& stage : stage_names()) {
         if (!done.contains(stage)) continue;
-        // Threads overlap, and clocks are read one after the other: no stage goes beyond the whole.
+        // Threads overlap, and clocks are read one after another, so stages are cut to the total
+        // time.
         const double ms = std::min(done[stage], cost.ms - known);
         if (ms > 0) cost.stages.emplace_back(stage, ms);
         known += std::max(ms, 0.0);

@@ -16,15 +16,14 @@
 
 namespace lamina::view {
 
-// Time and memory of a picture. The stages are those that were done for it, and add up to the
-// whole.
+// Time of a picture, and of the stages that were done for it, which add up to it.
 struct FrameCost {
     double ms = 0;
     bool moving = false;
-    std::vector<std::pair<std::string, double>> stages;  // ms, in the order in which they are done
+    std::vector<std::pair<std::string, double>> stages;  // ms, in the order of the work
 };
 
-// The cost of the last pictures.
+// The costs of the last pictures.
 class FrameHistory {
   public:
     static constexpr std::size_t most_frames = 240;
@@ -32,9 +31,9 @@ class FrameHistory {
     void add(const FrameStatistics& statistics, bool moving);
     const std::deque<FrameCost>& frames() const { return frames_; }  // the oldest first
     double longest_ms() const;                                       // of frames()
-    double median_ms(bool moving) const;                             // 0 if there are none
+    double median_ms(bool moving) const;                             // 0 if there is none
 
-    // Returns the names of all stages, in the order in which they run.
+    // Returns the names of all stages, in the order of the work.
     static const std::vector<std::string>& stage_names();
 
   private:
@@ -42,25 +41,25 @@ class FrameHistory {
     std::map<std::string, double> last_;  // FrameStatistics::stages_ms
 };
 
-// Known errors and times of pictures: of the current one, of earlier ones, and of the one beside
-// it.
+// Errors and times of pictures: of the current one, of earlier ones, and of the one that is
+// compared.
 class PrecisionInSight {
   public:
     Attempts attempts;
     FrameHistory frames;
     Comparison comparison;
 
-    // Takes the pictures that are shown.
+    // Takes the pictures that are shown now.
     void follow(const Document& document, const Shown& shown);
-    // Makes the picture that is shown A. Does nothing if it is not that of the document.
+    // Pins the picture that is shown as A, if it shows the document.
     void pin(const Document& document, const Shown& shown);
-    // Continues with other settings, in the current view or in that of the scene.
+    // Continues with another scene's settings, in the current view or in that scene's.
     static void go_on_with(Document& document, Scene scene, bool keep_view);
 
   private:
     static bool is_of(const Document& document, const Shown& shown);
 
-    Revisions recorded_;  // of the newest attempt
+    Revisions recorded_;  // revisions of the newest attempt
     std::uint64_t last_frame_ = 0;
 };
 

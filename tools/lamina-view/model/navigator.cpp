@@ -10,10 +10,11 @@ namespace lamina::view {
 namespace {
 
 constexpr double double_click_seconds = .4, double_click_reach = 5;
-constexpr double step_seconds = .2;    // after a step another one may follow
-constexpr double zoom_of_wheel = .88;  // for a step of the wheel
-constexpr double zoom_of_height = 4;   // e to this, for a drag over the picture's height
-constexpr double fly_share = .02;      // of the data's diagonal, for each step
+// A step counts as motion for so long, since another may follow.
+constexpr double step_seconds = .2;
+constexpr double zoom_of_wheel = .88;  // factor of the view's height for one step of the wheel
+constexpr double zoom_of_height = 4;   // a drag over the picture's height zooms by e to this
+constexpr double fly_share = .02;      // length of a step, as a share of the data's diagonal
 
 double distance_of(const Camera& camera) {
     return glm::length(camera.center - camera.eye);
@@ -202,7 +203,7 @@ Camera orbited(const Camera& camera, const glm::dvec2& drag) {
     const glm::dvec3 pole = glm::normalize(camera.up);
     glm::dvec3 back = (camera.eye - camera.center) / distance;
     const double from_pole = std::acos(std::clamp(glm::dot(back, pole), -1.0, 1.0));
-    // A camera that is closer to the pole already stays as close.
+    // A camera that is already closer to the pole may stay as close.
     const double closest = std::min({least, from_pole, pi - from_pole});
     const double wanted = std::clamp(from_pole + pi * drag.y, closest, pi - closest);
     back = turned_about(axes_of(camera).right, back, wanted - from_pole);

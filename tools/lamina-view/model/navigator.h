@@ -17,40 +17,42 @@ namespace lamina::view {
 
 enum class PointerButton { left, right, middle };
 
-// Keys have GLFW's numbers: letters and digits those of their capital letters in ASCII.
+// Keys have GLFW's numbers; those of letters and digits are the ASCII codes of capital letters and
+// digits.
 namespace key {
 constexpr int escape = 256, enter = 257, tab = 258, right = 262, left = 263, down = 264, up = 265,
               home = 268;
 }
 
-// An input of a user.
+// An input of the user.
 struct InputEvent {
     enum class Kind { pointer, press, release, wheel, key, character, drop };
     Kind kind = Kind::pointer;
-    double seconds = 0;   // when
-    glm::dvec2 place{0};  // of the pointer in the window; wheel: steps to the right and up
+    double seconds = 0;   // time of the input
+    glm::dvec2 place{0};  // of the pointer in the window; of the wheel: steps to the right and up
     PointerButton button = PointerButton::left;
-    int key = 0;             // pressed, or repeated
+    int key = 0;             // pressed or repeated
     unsigned character = 0;  // Unicode
     bool shift = false, control = false;
     std::vector<std::filesystem::path> files = {};  // dropped
 };
 
-// Rectangle of the picture in the window, in units of the pointer, from the upper left corner.
+// Rectangle of the picture in the window, in units of the pointer, from the window's upper left
+// corner.
 struct PictureArea {
     glm::dvec2 corner{0};
     glm::dvec2 size{1};
-    int columns = 1;  // pixels of the picture across
+    int columns = 1;  // width of the picture in pixels
 
     bool contains(const glm::dvec2& place) const {
         const glm::dvec2 inside = place - corner;
         return inside.x >= 0 && inside.y >= 0 && inside.x < size.x && inside.y < size.y;
     }
-    // Returns the pixel at a place; a pixel's centre has whole numbers.
+    // Returns the pixel at a place; pixel centres have whole numbers.
     glm::dvec2 pixel(const glm::dvec2& place) const {
         return (place - corner) * (columns / size.x) - glm::dvec2(.5);
     }
-    // Returns a place in shares of the height from the middle, to the right and up.
+    // Returns the place in heights of the picture, from its middle to the right and up.
     glm::dvec2 share(const glm::dvec2& place) const {
         const glm::dvec2 from_middle = place - corner - .5 * size;
         return {from_middle.x / size.y, -from_middle.y / size.y};
@@ -61,23 +63,24 @@ struct PictureArea {
 // Moves the camera by pointer and keys.
 class CameraControl {
   public:
-    // Surroundings of the camera in the window. `probe`: null while there is no picture.
+    // Surroundings of the camera: the picture's area, the data, and a probe (null without a
+    // picture).
     struct Around {
         PictureArea area;
         Grid::Bounds bounds;  // of the data
         const PointProbe* probe = nullptr;
     };
 
-    // Returns true if the event was for the camera. Does nothing while the camera is still to be
-    // chosen from the data.
+    // Returns true if the event moved the camera or began or ended a drag. Does nothing while the
+    // camera is automatic.
     bool handle(const InputEvent& event, const Around& around, Document& document);
-    // Returns true while the camera is dragged, and for a moment after steps.
+    // Returns true while the camera is dragged, and for a moment after each step.
     bool moving(double seconds) const { return dragging_ || seconds < steps_until_; }
-    std::optional<double> rest_at() const;  // when steps are over
+    std::optional<double> rest_at() const;  // when the last step is over
 
     void set_projection(Document& document, Projection projection) const;
     void fit(const Around& around, Document& document) const;
-    // Looks from the positive (`sign` 1) or negative end of an axis.
+    // Looks from the positive (`sign` 1) or negative (-1) end of an axis.
     void see_axis(int axis, double sign, const Around& around, Document& document) const;
 
   private:
@@ -95,41 +98,41 @@ class CameraControl {
     double pressed_at_ = -1, steps_until_ = 0;
 };
 
-// Motions of the camera: each function takes a camera and returns the next one. Places in the
-// picture are in shares of its height from its middle, to the right and up, so that nothing depends
-// on pixels.
+// Motions of the camera. Each function takes a camera and returns the next one. Places in the
+// picture are in heights of the picture from its middle, to the right and up, so that they do not
+// depend on its pixels.
 
-// Axes of the picture in the world: right, up, and away from the eye. Orthonormal.
+// Axes of the picture in the world: right, up, and away from the eye. They are orthonormal.
 struct ViewAxes {
     glm::dvec3 right, up, forward;
 };
 ViewAxes axes_of(const Camera& camera);
 
-// World units for one height of the picture, at the distance of the camera's centre.
+// Returns the world length of the picture's height at the distance of the camera's centre.
 double height_at_center(const Camera& camera);
 
-// Turns the camera around the centre, whose distance stays: half a turn for one height of the
-// picture. The scene follows the drag. The view never comes closer than a degree to `up`.
+// Turns the camera around its centre, at the same distance. A drag over the picture's height turns
+// by 180 degrees; the scene follows the drag. The view direction stays a degree away from `up`.
 Camera orbited(const Camera& camera, const glm::dvec2& drag);
 // Moves eye and centre so that objects at the centre's distance follow the drag.
 Camera panned(const Camera& camera, const glm::dvec2& drag);
-// Zooms: objects at the centre's distance become 1 / `factor` times as large. The one at `place`
-// keeps its position in the picture.
+// Zooms: objects at the centre's distance get 1 / `factor` times as large. The point at `place`
+// keeps its place.
 Camera zoomed(const Camera& camera, double factor, const glm::dvec2& place = glm::dvec2(0));
 // Moves eye and centre by `step` world units to the right, up and forward. Orthographic views are
 // enlarged instead of moved forward, which would change nothing.
 Camera flown(const Camera& camera, const glm::dvec3& step);
-// Brings the point to the middle of the picture and makes it the centre of turns. A perspective
-// view turns, an orthographic one is shifted.
+// Makes the point the camera's centre, in the middle of the picture. A perspective view turns, an
+// orthographic view is shifted.
 Camera looking_at(const Camera& camera, const glm::dvec3& point);
-// Shows all of the box, from the same direction and as large as that allows. `aspect`: width of the
-// picture by its height.
+// Shows the whole box from the same direction, as large as possible. `aspect`: width of the picture
+// over its height.
 Camera fitted(const Camera& camera, const Grid::Bounds& box, double aspect);
-// Looks from the direction `from` at the middle of the box, fitted. z is up, or y if the view is
-// along z.
+// Looks at the middle of the box from the direction `from`, fitted to the box. Up is z, or y if the
+// view is along z.
 Camera seen_from(const Camera& camera, const glm::dvec3& from, const Grid::Bounds& box,
                  double aspect);
-// Returns the other projection; objects at the centre's distance keep their size.
+// Returns the camera with another projection; objects at the centre's distance keep their size.
 Camera with_projection(const Camera& camera, Projection projection);
 
 }  // namespace lamina::view

@@ -9,20 +9,20 @@
 
 namespace lamina::view {
 namespace {
-
-constexpr double opaque_depth = 1e7, steepest_depth = 17;  // over a length
-// Pieces are this far from the curve at most, of its own value; twice that, for the curve is
-// fitted.
+// Optical depths over a length: of opacity 1, and the largest beside a slope.
+constexpr double opaque_depth = 1e7, steepest_depth = 17;
+// Largest relative distance of fitted points from the curve. Pieces are within 7.8e-4 of it
+// (docs/scene.md, "Opacity"); the fitted curve may be off by as much again.
 constexpr double pieces_tolerance = 2 * 7.8e-4;
 
-// The extinction on a slope, at a share of the way from a to b.
+// Returns the extinction on a slope of opacity from a to b, at `share` of the distance.
 double on_slope(const ExtinctionKnot& a, const ExtinctionKnot& b, double share, double length) {
     const double opacity =
         (1 - share) * opacity_of(a.extinction, length) + share * opacity_of(b.extinction, length);
     return extinction_of(opacity, length);
 }
 
-// The largest distance of the points inside from a slope, of its own value.
+// Returns the largest relative distance of the points inside from the slope.
 double misfit(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
               const ExtinctionKnot& b, double length) {
     double worst = 0;
@@ -34,8 +34,8 @@ double misfit(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
     return worst;
 }
 
-// The length that fits best, by golden section over its logarithm: the longer, the more a slope
-// sags between its ends.
+// Returns the length that fits best, by golden section over its logarithm. The longer the length,
+// the more the slope sags between its ends.
 double best_length(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
                    const ExtinctionKnot& b) {
     constexpr double golden = .6180339887498949;
@@ -62,12 +62,12 @@ double best_length(const ExtinctionKnot& a, std::span<const ExtinctionKnot> insi
     return std::exp((from + to) / 2);
 }
 
-// 0: they follow no opacity.
+// Returns the length for which the points follow a slope of opacity, or 0 if there is none.
 double length_of(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
                  const ExtinctionKnot& b, double unit_length) {
     if (a.extinction == b.extinction || !(a.value < b.value)) return 0;
     if (misfit(a, inside, b, unit_length) <= pieces_tolerance) return unit_length;
-    // A length that a person would have written is likelier than its neighbours.
+    // A length of few digits, which a person would have written, is preferred.
     const double best = best_length(a, inside, b);
     for (const int digits : {1, 2, 3}) {
         const double step = std::pow(10., std::floor(std::log10(best)) - digits + 1);
@@ -81,7 +81,7 @@ DensityPoint point_of(const ExtinctionKnot& knot, double length) {
     return {knot.value, knot.extinction, knot.smooth, length, {}};
 }
 
-// Returns true if the knots between two knots are those of a slope over a length, up to rounding.
+// Returns true if the knots between a and b are those of a slope over `length`, up to rounding.
 bool is_slope(std::span<const ExtinctionKnot> knots, std::size_t a, std::size_t b, double length) {
     constexpr double near = 1e-9;
     const auto wanted = inside_slope(point_of(knots[a], length), point_of(knots[b], length));
@@ -101,8 +101,8 @@ struct FoundSlope {
     double length = 0;
 };
 
-// A slope from or to opacity 1: beside that its pieces are not smooth, and a step leads to it.
-// Opacity 1 itself tells the length.
+// Finds a slope from or to opacity 1. Beside opacity 1 the pieces are not smooth, and a step leads
+// to it. The extinction of opacity 1 gives the length.
 std::optional<FoundSlope> opaque_slope(std::span<const ExtinctionKnot> knots, std::size_t first) {
     const std::size_t count = knots.size();
     const auto steps = [&](std::size_t i) {
@@ -142,7 +142,7 @@ std::vector<ExtinctionKnot> inside_slope(const DensityPoint& a, const DensityPoi
         {{a.value, glm::dvec3(1), opacity_of(a.extinction, length)},
          {b.value, glm::dvec3(1), opacity_of(b.extinction, length)}},
         length);
-    // Beside a slope opacity ends at the steepest depth: a denser end stands behind a step.
+    // Beside a slope, extinction ends at the steepest depth; a denser end is reached by a step.
     constexpr double rounding = 1 + 1e-12;
     const auto denser = [&](double extinction) {
         return extinction * length > steepest_depth * rounding;

@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Reads nodes from the schema. It knows what the schema has, and throws std::logic_error for
-// anything else: a new kind of key needs a control of its own.
+// Reads nodes from the schema. Throws std::logic_error for anything that the schema did not have so
+// far: a new kind of key needs a control of its own.
 class SchemaReader {
   public:
     explicit SchemaReader(const Json& schema) : schema_(schema) {}
@@ -132,7 +132,7 @@ class SchemaReader {
         }
     }
 
-    // A list of factors, one, or a text.
+    // Tells whether the alternatives are a list of factors, one factor, or a text.
     static bool is_factors(const std::vector<Json>& alternatives) {
         return std::ranges::any_of(alternatives, [](const Json& one) {
             return one.value("$ref", "") == "#/$defs/factor";
@@ -188,9 +188,9 @@ std::string for_tree(const TreeSettings* tree, const Auto<Target>& target, std::
     return {};
 }
 
-// Returns the scenes in which dithering of slabs has an effect, for a scene in which it has none:
-// only slabs that are rounded to codes are dithered (docs/scene.md, "How it is drawn"). Empty if it
-// has an effect.
+// Returns in which scenes dithering of slabs has an effect, if it has none in this one: only slabs
+// that are rounded to codes are dithered (docs/scene.md, "How it is drawn"). Empty if it has an
+// effect.
 std::string for_slice_dither(const Scene& scene) {
     const TreeSettings* const tree = given_tree(scene.slice.tree);
     if (scene.target.is_given() && !is_fixed_point(*scene.target))
@@ -278,7 +278,7 @@ void set_at(Json& settings, const std::string& path, const Json& value) {
     }
 }
 
-// Everything is drawn as it was, up to mixtures of colours.
+// Converts the scene's colours, so that it looks the same, up to mixtures of colours.
 void convert_colors(Scene& scene, ImageColorSpace from) {
     const ImageColorSpace to = scene.color_space;
     scene.background = converted_color(scene.background, from, to);
@@ -291,7 +291,7 @@ void convert_colors(Scene& scene, ImageColorSpace from) {
 
 const SettingNode& scene_keys() {
     static const SettingNode keys = [] {
-        // Keys keep their order: related ones stand together there.
+        // The order of keys is kept: related keys are together in the schema.
         const auto ordered = Json::parse(scene_schema());
         return SchemaReader(ordered).node(ordered, "", "");
     }();

@@ -22,7 +22,8 @@ DensityPoint at_value(double value, double extinction) {
     return {value, extinction, false, 0, {}};
 }
 
-// The formulas of lamina's own colour maps, so that what it combined comes apart again.
+// Interpolate by the same formulas as lamina's colour maps, so that their points can be told apart
+// from interpolated ones.
 double mix_numbers(double a, double b, double share) {
     return a * (1 - share) + b * share;
 }
@@ -35,7 +36,7 @@ Number between(double from, const Number& a, double to, const Number& b, double 
     return mix_numbers(a, b, (value - from) / (to - from));
 }
 
-// The limits of a piecewise linear curve from below and from above.
+// Returns the limits of a piecewise linear curve from below and from above.
 template <typename Point, typename Number>
 std::pair<Number, Number> sides(const std::vector<Point>& points, double value,
                                 Number Point::*number) {
@@ -49,7 +50,7 @@ std::pair<Number, Number> sides(const std::vector<Point>& points, double value,
     return {there, there};
 }
 
-// One or two knots at one value.
+// The one or two knots at one value.
 struct Site {
     TransferKnot below, above;
 };
@@ -73,9 +74,9 @@ bool near(const glm::dvec3& found, const glm::dvec3& wanted) {
     return near(found.x, wanted.x) && near(found.y, wanted.y) && near(found.z, wanted.z);
 }
 
-// Returns the sites that a curve needs: the others lie on the lines between those, bit for bit or,
-// if not `exact`, up to rounding. `get` reads the curve's number from a knot, `may_go` says whether
-// a site is of no other use.
+// Returns which sites a curve needs: the others lie on lines between them, bit for bit or, if not
+// `exact`, up to rounding. `get` reads the curve's number from a knot; may_go(site) tells whether a
+// site may be left out.
 template <typename Get, typename MayGo>
 std::vector<char> needed_sites(const std::vector<Site>& sites, bool exact, const Get& get,
                                const MayGo& may_go) {
@@ -103,8 +104,7 @@ std::vector<char> needed_sites(const std::vector<Site>& sites, bool exact, const
     return needed;
 }
 
-// Outside of its points a curve is constant, so sites at its ends that repeat the next are not
-// needed either.
+// Leaves out sites at the ends that repeat their neighbour: outside its points a curve is constant.
 template <typename Get, typename MayGo>
 void drop_constant_ends(const std::vector<Site>& sites, std::vector<char>& needed, const Get& get,
                         const MayGo& may_go) {
@@ -134,7 +134,7 @@ double extinction_in(const TransferKnot& knot) {
     return knot.optics.extinction;
 }
 
-// Throws Error unless points are in order, two at most at a value.
+// Throws Error unless points are in order, with at most two at one value.
 template <typename Point>
 void check_order(const std::vector<Point>& points, const char* curve) {
     if (points.empty()) throw Error(std::string(curve) + ": found no point, expected one or more");
@@ -160,7 +160,7 @@ bool same(const ColorPoint& a, const ColorPoint& b) {
     return a.value == b.value && a.color == b.color;
 }
 
-// The stops on both sides of a value that has none itself.
+// Returns the stops around a value at which there is no stop.
 std::optional<std::pair<ColorPoint, ColorPoint>> stops_around(const std::vector<ColorPoint>& colors,
                                                               double value) {
     const auto above = std::ranges::upper_bound(colors, value, {}, &ColorPoint::value);
@@ -178,7 +178,7 @@ ColorSides color_with_kept(const TransferCurves& curves, double value) {
     return color_at(curves.colors, value);
 }
 
-// Returns the colours at sites that interpolation between stops would round to other numbers.
+// Returns the colours at sites that differ from the interpolation between stops by rounding.
 std::vector<KeptColor> colors_to_keep(const std::vector<Site>& sites,
                                       const std::vector<ColorPoint>& colors) {
     std::vector<KeptColor> kept;
@@ -217,7 +217,7 @@ double SymlogAxis::number(double place) const {
 std::vector<double> SymlogAxis::ticks(int most) const {
     const double largest = std::max(std::abs(lo_), std::abs(hi_));
     const int last = static_cast<int>(std::floor(std::log10(largest)));
-    // Below `linear` powers of 10 crowd at 0.
+    // Powers of 10 below `linear` would crowd at 0.
     const int first = std::min(last, static_cast<int>(std::ceil(std::log10(linear_))));
     const int sides = lo_ < 0 && hi_ > 0 ? 2 : 1;
     const int on_a_side = std::max(1, (most - 1) / sides);
@@ -251,7 +251,7 @@ std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points) {
     std::vector<ExtinctionKnot> knots;
     bool ends_inside = false;
     for (const DensityPoint& point : points) {
-        // A point denser than the slopes on both of its sides has no width.
+        // A point that is denser than the slopes on both sides has no width: it is left out.
         const bool before = !knots.empty() && knots.back().value == point.value && ends_inside;
         const bool after = !point.inside.empty() && point.inside.front().value == point.value;
         if (!(before && after)) knots.push_back({point.value, point.extinction, point.smooth});
@@ -331,7 +331,7 @@ TransferCurves curves_of(const TransferFunction& function, double unit_length) {
             if (below.optics.color != above.optics.color)
                 curves.colors.push_back({value, above.optics.color});
         }
-        // Every site is a point of a curve, or function() would have no knot there.
+        // Every site must be a point of a curve, or function() would lack its knot.
         if (for_density[i] || !for_color[i]) {
             knots.push_back({value, below.optics.extinction, below.smooth});
             if (below.optics.extinction != above.optics.extinction || below.smooth != above.smooth)

@@ -8,26 +8,26 @@
 
 namespace lamina::view {
 
-// A symmetric-log axis: the distance of numbers on it is their difference below `linear`, and
-// follows their ratio far above it, on both sides of 0. Places along it go from 0 at `lo` to 1 at
-// `hi`, and on beyond.
+// A symmetric-log axis: distances follow differences of numbers below `linear`, and ratios far
+// above it, on both sides of 0. Places along the axis are 0 at `lo` and 1 at `hi`, and continue
+// beyond.
 class SymlogAxis {
   public:
-    // Finite; lo < hi, linear > 0.
+    // Numbers must be finite, with lo < hi and linear > 0.
     SymlogAxis(double lo, double hi, double linear);
 
     double lo() const { return lo_; }
     double hi() const { return hi_; }
 
-    // Never falls as the number grows.
+    // Returns the place of a number; it never falls as the number grows.
     double place(double number) const;
-    // The inverse: number(place(x)) is x within
+    // Returns the inverse: number(place(x)) differs from x by at most
     // 8 e (1 + log1p(m / linear)) (|x| + linear), where m is the largest of |x|, |lo|, |hi| and e
-    // the rounding of doubles, 2^-53; and exactly x for lo, hi and, where lo is 0, for 0.
+    // the rounding of doubles, 2^-53. It is exactly x for lo, hi and, if lo is 0, for 0.
     double number(double place) const;
 
-    // Returns numbers to write along the axis: 0 if it is inside, and powers of 10; at most `most`
-    // (>= 3) of them, in order.
+    // Returns numbers to write along the axis, in order: powers of 10, and 0 if it is inside; at
+    // most `most` (>= 3).
     std::vector<double> ticks(int most) const;
 
   private:
@@ -36,7 +36,7 @@ class SymlogAxis {
     double lo_, hi_, linear_, from_, width_;
 };
 
-// A point where straight pieces of the extinction curve meet.
+// A point where linear pieces of the extinction curve meet.
 struct ExtinctionKnot {
     double value = 0;
     double extinction = 0;  // per world unit, >= 0
@@ -45,56 +45,56 @@ struct ExtinctionKnot {
     bool operator==(const ExtinctionKnot&) const = default;
 };
 
-// A point of the curve of extinction, and the way from it to the next one.
+// A point of the extinction curve, with the curve from it to the next point.
 struct DensityPoint {
     double value = 0;
     double extinction = 0;
     bool smooth = false;
-    // 0: extinction is linear up to the next point. Above 0: opacity over so many world units is,
-    // and `inside` has the knots of the pieces that follow it.
+    // If 0, extinction is linear up to the next point. If above 0, opacity over this many world
+    // units is linear, and `inside` has the knots of the pieces that follow it.
     double opacity_length = 0;
     std::vector<ExtinctionKnot> inside;
 
     bool operator==(const DensityPoint&) const = default;
 };
 
-// A colour between two stops as it was read: a program may have rounded it otherwise than
-// interpolation does. It counts as long as both stops are there.
+// A colour between two stops as it was read: the program that wrote it may round otherwise than the
+// interpolation here. It counts as long as both stops stay.
 struct KeptColor {
     ColorPoint before, after;
     double value = 0;
     glm::dvec3 color{0};
 };
 
-// A transfer function as it is edited: extinction and colour are curves of their own, so that a map
-// of many colours leaves few points of extinction to hold. Both are linear between points and
-// constant outside; two points at one value make a step.
+// A transfer function as it is edited, with separate curves of extinction and colour: a map of many
+// colours does not add points of extinction. Both curves are linear between points and constant
+// outside; two points at one value make a step.
 struct TransferCurves {
     TransferCurves();  // white, and transparent everywhere
 
     std::vector<DensityPoint> density;  // one or more, in order of value
-    std::vector<ColorPoint> colors;     // the same
+    std::vector<ColorPoint> colors;     // one or more, in order of value
     std::vector<KeptColor> kept;        // in order of value
     // The function steps halfway between neighbouring values of both curves (a palette).
     bool palette = false;
 
-    // Returns the function of the curves. It has the points' own numbers, and interpolated ones at
-    // values at which only one curve has a point. Throws Error if the curves are no transfer
-    // function, or one with too many points for a scene file.
+    // Returns the function of the curves. At values of points it has their own numbers, and
+    // interpolated ones for a curve without a point there. Throws Error if the curves are no
+    // transfer function, or have too many points for a scene file.
     TransferFunction function() const;
 
     bool operator==(const TransferCurves& other) const;
 };
 
-// Splits a function into curves: function() gives back the same, bit for bit. Each curve gets only
-// the points that it needs. Successive smooth points that follow an opacity become slopes, over
-// `unit_length` world units if that fits.
+// Splits a function into curves, with the points that each needs. function() gives it back bit for
+// bit. Successive smooth points that follow a linear opacity become slopes, over `unit_length`
+// world units if that fits.
 TransferCurves curves_of(const TransferFunction& function, double unit_length);
 
-// All knots of the curve of extinction, in order.
+// Returns all knots of the extinction curve, in order.
 std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points);
 
-// Limits of a curve from below and from above at a value: they differ at steps.
+// The limits of a curve from below and from above at a value, which differ at steps.
 struct DensitySides {
     double below = 0, above = 0;
     bool smooth_below = false, smooth_above = false;  // of knots at the value
@@ -105,13 +105,14 @@ struct ColorSides {
 };
 ColorSides color_at(const std::vector<ColorPoint>& points, double value);
 
-inline constexpr std::size_t most_points = 4096;  // of a scene file
+inline constexpr std::size_t most_points = 4096;  // that a scene file may have
 
-// Simple curves of extinction over values from lo to hi > lo, up to `densest`.
+// Return simple extinction curves over values from lo to hi > lo, up to `densest`.
 std::vector<DensityPoint> ramp_shape(double lo, double hi, double densest);
-// A hat a twentieth of the range wide, around a value that is kept inside, and 0 elsewhere.
+// Returns a hat a twentieth of the range wide around `at`, which is moved inside if necessary;
+// 0 elsewhere.
 std::vector<DensityPoint> peak_shape(double lo, double hi, double at, double densest);
-// 0 up to a value, `densest` from there on.
+// Returns 0 below a value, and `densest` from there on.
 std::vector<DensityPoint> step_shape(double lo, double hi, double at, double densest);
 
 }  // namespace lamina::view

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Values in order, at most two of them equal, some of which move together.
+// Values in order, at most two of them equal, of which some move together.
 class MovedValues {
   public:
     template <typename Point>
@@ -23,7 +23,7 @@ class MovedValues {
         for (const Point& point : points) values_.push_back(point.value);
     }
 
-    // Returns how far they can go, in the direction of `wanted`.
+    // Returns how far they can move in the direction of `wanted`, at most by `wanted`.
     double limited(double wanted) const {
         for (std::size_t i = 0; i < values_.size(); ++i) {
             if (moves_[i] == 0) continue;
@@ -33,7 +33,8 @@ class MovedValues {
         return wanted;
     }
 
-    // Sums round: what goes up to a wall is put there, and walls hold for the sums once more.
+    // Returns the moved values. Sums round, so a value that reaches a wall is set to it, and the
+    // order is restored afterwards.
     std::vector<double> shifted(double by) const {
         std::vector<double> result = values_;
         for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -54,7 +55,8 @@ class MovedValues {
     bool equal(std::size_t a, std::size_t b) const {
         return b < values_.size() && values_[a] == values_[b];
     }
-    // The next point that stays. No third point may come to the value of two others.
+    // Returns the limit above: the next point that stays. No third point may get the value of two
+    // others.
     double wall_above(std::size_t i) const {
         if (i + 1 >= values_.size() || moves_[i + 1] != 0) return infinity;
         const bool crowded =
@@ -84,14 +86,14 @@ std::vector<char> marked(const std::set<TransferHandle>& points, TransferHandle:
 
 double moved_extinction(double extinction, double places, const SymlogAxis& axis) {
     if (places == 0) return extinction;
-    // An extinction beyond the axis is drawn at its end.
+    // An extinction above the axis is drawn at its end.
     const double from = axis.place(extinction);
     if (from > 1 && places > 0) return extinction;
     const double place = std::clamp(std::min(from, 1.) + places, axis.place(0), 1.);
     return std::max(0., axis.number(place));
 }
 
-// The number of a new point behind those of its value; none if two are there.
+// Returns the index for a new point at `value`, behind the points there; nothing if there are two.
 template <typename Point>
 std::optional<std::size_t> room_at(const std::vector<Point>& points, double value) {
     const auto [first, end] = std::ranges::equal_range(points, value, {}, &Point::value);
@@ -176,7 +178,8 @@ TransferCurves windowed(const TransferCurves& curves, double factor, double pivo
     return result;
 }
 
-// Opacity that was linear over a length is so over the length in which the ray is as dense again.
+// Opacity that was linear over a length stays linear over the length that has the same optical
+// depths.
 TransferCurves attenuated(const TransferCurves& curves, double factor) {
     constexpr double most = std::numeric_limits<double>::max();
     TransferCurves result = curves;

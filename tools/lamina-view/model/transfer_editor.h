@@ -15,7 +15,7 @@
 
 namespace lamina::view {
 
-// A point of one of the two curves of a transfer function, by its number there.
+// A point of one of the two curves of a transfer function, by its index.
 struct TransferHandle {
     enum class Curve { density, color };
 
@@ -25,44 +25,44 @@ struct TransferHandle {
     friend auto operator<=>(const TransferHandle&, const TransferHandle&) = default;
 };
 
-// A shift of points: `values` along the scalar, `places` along the axis of extinction.
+// A shift of points: `values` along the scalar axis, `places` along the extinction axis.
 struct TransferShift {
     double values = 0, places = 0;
 };
 
-// Returns the curves with some of their points moved together, as far as they can go without
-// passing others, and within the axis; extinctions stay >= 0. Points that are not moved keep their
-// numbers, and a moved point those coordinates that are not moved.
+// Returns the curves with some points moved together, as far as they can without passing others or
+// leaving the axis; extinctions stay >= 0. Coordinates that do not move stay bit for bit.
 TransferCurves moved(const TransferCurves& curves, const std::set<TransferHandle>& points,
                      const TransferShift& shift, const SymlogAxis& axis);
 
-// Returns the curves with all values stretched by `factor` > 0 around `pivot`, and moved by
+// Returns the curves with all values stretched by `factor` > 0 around `pivot`, then moved by
 // `shift`.
 TransferCurves windowed(const TransferCurves& curves, double factor, double pivot, double shift);
 
-// Returns the curves with all extinctions times `factor` > 0, limited to the largest finite number.
+// Returns the curves with all extinctions multiplied by `factor` > 0, limited to the largest
+// double.
 TransferCurves attenuated(const TransferCurves& curves, double factor);
 
-// Computes the knots of the slope from a point to the next one again.
+// Computes again the knots of the slope from a point to the next one.
 void follow_slope(std::vector<DensityPoint>& points, std::size_t index);
 
-// Edits a transfer function. It is one at any time: a change that would leave none, or one with
-// more points than scene files may have, returns false and changes nothing. Points that an edit is
-// not about keep their numbers, bit for bit.
+// Edits a transfer function, which is valid at any time: a change that would make it invalid, or
+// give it more points than scene files may have, returns false and changes nothing. Points that an
+// edit does not concern keep their numbers bit for bit.
 class TransferEditor {
   public:
     using Curve = TransferHandle::Curve;
 
-    TransferEditor();  // of TransferCurves()
+    TransferEditor();  // begins with TransferCurves()
 
     const TransferCurves& curves() const { return curves_; }
     const TransferFunction& function() const { return function_; }
-    // World length that opacities refer to, > 0. It changes no extinction.
+    // World length that opacities refer to, > 0. Setting it changes no extinction.
     double unit_length() const { return unit_length_; }
     void set_unit_length(double length);
 
-    // Takes another function, or an earlier state of this one. A selection is lost if its points
-    // are gone or moved.
+    // Take another function, or an earlier state. The selection is dropped if its points do not
+    // exist there.
     void take(const TransferFunction& function);
     void restore(const TransferCurves& curves);
 
@@ -72,47 +72,46 @@ class TransferEditor {
     void toggle(const TransferHandle& point);
     void clear_selection() { selection_.clear(); }
     void select_all(Curve curve);
-    // Selects the points of extinction in a rectangle, in addition to the points selected before.
+    // Selects points of extinction in a rectangle, in addition to those selected before.
     void select_within(double value_lo, double value_hi, double extinction_lo,
                        double extinction_hi);
 
-    // True: colours move with a selected point of extinction at the same value.
+    // True: a colour at the value of a selected point of extinction moves with it.
     bool colors_move_along = true;
-    // A move starts from the state at begin_move(); its steps do not add up.
+    // Each step of a move is relative to the state at begin_move().
     void begin_move();
     bool is_moving() const { return start_.has_value(); }
     bool move(const TransferShift& shift, const SymlogAxis& axis);
     bool window(double factor, double pivot, double shift);
-    bool attenuate(double factor);  // > 0: of all extinctions
+    bool attenuate(double factor);  // multiplies all extinctions
     void end_move() { start_.reset(); }
     void cancel_move();
 
-    // Add points, which are then selected. A new point of colour has the colour of the curve at its
-    // value.
+    // Add points, which are then selected. A new colour stop has the curve's colour at its value.
     bool add_density(double value, double extinction);
     bool add_color(double value);
     // Adds a second point at the same value.
     bool make_step(const TransferHandle& point);
-    bool remove_selected();  // but never the last one of a curve
+    bool remove_selected();  // but not the last point of a curve
 
-    bool set_value(const TransferHandle& point, double value);  // held between its neighbours
+    bool set_value(const TransferHandle& point, double value);  // kept between its neighbours
     bool set_extinction(std::size_t index, double extinction);
     bool set_opacity(std::size_t index, double opacity);  // over unit_length()
     bool set_smooth(std::size_t index, bool smooth);
     bool set_color(std::size_t index, const glm::dvec3& color);
-    // Sets the colour at a value: that of the point there, or of a new one.
+    // Sets the colour at a value, with a new stop if there is none.
     bool paint(double value, const glm::dvec3& color);
 
-    // Interpolates opacity over unit_length(), or extinction, linearly between the selected points
-    // and the next ones, or everywhere if none is selected.
+    // Makes opacity over unit_length(), or extinction, linear from the selected points to the next
+    // ones, or everywhere if no point is selected.
     bool set_opacity_linear(bool opacity);
     bool set_palette(bool palette);
-    bool set_density(const std::vector<DensityPoint>& points);  // another curve of extinction
-    // Takes the map's colours, stretched over [lo, hi] unless it has a range of its own; with its
-    // opacities if `opacities` is set and it has any.
+    bool set_density(const std::vector<DensityPoint>& points);  // replaces the extinction curve
+    // Takes the map's colours, stretched over [lo, hi] unless the map has a range of its own; also
+    // its opacities if `opacities` and it has any.
     bool recolor(Colormap map, double lo, double hi, bool opacities);
 
-    // Converts all colours to the numbers of another space (scene_keys.h).
+    // Converts all colours to the numbers of another space (converted_color() in scene_keys.h).
     bool convert_colors(ImageColorSpace from, ImageColorSpace to);
 
   private:

@@ -24,13 +24,13 @@ Json json_of(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-// A size for data of unknown bounds: half of the camera's view around its centre.
+// Returns a box for data of unknown bounds: half of the view around the camera's centre.
 Grid::Bounds around_center(const Camera& camera) {
     const double reach = glm::distance(camera.eye, camera.center) / 4;
     return {camera.center - reach, camera.center + reach};
 }
 
-// Cuts the half in front of the data away.
+// Returns a plane that cuts away the half of the data nearest to the eye.
 Json first_plane(const Camera& camera, const Grid::Bounds& box) {
     return {{"point", json_of((box.min + box.max) / 2.0)},
             {"normal", json_of(glm::normalize(camera.center - camera.eye))}};
@@ -111,7 +111,7 @@ void ViewerSettings::add_recent(const fs::path& path) {
     if (recent.size() > most) recent.resize(most);
 }
 
-// A relative path in the variable is to be ignored, as the specification says.
+// The XDG specification says that a relative path in the variable must be ignored.
 fs::path ViewerSettings::file() {
     const char* const config = std::getenv("XDG_CONFIG_HOME");
     if (config != nullptr && fs::path(config).is_absolute())

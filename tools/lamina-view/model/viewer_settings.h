@@ -13,31 +13,31 @@
 
 namespace lamina::view {
 
-// Returns true if a scene may lack this group of keys, so that it can be switched on and off.
+// Returns true if a scene may lack this group of keys, so that it can be switched off.
 bool may_be_absent(const SettingNode& node);
 
-// Returns a key's value when it is switched on, or no longer automatic: the value that was chosen
-// for it (`resolved`, may be null), else its default, else a value that can be drawn. `bounds`: the
-// data's, if they are known. `path` contains the indices of list elements.
+// Returns the value that a key gets when it is switched on or stops being automatic: the value in
+// `resolved` (may be null), else its default, else one that can be drawn. `bounds`: of the data, if
+// known. `path` has the indices of list elements.
 nlohmann::ordered_json starting_value(const SettingNode& node, const std::string& path,
                                       const Scene& scene, const Scene* resolved,
                                       const std::optional<Grid::Bounds>& bounds);
 
-// Settings that the viewer keeps from one run to the next.
+// Settings of the viewer that are kept when it ends.
 struct ViewerSettings {
-    std::vector<std::filesystem::path> recent;  // files, the last one first
-    bool coarse = true;                         // pictures while something moves
-    bool trace = true;                          // at rest
-    bool panels = true;                         // are shown
+    std::vector<std::filesystem::path> recent;  // files, last opened first
+    bool coarse = true;                         // draw coarse pictures while something moves
+    bool trace = true;                          // trace at rest
+    bool panels = true;                         // show the panels
 
-    void add_recent(const std::filesystem::path& file);  // 10 at most
+    void add_recent(const std::filesystem::path& file);  // keeps at most 10
 
-    // Returns the path of viewer.json in the folder lamina of the XDG base directories; empty if
-    // there is no home.
+    // Returns the path lamina/viewer.json in the XDG configuration folder; empty if there is no
+    // home.
     static std::filesystem::path file();
-    // Returns defaults if there is no such file. Throws Error for a file that cannot be understood.
+    // Returns defaults if the file does not exist. Throws Error if it is invalid.
     static ViewerSettings load(const std::filesystem::path& file);
-    // Writes the file, which appears when it is complete. Throws Error.
+    // Writes the file, which gets its name when it is complete. Throws Error.
     void save(const std::filesystem::path& file) const;
 };
 

@@ -8,13 +8,13 @@
 
 namespace lamina::view {
 
-// Cells of a table's row, from the next column on: expected error, Linf, L2, the share of the
-// pixels that these are measured on, and ms of a frame. Empty if nothing is known.
+// Writes cells of a table's row: expected error, Linf, L2, share of the pixels that these are
+// measured on, and ms of a frame. Unknown numbers are empty cells.
 void error_and_time_cells(const Attempt& attempt);
-// Their columns.
+// Declares the columns of these cells.
 void error_and_time_columns();
 
-// Shows the settings that have been tried. A click on a row goes back to it.
+// Shows the settings that were tried. A click on a row goes back to them.
 class AttemptsPanel : public Panel {
   public:
     const char* title() const override { return "Tried"; }
@@ -25,8 +25,8 @@ class AttemptsPanel : public Panel {
     void draw_table(PanelContext& context);
     void draw_saving(const PanelContext& context);
 
-    std::string file_;     // empty: beside the scene
-    std::string message_;  // of saving
+    std::string file_;     // name for saving; empty: beside the scene
+    std::string message_;  // result of saving
     bool failed_ = false;
 };
 

@@ -5,7 +5,7 @@
 
 namespace lamina::view {
 
-// Chooses the picture to compare with, and how both are shown.
+// Chooses the picture to compare with, and how both pictures are shown.
 class ComparisonPanel : public Panel {
   public:
     const char* title() const override { return "Compare"; }

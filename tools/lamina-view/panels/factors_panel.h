@@ -7,8 +7,8 @@
 
 namespace lamina::view {
 
-// Edits the bifurcation factors of the compositing tree, as text, and lists the errors and times of
-// those tried with these settings in this view.
+// Edits the bifurcation factors of the compositing tree as text. Lists the errors and times of
+// factors that were tried with the other settings and the view as they are now.
 class FactorsPanel : public Panel {
   public:
     const char* title() const override { return "Bifurcation factors"; }
@@ -18,8 +18,8 @@ class FactorsPanel : public Panel {
     void take(Document& document);
     void draw_tried(PanelContext& context);
 
-    std::string text_, shown_;  // as edited, and as the scene has it
-    std::string message_;       // of factors that make no sense
+    std::string text_, shown_;  // as edited, and as in the scene
+    std::string message_;       // why the last factors were refused
 };
 
 }  // namespace lamina::view

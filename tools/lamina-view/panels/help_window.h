@@ -3,8 +3,7 @@
 
 namespace lamina::view {
 
-// Shows what pointer and keys do, in a window over everything else. `open` is cleared when it is
-// closed.
+// Shows what pointer and keys do, in a window above all others. Clears `open` when it is closed.
 void help_window(bool& open);
 
 }  // namespace lamina::view

@@ -12,15 +12,15 @@ namespace lamina::view {
 
 class PrecisionInSight;
 
-// Places of panels: in the column on the right, or in the strip below the picture.
+// Places of panels: the column on the right, or the strip below the picture.
 enum class PanelPlace { side, bottom };
 
 // Objects that panels read and change.
 struct PanelContext {
     Document& document;
     const Shown& shown;
-    std::optional<double> value_under_pointer;  // of the data, at the point that is seen there
-    PrecisionInSight* precision = nullptr;      // null: nothing is known of it
+    std::optional<double> value_under_pointer;  // of the data, at the visible point
+    PrecisionInSight* precision = nullptr;      // null: no errors and times are known
 };
 
 // A part of the window beside the picture.
@@ -29,10 +29,10 @@ class Panel {
     virtual ~Panel() = default;
     virtual const char* title() const = 0;
     virtual PanelPlace place() const { return PanelPlace::side; }
-    virtual void draw(PanelContext& context) = 0;  // with ImGui, its window is begun
+    virtual void draw(PanelContext& context) = 0;  // ImGui calls, inside a begun window
 };
 
-// All panels, from top to bottom.
+// Returns all panels, from top to bottom.
 std::vector<std::unique_ptr<Panel>> make_panels();
 
 }  // namespace lamina::view

@@ -80,7 +80,7 @@ void draw_measured(const Shown& shown, double wanted) {
     ImGui::ProgressBar(share, {-1, 0}, text.c_str());
 }
 
-// Colours of FrameHistory::stage_names(), which differ in lightness as well.
+// Colours of FrameHistory::stage_names(). They differ in lightness, too.
 constexpr ImU32 stage_colors[] = {IM_COL32(120, 94, 240, 255),  IM_COL32(220, 38, 127, 255),
                                   IM_COL32(178, 102, 210, 255), IM_COL32(254, 97, 0, 255),
                                   IM_COL32(255, 176, 0, 255),   IM_COL32(255, 226, 120, 255),
@@ -94,7 +94,7 @@ ImU32 color_of(const std::string& stage) {
                                               std::size(stage_colors) - 1)];
 }
 
-// Rectangle of the graph on the screen: times from 0 at the bottom to `most_ms` at the top.
+// Rectangle of the graph on the screen, for times from 0 (bottom) to `most_ms` (top).
 struct GraphFrame {
     ImVec2 min, max;
     double most_ms = 1;
@@ -123,7 +123,7 @@ void tell(const FrameCost& frame) {
     ImGui::EndTooltip();
 }
 
-// Bars from the left to the newest picture, as many as fit.
+// Draws a bar for each of the newest pictures, as many as fit, from the oldest to the newest.
 void draw_bars(const GraphFrame& graph, const std::deque<FrameCost>& frames) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float step = std::round(em(.45f)), width = graph.max.x - graph.min.x;
@@ -204,7 +204,7 @@ void ErrorPanel::draw(PanelContext& context) {
     draw_wanted(context.document);
 }
 
-// Each value is planned and drawn, so the slider counts when it is let go.
+// Draws the slider of max_error. Each value is planned and drawn, so it counts when it is released.
 void ErrorPanel::draw_wanted(Document& document) {
     const std::string reason = why_without_effect(document.scene(), "render.max_error");
     float wanted = wanted_.value_or(static_cast<float>(document.scene().max_error));
@@ -217,7 +217,7 @@ void ErrorPanel::draw_wanted(Document& document) {
     if (!reason.empty() && ImGui::IsItemHovered())
         ImGui::SetTooltip("Changes nothing: %s", reason.c_str());
     if (!ImGui::IsItemActive() && wanted_) {
-        // Three digits, as it is shown.
+        // Rounded to the three digits that are shown.
         const double step = std::pow(10, std::floor(std::log10(wanted)) - 2);
         document.set_setting("render.max_error", std::round(wanted / step) * step);
         document.end_step();

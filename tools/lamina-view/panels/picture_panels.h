@@ -7,23 +7,22 @@
 
 namespace lamina::view {
 
-// Shows the picture's size, who drew it, its error, and its warnings.
+// Shows the picture's size, which engine drew it, and its warnings.
 class PicturePanel : public Panel {
   public:
     const char* title() const override { return "Picture"; }
     void draw(PanelContext& context) override;
 };
 
-// Shows what runs for the picture, what is left out and why, the predicted error, and why the last
-// change has no picture.
+// Shows the plan of the picture: method, omissions with their reasons, predicted error; and why the
+// last change could not be drawn.
 class PlanPanel : public Panel {
   public:
     const char* title() const override { return "Plan"; }
     void draw(PanelContext& context) override;
 };
 
-// Shows the predicted error of the picture, the error that the tracer has measured so far, and the
-// largest error wanted.
+// Shows the predicted error of the picture, the error measured by the tracer so far, and max_error.
 class ErrorPanel : public Panel {
   public:
     const char* title() const override { return "Error"; }
@@ -32,10 +31,10 @@ class ErrorPanel : public Panel {
   private:
     void draw_wanted(Document& document);
 
-    std::optional<float> wanted_;  // while the slider is dragged
+    std::optional<float> wanted_;  // set while the slider is dragged
 };
 
-// A graph of the times of the last pictures, by stages.
+// A graph of the times of the last pictures, by stage.
 class FramesPanel : public Panel {
   public:
     const char* title() const override { return "Frame times"; }

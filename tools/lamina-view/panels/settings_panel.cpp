@@ -43,13 +43,14 @@ Answer choice_control(const SettingNode& node, const Json& value) {
     return answer;
 }
 
-// Numbers of few magnitudes have a slider; others are drawn by their own size, or typed.
+// Draws a slider for numbers of a limited range; other numbers are dragged in proportion to their
+// size, or typed.
 Answer number_control(const SettingNode& node, const Json& value) {
     double number = number_of(value);
     const bool slides = node.least >= 0 && std::isfinite(node.most) && node.most <= 1000;
     bool changed = false;
     if (slides) {
-        // Ends that are no values themselves are left out by little.
+        // The slider ends just inside limits that are excluded.
         const double least = node.least_excluded ? 1e-4 * node.most : node.least;
         const double most = node.most_excluded ? node.most - least : node.most;
         const bool by_ratio = (least > 0 && most / least > 50) || most > 100;
@@ -84,7 +85,7 @@ Answer text_control(const Json& value) {
     return {};
 }
 
-// [32, 32] is written 32x32.
+// Returns factors as text: [32, 32] becomes 32x32.
 std::string factors_text(const Json& value) {
     if (!value.is_array()) return word_of(value);
     std::string text;
@@ -128,7 +129,7 @@ Answer vector_control(const SettingNode& node, const Json& value) {
     return answer;
 }
 
-// A picker of display values, and the numbers that the file has.
+// Draws a picker of display values, beside the numbers in the file.
 Answer color_control(const Json& value, ImageColorSpace space) {
     glm::dvec3 color(1);
     if (value.is_array() && value.size() == 3)
@@ -146,17 +147,17 @@ Answer color_control(const Json& value, ImageColorSpace space) {
     return answer;
 }
 
-// Groups that are shown first, because one changes them while looking at the picture.
+// Groups shown first: the user changes them while looking at the picture.
 constexpr std::array<std::string_view, 6> first_groups{"render", "camera", "lighting",
                                                        "clip",   "image",  "transfer_function"};
 
-constexpr float label_width = 10.5f;  // of the font's height: of the longest key where it stands
+constexpr float label_width = 10.5f;  // in heights of the font, for the longest key
 
 bool is_first(const SettingNode& node) {
     return std::ranges::find(first_groups, node.key) != first_groups.end();
 }
 
-// Returns true for groups that are open at first: how the picture is drawn.
+// Returns true for groups that are open at first: those that say how the picture is drawn.
 bool is_used(const SettingNode& node, const Scene& scene) {
     return node.path == "render" || node.path == std::string("render.") + name_of(scene.method);
 }
@@ -210,7 +211,7 @@ Answer setting_control(const SettingNode& node, const Json& value, ImageColorSpa
         case SettingKind::group:
         case SettingKind::list:
         case SettingKind::either:
-            return {};  // the panel opens these
+            return {};  // the panel draws these itself
     }
     return {};
 }
@@ -234,7 +235,7 @@ void SettingsPanel::draw(PanelContext& context) {
     ImGui::TreePop();
 }
 
-// A node is shown if its path, or one below it, contains the text that is searched for.
+// Tells whether the node's path, or one below it, contains the text of the filter.
 bool SettingsPanel::passes(const SettingNode& node) const {
     return filter_.PassFilter(node.path.c_str()) ||
            std::ranges::any_of(node.parts, [&](const SettingNode& part) { return passes(part); });
@@ -328,7 +329,7 @@ void SettingsPanel::draw_leaf(const SettingNode& node, const std::string& path,
     ImGui::EndDisabled();
 }
 
-// Switches a group on or off, or hands it to the plan. Returns whether its keys are there.
+// Draws the combo that switches a group off, on, or to automatic. Returns true if its keys are set.
 bool SettingsPanel::draw_switch(const SettingNode& node, const std::string& path,
                                 PanelContext& context) {
     const Json value = value_at(path);
@@ -399,7 +400,7 @@ void SettingsPanel::draw_list(const SettingNode& node, const std::string& path,
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::TextDisabled("%zu", size);
-    // A list without elements shows their keys all the same if everything is shown.
+    // If all groups are open, a list without elements shows the keys of an element.
     const std::size_t shown = all_open && size == 0 ? 1 : size;
     for (std::size_t i = 0; i < shown; ++i) {
         const std::string at = below(path, std::to_string(i));
@@ -424,8 +425,8 @@ void SettingsPanel::draw_list(const SettingNode& node, const std::string& path,
     }
 }
 
-// A file, or made: told apart by a text or an object in its place. A name in the field makes it a
-// file.
+// Draws the choice between a file (the value is a text) and generated data (an object). Typing a
+// name makes the value a file.
 void SettingsPanel::draw_either(const SettingNode& node, const std::string& path,
                                 PanelContext& context) {
     const Json value = value_at(path);
@@ -456,7 +457,7 @@ void SettingsPanel::draw_either(const SettingNode& node, const std::string& path
     ImGui::Unindent();
 }
 
-// Its keys have their controls in the transfer panel.
+// The transfer function's keys have their controls in TransferPanel.
 void SettingsPanel::draw_transfer_function(const SettingNode& node) {
     draw_label(node, {});
     ImGui::TextColored(theme::dim, "in its own panel");

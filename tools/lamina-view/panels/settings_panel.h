@@ -15,22 +15,22 @@
 
 namespace lamina::view {
 
-// The control of a value that is no group: shows `value` (of the scene's file) at the cursor, as
-// wide as the line. Returns another value if the user gave one; the scene's reader judges it.
+// Draws the control of a value that is no group: `value`, from the scene's file, as wide as the
+// line. Returns the new value if the user changed it; it may be invalid.
 std::optional<nlohmann::ordered_json> setting_control(const SettingNode& node,
                                                       const nlohmann::ordered_json& value,
                                                       ImageColorSpace space);
 
-// A control for every key of the scene file (model/scene_keys.h), grouped as there. Keys that
-// change nothing in the current scene are grey, with the reason.
+// Controls for all keys of the scene file (model/scene_keys.h), in the same groups. Keys that have
+// no effect in the current scene are grey, with the reason.
 class SettingsPanel : public Panel {
   public:
     const char* title() const override { return "Settings"; }
     void draw(PanelContext& context) override;
 
-    // The paths that were drawn last, without numbers: tests compare them with the schema.
+    // Returns the paths that were drawn last, without indices: tests compare them with the schema.
     const std::set<std::string>& drawn() const { return drawn_; }
-    bool all_open = false;  // groups that are closed otherwise are drawn too
+    bool all_open = false;  // draws closed groups, too
 
   private:
     using Json = nlohmann::ordered_json;
@@ -49,10 +49,10 @@ class SettingsPanel : public Panel {
     Json start_of(const SettingNode& node, const std::string& path, PanelContext& context) const;
     void set(const std::string& path, const Json& value, PanelContext& context);
 
-    Json settings_;  // of the scene as it is drawn
+    Json settings_;  // of the scene that is drawn
     std::set<std::string> drawn_;
     ImGuiTextFilter filter_;
-    std::string message_path_, message_;  // of the value that was refused last
+    std::string message_path_, message_;  // of the last value that was refused
 };
 
 }  // namespace lamina::view

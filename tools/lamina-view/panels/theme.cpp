@@ -9,7 +9,7 @@ namespace {
 
 constexpr float font_size = 15;
 
-// ImGui's own font is sharp at 13 pixels only. It serves if none of these is installed.
+// Fonts that scale. ImGui's own font, sharp at 13 pixels only, is used if none is installed.
 constexpr const char* fonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                  "/usr/share/fonts/TTF/DejaVuSans.ttf",
                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",

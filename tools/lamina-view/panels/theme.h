@@ -7,11 +7,11 @@
 
 namespace lamina::view {
 
-// Sets colours, spaces and a font of the interface, before the first frame. `scale`: 1, or more for
-// a screen with finer pixels than usual.
+// Sets colours, spacing and font of the interface, before the first frame. `scale`: 1, or more if
+// the screen has finer pixels than usual.
 void set_theme(float scale);
 
-// Returns a length that grows with the font. `lengths`: in units of the font's height.
+// Returns a length in pixels. `lengths`: in heights of the font.
 float em(float lengths);
 
 // Writes a text at the cursor, wrapped at the end of the line.

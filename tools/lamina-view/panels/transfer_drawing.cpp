@@ -12,7 +12,7 @@
 namespace lamina::view {
 namespace {
 
-constexpr float column = 2;  // pixels of a strip of one colour
+constexpr float column = 2;  // width of a strip of one colour, in pixels
 
 void label(const ImVec2& at, const char* text, float align_x, float align_y,
            ImU32 color = theme::label) {
@@ -21,8 +21,8 @@ void label(const ImVec2& at, const char* text, float align_x, float align_y,
                                         text);
 }
 
-// The curve's points on the screen, from left to right: extinction is linear between knots, and so
-// bends on a logarithmic axis.
+// Returns the extinction curve on the screen, from left to right. Extinction is linear between
+// knots, so the curve bends on a logarithmic axis.
 std::vector<ImVec2> curve_points(const TransferFrame& frame, const TransferFunction& function) {
     std::vector<ImVec2> points;
     const auto knots = function.knots();
@@ -57,7 +57,7 @@ std::vector<double> even_ticks(double lo, double hi, int most) {
     const double step = power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
     std::vector<double> ticks;
     for (double i = std::ceil(lo / step); i * step <= hi && ticks.size() < 100; ++i)
-        ticks.push_back(i * step + 0.);  // no -0
+        ticks.push_back(i * step + 0.);  // + 0. turns -0 into 0
     return ticks;
 }
 
@@ -66,7 +66,7 @@ ImU32 screen_color(const glm::dvec3& color, ImageColorSpace space, float opacity
     return ImGui::ColorConvertFloat4ToU32({display.r, display.g, display.b, opacity});
 }
 
-// Shares are drawn by their logarithms: what is rare is what one looks for.
+// Draws the histogram with logarithmic shares, so that rare values are visible.
 void draw_histogram(const TransferFrame& frame, const ValueHistogram& histogram) {
     double least = 1, most = 0;
     for (const double share : histogram.shares) {

@@ -16,7 +16,7 @@ namespace lamina::view {
 // Maps values and extinctions to the screen: values from `value_lo` to `value_hi` along x,
 // extinctions along a symmetric-log axis up y.
 struct TransferFrame {
-    ImVec2 min, max;  // the corners of the curves' part
+    ImVec2 min, max;  // corners of the area of the curves
     double value_lo = 0, value_hi = 1;
     SymlogAxis axis{0, 1, .01};
 
@@ -25,7 +25,7 @@ struct TransferFrame {
     float x(double value) const {
         return min.x + width() * static_cast<float>((value - value_lo) / (value_hi - value_lo));
     }
-    // Extinctions beyond the axis are at its end.
+    // Extinctions above the axis are drawn at its end.
     float y(double extinction) const {
         return max.y - height() * static_cast<float>(std::min(axis.place(extinction), 1.));
     }
@@ -44,32 +44,32 @@ struct TransferFrame {
     }
 };
 
-// Returns a colour of a scene as the screen shows it.
+// Returns a scene's colour as the screen shows it.
 ImU32 screen_color(const glm::dvec3& color, ImageColorSpace space, float opacity = 1);
 
-// Draw parts of the plot, in ImGui's current window.
+// Draw parts of the plot in ImGui's current window.
 void draw_histogram(const TransferFrame& frame, const ValueHistogram& histogram);
 void draw_extinction_axis(const TransferFrame& frame);  // on the left
-// The axis on the right, of opacities over `unit_length`.
+// Draws the axis on the right: opacities over `unit_length`.
 void draw_opacity_axis(const TransferFrame& frame, double unit_length);
 void draw_value_axis(const TransferFrame& frame);  // below
-// The curve of extinction, over the colours of its values.
+// Draws the extinction curve over the colours of its values.
 void draw_curve(const TransferFrame& frame, const TransferFunction& function,
                 ImageColorSpace space);
 void draw_handles(const TransferFrame& frame, const TransferEditor& editor, ImageColorSpace space);
-// The value that is seen under the pointer.
+// Marks the value at the visible point under the pointer.
 void draw_marker(const TransferFrame& frame, const TransferFunction& function, double value);
-// The colours of values between two corners.
+// Draws the colours of values between two corners.
 void draw_color_strip(const TransferFrame& frame, const ImVec2& min, const ImVec2& max,
                       const TransferFunction& function, ImageColorSpace space);
 
-// Writes a number for an axis: with few digits, and with an exponent only if that is shorter.
+// Text of a number for an axis: few digits, and an exponent only if that is shorter.
 struct AxisText {
     char text[24];
 };
 AxisText axis_text(double number);
 
-// Returns numbers of 1, 2 or 5 times a power of 10 between two others, `most` at most.
+// Returns multiples of 1, 2 or 5 times a power of 10 from lo to hi, at most `most`.
 std::vector<double> even_ticks(double lo, double hi, int most);
 
 }  // namespace lamina::view

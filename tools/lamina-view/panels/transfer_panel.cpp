@@ -35,7 +35,7 @@ void help(const char* text) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
-// A picture of a map as wide as the line.
+// Draws a preview of a map.
 void map_preview(const Colormap& map, ImageColorSpace space) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = em(7), height = em(.9f);
@@ -104,7 +104,7 @@ void TransferPanel::draw_controls(PanelContext& context) {
     draw_whole(document);
 }
 
-// Shapes begin at the selected point, else in the middle of the data.
+// Draws the presets. Shapes are placed at the selected point, else in the middle of the data.
 void TransferPanel::draw_presets(PanelContext& context) {
     if (!ImGui::BeginPopup("presets")) return;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
@@ -185,7 +185,7 @@ void TransferPanel::draw_density_point(Document& document, std::size_t index) {
         "within 1.3e-3 of their extinction");
 }
 
-// The colour of a point of extinction: a stop at its value, which painting makes.
+// Draws the colour at a point of extinction. Changing it adds a colour stop at the point's value.
 void TransferPanel::draw_color(Document& document, double value, const glm::dvec3& color) {
     const ImageColorSpace space = document.scene().color_space;
     glm::vec3 display(display_of_color(color, space));
@@ -227,7 +227,8 @@ void TransferPanel::draw_density_slider(Document& document) {
 void TransferPanel::draw_between(Document& document) {
     TransferEditor& editor = document.transfer();
     const TransferCurves& curves = editor.curves();
-    // Pieces of constant extinction, and steps, are the same in all interpolations.
+    // Pieces of constant extinction, and steps, are equal in both interpolations, so they do not
+    // count.
     const auto count = [&](bool opacity) {
         std::size_t found = 0;
         for (std::size_t i = 0; i + 1 < curves.density.size(); ++i) {
@@ -270,7 +271,7 @@ void TransferPanel::draw_maps(PanelContext& context) {
     }
 }
 
-// Returns the range that maps and shapes are stretched over: the data's, or that of the points.
+// Returns the range for maps and shapes: that of the data, or that of the points.
 ValueSpan TransferPanel::span_of(const PanelContext& context) const {
     const auto& points = context.document.transfer().curves().density;
     const ValueHistogram* const histogram = context.shown.histogram.get();

@@ -13,8 +13,8 @@ struct ValueSpan {
     double lo = 0, hi = 1;
 };
 
-// The editor of the transfer function: the plot, and on its right the numbers of the selected
-// points, colour maps, and what changes the whole function.
+// The editor of the transfer function: the plot and, on its right, the numbers of the selected
+// points, colour maps, and controls of the whole function.
 class TransferPanel : public Panel {
   public:
     const char* title() const override { return "Transfer function"; }
@@ -36,9 +36,9 @@ class TransferPanel : public Panel {
 
     TransferPlot plot_;
     std::uint64_t fitted_to_ = 0;  // Revisions::data
-    bool counted_ = false;         // whether the histogram was there then
-    double density_ = 1;           // of the slider, while it is drawn
-    bool over_points_ = false;     // maps are stretched over the points, or over the data
+    bool counted_ = false;         // there was a histogram then
+    double density_ = 1;           // of the slider, while it is dragged
+    bool over_points_ = false;     // true: maps are stretched over the points; false: over the data
     std::string map_file_, map_message_;
 };
 

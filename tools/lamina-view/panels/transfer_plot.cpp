@@ -11,8 +11,7 @@ namespace {
 
 using Curve = TransferHandle::Curve;
 
-// The largest extinction that is told from opacity 1: that has an arbitrary number, 1e7 /
-// unit_length.
+// Returns the largest extinction below that of opacity 1, which is arbitrary: 1e7 / unit_length.
 double densest(const TransferEditor& editor) {
     constexpr double opaque_depth = 17.5;
     double most = 0, most_of_all = 0;
@@ -53,7 +52,8 @@ void TransferPlot::fit(const TransferEditor& editor, const ValueHistogram* histo
     fitted_ = true;
 }
 
-// Three decades are told apart, or so many that the faintest point is off 0, up to six.
+// Fits the extinction axis: the linear part begins three decades below its top, or lower, up to
+// six, so that the faintest point is off 0.
 void TransferPlot::fit_extinction(const TransferEditor& editor) {
     const double most = densest(editor);
     const double top = most > 0 ? std::min(3 * most, 1e300) : 1;
@@ -63,7 +63,8 @@ void TransferPlot::fit_extinction(const TransferEditor& editor) {
     frame_.axis = SymlogAxis(0, top, std::clamp(faintest, 1e-6 * top, 1e-3 * top));
 }
 
-// The parts of the plot: numbers left and right, the strip with its stops below the values.
+// Places the parts of the plot: numbers at the left and right, and the strip of colours with its
+// stops below the values.
 void TransferPlot::place(const ImVec2& corner, const ImVec2& size) {
     frame_.min = {corner.x + em(3.8f), corner.y + em(.5f)};
     frame_.max = {corner.x + size.x - em(3.4f), corner.y + size.y - em(3.4f)};
@@ -97,7 +98,7 @@ void TransferPlot::zoom(float steps, float at_x) {
     const double pivot = frame_.value(at_x), factor = std::pow(.85, static_cast<double>(steps));
     const double lo = pivot + (frame_.value_lo - pivot) * factor;
     const double hi = pivot + (frame_.value_hi - pivot) * factor;
-    // Values must stay apart on the screen.
+    // Neighbouring values must stay apart on the screen.
     if (hi - lo <= 1e-9 * std::max({std::abs(lo), std::abs(hi), 1e-290})) return;
     frame_.value_lo = lo;
     frame_.value_hi = hi;
@@ -139,7 +140,7 @@ std::string TransferPlot::drag(TransferEditor& editor) {
             editor.move({frame_.values(dx), frame_.places(dy)}, frame_.axis);
             return "move";
         case Drag::window: {
-            // The middle of the window stays under what is done about its width.
+            // Widening keeps the value in the middle of the plot.
             const auto& points = editor.curves().density;
             const double pivot = (value_lo_at_press_ + value_hi_at_press_) / 2;
             if (points.size() > 0)

@@ -11,19 +11,20 @@
 
 namespace lamina::view {
 
-// Marks that the plot shows beside the curves.
+// Data that the plot shows beside the curves.
 struct TransferSurroundings {
     const ValueHistogram* histogram = nullptr;
     std::optional<double> value_under_pointer;
     ImageColorSpace space = ImageColorSpace::linear;
 };
 
-// The curves over the histogram, with their points to be dragged, and the strip of colours below.
+// The curves over the histogram, with points that can be dragged, and the strip of colours below.
 class TransferPlot {
   public:
-    // Shows the whole range of the histogram and of the points, and all extinctions.
+    // Shows the whole range of histogram and points, and all extinctions.
     void fit(const TransferEditor& editor, const ValueHistogram* histogram);
-    // Fills a rectangle of ImGui's current window. Returns the name of what was edited, or nothing.
+    // Draws into a rectangle of ImGui's current window. Returns the name of the edit, or an empty
+    // text.
     std::string draw(TransferEditor& editor, const TransferSurroundings& surroundings,
                      const ImVec2& size);
     const TransferFrame& frame() const { return frame_; }

@@ -11,8 +11,8 @@
 namespace lamina::view {
 namespace {
 
-// Text of the active input field. ImGui gives a field up before it is drawn again when Tab ends the
-// input, so the text is kept here. One field is active at a time.
+// Text of the active field, of which there is only one. ImGui deactivates a field that Tab leaves
+// before the field is drawn again, so its text is kept here.
 template <typename Value>
 struct Typed {
     ImGuiID field = 0;

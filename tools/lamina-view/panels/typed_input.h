@@ -11,11 +11,11 @@ namespace lamina::view {
 bool typed_number(const char* id, double& number);
 bool typed_text(const char* id, const char* hint, std::string& text);
 
-// Asks for the name of a file, over everything else.
+// Asks for the name of a file, in a window above all others.
 class PathPrompt {
   public:
-    // `take` gets the name and returns what is wrong with it, for which it is asked for again, or
-    // an empty text.
+    // Called with the name. Returns why it is refused, after which it is asked for again, or an
+    // empty text.
     using Take = std::function<std::string(const std::string&)>;
     void ask(std::string title, std::string path, Take take);
     void draw();  // once a frame

@@ -89,7 +89,7 @@ void DrawWorker::publish(const Shown& shown) {
 }
 
 void DrawWorker::run() {
-    std::uint64_t loading = 0;  // of the last request
+    std::uint64_t loading = 0;  // Revisions::data of the last request
     for (;;) {
         std::optional<DrawRequest> request;
         std::stop_token stop;
@@ -111,7 +111,7 @@ void DrawWorker::run() {
         }
         steps_->step(stop);
     }
-    steps_.reset();  // a session ends in the thread that it drew in
+    steps_.reset();  // a session must end in its own thread
 }
 
 }  // namespace lamina::view

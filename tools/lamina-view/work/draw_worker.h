@@ -24,29 +24,29 @@ namespace lamina::view {
 // A request for a picture.
 struct DrawRequest {
     Scene scene;
-    Revisions revisions;  // which parts of the scene differ from the request before
-    bool moving = false;  // something is being dragged: a coarse picture serves
-    bool coarse = true;   // whether it may get one
-    bool trace = true;    // whether the tracer replaces the picture at rest
-    std::shared_ptr<const PinnedPicture> pinned = {};  // to be kept in the view of the scene
+    Revisions revisions;  // counts that show which parts of the scene changed
+    bool moving = false;  // something is being dragged: a coarse picture suffices
+    bool coarse = true;   // allows coarse pictures
+    bool trace = true;    // at rest, the tracer replaces the picture
+    std::shared_ptr<const PinnedPicture> pinned = {};  // to be drawn in this view, too
     std::uint64_t number = 0;
     using Clock = std::chrono::steady_clock;
-    Clock::time_point asked_at = {};  // of the input, for measurements
+    Clock::time_point asked_at = {};  // time of the input, for measurements
 };
 
-// Chooses how small a picture has to be to arrive in time while the camera moves. It keeps the
-// times of pictures of each size. A new time scales the others, because views differ in cost.
-// Between two sizes with known times, time is linear in the number of pixels. Beyond them, larger
-// pictures are expected to take longer in proportion to their pixels, and smaller ones to be faster
-// by the square root of that, because part of the work (order of tets) does not depend on size.
+// Chooses how small a picture must be to arrive in time while the camera moves, from the times of
+// pictures of each size. A new time scales the others, because views differ in cost. Between two
+// sizes with known times, time is linear in the number of pixels. Beyond them, larger pictures are
+// expected to take time in proportion to their pixels, and smaller ones in proportion to the square
+// root, because part of the work (the order of tets) does not depend on size.
 class CoarseSize {
   public:
     explicit CoarseSize(double target_ms) : target_ms_(target_ms) {}
 
-    // Records the time of a picture whose edges were divided by this one of `divisors`.
+    // Adds the time of a picture whose sides were divided by `divisor`, one of `divisors`.
     void add(double divisor, double ms);
-    // The least one of `divisors` with which pictures are in time, as far as is known. If there is
-    // none, the least one that takes at most a quarter longer than the quickest.
+    // Returns the smallest divisor with which pictures are expected in time. If there is none,
+    // returns the smallest one that takes at most a quarter longer than the fastest.
     double divisor() const;
 
     static constexpr std::array<double, 9> divisors{1, 1.5, 2, 3, 4, 6, 8, 12, 16};
@@ -57,21 +57,20 @@ class CoarseSize {
     double expected_ms(std::size_t index) const;
 
     double target_ms_;
-    std::array<double, size> ms_{};  // 0: not known
+    std::array<double, size> ms_{};  // 0: unknown
 };
 
 class SessionSteps;
 
 // Draws in a thread of its own, which owns the session. Only the newest request counts: it stops
-// the work for an older one at once. There are two exceptions. While the scene moves, a picture is
-// finished although a newer request moves, too, unless it takes long: otherwise there would be no
-// picture as long as it moves. And data are loaded to the end unless others are wanted.
+// the work for older ones at once, with two exceptions. While the scene moves, a picture is
+// finished, unless that takes long, although a newer request moves, too; otherwise no picture would
+// ever be finished. And loading data continues unless other data are requested.
 class DrawWorker {
   public:
-    // `wake` is called, in the worker's thread or those of its session, whenever shown() has
-    // changed.
+    // `wake`: called in the worker's thread, or in its session's, when shown() has changed.
     DrawWorker(const SessionOptions& options, std::function<void()> wake);
-    ~DrawWorker();  // stops what is being done
+    ~DrawWorker();  // stops the current work
 
     void request(DrawRequest request);
     std::shared_ptr<const Shown> shown() const;  // never null
@@ -94,9 +93,9 @@ class DrawWorker {
     std::atomic<bool> busy_{false};
     std::stop_source running_;
     bool running_moves_ = false;
-    std::uint64_t running_loads_ = 0;  // Revisions::data of what is being loaded
+    std::uint64_t running_loads_ = 0;  // Revisions::data of the data being loaded
     Clock::time_point running_since_ = {};
-    std::unique_ptr<SessionSteps> steps_;  // the worker thread's own
+    std::unique_ptr<SessionSteps> steps_;  // used only by the worker's thread
     std::thread thread_;
 };
 

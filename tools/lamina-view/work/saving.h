@@ -13,7 +13,7 @@
 
 namespace lamina::view {
 
-// Returns true if a file of this name can be saved: .json (the scene), .exr, .png, .npy (the
+// Returns true if a file of this name can be saved: .json (the scene), or .exr, .png, .npy (the
 // picture).
 bool can_save(const std::filesystem::path& file);
 
@@ -23,14 +23,14 @@ class Saving {
   public:
     struct Result {
         std::filesystem::path file;
-        std::string failure;  // empty: it is written
+        std::string failure;  // empty: it was written
     };
 
-    // `wake` is called when a result is there.
+    // `wake`: called when a result can be taken.
     explicit Saving(std::function<void()> wake) : wake_(std::move(wake)) {}
-    // The resolved scene, or the full picture, whatever is on the screen.
+    // Saves the resolved scene or the full picture, even if the screen shows another picture.
     void save(const std::filesystem::path& file, std::shared_ptr<const Shown> shown);
-    bool busy() const { return unfinished_ > 0; }  // until its result is taken
+    bool busy() const { return unfinished_ > 0; }  // true until all results are taken
     std::vector<Result> take_results();
 
   private:
@@ -38,7 +38,7 @@ class Saving {
     std::size_t unfinished_ = 0;
     std::mutex mutex_;
     std::vector<Result> results_;
-    std::vector<std::future<void>> running_;  // waits for them when it ends
+    std::vector<std::future<void>> running_;  // the destructor waits for them
 };
 
 }  // namespace lamina::view

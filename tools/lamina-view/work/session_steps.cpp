@@ -18,19 +18,19 @@
 
 namespace lamina::view {
 
-// A full picture that the tracer replaces tile by tile, and the error that this finds.
+// A full picture that the tracer replaces tile by tile, with the error found so far.
 class TracedPicture {
   public:
-    // `full`: null if there is none to be measured.
+    // `full`: null if no picture is to be measured.
     TracedPicture(std::shared_ptr<const Image> full, std::shared_ptr<const ScreenPicture> screen,
                   const Scene& scene);
 
     void add(const PictureTile& tile, const PreciseImage& truth);
 
-    double share() const;      // of the pixels that are traced
-    ErrorNorms error() const;  // of these, as error_of() has it of a traced picture in float32
+    double share() const;      // share of the pixels that are traced
+    ErrorNorms error() const;  // of these pixels, as error_of() computes it in float32
     const ScreenPicture& screen() const { return screen_; }
-    // The full picture less the truth, as far as that is traced. Empty if there is no full picture.
+    // Returns the full picture minus the traced pixels; empty if there is no full picture.
     const PictureDifference& missed() const { return missed_; }
 
   private:
@@ -121,7 +121,7 @@ std::string dotted(std::string pointer) {
 
 using Clock = std::chrono::steady_clock;
 
-// Time for drawing: the window needs the rest of the 50 ms from input to picture.
+// Time for drawing: 50 ms from input to picture, of which the window needs the rest.
 constexpr double moving_target_ms = 35;
 constexpr double tile_publish_ms = 100;
 constexpr int histogram_bins = 512;
@@ -166,7 +166,7 @@ void SessionSteps::begin(DrawRequest request) {
     forget_tiles();
 }
 
-// A picture whose tracing was stopped is the full one again.
+// If tracing was stopped, shows the full picture again.
 void SessionSteps::forget_tiles() {
     if (shown_.activity == "tracing") shown_.activity.clear();
     if (shown_.kind != PictureKind::traced || shown_.truth) return;
@@ -193,7 +193,7 @@ SessionSteps::Next SessionSteps::step_after_full() const {
     return request_.trace && !shown_.truth ? Next::trace : Next::nothing;
 }
 
-// Returns the pinned picture as it was drawn last.
+// Returns the pinned picture as last drawn.
 std::shared_ptr<const PinnedPicture> SessionSteps::pinned() const {
     const auto& asked = request_.pinned;
     if (!asked || asked->data != request_.revisions.data) return {};
@@ -238,7 +238,8 @@ ProgressCallback SessionSteps::progress() {
     };
 }
 
-// The old session is kept until the next one is there: its picture stays if that fails.
+// Loads the data. The old session is kept until the new one exists: its picture stays if that
+// fails.
 void SessionSteps::load(const std::stop_token& stop) {
     shown_.activity = "loading";
     shown_.share_done = 0;
@@ -261,7 +262,7 @@ void SessionSteps::load(const std::stop_token& stop) {
     publish_(shown_);
 }
 
-// The screen keeps the old picture until there is another one.
+// Forgets the pictures; the screen keeps the old one until there is another.
 void SessionSteps::forget_pictures() {
     shown_.kind = PictureKind::none;
     shown_.probe.reset();
@@ -274,7 +275,7 @@ void SessionSteps::forget_pictures() {
     shown_.error = {};
 }
 
-// Hands the session what has changed, by the call that costs least: nothing is chosen again.
+// Passes changes to the session by the cheapest calls. Nothing automatic is chosen again.
 void SessionSteps::apply_change() {
     const Scene& scene = request_.scene;
     const Revisions& asked = request_.revisions;
@@ -293,7 +294,7 @@ void SessionSteps::apply_change() {
     applied_ = asked;
 }
 
-// Returns what the edges are divided by.
+// Sets a coarse size. Returns the divisor of the picture's sides.
 double SessionSteps::set_size_for_moving() {
     const Scene& scene = request_.scene;
     const double divisor = request_.coarse ? coarse_size_.divisor() : 1;
@@ -358,8 +359,8 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
     publish_(shown_);
 }
 
-// The session is that of B: it gets the scene of A for a picture, and that of B back with the next
-// step that needs it.
+// Draws A with the session, which otherwise has the scene of B and gets it back with the next step
+// that needs it.
 void SessionSteps::draw_pinned(const std::stop_token& stop) {
     auto drawn = std::make_shared<PinnedPicture>(*pinned());
     drawn->scene.camera = shown_.resolved->camera;
@@ -447,7 +448,7 @@ void SessionSteps::take_truth(const PreciseImage& truth) {
     const Image as_float = to_float(truth);
     if (shown_.full) {
         shown_.error = error_of(*shown_.full, as_float);
-    } else {  // the scene asks for the truth alone
+    } else {  // the scene itself asks for the traced picture
         shown_.full = std::make_shared<const Image>(as_float);
         shown_.full_screen = shown_.screen;
         shown_.full_revisions = request_.revisions;

@@ -14,26 +14,26 @@
 
 namespace lamina::view {
 
-// Returns the keys that `asked` leaves to be chosen ("auto") and that differ in two choices, one
-// line each: "render.slice.samples: 300 -> 320".
+// Returns the keys that `asked` leaves automatic and that differ between two choices, one line
+// each: "render.slice.samples: 300 -> 320".
 std::vector<std::string> automatic_differences(const Scene& before, const Scene& after,
                                                const Scene& asked);
 
 class TracedPicture;
 
-// The work for a request, step by step: the data, then a picture. While the scene moves it is a
-// quick one; at rest, automatic keys are chosen again, the full picture is drawn, and the tracer
-// replaces it. Used by one thread.
+// Does the work for a request step by step: loads data, then draws. While the scene moves, draws a
+// coarse picture; at rest, chooses automatic keys again, draws the full picture, and traces it.
+// Used by one thread only.
 class SessionSteps {
   public:
     SessionSteps(const SessionOptions& options, std::function<void(const Shown&)> publish);
     ~SessionSteps();
 
-    void begin(DrawRequest request);  // forgets what is left to do of the one before
+    void begin(DrawRequest request);  // drops the remaining steps of the request before
     bool unfinished() const { return next_ != Next::nothing; }
     bool moves() const { return next_ == Next::moving; }
     bool loads() const { return next_ == Next::load; }
-    // Does the next step. An error is published; a step that was stopped stays to be done.
+    // Does the next step. Errors are published; a step that was stopped is done again.
     void step(const std::stop_token& stop);
 
   private:
@@ -53,9 +53,9 @@ class SessionSteps {
     void tell_plan();
     void show_traced(const TracedPicture& traced);
     void take_truth(const PreciseImage& truth);
-    void add_warnings();  // takes the session's, and shows those that are not shown yet
+    void add_warnings();  // adds the session's new warnings to the shown ones
     void forget_tiles();
-    void forget_pictures();  // of other data
+    void forget_pictures();  // when the data change
     void fail(const std::string& message);
     ProgressCallback progress();
 
@@ -64,12 +64,12 @@ class SessionSteps {
     DrawRequest request_;
     Next next_ = Next::nothing;
     std::unique_ptr<Session> session_;
-    Revisions applied_;  // what the session has
-    Revisions chosen_;   // for what its automatic values were chosen
+    Revisions applied_;  // revisions that the session has
+    Revisions chosen_;   // revisions that automatic values were chosen for
     bool full_size_ = true;
     CoarseSize coarse_size_;
     bool holds_pinned_ = false;  // the session has the scene of A
-    Revisions pinned_failed_;    // A cannot be drawn in the view of this request
+    Revisions pinned_failed_;    // request in whose view A cannot be drawn
     Shown shown_;
 };
 

@@ -66,7 +66,7 @@ std::vector<double> layer_heights(std::int32_t count, double first, double last)
     return heights;
 }
 
-// Returns the body's height, for a bump of height 1.
+// Returns the height of the body's bump over (x, y), 1 in its middle.
 double bump_at(double x, double y) {
     return std::exp(-10 * ((x - .5) * (x - .5) + (y - .5) * (y - .5)));
 }
@@ -78,10 +78,11 @@ double layer_depth(double x, double y) {
 using Json = nlohmann::ordered_json;
 
 constexpr int magnification = 12;
-constexpr double least_range = 16.0 / 255;  // an inset's contrast shows at least this range
-constexpr double inset_mean = 0.35;         // an inset's mean goes to this, in linear light
-// Differences are darkest at the value that this share of the first variant's components does not
-// exceed.
+// An inset's contrast is enlarged as if its range were at least this.
+constexpr double least_range = 16.0 / 255;
+constexpr double inset_mean = 0.35;  // mean of an inset as shown, in linear light
+// The colour scale of differences ends at the value that this share of the first variant's
+// components does not exceed.
 constexpr double shown_share = 0.995;
 
 struct Inset {
@@ -90,8 +91,8 @@ struct Inset {
 
 using Rgb = std::array<double, 3>;
 
-// Returns the factor by which an inset's contrast is enlarged, so that the exact picture there
-// fills two thirds of the range.
+// Returns the factor by which an inset's contrast is enlarged: the exact picture then fills two
+// thirds of the range.
 double gain_of(const Image& exact, const Inset& inset) {
     double range = least_range;
     for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -107,7 +108,7 @@ double gain_of(const Image& exact, const Inset& inset) {
     return 1 / range;
 }
 
-// Returns whether the mesh covers the window. Silhouettes are not artifacts.
+// Tells whether the mesh covers the whole inset: a silhouette inside would not be an artifact.
 bool covered(const Image& exact, const Inset& inset) {
     for (int y = inset.row; y < inset.row + inset.height; ++y) {
         for (int x = inset.column; x < inset.column + inset.width; ++x) {
@@ -129,7 +130,7 @@ Rgb mean_within(const Image& image, const Inset& inset) {
     return mean;
 }
 
-// Returns the variance of the error in the window, with the window's gain.
+// Returns the variance of the error in the inset, with the inset's gain.
 double structure_within(const Image& image, const Image& exact, const Inset& inset) {
     const Rgb mean = mean_within(image, inset), exact_mean = mean_within(exact, inset);
     double sum = 0;
@@ -164,8 +165,8 @@ Inset worst_inset(const Image& image, const Image& exact) {
     return worst;
 }
 
-// Magnifies the window to the size of the picture, with nearest pixels, and its contrast about the
-// window's mean.
+// Magnifies the inset to the picture's size by repeating pixels, and enlarges its contrast about
+// its mean.
 CodedImage magnified(const Image& image, const Inset& inset, double gain) {
     const Rgb mean = mean_within(image, inset);
     Image large(image.width, image.height);
@@ -211,7 +212,7 @@ double shown_scale(const Difference& difference) {
     return *at;
 }
 
-// The pictures in the manner of the paper's figures; the exact one last.
+// Returns panels like the paper's figures; the exact picture is the last.
 Json panels_of(const std::string& name, const std::vector<Variant>& variants,
                const std::vector<Image>& pictures, const Image& exact,
                const std::vector<Difference>& differences, const Inset& inset, double scale) {
@@ -245,8 +246,8 @@ SceneMesh make_box_mesh(const std::array<std::int32_t, 3>& cells) {
 }
 
 SceneMesh make_graded_mesh(std::int32_t cells, std::int32_t layers, double ratio, double bump) {
-    // The longest edge is a diagonal of an outermost cell, which hardly depends on the thickness of
-    // the first layer.
+    // The longest edge is a diagonal of an outermost cell, which hardly depends on the first
+    // layer's thickness.
     const double width = 1.0 / cells;
     const auto made = [&](double first) {
         const std::vector<double> heights = layer_heights(layers, first, width);

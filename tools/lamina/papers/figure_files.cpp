@@ -22,7 +22,7 @@ std::string cell_of(const nlohmann::ordered_json& value) {
     return value.get<std::string>();
 }
 
-// The size of the drawing in pixels, and the rectangle of the plot within it.
+// Size of the drawing, and the rectangle of the plot in it, in pixels.
 constexpr double drawing_width = 760, drawing_height = 440;
 constexpr double left = 70, top = 44, plot_width = 460, plot_height = 330;
 constexpr double right = left + plot_width, bottom = top + plot_height;
@@ -68,7 +68,7 @@ std::vector<double> ticks(const PlotAxis& axis) {
     return at;
 }
 
-// Returns 0 at axis.low and 1 at axis.high.
+// Returns the place of the value on the axis: 0 at axis.low, 1 at axis.high.
 double share_of(const PlotAxis& axis, double value) {
     const double inside = std::clamp(value, axis.low, axis.high);
     return axis.powers_of_two ? std::log2(inside / axis.low) / std::log2(axis.high / axis.low)

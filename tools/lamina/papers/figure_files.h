@@ -9,7 +9,7 @@
 #include "render/pipeline.h"
 #include "study/study_frames.h"
 
-// Pictures, tables and plots of a paper's items.
+// Functions for the pictures, tables and plots of the papers' items.
 namespace lamina::papers {
 
 // Draws one picture of a scene of method slice or project, without warnings. `capabilities` and
@@ -17,12 +17,12 @@ namespace lamina::papers {
 Image plain_picture(const Scene& scene, SceneData data, const Capabilities& capabilities,
                     std::shared_ptr<TableCache> tables);
 
-// Returns a CSV table of objects with the same keys and plain values, one row each; null is an
-// empty cell.
+// Returns a CSV table of objects that have the same keys and plain values: one row each; null
+// becomes an empty cell.
 std::string csv_of_rows(const nlohmann::ordered_json& rows);
 
-// Returns rows of names, times and ratios to the first frame: [{technique, ms, ratio, cpu_ms,
-// ...}].
+// Returns one row for each frame: [{technique, ms, ratio, cpu_ms, ...}]; `ratio` is relative to the
+// first frame.
 nlohmann::ordered_json time_rows(const std::vector<study::TimedFrame>& frames,
                                  const std::vector<study::FrameTimes>& times);
 
@@ -34,8 +34,8 @@ struct PlotAxis {
 };
 
 // A plot of lines as SVG, for print. It has seven colours that colour-blind people can tell apart
-// (Okabe and Ito 2008, without yellow). Each has its own dash pattern, so that it also works in
-// grey. The legend is at the right. The first line is black and solid; it is for exact values.
+// (Okabe and Ito 2008, without yellow), each with its own dash pattern, so that it works in grey,
+// too. The legend is at the right. The first line, black and solid, is for exact values.
 struct LinePlot {
     struct Line {
         std::string name;

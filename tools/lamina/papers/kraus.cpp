@@ -18,14 +18,14 @@ namespace {
 constexpr double faint_opacity = 0.1;
 constexpr double smooth_opacity = 0.48;  // measured on a coarse picture
 constexpr double dense_opacity = 0.95;
-constexpr int coarse = 4;  // pixels
+constexpr int coarse = 4;  // divides the sides of the pictures that opacity is measured on
 
 TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
     return {value, {color, extinction}};
 }
 
-// The colours are blue below the value and orange above it, so that the two sides of an isosurface
-// can be told apart.
+// Returns a peak of extinction: blue below `value` and orange above it, so that the two sides of an
+// isosurface can be told apart.
 std::vector<TransferKnot> peak(double value, double half_width) {
     const glm::dvec3 below(.1, .35, 1), above(1, .55, .1);
     return {knot(value - half_width, below, 0), knot(value, 0.5 * (below + above), 1),
@@ -55,8 +55,8 @@ TransferFunction scaled(std::span<const TransferKnot> knots, double factor) {
     return TransferFunction::linear(std::move(changed));
 }
 
-// Returns the largest depth of all rays of a coarse picture, with extinctions `thin` times those of
-// `knots`.
+// Returns the largest optical depth of the rays of a coarse picture, with extinctions `thin` times
+// those of `knots`.
 double largest_depth(study::TracedMesh& mesh, Scene scene, const std::vector<TransferKnot>& knots,
                      double thin) {
     scene.width = std::max(1, scene.width / coarse);
@@ -65,7 +65,7 @@ double largest_depth(study::TracedMesh& mesh, Scene scene, const std::vector<Tra
     return -std::log1p(-largest_opacity(mesh.exact(scene)));
 }
 
-// Returns the files of an item that shows meshes one by one: NAME_MESH.png and .csv, and `also`.
+// Returns the files of an item that shows meshes one by one: NAME_MESH.csv for each, and `also`.
 std::vector<std::string> files_of_meshes(const std::string& name,
                                          const std::vector<std::string>& meshes,
                                          std::vector<std::string> also = {}) {
@@ -139,7 +139,8 @@ KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, b
     scene.width = width;
     scene.height = height;
     scene.project.table = paper_table();
-    // Optical depth is proportional to extinction. The relative extinctions are about 1.
+    // Optical depth is proportional to extinction, so one measurement with thin extinctions gives
+    // the factor for any opacity. Relative extinctions are about 1.
     const auto& bounds = subject.mesh.tets().bounds();
     const double thin = 1e-3 / glm::distance(bounds.min, bounds.max);
     const auto with = [&](const std::vector<TransferKnot>& knots, double depth, double opacity) {

@@ -29,23 +29,24 @@ struct KrausSubject {
     bool measured_data;  // read from a file, not generated
     study::TracedMesh mesh;
     Scene smooth;      // opacity of a ray up to .5
-    Scene faint;       // the same with opacity up to .1
-    Scene dense;       // the same with opacity up to .95
-    Scene isosurface;  // a sharp peak, nearly opaque; its camera may be another one
-    // Pre-integration tables of its pictures. Subjects of one stage share the stage's.
+    Scene faint;       // as `smooth`, with opacity up to .1
+    Scene dense;       // as `smooth`, with opacity up to .95
+    Scene isosurface;  // a sharp peak, nearly opaque; may have another camera
+    // Pre-integration tables of the subject's pictures. Subjects of one KrausStage share the
+    // stage's.
     std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
 };
 
-// The views and transfer functions of a subject. The extinctions are relative: they are scaled so
-// that the picture's largest opacity is the intended one.
+// Views and transfer functions of a subject. Extinctions are relative: they are scaled until the
+// picture has the intended largest opacity.
 struct KrausView {
     std::string name;
     Camera camera, isosurface_camera;
     std::vector<TransferKnot> smooth, isosurface;
     double isosurface_opacity = 0.98;
 };
-// The view of one of the meshes "bluntfin", "combustor", "torso", "graded", "plate" and "box"
-// (papers/compared_pictures.h).
+// Returns the view of one of the meshes "bluntfin", "combustor", "torso", "graded", "plate" and
+// "box" (papers/compared_pictures.h).
 KrausView kraus_view(const std::string& name);
 
 KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, bool measured_data,
@@ -53,9 +54,9 @@ KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, b
 
 TableSettings paper_table();
 
-// The remedies of Kraus 2004, one switched off at a time in a scene that has them all.
+// Functions that switch off one remedy of Kraus 2004 in a scene that has all of them.
 
-// Changes only scenes that have a table of their own.
+// The first two need a scene with a table of its own.
 inline Scene with_table_format(Scene scene, TableFormat format) {
     scene.project.table->format = format;
     return scene;
@@ -98,26 +99,26 @@ inline Scene with_order(Scene scene, ProjectOrder order) {
 class KrausStage;
 using KrausItem = PaperItem<KrausStage>;
 
-// The items in the order of the paper, followed by items on questions that it leaves open. Data
-// sets come from LAMINA_DATA. Without it generated meshes are used instead, and nothing that the
-// paper says can be tested.
+// Returns the items in the paper's order, followed by items on questions that it leaves open. Data
+// sets come from LAMINA_DATA. Without it, generated meshes replace them, and the paper's statements
+// cannot be tested.
 const std::vector<KrausItem>& kraus_items();
 
-// Pairs of pictures with insets and signed differences, and their errors against the tracer.
+// Draw pairs of pictures with insets and signed differences, and measure errors against the tracer.
 nlohmann::ordered_json draw_kraus_figure7(const std::filesystem::path& folder, KrausStage& stage);
 nlohmann::ordered_json draw_kraus_figure8(const std::filesystem::path& folder, KrausStage& stage);
 nlohmann::ordered_json draw_kraus_figure9(const std::filesystem::path& folder, KrausStage& stage);
 nlohmann::ordered_json draw_kraus_figure10(const std::filesystem::path& folder, KrausStage& stage);
 
-// Times of the enhancements, one after the other, and of several mesh sizes.
+// Measure the times of the enhancements, one after the other, and of several mesh sizes.
 nlohmann::ordered_json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage);
 nlohmann::ordered_json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage);
 
-// Every remedy switched off in turn, on all meshes.
+// Switches off every remedy in turn, on all meshes.
 nlohmann::ordered_json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage);
 
-// The paper's future work (section 6): compares numerical with analytic pre-integration, and shows
-// wrong orders.
+// Treat the paper's future work (section 6): numerical against analytic pre-integration, and wrong
+// orders.
 nlohmann::ordered_json draw_kraus_preintegration(const std::filesystem::path& folder,
                                                  KrausStage& stage);
 nlohmann::ordered_json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage);
@@ -128,14 +129,14 @@ struct KrausSizes {
     int timed_width = 800, timed_height = 600;  // as in the paper
     std::int32_t graded_cells = 24, graded_layers = 40;
     std::int32_t box_cells = 31;  // along an edge of the box that replaces data sets: 178,746 tets
-    // Meshes for Table 2: 20,250 tets, then as many as the paper's heat sink, cylinder and X38
-    // have.
+    // Cells of the boxes for Table 2: 20,250 tets, and then as many tets as the paper's heat sink,
+    // cylinder and X38 have.
     std::vector<std::int32_t> timed_box_cells{15, 27, 47, 69};
     int rounds = 3;
 };
 
-// The context that is current, meshes with their traced pictures, and pre-integration tables, for
-// all items of the paper.
+// Holds what the paper's items share: the current context, meshes with their traced pictures, and
+// pre-integration tables.
 class KrausStage {
   public:
     // Meshes of data sets are read from `data`, unless it is empty or lacks them.
@@ -147,10 +148,10 @@ class KrausStage {
     const std::shared_ptr<TableCache>& tables() const { return tables_; }
 
     bool has(const std::string& data_set) const;
-    // A subject of kraus_view(), made when it is first needed. If a data set is missing, "box"
-    // replaces it. "graded" has a bump and "plate" has none; the edge ratio of both is 1e4.
+    // Returns a subject of kraus_view(), made when it is first needed. "box" replaces a missing
+    // data set. "graded" has a bump and "plate" has none; both have an edge ratio of 1e4.
     KrausSubject& subject(const std::string& name);
-    // All subjects whose data exist, or "box" if no data set does.
+    // Returns all subjects whose data exist (or "box" if none does), and "graded" and "plate".
     std::vector<KrausSubject*> subjects();
 
     static std::filesystem::path data_folder();  // LAMINA_DATA, or empty
@@ -164,14 +165,14 @@ class KrausStage {
     std::map<std::string, std::unique_ptr<KrausSubject>> subjects_;
 };
 
-// Data sets that an item needs, and what replaces those that are missing, in words.
+// Data sets that an item needs, and words for what replaces missing ones.
 struct DataNeeds {
     std::vector<std::string> data_sets;
     std::string instead;
 };
 
 // Returns Findings::result(values, printed, more). If a data set is missing, the note says so
-// first, and nothing that the paper says can be tested.
+// first, and the paper's statements count as untestable.
 nlohmann::ordered_json result_with_data(Findings findings, nlohmann::ordered_json values,
                                         nlohmann::ordered_json printed, const std::string& more,
                                         const KrausStage& stage, const DataNeeds& needs);
@@ -189,13 +190,13 @@ class MeshFrame {
     }
 
     const std::string& name() const { return name_; }
-    // Durations of the last frame's stages.
+    // Returns the durations of the last frame's stages.
     std::map<std::string, double> stages_ms() const {
         return pipeline_->renderer().renderer().stages_ms();
     }
     std::int64_t tets_drawn() const { return pipeline_->statistics().tets_drawn; }
     Image picture() const { return pipeline_->renderer().picture(); }
-    // Draws a whole frame: order, geometry and fragments.
+    // Draws a frame with all its stages: order, geometry and fragments.
     void draw() {
         pipeline_->draw_frame();
         drawn_ = true;
@@ -210,7 +211,7 @@ class MeshFrame {
     bool drawn_ = false;
 };
 
-// Whole frames for time_interleaved(). `frames` must not move in memory.
+// Returns the frames for time_interleaved(). `frames` must not move in memory while it is used.
 inline std::vector<study::TimedFrame> timed(std::vector<MeshFrame>& frames) {
     std::vector<study::TimedFrame> all;
     for (MeshFrame& frame : frames) {

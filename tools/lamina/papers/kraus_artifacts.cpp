@@ -21,10 +21,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* all_remedies = "all remedies";
-constexpr double visible = 1;    // from this error on, in 1/255
-constexpr double graded = 1000;  // edge ratio, from which a mesh counts as graded
+constexpr double visible = 1;    // least visible error, in 1/255
+constexpr double graded = 1000;  // edge ratio above which a mesh counts as graded
 
-// `scene` has every remedy of the paper. The last variant has ours, too.
+// Returns the variants of `scene`, which has every remedy of the paper, each with one remedy off.
+// The last one has lamina's remedies, too.
 std::vector<Variant> ladder(const Scene& scene) {
     return {{all_remedies, scene},
             {"linear interpolation", with_linear_interpolation(scene)},
@@ -43,7 +44,7 @@ std::vector<Variant> ladder(const Scene& scene) {
             {"default", with_default_integration(scene)}};
 }
 
-// The variants of the frame buffer, for tets of low opacity.
+// Returns variants of the frame buffer, for tets of low opacity.
 std::vector<Variant> buffers(const Scene& scene) {
     return {{all_remedies, scene},
             {"fixed8 buffer", with_target(scene, Target::fixed8)},
@@ -59,10 +60,10 @@ const VariantErrors& find(const std::vector<VariantErrors>& errors, const std::s
     return *found;
 }
 
-// One statement, asked of every mesh. It holds if it holds on all of them.
+// A statement about meshes. It holds if it holds on every mesh that was added.
 class OnMeshes {
   public:
-    // `measured`: the text for meshes for which the statement does not hold.
+    // `measured`: shown for meshes on which the statement does not hold.
     void add(const std::string& mesh, bool holds, const std::string& measured) {
         if (holds)
             true_of_.push_back(mesh);
@@ -87,7 +88,7 @@ struct Judged {
         faint_after;
 };
 
-// Adds whether each variant is worse than the next, by L2.
+// Adds a mesh: the statement holds if each of the named variants has a larger L2 than the next one.
 void add_chain(OnMeshes& statement, const std::string& mesh,
                const std::vector<VariantErrors>& errors, const std::vector<std::string>& names) {
     bool holds = true;
@@ -161,7 +162,7 @@ Findings findings_of(const Judged& judged) {
     return findings;
 }
 
-// The error that integration and float32 may add to a picture in the right order, in 1/255.
+// Error that integration and float32 may add to a picture in the right order, in 1/255.
 constexpr double right_linf = 1;
 
 }  // namespace

@@ -28,7 +28,7 @@ bool is_worse(const VariantErrors& one, const VariantErrors& other) {
     return one.all.l2 > other.all.l2;
 }
 
-// Returns `what` and how to read the insets of write_compared_pictures().
+// Returns `what`, followed by how to read the insets of write_compared_pictures().
 std::string caption_of(const std::string& what) {
     return what +
            " The insets magnify the frame and its contrast; the differences from the exact picture "

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Frames that are timed many times are smaller.
+// Returns half of a side: frames that are timed many times are smaller.
 int half(int pixels) {
     return std::max(1, pixels / 2);
 }
@@ -45,8 +45,7 @@ std::vector<Variant> ways(const Scene& scene) {
         {"analytic", closed_form}};
 }
 
-// Returns the milliseconds to build the table that the scene asks for, or null if it has none of
-// its own.
+// Returns the milliseconds to build the scene's table, or null if its plan uses no such table.
 Json build_ms(const KrausSubject& subject, const Scene& scene, const Capabilities& capabilities) {
     Pipeline pipeline(scene, subject.mesh.data(),
                       {.capabilities = capabilities, .tables = subject.tables});

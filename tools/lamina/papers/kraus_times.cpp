@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A technique of Table 1, with the numbers that the paper prints for it; 0: it prints none.
+// A technique of Table 1 with the numbers that the paper prints, 0 if it prints none.
 struct Technique {
     std::string name;
     Scene scene;
@@ -71,7 +71,8 @@ std::string against(double measured, double paper) {
     return fmt::format("{:.2f} times as long; the paper's: {:.2f}", measured, paper);
 }
 
-// The rows are in the order of techniques(). The paper's times are of a graphics card of 2004.
+// Judges the rows, which are in the order of techniques(). The paper's times are of a graphics card
+// of 2004.
 void judge_table1(Findings& findings, const Json& rows) {
     enum : std::size_t { basic, perspective, fixed16, log2, octave, alpha, after, half, full };
     const auto overhead = [&](const char* says, std::size_t of, std::size_t to, double paper) {
@@ -102,7 +103,7 @@ void judge_table1(Findings& findings, const Json& rows) {
                     ratio(rows, half, log2)));
 }
 
-// The size of the picture that determines how dense the boxes have to be.
+// Size of the picture from which the extinctions of the boxes are derived.
 constexpr int coarse_width = 160, coarse_height = 120;
 
 // A mesh of Table 2.
@@ -133,7 +134,7 @@ Json printed_table2() {
     return printed;
 }
 
-// Boxes come first, from small to large, then data sets.
+// Returns the meshes of Table 2: boxes from small to large, then data sets.
 std::vector<TimedMesh> meshes_of_table2(KrausStage& stage, std::deque<study::TracedMesh>& boxes) {
     std::vector<TimedMesh> meshes;
     const Scene box_scene =
@@ -226,7 +227,7 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
     double least = INFINITY, most = 0, order = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         order = std::max(order, rows[i]["order_share"].get<double>());
-        if (i == 0 || i >= boxes.size()) continue;  // boxes of the paper's sizes only
+        if (i == 0 || i >= boxes.size()) continue;  // only boxes of the paper's sizes
         least = std::min(least, rows[i]["tets_per_second"].get<double>());
         most = std::max(most, rows[i]["tets_per_second"].get<double>());
     }

@@ -42,7 +42,7 @@ Scene scene_of(int pixels, bool white) {
     return scene;
 }
 
-// Codes of 16 bits are reported in units of 1/255, too.
+// Converts a code to units of 1/255; codes of 16 bits, too.
 double in_255ths(std::uint32_t code, int bits) {
     return 255.0 * code / largest_code(bits);
 }
@@ -84,7 +84,7 @@ std::string svg_of(const std::string& title, const std::vector<NamedCurve>& curv
     return plot.svg();
 }
 
-// A grey strip, 32 pixels high. The values are the codes themselves.
+// Returns a grey strip, 32 pixels high, whose codes are the values.
 CodedImage strip_of(const Curve& curve) {
     constexpr int high = 32;
     CodedImage image(ramp_width, high, 3, 8);

@@ -30,7 +30,7 @@ class LamarStage;
 
 using LamarItem = PaperItem<LamarStage>;
 
-// The items in the order of the paper, followed by items on questions that it leaves open.
+// Returns the items in the paper's order, followed by items on questions that it leaves open.
 const std::vector<LamarItem>& lamar_items();
 
 nlohmann::ordered_json reproduce_table1(const std::filesystem::path& folder);
@@ -42,47 +42,47 @@ nlohmann::ordered_json reproduce_figure4(const std::filesystem::path& folder);
 nlohmann::ordered_json reproduce_figure5(const std::filesystem::path& folder);
 nlohmann::ordered_json reproduce_figure9(const std::filesystem::path& folder);
 
-// Compares front to back with back to front (section 4.2): random rays of small to large optical
-// depth, and equal fragments.
+// Compares front to back with back to front (section 4.2), with random rays of small to large
+// optical depth and with equal fragments.
 nlohmann::ordered_json reproduce_order(const std::filesystem::path& folder);
 
-// Section 5: the period and the smallest opacity, increments, colour, thin structures, boundaries.
+// Measures dithering (section 5): the period and the smallest opacity, increments, colour, thin
+// structures, boundaries.
 nlohmann::ordered_json reproduce_dithering(const std::filesystem::path& folder);
 
-// The paper's pictures. Figure 1 needs the bonsai of LAMINA_DATA; without it nothing can be tested.
-// The Richtmyer-Meshkov data are not available, so mixing_volume() replaces them.
+// Draw the paper's pictures. Figure 1 needs the bonsai of LAMINA_DATA; without it nothing can be
+// tested. The Richtmyer-Meshkov data are not available; mixing_volume() replaces them.
 nlohmann::ordered_json draw_figure1(const std::filesystem::path& folder, LamarStage& stage);
 nlohmann::ordered_json draw_table4(const std::filesystem::path& folder, LamarStage& stage);
 nlohmann::ordered_json draw_figure6(const std::filesystem::path& folder, LamarStage& stage);
 nlohmann::ordered_json draw_figure10(const std::filesystem::path& folder, LamarStage& stage);
 
-// Compares both compositing orders on the mixing liquids.
+// Compares both compositing orders on mixing_volume().
 nlohmann::ordered_json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage);
 
-// Run times, which the paper does not give.
+// Measures run times, which the paper does not give.
 nlohmann::ordered_json draw_times(const std::filesystem::path& folder, LamarStage& stage);
 
-// The scene with target `emulated` of 8 bits, as LaMar's hardware composites (2004, section 4).
+// Returns the scene with target `emulated` of 8 bits, which composites as LaMar's hardware (2004,
+// section 4).
 Scene with_paper_hardware(Scene scene);
 
-// Norms of one channel (0..3: R, G, B, A) of `image` - `exact`, in units of 1/255.
+// Returns the norms of one channel (0..3: R, G, B, A) of `image` - `exact`, in units of 1/255.
 ErrorNorms channel_error(const Image& image, const Image& exact, std::size_t channel);
 
-// The generated volume `mixing`, which replaces LaMar's Richtmyer-Meshkov data (2004, section 5.2).
+// Generates the volume `mixing`, which replaces LaMar's Richtmyer-Meshkov data (2004, section 5.2).
 // Heavy liquid, at large x, flows into light liquid.
-
-// Heavy liquid, at large x, runs into light liquid.
 Volume mixing_volume();
 
-// A square orthographic picture of 1024 slabs along z, with x to the right. Density is .023 in the
-// light liquid, which then shows 4 of 255 as in the paper, and 1 in the heavy liquid. Colour goes
-// from green at density 0 to red at 1. The intended opacity of a ray is .765 times its density.
-// Then the largest red is 195, and green cannot exceed 48.8, as in the paper (Table 4, period 1:
-// nothing is drawn, so that the largest errors, 195 and 47, are the largest values).
+// Returns a square orthographic picture of 1024 slabs along z, with x to the right. Density is .023
+// in the light liquid, which then shows 4 of 255 as in the paper, and 1 in the heavy liquid. Colour
+// goes from green at density 0 to red at 1. The intended opacity of a ray is .765 times its
+// density. Then the largest red is 195, and green cannot exceed 48.8, as in the paper (Table 4,
+// period 1: nothing is drawn, so that the largest errors, 195 and 47, are the largest values).
 Scene mixing_scene(int pixels);
 Scene white_mixing_scene(int pixels);  // for techniques that carry no colour
 
-// The mixing liquids, exact (float32) and as the paper's hardware dithers them.
+// Pictures of mixing_volume(): exact (float32), and as the paper's hardware dithers them.
 struct DitheredMixing {
     Scene scene;  // scene of the exact picture
     Image exact;
@@ -90,11 +90,10 @@ struct DitheredMixing {
     std::vector<Image> dithered;
 };
 
-// A stage has the current context, the pre-integration tables and the pictures that several of the
-// items share.
+// Holds what the paper's items share: the current context, pre-integration tables and pictures.
 class LamarStage {
   public:
-    // Pictures of the mixing liquids have `pixels` x `pixels` pixels.
+    // Pictures of mixing_volume() get `pixels` x `pixels` pixels.
     explicit LamarStage(const Capabilities& capabilities, int pixels = 160)
         : capabilities_(capabilities), pixels_(pixels) {}
 
@@ -117,7 +116,7 @@ class LamarStage {
 
 inline constexpr int ramp_width = 256;
 
-// One number for each ray in units of 1/255: the associated colour that would be shown.
+// For each ray the associated colour that is shown, in units of 1/255.
 using Curve = std::vector<double>;
 
 struct RampSetting {
@@ -128,15 +127,15 @@ struct RampSetting {
     Order order = Order::back_to_front;
 };
 
-// The exact ramp: color * x.
+// Returns the exact ramp: color * x.
 Curve exact_ramp(double color);
 
 Curve composite_ramp(const RampSetting& setting);
 
-// The opacity (colour 1) by exponent-factoring. `factors`: as in TreeShape.
+// Returns the opacity (colour 1) by exponent-factoring. `factors`: as in TreeShape.
 Curve composite_ramp_tree(const RampSetting& setting, const std::vector<int>& factors);
 
-// Norms of e = measured - exact. Both have the same size, at least 1.
+// Returns the norms of e = measured - exact. Both have the same size, at least 1.
 ErrorNorms error_of(const Curve& measured, const Curve& exact);
 
 // Returns the number of places at which a curve is lower than one place before.
@@ -145,26 +144,26 @@ int decreases(const Curve& curve);
 // Returns the largest such decrease; 0 if the curve never decreases.
 double largest_drop(const Curve& curve);
 
-// The number of different values of a curve.
+// Returns the number of different values of a curve.
 int levels(const Curve& curve);
 
 // Returns the first column that is not 0, or ramp_width if there is none.
 int first_shown(const Curve& curve);
 
-// The effect of dithering along depth on a structure that fills only some of a ray's slabs (LaMar
+// Measures how dithering along depth shows a structure that fills only some of a ray's slabs (LaMar
 // 2004, section 5.2).
 
 struct SpanSetting {
-    double code = 0.1;  // opacity of its samples in codes of 8 bits, 0 < code < 1
+    double code = 0.1;  // opacity of the structure in one slab, in codes of 8 bits, 0 < code < 1
     int slabs = 9;      // number of slabs that it fills, >= 1
     Dither dither;
 };
 
-// Statistics over all positions of the structure relative to the pattern.
+// Statistics over all positions of the structure relative to the dithering pattern.
 struct SpanLoss {
-    double lost = 0;  // share of positions at which nothing of it shows
-    // Mean number of slabs from its boundary to the first slab that shows, over the positions that
-    // have one.
+    double lost = 0;  // share of positions at which the structure does not show
+    // Mean number of slabs from the structure's boundary to the first slab that shows, over
+    // positions at which one does.
     double mean_shift = 0;
     int largest_shift = 0;
     double sum_error = 0;  // RMS difference between the sum of its codes and slabs * code, in codes
@@ -177,10 +176,10 @@ struct NamedCurve {
     Curve curve;
 };
 
-// The files that write_ramp_figure() writes: NAME.csv and NAME.svg.
+// Returns the names of the files that write_ramp_figure() writes: NAME.csv and NAME.svg.
 std::vector<std::string> ramp_figure_files(const std::string& name);
 
-// Writes a figure of ramps into `folder`; `curves[0]` is the exact one. NAME.csv has one column for
+// Writes a figure of ramps into `folder`; `curves[0]` is the exact one. NAME.csv has a column for
 // each curve, and NAME.svg is their plot. Returns {files, curves: {name: [...]}, errors: {name:
 // {linf, l1, l2}}, panels}, in units of 1/255. The panels are one grey strip for each curve, as in
 // the paper.
@@ -188,9 +187,9 @@ nlohmann::ordered_json write_ramp_figure(const std::filesystem::path& folder,
                                          const std::string& name, const std::string& title,
                                          const std::vector<NamedCurve>& curves);
 
-// Two answers to a question of LaMar 2004, section 5: how to give every slice its own dithered
-// palette. Full-screen slices of an 8-bit texture are blended in 8 bits. The palette of 256 entries
-// changes with period `period`.
+// Two ways to give every slice its own dithered palette, a question that LaMar 2004, section 5,
+// leaves open. Full-screen slices of an 8-bit texture are blended in 8 bits. The palette of 256
+// entries repeats after `period` slices.
 class PaletteSlices {
   public:
     enum class Way {

@@ -35,7 +35,7 @@ Json skipped() {
     return result;
 }
 
-// Lengths are in voxels. Leaves are thin and wood is denser.
+// Returns the scene; lengths are in voxels. Leaves are thin, and wood is denser.
 Scene bonsai_scene() {
     Scene scene;
     const auto knot = [](double value, const glm::dvec3& color, double extinction) {
@@ -54,16 +54,15 @@ Scene bonsai_scene() {
     return scene;
 }
 
-// The light that a picture keeps of the leaves, which are the pixels that the exact picture shows
-// in green.
+// Tells how much a picture shows of the leaves: the pixels that are green in the exact picture.
 struct Leaves {
-    double light[3] = {};  // sum of each channel over that of the exact picture
+    double light[3] = {};  // sum of each channel, over that of the exact picture
     double kept = 0;       // share of the pixels that have at least half of their green
     double black = 0;      // share of the pixels that show nothing
 };
 
 Leaves leaves_of(const Image& image, const Image& exact) {
-    constexpr float faintest = 2.0f / 255;  // the least green that counts as a leaf
+    constexpr float faintest = 2.0f / 255;  // least green of a leaf
     double sums[3] = {}, exact_sums[3] = {};
     int count = 0, kept = 0, black = 0;
     for (std::size_t i = 0; i < exact.rgba.size(); i += 4) {
@@ -92,7 +91,7 @@ Scene dithered_by_paper(const Scene& scene) {
     return hardware;
 }
 
-// Draws variants of the picture, and compares each with the exact one.
+// Draws variants of the picture and compares each with the exact one.
 class Bonsai {
   public:
     Bonsai(std::shared_ptr<const VolumeData> volume, const LamarStage& stage)
@@ -135,13 +134,14 @@ class Bonsai {
 
 }  // namespace
 
-// Most of the leaves are kept if more than half of their pixels have at least half of their green.
+// Counts the leaves as kept if more than half of their pixels have at least half of their green.
 //
-// Fewer than half have it, and the method is the cause, not its implementation: the opacity of a
-// leaf in one of 512 slabs is a code of 1 or 2, and OVER rounds its product with each channel of
-// the colour to a whole code. At code 2 a leaf's .2, 1 and .1 codes of red, green and blue become
-// 0, 1 and 0, and a twig's 1.1, .8 and .2 become 1, 1 and 0, which is olive. Dithering spreads
-// opacity and colour before they are multiplied, so it cannot bring back what the product loses.
+// With dithering fewer than half have it, because of the method and not of its implementation: the
+// opacity of a leaf in one of 512 slabs is a code of 1 or 2, and OVER rounds its product with each
+// channel of the colour to a whole code. At code 2 a leaf's .2, 1 and .1 codes of red, green and
+// blue become 0, 1 and 0, and a twig's 1.1, .8 and .2 become 1, 1 and 0, which is olive. Dithering
+// changes opacity and colour before they are multiplied, so it cannot restore what the product
+// loses.
 Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     const std::filesystem::path file = bonsai_file();
     if (!std::filesystem::exists(file)) return skipped();

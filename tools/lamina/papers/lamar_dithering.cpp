@@ -27,8 +27,8 @@ void append(Json& row, const ErrorNorms& e) {
     row["l2"] = e.l2;
 }
 
-// Returns the first column of the ramp whose opacity a sample is 1 / (255 P) or more, which a
-// pattern of period P shows.
+// Returns the first column of the ramp in which the opacity of a sample is at least 1 / (255 P),
+// the least that a pattern of period P shows.
 int predicted_first_shown(int samples, int period) {
     for (int x = 1; x < ramp_width; ++x) {
         const double code = 255 * opacity_over(x / 255.0, 1.0 / samples);
@@ -49,8 +49,8 @@ Json measure_period(int samples, int period, double color, OverRounding over) {
     return row;
 }
 
-// The rounding of OVER does not change how opacity is rounded, and colour 1 is rounded as opacity
-// is. Those rows would be equal.
+// Cases of colour and of rounding in OVER. Colour 1 has one case only: its rows do not depend on
+// the rounding.
 struct ColorCase {
     double color;
     OverRounding over;
@@ -81,14 +81,15 @@ Json measure_increment(const RampSetting& setting) {
     return row;
 }
 
-// Measures periods N with increments of N times the first. A pattern of increment k shows
-// k / (255 P) or more.
+// Measures periods of N, and for larger increments also of N times the increment: a pattern of
+// increment k shows an opacity of k / (255 P) or more.
 Json measure_increments() {
     Progress progress("dithering: increments", 5 * 4 * 5);
     Json rows = Json::array();
     for (const auto& [color, over] : color_cases) {
         for (const bool dither_color : {false, true}) {
-            if (color == 1 && dither_color) continue;  // 255 has no fraction
+            // Colour 1 is code 255, which has no fraction to dither.
+            if (color == 1 && dither_color) continue;
             for (const int samples : dither_depths) {
                 for (const int increment : increments) {
                     RampSetting setting{.samples = samples, .color = color};
@@ -127,7 +128,7 @@ Json measure_spans() {
     return rows;
 }
 
-// Returns the rows in which every given key has the given value.
+// Returns the rows that have all keys and values of `wanted`.
 std::vector<Json> select(const Json& rows, const Json& wanted) {
     std::vector<Json> found;
     for (const Json& row : rows) {
@@ -139,7 +140,7 @@ std::vector<Json> select(const Json& rows, const Json& wanted) {
     return found;
 }
 
-// Plots L2 of colour 1 against `key`, with one line a sample depth.
+// Plots L2 of colour 1 against `key`, with one line for each sample depth.
 std::string error_plot(const Json& rows, const std::string& title, const PlotAxis& x_axis,
                        const std::string& key) {
     LinePlot plot{title, x_axis, {"L2, in 1/255", 1, 256, true}};
@@ -160,7 +161,7 @@ void judge_periods(Findings& findings, const Json& periods) {
     bool holds = true;
     std::string needed;
     for (const int samples : dither_depths) {
-        // The shortest period that shows the ramp's faintest column.
+        // Shortest period that shows the ramp's faintest column.
         int shortest = 0;
         for (const Json& row : select(periods, {{"samples", samples}, {"color", 1.0}})) {
             const int period = row["period"];

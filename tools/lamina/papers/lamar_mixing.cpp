@@ -39,7 +39,7 @@ float largest(const Image& image, std::size_t channel) {
     return 255 * found;
 }
 
-// Returns the mean over the leftmost tenth, where the liquid is light, in 1/255.
+// Returns the mean over the leftmost tenth of the columns, the light liquid, in 1/255.
 double mean_on_the_left(const Image& image, std::size_t channel) {
     double sum = 0;
     const int columns = std::max(1, image.width / 10);
@@ -135,11 +135,11 @@ void judge_figure6(Findings& findings, const DitheredMixing& mixing) {
 }
 
 struct Tree {
-    const char* name;  // factors, or no tree
-    bool shown;        // in the picture, which is the paper's
+    const char* name;  // factors, or "straight" for no tree
+    bool shown;        // in the picture of Figure 10, because the paper shows it
 };
-// The trees of the paper: "1 group of 1024 slices", "4 groups of 256", "8 groups of 8 groups of
-// 16", height 10. Others of two, four and five levels test what the text says of factors.
+// Trees of the paper: "1 group of 1024 slices", "4 groups of 256", "8 groups of 8 groups of 16",
+// height 10. The others, of two and five levels, test what its text says of factors.
 constexpr Tree trees[] = {{"straight", true}, {"4x256", true},  {"256x4", false},
                           {"16x64", false},   {"64x16", false}, {"32x32", false},
                           {"8x8x16", true},   {"4^5", false},   {"2^10", true}};
@@ -181,7 +181,7 @@ void judge(Findings& findings, const Errors& truncated, const Errors& nearest) {
                              "{:.2f} with 2^10",
                              l2("32x32"), l2("8x8x16"), l2("4^5"), l2("2^10")));
     const ErrorNorms &t = truncated.at("2^10"), &n = nearest.at("2^10");
-    // The volume is another one: within a factor of two counts as equal.
+    // The volume is not the paper's, so a factor of two counts as equal.
     findings.add_untestable(
         "a tree with bifurcation factors of 2 (and height=10) has L∞ = 2 and L2 = 0.81.",
         t.linf < 2 * 2 && t.l2 < 2 * 0.81,
@@ -191,7 +191,8 @@ void judge(Findings& findings, const Errors& truncated, const Errors& nearest) {
             t.linf, t.l2, n.linf, n.l2));
 }
 
-// This goes beyond the paper: nodes are computed in a shader, and carry colour.
+// Returns the error of a tree whose nodes are computed in a shader and carry colour, which goes
+// beyond the paper.
 ErrorNorms shader_tree_error(LamarStage& stage, const Scene& exact_scene, const Image& exact,
                              Image& image) {
     Scene scene = exact_scene;
@@ -259,7 +260,7 @@ Json draw_figure6(const std::filesystem::path& /*folder*/, LamarStage& stage) {
     return findings.result(values, nullptr, data_note);
 }
 
-// The pictures are small, because only norms are wanted.
+// Compares the orders on small pictures: only their norms are needed.
 Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
     const int pixels = std::min(96, stage.pixels());
     Progress progress("order: mixing liquids", 2 * 2 * 3 * 2 * 2);

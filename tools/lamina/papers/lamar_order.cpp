@@ -23,12 +23,12 @@ using Json = nlohmann::ordered_json;
 constexpr int ray_samples = 256;
 constexpr int ray_count = 512;
 constexpr int largest_codes[] = {1, 2, 4, 8, 16, 32, 64, 128};
-// Errors closer than this count as equal.
+// L2 errors that differ by less than this share count as equal.
 constexpr double same_share = 0.05;
 
 struct Profile {
     const char* name;
-    // Returns the largest opacity code of sample i; m is the ray's.
+    // Returns the largest opacity code of sample i, if that of the ray is m.
     int (*largest)(int i, int m);
 };
 const Profile profiles[] = {
@@ -40,9 +40,10 @@ const Profile profiles[] = {
 
 struct OrderCase {
     const Profile* profile;
-    int largest;         // code
-    bool random_colors;  // else white
-    bool whole_codes;    // opacities that 8 bits hold, so that only OVER errs; else truncated
+    int largest;         // in codes of 8 bits
+    bool random_colors;  // otherwise white
+    bool whole_codes;    // opacities are whole codes, so only OVER rounds; otherwise they are
+                         // truncated, too
     OverRounding over;
 };
 
@@ -89,7 +90,7 @@ OrderErrors measure_orders(const OrderCase& order_case) {
     return {error_of(front, exact), error_of(back, exact)};
 }
 
-// The number of cases in which each order is better, by L2.
+// Numbers of cases in which one order is better by L2, or both are equal.
 struct Score {
     int front = 0, equal = 0, back = 0;
     const char* add(const OrderErrors& errors) {
@@ -119,7 +120,7 @@ std::vector<OrderCase> order_cases() {
     return cases;
 }
 
-// The errors that the picture shows: an even profile, random colours, truncated opacities.
+// Plot of the cases with an even profile, random colours and truncated opacities.
 class OrderPlot {
   public:
     void add(const OrderCase& order_case, const OrderErrors& errors) {
@@ -151,7 +152,7 @@ class OrderPlot {
     Curves separate_, fused_;
 };
 
-// Finds the columns of ramps of equal fragments that differ between the orders.
+// Counts the columns of ramps of equal fragments that differ between the orders.
 Json equal_fragments() {
     Json rows = Json::array();
     for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {

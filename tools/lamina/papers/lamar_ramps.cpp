@@ -21,7 +21,7 @@ std::string depth_name(int samples) {
     return fmt::format("N={}", samples);
 }
 
-// The paper dithers colour as well as opacity (section 5).
+// Returns the paper's dithering, of colour as well as opacity (section 5).
 Dither paper_dither() {
     Dither dither;
     dither.period = paper_period;
@@ -37,8 +37,8 @@ ErrorNorms error_of(const NamedCurve& named, const std::vector<NamedCurve>& curv
     return papers::error_of(named.curve, curves.front().curve);
 }
 
-// Returns the slope of the straight line through columns 0 .. 127, by least squares. The slope of
-// a right ramp is its colour.
+// Returns the slope of the line through columns 0 .. 127, by least squares. If a ramp is right, it
+// is the colour.
 double slope_of_first_half(const Curve& curve) {
     constexpr int count = ramp_width / 2;
     constexpr double middle = 0.5 * (count - 1);

@@ -68,7 +68,7 @@ std::vector<std::uint32_t> table2_row(std::uint32_t below) {
     return row;
 }
 
-// Table 2 prints a run of equal entries as one wide cell.
+// Removes repeated entries: Table 2 prints equal neighbours as one wide cell.
 template <typename Values>
 Values without_repeats(Values row) {
     row.erase(std::unique(row.begin(), row.end()), row.end());
@@ -99,8 +99,8 @@ std::vector<std::uint32_t> repeated(std::uint32_t fragment) {
     return row;
 }
 
-// Returns how a printed row differs from the operator: in one entry, after which the row is
-// shifted, or not at all.
+// Returns the first entry in which a printed row differs from the operator, or null. After it the
+// printed row is shifted.
 Json table3_misprint(const Table3Row& row, const std::vector<std::uint32_t>& right) {
     const auto [printed, correct] =
         std::mismatch(row.printed.begin(), row.printed.end(), right.begin(), right.end());

@@ -24,8 +24,8 @@ namespace {
 constexpr int entries = 256;
 constexpr std::size_t row_bytes = 4 * entries;
 
-// Colours are white. Entry i has an opacity of .004 i codes, dithered, so that at most one code is
-// shown.
+// Returns palettes of white. Entry i has an opacity of .004 i codes, which dithering shows as code
+// 0 or 1.
 std::vector<std::uint8_t> dithered_palettes(int period) {
     const std::vector<std::uint32_t> ranks = dither_ranks(period, 1);
     std::vector<std::uint8_t> palettes;
@@ -59,12 +59,13 @@ using Json = nlohmann::ordered_json;
 constexpr int timed_pixels = 512, slices = 1024, rounds = 3;
 constexpr int barrier_pixels = 64;
 constexpr int palette_period = 16;
-// The volume's square covers a quarter of the picture. A tree's work after each node covers all of
-// it.
+// Side of the volume's square as a share of the picture's: it covers a quarter of the picture,
+// while the nodes of a tree are composited over all of it.
 constexpr double volume_in_picture = 0.5;
-constexpr double nearly_nothing = 64;  // times the camera's height
+constexpr double nearly_nothing = 64;  // factor of the camera's height at which the volume is a dot
 
-// Optical depth 1.45 through the heavy liquid, as in mixing_scene(), but with two points only.
+// Returns a scene like mixing_scene(), with optical depth 1.45 through the heavy liquid, but with
+// two points only.
 Scene timed_scene(bool white) {
     Scene scene;
     const auto color = [&](const glm::dvec3& c) { return white ? glm::dvec3(1) : c; };
@@ -80,7 +81,7 @@ Scene timed_scene(bool white) {
     return scene;
 }
 
-// A way of compositing. `blend` keeps float32 from being marched in registers.
+// A technique to be timed. `blend` makes float32 blend in the frame buffer instead of in registers.
 struct TimedWay {
     std::string name;
     Target target = Target::fixed8;
@@ -120,8 +121,8 @@ Scene scene_of(const TimedWay& technique) {
     return scene;
 }
 
-// The frame with next to nothing in the picture has a renderer of its own, because a change of the
-// camera would be part of the times.
+// Returns a timed frame. The frame with a tiny volume has a renderer of its own, because a change
+// of the camera would count in the times.
 study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
                            const Scene& scene, const PipelineOptions& how) {
     const auto frames = std::make_shared<Pipeline>(scene, SceneData(volume), how);
@@ -146,7 +147,7 @@ Json time_techniques(const std::shared_ptr<const VolumeData>& volume, const Lama
     return time_rows(frames, study::time_interleaved("times: techniques", frames, rounds));
 }
 
-// A context that cannot read its own pixel needs a barrier after each slab.
+// Compares contexts: one that cannot read the pixel that it writes needs a barrier after each slab.
 Json time_barriers(const std::shared_ptr<const VolumeData>& volume, const LamarStage& stage) {
     const Capabilities& capabilities = stage.capabilities();
     Scene scene = timed_scene(false);
@@ -166,7 +167,7 @@ Json time_barriers(const std::shared_ptr<const VolumeData>& volume, const LamarS
     return time_rows(frames, study::time_interleaved("times: barriers", frames, rounds));
 }
 
-// Section 5 leaves open how much a palette for every slice costs.
+// Measures the cost of a palette for every slice, which section 5 leaves open.
 Json time_palettes(bool& same_picture) {
     using Way = PaletteSlices::Way;
     std::vector<study::TimedFrame> frames;

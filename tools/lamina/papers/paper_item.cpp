@@ -18,18 +18,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* left_open = "left open by the paper";
 
-// "1 statement", "2 statements".
+// Returns "1 statement", "2 statements".
 std::string counted(std::ptrdiff_t count, const char* noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-// A sentence in quotation marks without the full stop at its end, and what was measured, if given.
+// Returns a sentence in quotation marks, without its final full stop, and the measurement, if any.
 std::string quoted(std::string says, const std::string& measured) {
     if (says.ends_with('.') && !says.ends_with("..")) says.pop_back();
     return fmt::format("\"{}\"{}{}", says, measured.empty() ? "" : ": ", measured);
 }
 
-// "3 agree, 1 disagrees, 2 cannot be tested here", without what has no count.
+// Returns "3 agree, 1 disagrees, 2 cannot be tested here", without verdicts that do not occur.
 std::string verdicts_text(const std::map<std::string, int>& counts) {
     struct Words {
         const char *verdict, *of_one, *of_more;
@@ -53,7 +53,7 @@ Json panel(const std::string& group, const std::string& label, const std::string
     return {{"group", group}, {"title", label}, {"caption", ""}, {"image", image}};
 }
 
-// The rows of a table; of curves, their errors.
+// Returns the rows of a table or, for curves, their errors.
 Json rows_of(const Json& values) {
     if (values.contains("rows")) return values["rows"];
     Json rows = Json::array();
@@ -194,7 +194,8 @@ std::string count_verdicts(const Json& report) {
 
 void Panels::add(const std::string& group, const std::string& label, const CodedImage& picture) {
     panels_.push_back(panel(group, label, study::data_uri(picture)));
-    // The page reserves the place of a picture before it is decoded, so that links do not miss.
+    // With its size, a page reserves the place of a picture before it is decoded, so links lead to
+    // the right place.
     panels_.back()["width"] = picture.width;
     panels_.back()["height"] = picture.height;
 }
@@ -228,7 +229,7 @@ Json take_panels(Json& result) {
 
 Json page_section(const std::string& item, const Json& result, Json panels,
                   const std::filesystem::path& folder) {
-    // An item that was skipped has no values.
+    // A skipped item has no values.
     const Json& found = result.at("values");
     const Json values = found.is_object() ? found : Json::object();
     for (const Json& file : values.value("files", Json::array())) {

@@ -12,11 +12,11 @@
 
 namespace lamina::papers {
 
-// One table or figure of a paper: `reproduce`, or `draw` if it needs OpenGL. Either writes its CSV
-// and plots, some of `files`, into `folder`, which exists, and returns {values, paper, verdict,
-// note, ...} (see Findings::result). If there are panels (Panels) or plots, `values` has them and a
-// `caption`. Errors are in units of 1/255. A `Stage`, made from the capabilities of the current
-// context, holds data that the items that draw share.
+// One table or figure of a paper: `reproduce`, or `draw` if it needs a context. Either writes its
+// CSV and plots, which are among `files`, into the existing `folder` and returns {values, paper,
+// verdict, note, ...} (see Findings::result). If there are panels (Panels) or plots, `values` has
+// them and a `caption`. Errors are in units of 1/255. A `Stage`, made from the capabilities of the
+// current context, holds data that several items share.
 template <typename Stage>
 struct PaperItem {
     std::string name;
@@ -25,36 +25,36 @@ struct PaperItem {
     nlohmann::ordered_json (*draw)(const std::filesystem::path& folder, Stage& stage) = nullptr;
 };
 
-// The answer to a statement of a paper.
+// The verdict on a statement of a paper.
 enum class Verdict {
     agrees,
     disagrees,
-    // The statement is about data or machines that are not available: volumes and meshes that
-    // cannot be had, times of graphics cards of 2004. Others replace them here.
+    // The statement needs data or machines that are not available: volumes and meshes that are
+    // lost, graphics cards of 2004. Stand-ins replace them here.
     untestable
 };
 
-// "agrees", "disagrees" or "cannot be tested here".
+// Returns "agrees", "disagrees" or "cannot be tested here".
 const char* name_of(Verdict verdict);
 
 // The statements of a paper about one table or figure, each compared with measurements.
 class Findings {
   public:
     // `says`: a sentence or a row of the paper, word for word; [...] marks an omission. `holds`:
-    // whether the measurements support it. `measured`: these measurements in words and numbers.
+    // true if the measurements support it. `measured`: these measurements in words and numbers.
     void add(std::string says, bool holds, std::string measured);
 
-    // Adds a statement that cannot be tested here. `holds`: whether the stand-in behaves like that
-    // all the same, which `measured` then says first.
+    // Adds a statement that cannot be tested here. `holds`: true if the stand-in nevertheless
+    // behaves as the statement says.
     void add_untestable(std::string says, bool holds, std::string measured);
 
-    // Adds a claim of lamina that the paper does not make. It does not count for the verdict.
+    // Adds a claim about lamina that the paper does not make. It does not affect the verdict.
     void add_own(std::string claim, bool holds, std::string measured);
 
     // Makes all statements of the paper untestable, because data are missing.
     void make_untestable();
 
-    // Disagrees if one statement does, agrees if at least one does and none disagrees.
+    // Returns "disagrees" if a statement disagrees; else "agrees" if at least one agrees.
     Verdict verdict() const;
 
     // Returns {values, paper: {printed, says}, verdict, agrees, in_short, remark, note, checks:
@@ -81,7 +81,7 @@ class Findings {
         std::string measured;
     };
     std::ptrdiff_t count(Verdict verdict) const;
-    // `in_full`: measurements are included.
+    // `in_full`: with measurements.
     std::string note(bool in_full) const;
     std::string note_on_claims(bool in_full) const;
 
@@ -89,35 +89,36 @@ class Findings {
     std::vector<Claim> claims_;
 };
 
-// One line that counts the verdicts on the items of a report, {item: result of Findings, ...}, and
-// on the paper's statements about them.
+// Returns a line that counts the verdicts on the items of a report, {item: result of Findings,
+// ...}, and those on the paper's statements.
 std::string count_verdicts(const nlohmann::ordered_json& report);
 
-// The pictures of a table or figure, each with its label, for the page of its paper. An item leaves
-// them as the key "panels" somewhere in its result.
+// The pictures of a table or figure with their labels, for the paper's page. An item puts them
+// under a key "panels" anywhere in its result.
 class Panels {
   public:
-    // Adds a picture under the name of its group, which may be empty.
+    // Adds a picture to a group; the group's name may be empty.
     void add(const std::string& group, const std::string& label, const CodedImage& picture);
     void add(const std::string& group, const std::string& label, const Image& picture);  // on black
-    // Adds a difference in false colour, darkest at `scale` (in 1/255), with a colour bar.
-    // `picture`: the difference as it is shown.
+    // Adds a difference in false colour, whose scale ends at `scale` (in 1/255), with a colour bar.
+    // `picture`: the difference as shown.
     void add_difference(const std::string& group, const std::string& label, const Difference& e,
                         double scale, const CodedImage& picture);
 
-    // [{group, title, caption, image, width, height, scale and largest of differences}, ...]
+    // Returns [{group, title, caption, image, width, height, scale and largest of differences},
+    // ...].
     const nlohmann::ordered_json& json() const { return panels_; }
 
   private:
     nlohmann::ordered_json panels_ = nlohmann::ordered_json::array();
 };
 
-// Removes all keys "panels" from a result, at any depth, and returns them as one list.
+// Removes all keys "panels" from a result, at any depth, and returns their contents as one list.
 nlohmann::ordered_json take_panels(nlohmann::ordered_json& result);
 
-// Returns the section of the page about one item (share/report): its checks against the paper, its
-// claims, its panels, the plots (.svg) among its `files` that are in `folder`, with the `caption`
-// of its values, and its table. `result` has no panels. Links to `item` lead to the section.
+// Returns the section of the page (share/report) about one item: its checks against the paper, its
+// claims, its panels, the plots (.svg) among its files in `folder`, with the `caption` of its
+// values, and its table. `result` has no panels. Links to `item` lead to the section.
 nlohmann::ordered_json page_section(const std::string& item, const nlohmann::ordered_json& result,
                                     nlohmann::ordered_json panels,
                                     const std::filesystem::path& folder);

@@ -11,31 +11,31 @@
 
 namespace lamina::selftest {
 
-// A mesh without a volume, in one colour (picture_bounds.h).
+// A mesh without a volume, in one colour (one_color_picture() in picture_bounds.h bounds it).
 struct MeshScene {
     std::string name, about;
     Scene scene;
     std::function<MeshData()> mesh;
-    bool cyclic = false;  // its visibility order has cycles, which the renderer must report
+    bool cyclic = false;  // its visibility order has cycles; the renderer must report them
 };
 
-// One case for each way to draw that the scene allows; ways that draw meshes need a mesh.
+// Returns one case for each way to draw that the scene allows; ways that draw meshes need a mesh.
 std::vector<SelftestCase> cases_of(const std::string& group, const SelftestScene& scene,
                                    const std::vector<DrawingWay>& ways);
 SelftestCase case_of(const std::string& group, const MeshScene& scene, const DrawingWay& way);
 
-// A case of two scenes whose pictures must be the same.
+// Returns a case of two scenes whose pictures must agree.
 SelftestCase same_picture_case(const std::string& group, const std::string& name,
                                const SelftestScene& a, const SelftestScene& b,
                                const DrawingWay& way);
 
-// A case in which drawing must throw Error.
+// Returns a case in which drawing must throw Error.
 SelftestCase refusal_case(const std::string& group, const SelftestScene& scene,
                           const DrawingWay& way, const std::string& reason);
 
-// A box in perspective that is wholly in view, with 24 x 18 pixels and 64 slabs.
+// Returns a box in perspective that is entirely in view, with 24 x 18 pixels and 64 slabs.
 SelftestScene plain_scene(const std::string& name, const std::string& about);
-// A camera that looks at the box from the same side as in plain_scene(). `distance` is in units of
+// Returns a camera that sees the box from the direction of plain_scene(). `distance` is in units of
 // the box's diagonal.
 Camera camera_at(const LayeredBox& box, double distance, double fov_y);
 TransferFunction optics_of(const std::vector<TransferKnot>& knots);

@@ -24,14 +24,14 @@ PreciseImage PictureMaker::draw(const Scene& scene, const SceneData& data,
 
 namespace {
 
-// Rounding of floats: in float32 a blend has some four roundings. In float16 fragment and result
-// are stored with 11 bits, the smallest ones in steps of 2^-24.
+// Rounding of float targets. In float32 a blend has about four roundings. In float16 fragment and
+// result are stored with 11 bits, the smallest numbers in steps of 2^-24.
 constexpr BlendRounding of_float32{0, 0, 0, 0x1p-22};
 constexpr BlendRounding of_float16{0, 0x1p-24, 0x1p-24, 0x1p-10};
 
-// Rounding of codes of n bits: opacity is truncated or rounded at random, by at most one code.
-// Colour and result are off by one each, whatever the driver rounds before and after its weights
-// (docs/numerics.md, section 2).
+// Returns the rounding of n-bit codes: opacity is truncated or rounded at random, by at most one
+// code. Colour and result are off by at most one code each, however the driver rounds before and
+// after weighting (docs/numerics.md, section 2).
 constexpr BlendRounding of_codes(int bits) {
     const double code = 1.0 / ((1 << bits) - 1);
     return {code, code, code, 0};
@@ -116,8 +116,8 @@ std::vector<DrawingWay> coarse_ways() {
 }
 
 DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Target target) {
-    // The slabs of a leaf are composited in float32. The error of the codes of inner images is
-    // added for the whole picture (picture_bounds.h).
+    // The slabs of a leaf are composited in float32, so no blend rounds codes. The codes of inner
+    // images add tree_error() (picture_bounds.cpp) to the whole picture.
     return slice("tree " + name + " " + name_of(target), [factors, target](Scene& scene) {
         scene.target = target;
         scene.slice.tree = TreeSettings{factors, NodeArithmetic::shader, NodeCode::minimax, 8};

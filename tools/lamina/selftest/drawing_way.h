@@ -15,14 +15,14 @@
 
 namespace lamina::selftest {
 
-// Draws as `lamina render` does. Virtual for checks of the self-test itself, which must find what a
-// wrong renderer draws.
+// Draws pictures as `lamina render` does. Virtual, so that tests can replace it by a faulty
+// renderer, which the self-test must find.
 class PictureMaker {
   public:
     explicit PictureMaker(const Capabilities& capabilities) : capabilities_(capabilities) {}
     virtual ~PictureMaker() = default;
 
-    // `statistics`: gets those of the picture, if it is not null.
+    // `statistics`: set to those of the picture, if not null.
     virtual PreciseImage draw(const Scene& scene, const SceneData& data,
                               FrameStatistics* statistics = nullptr) const;
 
@@ -45,17 +45,17 @@ struct DrawingWay {
     Scene scene_of(const Scene& scene) const;
 };
 
-// Returns the ways of both tracers.
+// Returns the reference tracer, for volumes and for meshes.
 std::vector<DrawingWay> traces();
 // Returns slicing and projection in float32, with all classifications, both orders and two
 // colourings.
 std::vector<DrawingWay> float_ways();
 // Returns both methods in float16, fixed16, fixed8 and emulated targets.
 std::vector<DrawingWay> coarse_ways();
-// Returns trees over 64 slabs, in fixed8 and float16.
+// Returns slicing with trees over 64 slabs, in fixed8, fixed16 and float32.
 std::vector<DrawingWay> tree_ways();
 DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Target target);
-// The way of float_ways() with this name.
+// Returns the way of float_ways() with this name.
 DrawingWay way_named(const std::string& name);
 
 }  // namespace lamina::selftest

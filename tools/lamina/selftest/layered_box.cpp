@@ -38,7 +38,7 @@ std::int32_t add_point(MeshData& mesh, const LayeredBox& box, const glm::dvec3& 
 class Random {
   public:
     explicit Random(std::uint64_t seed) : bits_(seed) {}
-    // In [0, 1).
+    // Returns a number in [0, 1).
     double uniform() { return static_cast<double>(bits_.next() >> 11) * 0x1p-53; }
     std::size_t below(std::size_t count) {
         return static_cast<std::size_t>(uniform() * static_cast<double>(count));
@@ -65,7 +65,7 @@ Volume LayeredBox::volume() const {
         const auto n = static_cast<double>(grid.size[axis]);
         grid.centering[axis] = Centering::node;
         grid.step[axis] = n > 1 ? edges[axis] / (n - 1) : edges[axis];
-        // One sample lies in the middle of its voxel.
+        // A single sample lies in the middle of its voxel.
         if (grid.size[axis] == 1) grid.origin += 0.5 * edges[axis];
     }
     switch (type) {
@@ -174,7 +174,7 @@ MeshData kuhn_tets(const LayeredBox& box, int across) {
             for (int i = 0; i <= across; ++i) {
                 const std::int32_t point =
                     add_point(mesh, box, {1.0 * i / across, 1.0 * j / across, 1.0 * k / layers});
-                // The last plane's scalar is that of its sample, not of the layer before it.
+                // The scalar of a plane of points is that of its sample.
                 if (box.samples.size() > 1)
                     mesh.point_scalars[0].values[static_cast<std::size_t>(point)] =
                         box.samples[static_cast<std::size_t>(k)];
@@ -231,7 +231,8 @@ MeshData split_tets(const LayeredBox& box, int splits, double least, std::uint32
         const Tet tet = mesh.tets[chosen];
         glm::dvec3 at(0);
         double sum = 0;
-        const std::size_t small = 1 + random.below(3);  // near a face, an edge, a corner
+        // The point lies near a face, an edge or a corner.
+        const std::size_t small = 1 + random.below(3);
         const std::size_t turn = random.below(4);
         for (std::size_t i = 0; i < 4; ++i) {
             const double weight = (i + turn) % 4 < small ? least * random.uniform() : 1;
@@ -240,7 +241,7 @@ MeshData split_tets(const LayeredBox& box, int splits, double least, std::uint32
         }
         std::array<Tet, 4> parts{tet, tet, tet, tet};
         const std::int32_t point = add_point(mesh, box, box.place(at / sum));
-        bool inside = true;  // after rounding, too
+        bool inside = true;  // inside the tet even after rounding
         const auto place = [&](std::int32_t corner) {
             return mesh.points[static_cast<std::size_t>(corner)];
         };

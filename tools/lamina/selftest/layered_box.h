@@ -18,16 +18,16 @@
 
 namespace lamina::selftest {
 
-// A box whose scalar depends on one of its axes alone and is linear between samples there. Along
-// every ray the scalar is piecewise linear, so every picture of the box has a closed form. Points
-// of the box are (u, v, w) in [0, 1]^3.
+// A box whose scalar depends on only one of its axes, along which it is linear between samples.
+// Along every ray the scalar is then piecewise linear, so every picture of the box has a closed
+// form. Points of the box are (u, v, w) in [0, 1]^3.
 struct LayeredBox {
     std::vector<double> samples{0, 1};  // along w, at least one; may be NaN
     SampleType type = SampleType::float32;
     glm::dvec3 corner{0};  // world position of (0, 0, 0)
     std::array<glm::dvec3, 3> edges{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // orthogonal
     std::array<std::int64_t, 2> samples_across{2, 2};                    // along u and v
-    std::vector<ClipPlane> cuts;  // planes that cut it, world space
+    std::vector<ClipPlane> cuts;  // clip planes that cut it, in world space
 
     Volume volume() const;
 
@@ -36,17 +36,17 @@ struct LayeredBox {
     double longest_edge() const;
 
     std::size_t layers() const { return samples.size() > 1 ? samples.size() - 1 : 1; }
-    // The layer that contains w, and the scalar there; w is clamped.
+    // Return the layer that contains w, where it begins, and the scalar in it; w is clamped.
     std::size_t layer_at(double w) const;
     double layer_begin(std::size_t layer) const;
     double scalar(std::size_t layer, double w) const;
-    // Returns true if a layer has a sample that is not finite. Such a layer shows nothing.
+    // Returns true if a sample of the layer is not finite. Such a layer shows nothing.
     bool is_void(std::size_t layer) const;
-    // The range of the finite samples.
+    // Returns the range of the finite samples.
     Interval range() const;
 };
 
-// The segment of a ray inside the box, by the ray's parameter.
+// The part of a ray inside the box, as an interval of the ray's parameter.
 struct BoxChord {
     glm::dvec3 start{0}, step{0};  // the ray in coordinates (u, v, w)
     double world_per_parameter = 1;
@@ -56,37 +56,37 @@ struct BoxChord {
     double w(double parameter) const { return start.z + parameter * step.z; }
 };
 
-// The chord of the box widened by `slack` (a share of each edge) on all sides, cuts included (by
-// that share of the longest edge); empty if the ray misses it.
+// Returns the chord of the box widened by `slack` on all sides; nothing if the ray misses it. For
+// sides `slack` is a share of the edge, for `cuts` of the longest edge.
 std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, double slack);
 
 // The scene that a case of the self-test draws: a layered box, both as a volume and as a mesh.
 struct SelftestScene {
     std::string name;
-    std::string about;  // what is stiff or extreme here
+    std::string about;  // why it is stiff or extreme
     LayeredBox box;
     Scene scene;  // transfer function, camera, size, number of slabs; no files
-    // Makes tets that fill the box. Empty if no mesh is drawn.
+    // Makes tets that fill the box. Empty: no mesh is drawn.
     std::function<MeshData(const LayeredBox&)> mesh;
 };
 
-// Meshes that fill a layered box, with its scalar at their corners, and that are hard for a
-// renderer.
+// The next functions make meshes that are hard for a renderer. They fill a layered box and have its
+// scalar at their corners.
 
-// Makes tets that conform to the layers: every layer is cut into across x across cuboids of six
-// tets each (Kuhn).
+// Makes tets that conform to the layers: across x across cuboids in each layer, six tets each
+// (Kuhn).
 MeshData kuhn_tets(const LayeredBox& box, int across);
 
-// Makes tets for a box of one layer: 12 * across^2 tets from the middle of the box, which is a
-// corner of all, to its surface.
+// Makes tets for a box of one layer: 12 * across^2 tets from the middle of the box, which all of
+// them share as a corner, to its surface.
 MeshData fan_tets(const LayeredBox& box, int across);
 
-// Makes tets for a box of one layer: kuhn_tets(box, 1), split `splits` times by a point inside a
-// tet. The point's distance from a face, an edge or a corner of the tet is a share `least` or less,
-// which gives flat tets, slivers and needles.
+// Makes tets for a box of one layer: kuhn_tets(box, 1), in which `splits` times a point inside a
+// tet splits it. The point's distance from a face, an edge or a corner of the tet is at most the
+// share `least`, which gives flat tets, slivers and needles.
 MeshData split_tets(const LayeredBox& box, int splits, double least, std::uint32_t seed);
 
-// Returns the mesh with its tets, their corners and its points in another order.
+// Returns the mesh with its tets, their corners and its points reordered.
 MeshData shuffled(const MeshData& mesh, std::uint32_t seed);
 
 }  // namespace lamina::selftest

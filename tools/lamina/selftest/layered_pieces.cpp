@@ -17,7 +17,7 @@ struct LayerRun {
     Interval parameters;
 };
 
-// Returns the runs of a part of the ray through layers, the nearest first.
+// Returns the pieces of a ray in single layers, nearest first, over the interval `part`.
 std::vector<LayerRun> runs_between(const LayeredBox& box, const BoxChord& chord,
                                    const Interval& part) {
     const double first_w = chord.w(part.lo), last_w = chord.w(part.hi);
@@ -59,17 +59,17 @@ PieceBounds exact_piece(const SegmentIntegral& integral) {
     return piece;
 }
 
-// Returns how far a mean over scalars moves if its ends, `width` apart, move by `error` each.
-// Strips of 2 * error enter and leave, in which no value is farther from the mean than the range is
-// wide.
+// Returns by how much a mean over an interval of scalars `width` wide changes, as a share of the
+// range, if its ends move by `error` each: strips of 2 * error in all enter or leave, whose values
+// differ from the mean by at most the range.
 double moved_mean_share(double width, double error) {
     const double rest = width - 2 * error;
     return rest > 0 ? std::min(1.0, 2 * error / rest) : 1.0;
 }
 
-// Returns the range of optics for w between two values. `bent`: the optics of a straight line in
-// place of the scalar are included, moved by two thirds of its bend (Simpson), which is at most the
-// scalar's range.
+// Returns the range of optics in an interval of w. `bent`: the scalar may be replaced by a straight
+// line, moved by two thirds of the scalar's deviation from it (Simpson), at most the scalar's
+// range.
 OpticsRange optics_between(const LayeredBox& box, const TransferFunction& transfer_function,
                            Interval w, double scalar_error, bool bent = false) {
     w = w.within({0, 1});
@@ -94,7 +94,7 @@ OpticsRange optics_between(const LayeredBox& box, const TransferFunction& transf
     return met;
 }
 
-// A ray with the certain and the possible part inside the box.
+// The chord of a ray in the box: exact, and the longest and the shortest that rounding allows.
 struct UncertainChord {
     std::optional<BoxChord> exact, widest, narrowest;
 
@@ -103,7 +103,7 @@ struct UncertainChord {
           widest(box_chord(box, ray, position)),
           narrowest(box_chord(box, ray, -position)) {}
 
-    // Returns the world length inside a slab.
+    // Returns the range of possible world lengths inside a slab.
     Interval length_in(const Interval& slab) const {
         const auto overlap = [&](const std::optional<BoxChord>& chord) {
             if (!chord) return 0.0;
@@ -115,7 +115,7 @@ struct UncertainChord {
     }
 };
 
-// Calls visit(the slab's part of the ray, its possible lengths) for every slab that the ray may
+// Calls visit(chord, the slab's part of it, its possible lengths) for every slab that the ray may
 // meet.
 template <typename Visit>
 void for_each_slab(const UncertainChord& chord, const Slabs& slabs, const Visit& visit) {
@@ -180,7 +180,7 @@ std::vector<PieceBounds> middle_pieces(const LayeredBox& box,
         const OpticsRange shown = optics_between(
             box, transfer_function, Interval{middle, middle}.widened(off), scalar_error);
         pieces.push_back({times(shown.extinction, lengths, precision.relative), shown.color});
-        // The neighbouring slab has the part that this slab lacks if their common end is off.
+        // If the common end of two slabs is off, one of them has a part of the other.
         const double half = 0.5 * part.width() * std::abs(any.step.z);
         const OpticsRange met = optics_between(
             box, transfer_function, Interval{middle, middle}.widened(half + off), scalar_error);
@@ -250,7 +250,7 @@ std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
                              precision.relative * exact.integral.optical_depth;
         PieceBounds piece = exact_piece(exact.integral);
         piece.depth = {certain ? std::max(0.0, piece.depth.lo - error) : 0, piece.depth.hi + error};
-        // The share of a piece's colour is as uncertain as its depth.
+        // The colour's share of a piece is as uncertain as the depth's.
         const double color_share = std::min(1.0, precision.color + 2 * share + error);
         for (std::size_t c = 0; c < 3; ++c) {
             const double by =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays through a layered box, cut into pieces: exactly, and as each way to draw cuts them. Bounds
-// say what a way to draw may make of a piece.
+// Rays through a layered box, cut into pieces: exactly, and as the drawing methods cut them, with
+// bounds on what a method may make of each piece.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace lamina::selftest {
 
-// The exact pieces, one for each layer, in closed form (docs/numerics.md, section 5). Empty if
-// the ray misses the box.
+// Returns the exact pieces, one for each layer, in closed form (docs/numerics.md, section 5); none
+// if the ray misses the box.
 std::vector<PieceBounds> exact_pieces(const LayeredBox& box,
                                       const TransferFunction& transfer_function,
                                       const View::Ray& ray);
@@ -28,35 +28,35 @@ struct Slabs {
 };
 Slabs slabs_of(const LayeredBox& box, const View& view, int count);
 
-// Pieces of classification `post`: the piece of the ray in a slab has the optics of the scalar in
-// its middle.
+// Returns the pieces of classification `post`: in each slab the optics of the scalar in the middle
+// of the ray's segment.
 std::vector<PieceBounds> middle_pieces(const LayeredBox& box,
                                        const TransferFunction& transfer_function,
                                        const View::Ray& ray, const Slabs& slabs,
                                        const Precision& precision);
 
-// Pieces of classification `preintegrated`. If the scalar is linear in a slab, the piece of the ray
-// there has the exact optical depth. Otherwise it has an optical depth of scalars that occur in the
-// piece. Its colours occur in the piece.
+// Returns the pieces of classification `preintegrated`. If the scalar is linear in a slab, the
+// piece has the exact optical depth, otherwise one of scalars that occur in it. Colours are ones
+// that occur in the piece.
 std::vector<PieceBounds> run_pieces(const LayeredBox& box,
                                     const TransferFunction& transfer_function, const View::Ray& ray,
                                     const Slabs& slabs, const Precision& precision);
 
-// The exact pieces as shown by tetrahedra that conform to the layers. The errors of faces add up to
-// `length_error` (world units) along the ray.
+// Returns the pieces as drawn by tets that conform to the layers. `length_error`: sum of the errors
+// of faces along the ray, in world units.
 std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
                                     const TransferFunction& transfer_function, const View::Ray& ray,
                                     double length_error, const Precision& precision);
 
-// Light on a ray along which the gradient is the same everywhere, as in a box of one layer: the lit
-// colour is a factor times the unlit one, and a highlight times opacity (docs/numerics.md, section
-// 10). With ambient light 1 alone the factor is 1 in any box.
+// Light along a ray on which the gradient is constant, as in a box of one layer: the lit colour is
+// a factor times the unlit one, plus a highlight times opacity (docs/numerics.md, section 10). If
+// there is only ambient light of 1, the factor is 1 in any box.
 class OneGradientLight {
   public:
     OneGradientLight(const Lighting& lighting, const LayeredBox& box, const View::Ray& ray);
 
     void shine_on(std::array<double, 4>& pixel) const;
-    // `error`: of factor and highlight, a share of all terms together.
+    // `error`: of factor and highlight, as a share of the sum of all terms.
     void shine_on(PixelBounds& pixel, double error) const;
 
   private:

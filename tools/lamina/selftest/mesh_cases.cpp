@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that are hard for a renderer: needles, slivers, hubs, and meshes that are not proper.
+// Meshes that are hard for a renderer: needles, slivers, hubs, and invalid meshes.
 #include <cmath>
 #include <numbers>
 
@@ -51,7 +51,7 @@ std::vector<SelftestScene> box_scenes() {
     return scenes;
 }
 
-// One scalar per tet, for meshes whose tets share no points.
+// Makes tets that share no points, each with a scalar of its own.
 MeshData tets_of(const std::vector<std::array<glm::dvec3, 4>>& corners) {
     MeshData mesh;
     MeshScalar scalar{"scalar", {}};
@@ -67,7 +67,7 @@ MeshData tets_of(const std::vector<std::array<glm::dvec3, 4>>& corners) {
     return mesh;
 }
 
-// Three long tets around a triangle, each of which rises over the next.
+// Makes three long tets around a triangle, each of which overlaps the next in depth: a cycle.
 MeshData sticks() {
     std::vector<std::array<glm::dvec3, 4>> corners;
     for (int i = 0; i < 3; ++i) {
@@ -82,7 +82,7 @@ MeshData sticks() {
     return tets_of(corners);
 }
 
-// Tets around one edge.
+// Makes tets around a common edge.
 MeshData edge_fan(int count) {
     MeshData mesh;
     MeshScalar scalar{"scalar", {0, 1}};
@@ -97,7 +97,7 @@ MeshData edge_fan(int count) {
     return mesh;
 }
 
-// Small tets at random places, which may overlap.
+// Makes small tets at random places, which may overlap.
 MeshData islands(double size) {
     SplitMix64 bits(3);
     const auto uniform = [&] { return static_cast<double>(bits.next() >> 11) * 0x1p-52 - 1; };
@@ -112,7 +112,7 @@ MeshData islands(double size) {
     return tets_of(corners);
 }
 
-// A box of 27 cubes without the middle one.
+// Makes a box of 27 cubes without the middle one.
 MeshData with_hole() {
     LayeredBox box;
     box.samples = {0, .25, .5, 1};
@@ -124,7 +124,7 @@ MeshData with_hole() {
     return mesh;
 }
 
-// Tets on face 0 1 2, on one side or on both.
+// Makes tets on face 0 1 2, on one side of it or on both.
 MeshData on_one_face(const std::vector<glm::dvec3>& tops) {
     MeshData mesh;
     mesh.points = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
@@ -179,7 +179,7 @@ std::vector<MeshScene> mesh_scenes() {
     }));
     MeshScene cyclic =
         one_color("cyclic", "Three tets, each before the next: no order is right", sticks);
-    // The second colour is too near to the first to be seen, but makes the order matter.
+    // The colours differ too little to be seen, but enough for the order to matter.
     cyclic.scene.transfer_function =
         optics_of({{0, {{.3, .6, .9}, .5}}, {1, {{.3, .6, .9 - 1e-9}, 3}}});
     cyclic.scene.camera->eye = {0, 0, 4};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes of the scene that must not change the picture.
+// Changes of a scene that must not change its picture.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -23,8 +23,7 @@ SelftestScene base_scene(const std::string& about = "") {
     return scene;
 }
 
-// Changes the places and directions of everything in the world: the box, and the camera that sees
-// it.
+// Moves the whole world: places and directions of the box and of the camera.
 template <typename Point, typename Direction>
 void move_world(SelftestScene& scene, const Point& point, const Direction& direction) {
     scene.box.corner = point(scene.box.corner);
@@ -45,7 +44,7 @@ SelftestScene translated() {
 
 SelftestScene rotated() {
     SelftestScene scene = base_scene("The world turned about an oblique axis");
-    // The columns are those of a rotation, in sevenths.
+    // The columns are those of a rotation matrix, times 7.
     const auto turn = [](const glm::dvec3& d) {
         return (d.x * glm::dvec3(2, 6, -3) + d.y * glm::dvec3(3, 2, 6) +
                 d.z * glm::dvec3(6, -3, -2)) /

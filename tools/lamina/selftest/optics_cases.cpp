@@ -23,13 +23,14 @@ void append_float_ways(std::vector<SelftestCase>& cases, const SelftestScene& sc
     append(cases, cases_of(optics_group, scene, float_ways()));
 }
 
-// `depth` bounds the optical depths. Faint pictures allow only small omissions.
+// Sets transfer function and max_error. `depth`: bound of the optical depths; faint pictures allow
+// only small omissions.
 void set_optics(SelftestScene& scene, const TransferFunction& transfer_function, double depth) {
     scene.scene.transfer_function = transfer_function;
     scene.scene.max_error = std::min(1.0, depth);
 }
 
-// The box is homogeneous. Rays are 0 to 1.7 long, so that they have other shares of the depth, too.
+// Appends homogeneous boxes. Rays are 0 to 1.7 long, so optical depths vary.
 void append_depths(std::vector<SelftestCase>& cases) {
     for (const double depth : {1e-8, 1e-4, 1., 30., 1e3, 1e6}) {
         SelftestScene scene = plain_scene(
@@ -50,7 +51,8 @@ void append_depths(std::vector<SelftestCase>& cases) {
     }
 }
 
-// Samples are float32 numbers, so that a volume holds them exactly.
+// Appends jumps of extinction between samples. Samples are float32 numbers, which a volume holds
+// exactly.
 void append_jumps(std::vector<SelftestCase>& cases) {
     SelftestScene jump = plain_scene(
         "jump_1e8", "Extinction 1e-4 and 1e4 in turn, from one sample to the next, 16 layers");
@@ -68,7 +70,7 @@ void append_jumps(std::vector<SelftestCase>& cases) {
 }
 
 void append_opacities(std::vector<SelftestCase>& cases) {
-    // Scene files give opacities (docs/scene.md): opacity 1 means 1e7 per unit length.
+    // Opacity 1 in a scene file means extinction 1e7 per unit length (docs/scene.md).
     const std::pair<const char*, double> opacities[] = {
         {"opacity_1", 1e7}, {"opacity_1_less_1e-12", -std::log(1e-12)}, {"opacity_1e-12", 1e-12}};
     for (const auto& [name, extinction] : opacities) {
@@ -158,7 +160,7 @@ SelftestScene orthographic(const std::string& name, const std::string& about,
     return scene;
 }
 
-// The light shines towards the eye.
+// Returns a box whose light shines towards the eye.
 SelftestScene light_behind() {
     SelftestScene scene = orthographic("opposite_light",
                                        "A light straight towards the eye: no "
@@ -191,8 +193,8 @@ std::vector<SelftestCase> optics_cases() {
     return cases;
 }
 
-// Lit boxes. In a box of one layer the gradient is the same everywhere, so light does the same to
-// all of a ray; ambient light of 1 changes nothing in any box.
+// Lit boxes. In a box of one layer the gradient is constant, so light changes all of a ray in the
+// same manner; ambient light of 1 alone changes nothing in any box.
 
 std::vector<SelftestCase> light_cases() {
     std::vector<DrawingWay> ways = traces();

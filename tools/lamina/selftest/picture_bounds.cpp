@@ -97,12 +97,12 @@ namespace {
 
 constexpr Interval everything{-1e30, 1e30};
 
-// Weights of colour come from a table of 256 x 256, whose cells a float32 divides into 2^24 parts.
-// Opacity does not.
+// Rounding of the place in a 256 x 256 table of colour weights: float32 divides a cell into 2^24
+// parts. Opacity comes from no table.
 constexpr double place_in_table = 0x1p-32;
 
 // Error of light from stored gradients: direction and weight are off by at most 2^-15
-// (slicing/gradient_map.h), and a power of n by n 2^-21.
+// (slicing/gradient_map.h), and the power n of a highlight by n 2^-21.
 constexpr double light_error = 0x1p-14;
 
 // Returns the largest number of pieces that a tet is cut into.
@@ -110,7 +110,7 @@ double parts_in(const TransferFunction& transfer_function) {
     return static_cast<double>(transfer_function.knots().size() + 1);
 }
 
-// Each clip plane leaves up to three tets of one.
+// Returns the number of tets into which the clip may cut one: up to three for each plane.
 double tets_for_one(const LayeredBox& box) {
     return std::pow(3, static_cast<double>(box.cuts.size()));
 }
@@ -122,12 +122,12 @@ void widen(PixelBounds& pixel, double absolute, double relative, double of_color
     for (Interval& channel : pixel) channel.lo = std::max(channel.lo, 0.0);
 }
 
-// Returns a bound on the effect of the codes of a tree's inner images on a picture. A code that is
+// Returns a bound on the error of a picture by the codes of a tree's inner images. A code that is
 // off by e moves the final opacity by at most Y e of its node's weight (docs/numerics.md, section
-// 4). The nodes of a level together, seen through one another, move it by at most 7 Y e: by e Y
-// where sigma <= 1, since their shares add up to 1; by e Y where 1 < sigma <= 1/w, since depths in
-// front of each other do not add up to more; by 1.58 Y beyond, a geometric sum of 1/e. Colours move
-// by as much again through the weights, and by e through their own codes.
+// 4). The nodes of one level together, each seen through those before it, move it by at most 7 Y e:
+// by e Y where sigma <= 1, since their shares add up to 1; by e Y where 1 < sigma <= 1/w, since
+// depths in front of each other do not add up to more; by 1.58 Y beyond, a geometric sum of 1/e.
+// Colours move by as much again through the weights, and by e through their own codes.
 double tree_error(const TreeSettings& tree, double code) {
     double sum = code;  // of the root
     double share = 1;
@@ -154,7 +154,8 @@ double code_step(Target target) {
     unreachable_enum();
 }
 
-// Coordinates of the world have 53 bits, whatever the size of the box.
+// Returns the precision of a way to draw. World coordinates have 53 bits, so far from the origin a
+// small box loses some.
 Precision precision_of(const LayeredBox& box, const DrawingWay& way) {
     Precision precision = way.method == Method::trace ? Precision::traced() : Precision::drawn();
     double shortest = box.longest_edge();
@@ -235,8 +236,7 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
     const Slabs slabs = slabs_of(box, view, scene.slice.samples.value_or(1));
     const bool post = scene.slice.classification == Classification::post;
     const bool by_slab = sliced && scene.slice.classification != Classification::exact;
-    // Rays may end as soon as the rest cannot change the picture by more than this
-    // (docs/omissions.md).
+    // A ray may end as soon as the rest changes the picture by at most this (docs/omissions.md).
     const double hidden_light = scene.max_error / 255 / 1024;
 
     return all_pixels(scene, [&](const View::Ray& ray, std::array<double, 4>& exact,
@@ -270,7 +270,7 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
             light.shine_on(exact);
             light.shine_on(possible, way.method == Method::trace ? 1e-12 : light_error);
         }
-        widen(possible, 0, 0x1p-23);  // as stored
+        widen(possible, 0, 0x1p-23);  // the picture is stored in float32
     });
 }
 

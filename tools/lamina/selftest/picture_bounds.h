@@ -16,8 +16,8 @@
 
 namespace lamina::selftest {
 
-// Chords of rays in the tets of a mesh. Every tet is intersected by itself, in double precision,
-// without use of its neighbours. This is right for every mesh, also for one that overlaps itself.
+// Chords of rays in the tets of a mesh. Each tet is intersected separately in double precision,
+// without its neighbours, which is right for every mesh, even one that overlaps itself.
 
 class MeshChords {
   public:
@@ -26,7 +26,7 @@ class MeshChords {
 
     struct Along {
         double depth = 0;         // optical depth
-        Interval possible_depth;  // range of the optical depth that the errors of faces allow
+        Interval possible_depth;  // range that the errors of faces allow
         double length_error = 0;  // sum over the chords of all tets, world units
         int crossed = 0;          // number of tets that the ray may meet
     };
@@ -48,32 +48,31 @@ class MeshChords {
     std::vector<Solid> solids_;
 };
 
-// The exact value of every pixel, and the bounds between which a way to draw may put it.
+// The exact value of every pixel, and the bounds that a way to draw must keep.
 struct PictureBounds {
     int width = 0, height = 0;
     std::vector<std::array<double, 4>> exact;
     std::vector<PixelBounds> possible;
 };
 
-// The bounds for a layered box; `mesh` is for ways that draw a mesh.
+// Returns the bounds for a layered box. `mesh`: for ways that draw a mesh, else null.
 PictureBounds layered_picture(const SelftestScene& scene, const DrawingWay& way,
                               const SceneMesh* mesh);
 
-// The bounds for any mesh in one colour. Opacity follows from the sum of the optical depths of its
-// tets, in whatever order they are drawn.
+// Returns the bounds for any mesh in one colour. Opacity follows from the sum of its tets' optical
+// depths, in any order.
 PictureBounds one_color_picture(const Scene& scene, const DrawingWay& way, const SceneMesh& mesh);
 
-// The fit of a picture to its bounds.
+// How well a picture keeps its bounds.
 struct Fit {
     bool fits = true;
     double error = 0, bound = 0;  // in 1/255, in the pixel and channel that fits worst
     double largest_error = 0;     // in 1/255
-    std::string where;            // where it does not fit: "pixel 3, 4, channel R"
+    std::string where;  // first pixel and channel outside its bounds: "pixel 3, 4, channel R"
 };
 Fit fit_of(const PreciseImage& picture, const PictureBounds& bounds);
 
-// Returns the fit of two pictures of the same thing: they may differ by no more than both bounds
-// allow.
+// Returns the fit of two pictures that should agree: they may differ by what both bounds allow.
 Fit fit_of(const PreciseImage& a, const PictureBounds& bounds_a, const PreciseImage& b,
            const PictureBounds& bounds_b);
 

@@ -42,7 +42,7 @@ PixelBounds composite(const std::vector<PieceBounds>& pieces, const BlendRoundin
 }
 
 std::array<double, 4> composite_exactly(const std::vector<PieceBounds>& pieces) {
-    // Front to back in sums of optical depth, faint pieces lose no digits.
+    // Summing optical depths from front to back keeps all digits of faint pieces.
     std::array<double, 4> pixel{};
     double depth = 0;
     for (const PieceBounds& piece : pieces) {

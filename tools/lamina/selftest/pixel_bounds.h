@@ -30,37 +30,36 @@ struct Interval {
     }
 };
 
-// The precision of the quantities that a way to draw integrates. The bounds of the self-test follow
-// from it.
+// Precision of the quantities that a way to draw integrates; the self-test's bounds follow from it.
 struct Precision {
-    double position = 0;  // error of a point in the box, share of its edges
+    double position = 0;  // error of a point in the box, as a share of its edges
     double relative = 0;  // relative error of lengths and optical depths
     double scalar = 0;    // error of scalars, share of the volume's range
     double color = 0;     // error of a piece's colour, share of the colours that occur in it
     double face = 0;      // error of a tet's face, share of the tet's longest edge
     double slab = 0;      // error of a slab's ends, share of the depth of all slabs
 
-    // Some 16 roundings of a float32 (2^-24). Coordinates in the box have the size of the box at
-    // any distance of the eye, because rays are set up in double precision. Faces:
-    // docs/numerics.md, section 6 (9e-6 of an edge with coefficients relative to a pixel near the
-    // tet). Colour of a cell fragment: 2.2e-3, from a table of 256 x 256
+    // Precision of the renderers: about 16 roundings of float32 (2^-24). Coordinates in the box are
+    // relative to it at any distance of the eye, because rays are set up in double precision.
+    // Faces: 9e-6 of an edge, if coefficients are relative to a pixel near the tet
+    // (docs/numerics.md, section 6). Colour of a cell's fragment: 2.2e-3, from a table of 256 x 256
     // (optics/segment_integral.h).
     static constexpr Precision drawn() {
         constexpr double ulps = 1.0 / (1 << 20);
         return {ulps, ulps, ulps, 2.2e-3, 9e-6, ulps};
     }
-    // Double precision, as in the tracers, with eyes up to 1e6 box lengths away.
+    // Precision of the tracers: doubles, with eyes up to 1e6 box lengths away.
     static constexpr Precision traced() { return {1e-9, 1e-12, 1e-12, 1e-12, 1e-9, 0}; }
 };
 
-// A piece of a ray: the possible values of its optical depth and of its colour (not associated).
+// A piece of a ray: possible values of its optical depth and of its colour (not associated).
 struct PieceBounds {
     Interval depth;
     std::array<Interval, 3> color;
 };
 
-// The largest rounding errors of one blend, in full scale: of the fragment's opacity, of its
-// associated colour, and of the result; and errors proportional to opacity and to the result.
+// Largest rounding errors of one blend, in full scale: of the fragment's opacity, of its associated
+// colour, and of the result; `relative`: proportional to opacity and to the result.
 struct BlendRounding {
     double alpha = 0, color = 0, over = 0, relative = 0;
 
@@ -71,14 +70,15 @@ struct BlendRounding {
 using PixelBounds = std::array<Interval, 4>;
 
 // Composites `pieces`, nearest first. OVER is linear in the fragment's opacity, so its extremes
-// over an interval lie at the interval's ends, and one step loses nothing. What lies behind is
-// weighted by the transmittance of what lies in front.
+// over an interval lie at the ends, and no step widens the bounds more than needed. What lies
+// behind is weighted by the transmittance of what lies in front.
 PixelBounds composite(const std::vector<PieceBounds>& pieces, const BlendRounding& rounding);
 
-// Composites pieces with exact values, without rounding.
+// Composites pieces whose intervals are single values, without rounding.
 std::array<double, 4> composite_exactly(const std::vector<PieceBounds>& pieces);
 
-// The optics of a transfer function over a closed interval of scalars. Both sides of steps count.
+// Range of a transfer function's optics over a closed interval of scalars. Both sides of a step are
+// included.
 struct OpticsRange {
     Interval extinction;
     std::array<Interval, 3> color;

@@ -14,7 +14,7 @@ namespace lamina::selftest {
 namespace {
 
 constexpr glm::dvec3 cell_color{.5, 1, .25};
-// Roundings of a scalar of float32 between 0 and 1, some four of them, and of opacity.
+// Errors of a float32 scalar between 0 and 1, about four roundings, and of opacity.
 constexpr double cell_scalar_error = 0x1p-22, cell_opacity_error = 0x1p-20;
 
 struct CellScene {
@@ -22,7 +22,7 @@ struct CellScene {
     bool saddle = false;  // the scalar is x y; otherwise it is x y z
     TransferFunction transfer_function;
     double opacity = 0;
-    // Change of optical depth for each unit by which the scalar is off.
+    // Change of optical depth per unit of error of the scalar.
     double depth_per_scalar = 0;
 };
 
@@ -35,7 +35,8 @@ Volume cell_volume(bool saddle) {
     return {grid, SampleType::float32, {samples, samples->data()}};
 }
 
-// One ray, from corner to corner of the cell; of the saddle, from (1, 0) to (0, 1).
+// Returns a scene of one ray, through opposite corners of the cell; of the saddle, from (1, 0) to
+// (0, 1).
 Scene cell_scene_of(const CellScene& cell) {
     Scene scene;
     scene.transfer_function = cell.transfer_function;
@@ -60,7 +61,7 @@ TransferFunction shown_between(double lo, double hi, double extinction) {
                       {hi, {cell_color, 0}}});
 }
 
-// The scalar is t^3 over a length of sqrt(3).
+// Returns a case in which the scalar is t^3 along a ray of length sqrt(3).
 CellScene corner(const std::string& name, const std::string& about, double lo, double hi,
                  double extinction) {
     const double length = std::sqrt(3.) * (std::cbrt(hi) - std::cbrt(lo));
@@ -77,14 +78,14 @@ CellScene corner(const std::string& name, const std::string& about, double lo, d
 
 std::vector<CellScene> all_cells() {
     std::vector<CellScene> cells;
-    const double ramp = 4;  // the mean of t^3 is a quarter
+    const double ramp = 4;  // of extinction at scalar 1; the mean of t^3 is a quarter
     cells.push_back({"corner_ramp", "The scalar is t^3, and extinction follows it", false,
                      optics_of({{0, {cell_color, 0}}, {1, {cell_color, ramp}}}),
                      -std::expm1(-std::sqrt(3.) * ramp / 4), ramp * std::sqrt(3.)});
     cells.push_back(corner("peak", "Extinction between the scalars .2 and .3 alone", .2, .3, 7));
     cells.push_back(corner("narrow_peak", "A peak of a thousandth of the range inside one cell", .5,
                            .501, 2000));
-    // The scalar is t (1 - t) over a length of sqrt(2), .25 at its top.
+    // The scalar is t (1 - t) along a length of sqrt(2), .25 at its maximum.
     cells.push_back({"touched_point",
                      "The scalar comes within 1e-6 of a step and does not cross it", true,
                      shown_from(.25 + 1e-6), 0, 0});
@@ -146,7 +147,7 @@ void append_boxes(std::vector<SelftestScene>& scenes) {
     scenes.push_back(long_box);
 }
 
-// A ramp over all values of a type, in layers.
+// Returns a ramp, in layers, from the least to the largest value of a type.
 SelftestScene type_scene(const std::string& name, SampleType type, double lo, double hi) {
     SelftestScene scene = plain_scene(
         name, fmt::format("Samples of type {} from {:g} to {:g}", name_of(type), lo, hi));
@@ -194,8 +195,8 @@ SelftestScene not_finite(const std::string& name, double value) {
 
 }  // namespace
 
-// One trilinear cell, seen along a diagonal: the scalar along the ray is a polynomial, and opacity
-// has a closed form.
+// Cases of one trilinear cell, seen along a diagonal: the scalar along the ray is a polynomial, and
+// opacity has a closed form.
 
 std::vector<SelftestCase> cell_cases() {
     std::vector<SelftestCase> cases;
@@ -212,7 +213,7 @@ std::vector<SelftestCase> cell_cases() {
     return cases;
 }
 
-// Extreme numbers: coordinates, sizes, anisotropy, sample types and their extremes.
+// Cases of extreme numbers: coordinates, sizes, anisotropy, sample types and their extremes.
 
 std::vector<SelftestCase> number_cases() {
     std::vector<SelftestScene> scenes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A battery of stiff and extreme scenes, which shows whether this machine's drawing can be trusted.
+// Stiff and extreme scenes that show whether drawing on this machine can be trusted.
 #pragma once
 
 #include <functional>
@@ -19,21 +19,21 @@ struct CaseOutcome {
     double error = 0,
            bound = 0;          // in 1/255, in the pixel and channel that comes nearest to its bound
     double largest_error = 0;  // in 1/255, of all pixels
-    std::string note;          // what failed, or why it was refused
+    std::string note;          // what failed, or why drawing was refused
 };
 
-// One picture of the self-test, or two that must agree, with the bounds that they must keep.
+// A picture of the self-test, or two that must agree, with their bounds.
 struct SelftestCase {
     std::string group, scene, way;
-    std::string about;  // what is stiff or extreme, and where the bound comes from
+    std::string about;  // why it is stiff or extreme, and where the bound comes from
     std::function<CaseOutcome(const PictureMaker&)> run;
 
     std::string name() const { return group + "/" + scene + "/" + way; }
 };
 
-// The groups in the order in which they run.
+// Returns the groups in the order in which they are drawn.
 const std::vector<std::string>& selftest_groups();
-// All cases, or those of the groups that are named. Throws UsageError for an unknown name.
+// Returns all cases, or those of the named groups. Throws UsageError for an unknown name.
 std::vector<SelftestCase> selftest_cases(const std::vector<std::string>& groups);
 
 struct SelftestResult {
@@ -42,16 +42,17 @@ struct SelftestResult {
     double ms = 0;
 };
 
-// Runs every case. A case that throws Error has the outcome "refused".
+// Draws every case. A case that throws Error has the verdict "refused".
 std::vector<SelftestResult> run_selftest(const std::vector<SelftestCase>& cases,
                                          const PictureMaker& maker);
 
 std::size_t count_of(const std::vector<SelftestResult>& results, Verdict verdict);
 
-// A table for people: one line a case, and a summary of each group.
+// Return tables for people: one line for each case, and one for each group.
 std::string selftest_table(const std::vector<SelftestResult>& results);
 std::string selftest_summary(const std::vector<SelftestResult>& results);
-// {cases: [{group, scene, way, verdict, error, bound, largest_error, ms, about, note}], counts}.
+// Returns {cases: [{group, scene, way, verdict, error, bound, largest_error, ms, about, note}],
+// counts}.
 nlohmann::ordered_json selftest_json(const std::vector<SelftestResult>& results);
 
 }  // namespace lamina::selftest

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extreme views: angles, distances, eyes on and in the box, images of one pixel and of one row.
+// Extreme views: angles, distances, eyes on and in the box, pictures of one pixel and of one row.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ SelftestScene cut_scene(const std::string& name, const std::string& about,
     return scene;
 }
 
-// Both ends of a box of the clip on each axis.
+// Returns a box that a box of the clip cuts at both ends of each axis.
 SelftestScene cut_by_box() {
     const glm::dvec3 lo(.2, .1, .3), hi(.7, .6, 1.1);
     SelftestScene scene = cut_scene("clip_box", "A box of the clip inside the box", {});
@@ -131,7 +131,7 @@ std::vector<SelftestCase> view_cases() {
         SelftestScene scene = view_scene(fmt::format("fov_{:g}", angle),
                                          fmt::format("A field of view of {:g} degrees", angle));
         scene.scene.camera = camera_at(scene.box, angle < 90 ? 20 / angle : .55, angle);
-        if (angle > 90) {  // 45 degrees off the middle, where the picture has 1/11 of its width
+        if (angle > 90) {  // at 45 degrees off the axis the picture shows only 1/11 of its width
             scene.scene.width = 96;
             scene.scene.height = 72;
         }
@@ -197,7 +197,7 @@ std::vector<SelftestCase> view_cases() {
     return cases;
 }
 
-// Boxes that planes cut: rays end where they meet the planes, and are otherwise as in whole boxes.
+// Boxes cut by planes: rays end where they meet the planes.
 
 std::vector<SelftestCase> clip_cases() {
     std::vector<DrawingWay> ways = traces();
