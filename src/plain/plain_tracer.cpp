@@ -33,8 +33,8 @@ struct Cubic {
     }
 };
 
-// Appends the places between 0 and 1 at which p crosses 0. Between zeros of its slope p is
-// monotone, so it crosses 0 there at most once, and bisection finds the place.
+// Appends the places between 0 and 1 at which p crosses 0. It is monotone between the zeros of its
+// slope, so that it crosses 0 there at most once, and bisection finds the place.
 void append_crossings(const Cubic<double>& p, std::vector<double>& places) {
     std::vector<double> ends;
     if (p.c[1] != 0 || p.c[2] != 0 || p.c[3] != 0) append_crossings(p.slope(), ends);
@@ -51,17 +51,17 @@ void append_crossings(const Cubic<double>& p, std::vector<double>& places) {
     }
 }
 
-// Returns the distance by which a place lies inside a half space, times the length of the normal.
+// Returns the distance of a place inside, times the length of the normal.
 double depth_in(const HalfSpace& half, const glm::dvec3& place) {
     return glm::dot(half.normal, place - half.point);
 }
 
-// The part of a ray with from <= z <= to; empty unless from < to.
+// The part from <= z <= to of a ray; none unless from < to.
 struct Span {
     double from, to;
 };
 
-// Cuts away everything outside a half space. `keeps_plane`: a ray that runs in its plane is inside.
+// Cuts away everything outside a half space. `keeps_plane`: a ray in its plane is inside.
 void cut(Span& span, const HalfSpace& half, bool keeps_plane, const View::Ray& ray) {
     const double start = depth_in(half, ray.origin), slope = glm::dot(half.normal, ray.direction);
     if (slope > 0) span.from = std::max(span.from, -start / slope);
@@ -71,7 +71,7 @@ void cut(Span& span, const HalfSpace& half, bool keeps_plane, const View::Ray& r
 
 using Field = glm::dvec4;  // the gradient in world space (x, y, z) and the scalar (w)
 
-// The part of a ray in one cell or tet, with the field from t = 0 at its front to 1 at its back.
+// A part of a ray in one cell or tet, and the field from t = 0 at its front to t = 1 at its back.
 struct Segment {
     double entry;   // z at which the ray enters the cell or tet, visible or not
     double length;  // world units of its visible part
@@ -85,8 +85,8 @@ double scalar_at(const Volume& volume, const glm::dvec3& index) {
     return visit_samples(volume, [&](const auto& all) { return static_cast<double>(all[n]); });
 }
 
-// Returns the field at a sample; beyond the samples that at the border. Gradients are differences
-// of neighbours that exist and are finite (docs/numerics.md, section 10).
+// Returns the field at a sample; outside the samples the border's repeats. Gradients are
+// differences of neighbours that exist and are finite (docs/numerics.md, section 10).
 Field field_at(const Volume& volume, const glm::dvec3& place) {
     const glm::dvec3 last = glm::floor(volume.grid().index_max());
     const glm::dvec3 index = glm::clamp(place, glm::dvec3(0), last);
@@ -103,7 +103,7 @@ Field field_at(const Volume& volume, const glm::dvec3& place) {
     return found;
 }
 
-// Returns a + x (b - a), x from x0 to x1 for t from 0 to 1: of one degree more than a and b.
+// Returns a + x (b - a) for x that runs from x0 to x1: its degree is one more than that of a and b.
 Cubic<Field> mixed(Cubic<Field> a, const Cubic<Field>& b, double x0, double x1) {
     for (int i = 3; i > 0; --i)
         a.c[i] += x0 * (b.c[i] - a.c[i]) + (x1 - x0) * (b.c[i - 1] - a.c[i - 1]);
@@ -111,8 +111,8 @@ Cubic<Field> mixed(Cubic<Field> a, const Cubic<Field>& b, double x0, double x1) 
     return a;
 }
 
-// Cuts a ray at all planes of samples, and returns its segments. A cell's field is trilinear
-// (docs/numerics.md, section 9): it is mixed axis by axis, and NaN if a corner is NaN.
+// Cuts a ray at all planes of samples. The field of a cell is trilinear (docs/numerics.md, section
+// 9): it is mixed along one axis after the other, and NaN if a corner is NaN.
 std::vector<Segment> meet(const Volume& volume, const View::Ray& world, Span seen) {
     const Grid& grid = volume.grid();
     const View::Ray ray{grid.to_index(world.origin), grid.direction_to_index(world.direction)};
@@ -152,16 +152,15 @@ struct PlainMesh {
     std::span<const glm::dvec3> points;
     std::vector<Field> fields;  // one a point
     std::vector<Tet> tets;      // the visible ones
-    // Returns the half space bounded by the face opposite a corner, on the tet's side. Both tets of
-    // a face begin with its least point, so their planes are equal to the last bit.
+    // Returns the half space behind the face opposite a corner, which the tet is in. Both tets of a
+    // face begin with its least point, so that their planes are equal to the last bit.
     HalfSpace behind(const Tet& tet, int opposite) const {
         auto face = corners_of_face(tet, opposite);
         std::ranges::rotate(face, std::ranges::min_element(face));
         const glm::dvec3 a = points[face[0]];
         return {a, glm::cross(points[face[2]] - a, points[face[1]] - a)};
     }
-    // Returns the field at a place in a tet. The barycentric coordinate of a corner is the place's
-    // height over the opposite face as a share of the corner's.
+    // The barycentric coordinate of a corner is the share of its height over the face opposite.
     Field field(const Tet& tet, const glm::dvec3& place) const {
         Field sum = fields[tet[0]];
         for (int i = 1; i < 4; ++i) {
@@ -173,8 +172,8 @@ struct PlainMesh {
     }
 };
 
-// Prepares a mesh: keeps tets with volume and finite values. The gradient at a point is the mean of
-// those of the tets around it, weighted by volume (docs/numerics.md, section 10).
+// Keeps tets with volume and finite values. The gradient at a point is the mean of those of the
+// tets around it, weighted by volume (docs/numerics.md, section 10).
 PlainMesh plain_mesh(const SceneMesh& data) {
     PlainMesh mesh{data.mesh.points(), {}, {}};
     for (const double scalar : data.scalar.values) mesh.fields.emplace_back(0, 0, 0, scalar);
@@ -198,8 +197,8 @@ PlainMesh plain_mesh(const SceneMesh& data) {
     return mesh;
 }
 
-// Returns a ray's segments in all tets, in order. A ray in a face counts as moved along x by
-// infinitely little, along y by far less, along z by far less again (docs/numerics.md, section 7).
+// Intersects a ray with all tets. A ray in a face counts as moved along x by infinitely little,
+// along y by far less, and along z by far less again (docs/numerics.md, section 7).
 std::vector<Segment> meet(const PlainMesh& mesh, const View::Ray& ray, const Span& seen) {
     std::vector<Segment> found;
     for (const Tet& tet : mesh.tets) {
@@ -237,7 +236,6 @@ class PlainRay {
     }
 
   private:
-    // Takes over the lights of a scene for a ray with the eye in direction `eye`.
     void take(const Lighting& lighting, const glm::dvec3& eye) {
         glm::dvec3 sum(0);
         for (const auto& [given, shone] : lighting.lights) {
@@ -250,8 +248,8 @@ class PlainRay {
         brightest_ *= 1 + lighting.ambient + lighting.diffuse * largest(sum);
         brightest_ += lighting.specular * largest(sum);
     }
-    // Returns the places, with 0 and 1, between which colour is smooth: where the scalar turns or
-    // meets a knot, and where the gradient is perpendicular to a light or halfway vector: a kink.
+    // Returns a segment's ends and the places between: the scalar turns or meets a knot, or light
+    // has a kink, because the gradient is perpendicular to it or to the halfway vector.
     std::vector<double> cuts(const Cubic<Field>& field) const {
         const auto along = [&c = field.c](const Field& v, double less) {
             return Cubic<double>{dot(c[0], v) - less, dot(c[1], v), dot(c[2], v), dot(c[3], v)};
@@ -307,10 +305,9 @@ class PlainRay {
         }
         return sum;
     }
-    // Adds a part of a segment, halved until Gauss' rule on it and on its halves agree. A part that
-    // is deep, or along which the gradient turns (by Taylor's series), is halved first, because a
-    // peak may lie between the rule's points. If halving ends without agreement, the part's error
-    // is all of its colour.
+    // Adds a part of a segment, or its halves until Gauss' rule on it and on its halves agree. A
+    // part that is deep, or whose gradient turns (by Taylor's series), is halved first: a peak may
+    // lie between the points. If halving ends, the error is the whole colour of the part.
     void add(const Segment& segment, double from, double to, int halvings) {
         constexpr double tolerance = 1e-7, rounding = 1e-14;  // shares of opacity, of full scale
         const double middle = 0.5 * (from + to), here = thickness(segment, from, to);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A second, simple and slow reference tracer that checks the first (docs/architecture.md, "The
-// plain twin"): it shares no code, and intersects each ray with all planes of a grid or all tets.
+// The plain twin of the reference tracer, to judge the judge. It shares no code with the tracer,
+// intersects each ray with all planes of a grid or all tets, and is slow.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ struct PlainPicture {
     std::int64_t segments = 0;  // parts of rays, each in one cell or tet
 };
 
-// Traces a scene, whatever its method and trace tolerance; the scene must leave nothing to be
-// chosen automatically. Cells and tets with a NaN or infinite corner are transparent. Tets that
-// overlap are composited one after the other, in the order in which the ray enters them.
+// Traces a scene, whatever its method and trace_tolerance; nothing in it is automatic. Cells and
+// tets with a NaN or infinite corner are transparent. Tets that overlap are composited one after
+// the other, in the order in which the ray enters them.
 PlainPicture trace_plainly(const Scene& scene, const Volume& volume);
 PlainPicture trace_plainly(const Scene& scene, const SceneMesh& mesh);
 
