@@ -38,12 +38,12 @@ endif()
 # lamina_module(NAME SOURCES ... LINK modules and libraries ...): a folder in src or, of a program's own, in that program's
 # folder. Files include what it has as "NAME/FILE.h".
 function(lamina_module name)
-    cmake_parse_arguments(ROOM "" "" "SOURCES;LINK" ${ARGN})
-    add_library(lamina_${name} STATIC ${ROOM_SOURCES})
+    cmake_parse_arguments(MODULE "" "" "SOURCES;LINK" ${ARGN})
+    add_library(lamina_${name} STATIC ${MODULE_SOURCES})
     target_include_directories(lamina_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
     cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH beside)
     target_include_directories(lamina_${name} PUBLIC ${beside})
-    target_link_libraries(lamina_${name} PUBLIC lamina_options ${ROOM_LINK})
+    target_link_libraries(lamina_${name} PUBLIC lamina_options ${MODULE_LINK})
 endfunction()
 
 # lamina_join_sources(TARGET): its sources are compiled eight at a time. Each of them alone spends most of its time on
@@ -56,7 +56,7 @@ function(lamina_join_sources target)
     endif()
 endfunction()
 
-# lamina_test(ROOM SOURCES ... LINK ...): the program test_ROOM, registered test by test with CTest.
+# lamina_test(NAME SOURCES ... LINK ...): the program test_NAME, registered test by test with CTest.
 function(lamina_test name)
     cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})
     add_executable(test_${name} ${TEST_SOURCES})

@@ -72,13 +72,17 @@ void expect_allowed(const std::filesystem::path& path) {
         fail("{}: not opened: it is not below {}", path.string(), folder.string());
 }
 
-void expect_regular_file(const std::filesystem::path& path) {
-    expect_allowed(path);
+const char* why_not_regular(const std::filesystem::path& path) {
     std::error_code ignored;
     const auto status = std::filesystem::status(path, ignored);
-    if (!std::filesystem::exists(status)) fail("{}: cannot read: no such file", path.string());
-    if (!std::filesystem::is_regular_file(status))
-        fail("{}: cannot read: not a regular file", path.string());
+    if (std::filesystem::is_regular_file(status)) return nullptr;
+    return std::filesystem::exists(status) ? "not a regular file" : "no such file";
+}
+
+void expect_regular_file(const std::filesystem::path& path) {
+    expect_allowed(path);
+    if (const char* const reason = why_not_regular(path))
+        fail("{}: cannot read: {}", path.string(), reason);
 }
 
 ByteBuffer read_large_file(const std::filesystem::path& path) {

@@ -60,6 +60,9 @@ void expect_allowed(const std::filesystem::path& path);
 // Tells whether this thread's client allows only files below a folder.
 bool is_restricted();
 
+// Returns "no such file" or "not a regular file", or nullptr if `path` is a regular file.
+const char* why_not_regular(const std::filesystem::path& path);
+
 // Throws Error unless `path` is allowed and is a regular file: opening a pipe may never end.
 void expect_regular_file(const std::filesystem::path& path);
 

@@ -76,8 +76,8 @@ std::shared_ptr<void> filled_memory(std::size_t bytes) {
 }
 
 void prefer_huge_pages(void* memory, std::size_t bytes) {
-    // More than 32 MiB: malloc() maps blocks of this size by themselves. Smaller ones may lie in
-    // its heap, where the advice would stay after they are freed.
+    // malloc() maps blocks of more than 32 MiB by themselves. Smaller ones may lie in its heap,
+    // where the advice would stay after they are freed.
     constexpr std::size_t least = (std::size_t{1} << 25) + 1;
     if (bytes < least) return;
     // Advice is for whole pages. A system without huge pages refuses it, and nothing is lost.

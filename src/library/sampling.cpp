@@ -55,10 +55,14 @@ std::optional<CellPlace> place_in(const Grid& grid, const glm::dvec3& position) 
     return found;
 }
 
+bool all_finite(std::span<const double> values) {
+    return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
+}
+
 template <typename Samples>
 FieldPoint point_at(const Grid& grid, const Samples& samples, const CellPlace& at) {
     const CellCorners corners = CellSamples<Samples>(grid, samples).corners(at.cell);
-    if (!std::ranges::all_of(corners.v, [](double v) { return std::isfinite(v); })) return no_value;
+    if (!all_finite(corners.v)) return no_value;
     const glm::dvec3 still(0);
     const GradientAlong gradient =
         GradientSamples<Samples>(grid, samples).along(at.cell, at.place, still);
@@ -84,13 +88,31 @@ struct MeshField {
     std::vector<RaySegment> along(const glm::dvec3& origin, const glm::dvec3& direction) const;
 
   private:
+    std::vector<TetSegment> segments(const glm::dvec3& origin, const glm::dvec3& direction) const;
+    std::array<double, 4> corner_values(std::int32_t tet) const;
     FieldPoint in_tet(const TetSegment& segment) const;
 };
 
+std::vector<TetSegment> MeshField::segments(const glm::dvec3& origin,
+                                            const glm::dvec3& direction) const {
+    RayWalk walk(mesh.mesh, open_faces);
+    walk.aim(origin, direction);
+    std::vector<TetSegment> found;
+    walk.list(found);
+    return found;
+}
+
+std::array<double, 4> MeshField::corner_values(std::int32_t tet) const {
+    std::array<double, 4> values;
+    std::ranges::transform(
+        mesh.mesh.tets()[static_cast<std::size_t>(tet)], values.begin(),
+        [&](std::int32_t corner) { return mesh.scalar.values[static_cast<std::size_t>(corner)]; });
+    return values;
+}
+
 // Returns the field at parameter 0 of the line, which lies in the segment.
 FieldPoint MeshField::in_tet(const TetSegment& segment) const {
-    for (const std::int32_t corner : mesh.mesh.tets()[static_cast<std::size_t>(segment.tet)])
-        if (!std::isfinite(mesh.scalar.values[static_cast<std::size_t>(corner)])) return no_value;
+    if (!all_finite(corner_values(segment.tet))) return no_value;
     constexpr double all = std::numeric_limits<double>::infinity();
     const auto value_of = [&](std::span<const double> values) {
         const SeenSegment seen = seen_segment(segment, {-all, all}, values);
@@ -113,13 +135,11 @@ std::optional<FieldPoint> MeshField::at(const glm::dvec3& position) const {
     // along one of its faces, if the mesh is convex.
     const glm::dvec3 inward = lowest + 0.5 * (highest - lowest) - position;
     const double distance = glm::length(inward);
-    RayWalk walk(mesh.mesh, open_faces);
-    walk.aim(position, distance > slack ? inward / distance : glm::dvec3(1, 0, 0));
-    std::vector<TetSegment> segments;
-    walk.list(segments);
+    const std::vector<TetSegment> found =
+        segments(position, distance > slack ? inward / distance : glm::dvec3(1, 0, 0));
     const TetSegment* nearest = nullptr;
     double least = slack;
-    for (const TetSegment& segment : segments) {
+    for (const TetSegment& segment : found) {
         const double away = std::max({segment.in.at, -segment.out.at, 0.0});
         if (!(away <= least) || (nearest && away == least)) continue;
         nearest = &segment;
@@ -131,30 +151,19 @@ std::optional<FieldPoint> MeshField::at(const glm::dvec3& position) const {
 
 // Returns the segment begin..end with the smallest and largest of `values`, those of the corners;
 // both are NaN if a corner's value is not finite.
-template <typename Values>
-RaySegment bounded(double begin, double end, const Values& values) {
-    if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))
-        return {begin, end, no_number, no_number};
+RaySegment bounded(double begin, double end, std::span<const double> values) {
+    if (!all_finite(values)) return {begin, end, no_number, no_number};
     const auto [least, most] = std::ranges::minmax(values);
     return {begin, end, least, most};
 }
 
 std::vector<RaySegment> MeshField::along(const glm::dvec3& origin,
                                          const glm::dvec3& direction) const {
-    RayWalk walk(mesh.mesh, open_faces);
-    walk.aim(origin, direction);
-    std::vector<TetSegment> segments;
-    walk.list(segments);
     std::vector<RaySegment> result;
-    for (const TetSegment& segment : segments) {
+    for (const TetSegment& segment : segments(origin, direction)) {
         const double begin = std::max(segment.in.at, 0.0);
         if (!(begin < segment.out.at)) continue;
-        std::array<double, 4> values;
-        std::ranges::transform(mesh.mesh.tets()[static_cast<std::size_t>(segment.tet)],
-                               values.begin(), [&](std::int32_t corner) {
-                                   return mesh.scalar.values[static_cast<std::size_t>(corner)];
-                               });
-        result.push_back(bounded(begin, segment.out.at, values));
+        result.push_back(bounded(begin, segment.out.at, corner_values(segment.tet)));
     }
     return result;
 }

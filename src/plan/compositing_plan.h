@@ -13,7 +13,7 @@ namespace lamina {
 // Throws Error if the picture does not fit the context's render targets.
 void check_limits(const Scene& scene, const Capabilities& capabilities);
 
-// What computes OVER on the target's pixels.
+// The part of the context that computes OVER on the target's pixels.
 enum class Blending {
     native,   // the blending unit
     fetch,    // the fragment program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)

@@ -443,10 +443,7 @@ struct NrrdHeader {
 
 NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
     const std::string name = path.string();
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) fail("{}: no such file", name);
-    if (!std::filesystem::is_regular_file(status)) fail("{}: not a regular file", name);
+    if (const char* const reason = why_not_regular(path)) fail("{}: {}", name, reason);
     const HeaderText text = split_header(name, read_beginning(path));
 
     const std::unique_ptr<Nrrd, decltype(&nrrdNuke)> nrrd(nrrdNew(), &nrrdNuke);

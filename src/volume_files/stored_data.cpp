@@ -325,11 +325,8 @@ void set_data_files(StoredData& data, const std::vector<std::string>& names,
     for (const std::string& file : names) {
         data.files.push_back(data.path.parent_path() / file);
         expect_allowed(data.files.back());
-        if (!std::filesystem::is_regular_file(data.files.back())) {
-            const bool there = std::filesystem::exists(data.files.back());
-            fail("{}: {} of {}: {}", data.files.back().string(), field, name,
-                 there ? "not a regular file" : "no such file");
-        }
+        if (const char* const reason = why_not_regular(data.files.back()))
+            fail("{}: {} of {}: {}", data.files.back().string(), field, name, reason);
     }
 }
 

@@ -54,7 +54,7 @@ TEST(ClippedTracer, ChordsEndAtThePlanes) {
     }
 }
 
-// The same test as in mesh_tracer_test.cpp, with clips.
+// Clipped meshes of one value, as mesh_tracer_test.cpp traces them whole.
 TEST(ClippedTracer, HomogeneousMeshesEqualTheClosedForm) {
     const MeshData data = test::split_box(3, 4000, 1e-3, [](const glm::dvec3&) { return .25; });
     const TetMesh mesh(data, "test");

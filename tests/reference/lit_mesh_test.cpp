@@ -82,8 +82,8 @@ TEST(LitMesh, AmbientAloneAndNoWeightAreTheUnlitPicture) {
     }
 }
 
-// The same test as in lit_volume_test.cpp: rounding displaces rays by some 1e-15, and the tets of
-// this mesh are not thin.
+// A turned and scaled scene, as in lit_volume_test.cpp. Rounding displaces rays by some 1e-15, and
+// the tets of this mesh are not thin.
 TEST(LitMesh, EverythingTurnedAndScaled) {
     const glm::dmat3 turn({2. / 3, 1. / 3, 2. / 3}, {-2. / 3, 2. / 3, 1. / 3},
                           {-1. / 3, -2. / 3, 2. / 3});

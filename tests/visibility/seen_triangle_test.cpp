@@ -122,7 +122,7 @@ TEST(SeenTriangle, TouchingIsNoOverlap) {
     // Along the hypotenuse, in the same plane.
     EXPECT_FALSE(shows({p(1, 0, 0), p(1, 1, 0), p(0, 1, 0)}));
     EXPECT_FALSE(shows({p(0, 0, -1), p(-1, 0, -1), p(0, -1, -1)}));  // at a corner
-    // The same triangle, behind the exit.
+    // The exit triangle moved behind itself.
     EXPECT_TRUE(shows({p(0, 0, -1), p(1, 0, -1), p(0, 1, -1)}));
     EXPECT_TRUE(shows({p(0, 0, 0), p(1, 0, 0), p(0, 1, 0)}));               // in the exit
     EXPECT_FALSE(shows({p(0, 0, 1), p(1, 0, 1), p(0, 1, 1)}));              // before the exit
