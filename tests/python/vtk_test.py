@@ -78,6 +78,29 @@ def test_a_volume(renderer):
     assert quick.picture.plan.method == "slice" and abs(quick.l2 - held.l2) < 0.5
 
 
+def opaque_red():
+    """A volume that VTK draws in the codes 0 and 255 alone, as every ray ends at its first sample."""
+    renderer, volume = scene_of(image_mapper(ball((6, 6, 6))), *functions([(0, (1, 0, 0))], [(0, 1)]))
+    perspective(renderer)
+    return renderer, volume
+
+
+def test_a_float_picture_may_hold_codes_alone():
+    from lamina._vtk_window import pixels_of
+    renderer, volume = opaque_red()
+    pixels = pixels_of(renderer, precise=True)
+    assert set(np.unique(pixels)) == {0, 1} and pixels[:, :, 1:].max() == 0
+    assert volume.GetVisibility() and renderer.GetBackground() == (0, 0, 0)
+
+
+@pytest.mark.parametrize("is_red", [False, True])
+def test_a_picture_in_8_bits_is_refused(renderer, monkeypatch, is_red):
+    from lamina import _vtk_window
+    monkeypatch.setattr(_vtk_window, "GL_RGBA32F", 0x8058)  # GL_RGBA8
+    with pytest.raises(lamina.Error, match="VTK's picture came in 8 bits"):
+        _vtk_window.pixels_of((opaque_red() if is_red else renderer)[0], precise=True)
+
+
 def test_what_is_taken_over(renderer):
     renderer, volume = renderer
     perspective(renderer)
