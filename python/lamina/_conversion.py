@@ -72,6 +72,20 @@ def plain_array(values: Any, what: str) -> np.ndarray:
     return array
 
 
+def converted(array: np.ndarray, dtype: Any, copy: bool | None) -> np.ndarray:
+    """Returns what ``__array__`` has to, with any version of numpy.
+
+    ``copy``: always if True, never if False (``ValueError`` if ``dtype`` needs one), and if None only for another
+    ``dtype``. numpy 1 takes False as None, numpy 2 does not.
+    """
+    if copy:
+        return np.array(array, dtype=dtype)
+    result = np.asarray(array, dtype=dtype)
+    if copy is False and not np.may_share_memory(result, array):
+        raise ValueError(f"copy: found False, expected None or True to turn {array.dtype} into {result.dtype}")
+    return result
+
+
 def array_zyx(values: Any, axes: str) -> np.ndarray:
     """Returns a view with the axes z, y, x."""
     array = plain_array(values, "array")

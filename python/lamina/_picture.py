@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _lamina
 from ._comparison import Comparison, compare
+from ._conversion import converted
 from ._mesh import Mesh
 from ._scene import Scene
 from ._volume import Path, Volume
@@ -117,7 +118,7 @@ class Picture:
         return _lamina.picture_png(self._array, scene.background, scene.color_space)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
-        return np.array(self._array, dtype=dtype, copy=bool(copy))
+        return converted(self._array, dtype, copy)
 
     def __dlpack__(self, *, stream: Any = None) -> Any:
         return self._array.__dlpack__(stream=stream)

@@ -9,6 +9,7 @@ from typing import Any, Sequence
 import numpy as np
 
 from . import _conversion, _lamina
+from ._conversion import converted
 from ._errors import Error, PrecisionWarning, warn
 from ._watched import Watched, can_be_written
 
@@ -161,7 +162,7 @@ class Volume:
         self._core.save(pathlib.Path(file))
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
-        return np.array(self.array, dtype=dtype, copy=bool(copy))
+        return converted(self.array, dtype, copy)
 
     def __repr__(self) -> str:
         z, y, x = self.shape

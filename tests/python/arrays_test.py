@@ -61,6 +61,29 @@ def test_the_samples_cannot_be_written():
         lamina.Volume(ramp((2, 2, 2), np.uint8)).array[0, 0, 0] = 1
 
 
+def converter_of_numpy_2(values, dtype=None, copy=True):
+    """numpy.array as of numpy 2, where copy=False means never."""
+    result = np.asarray(values, dtype=dtype)
+    if copy is False and not np.shares_memory(result, values):
+        raise ValueError("Unable to avoid copy while creating an array as requested.")
+    return result.copy() if copy else result
+
+
+@pytest.mark.parametrize("is_picture", [False, True])
+def test_numpy_may_ask_for_a_copy_or_for_none(is_picture, blob, function, monkeypatch):
+    data = lamina.render(blob, function, size=(8, 6), context="cpu") if is_picture else blob
+    monkeypatch.setattr(np, "array", converter_of_numpy_2)
+    for copy in (None, False):
+        assert np.shares_memory(data.__array__(copy=copy), data.array)
+    assert not np.shares_memory(data.__array__(copy=True), data.array)
+    for copy in (None, True):
+        values = data.__array__(np.float64, copy=copy)
+        assert values.dtype == np.float64 and np.array_equal(values, data.array)
+    with pytest.raises(ValueError):
+        data.__array__(np.float64, copy=False)
+    assert np.asarray(data, dtype=float).dtype == np.float64
+
+
 def lossless_type(array):
     """Which type has to hold the values, by this page's own rule."""
     if array.dtype.kind == "b":
