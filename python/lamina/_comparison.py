@@ -75,7 +75,8 @@ class Comparison:
     def _png(self, range: float | None = None) -> bytes:
         if self._a is None or self._b is None:
             raise Error("files of codes were compared, expected pictures, EXR or NPY to show their difference")
-        return _lamina.difference_png(self._a, self._b, range or self.linf or 1)
+        darkest_at = (self.linf or 1) if range is None else range
+        return _lamina.difference_png(self._a, self._b, darkest_at)
 
     def _repr_png_(self) -> bytes | None:
         return None if self._a is None else self._png()

@@ -39,6 +39,19 @@ def test_files_compare_as_the_command_line_does(program, tmp_path):
     assert found._repr_png_().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize("value", [0, -1, float("nan")])
+def test_a_difference_is_drawn_up_to_a_number_above_0(value, tmp_path):
+    found = lamina.compare(np.zeros((2, 2, 4)), np.full((2, 2, 4), 1 / 255))
+    with pytest.raises(lamina.Error, match="range: found .*, expected a number above 0"):
+        found.save(tmp_path / "difference.png", range=value)
+    assert not list(tmp_path.iterdir())
+
+
+def test_equal_pictures_have_a_difference_to_draw(tmp_path):
+    lamina.compare(np.zeros((2, 2, 4)), np.zeros((2, 2, 4))).save(tmp_path / "difference.png")
+    assert (tmp_path / "difference.png").stat().st_size
+
+
 @pytest.mark.parametrize("a, b, error, message", [
     (np.zeros((2, 2, 4)), np.zeros((2, 3, 4)), lamina.Error, "2 x 2.*3 x 2"),
     (np.zeros((2, 2, 3)), np.zeros((2, 2, 3)), ValueError, r"a: found the shape \(2, 2, 3\), expected \(height, width, 4\)"),
