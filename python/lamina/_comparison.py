@@ -66,7 +66,7 @@ class Comparison:
 
     def save(self, file: Path, range: float | None = None) -> None:
         """Writes e in false colour as ``.png``, from -``range`` (dark blue) over 0 (white) to ``range`` (dark red), in
-        1/255; without it the largest |e|."""
+        1/255. ``range`` is above 0; if it is None, it is the largest |e|."""
         path = pathlib.Path(file)
         if path.suffix != ".png":
             raise ValueError(f"file: found {str(path)!r}, expected a name that ends in .png")
@@ -74,7 +74,7 @@ class Comparison:
 
     def _png(self, range: float | None = None) -> bytes:
         if self._a is None or self._b is None:
-            raise Error("files of codes were compared, expected pictures, EXR or NPY to show their difference")
+            raise Error("PNG files have no difference picture, expected pictures, EXR or NPY files to compare")
         darkest_at = (self.linf or 1) if range is None else range
         return _lamina.difference_png(self._a, self._b, darkest_at)
 
@@ -88,9 +88,10 @@ class Comparison:
 def compare(a: Any, b: Any) -> Comparison:
     """Compares a picture A with a picture B.
 
-    Each is a ``Picture``, an array (height, width, 4) or a file: EXR and NPY compare with everything but PNG, PNG with
-    PNG alone, as codes. Raises ``lamina.Error`` for sizes that differ, numbers that are none, and linear light beside
-    display values; ``TypeError`` and ``ValueError`` for arrays of another form.
+    Each is a ``Picture``, an array (height, width, 4) or a file. PNG files compare with PNG files alone, as codes; EXR
+    and NPY files compare with everything else. Raises ``lamina.Error`` for different sizes, NaN or infinity, or
+    different colour spaces (linear light and display values); ``TypeError`` and ``ValueError`` for arrays of another
+    form.
 
     >>> black, grey = np.zeros((2, 2, 4)), np.full((2, 2, 4), 1 / 255)
     >>> lamina.compare(grey, black)

@@ -28,22 +28,25 @@ def folder_name(folder: Path | None) -> str:
 class Volume:
     """Samples on a regular grid.
 
-    ``array``: three axes, whose order ``axes`` says: ``"zyx"`` for ``array[z, y, x]``, ``"xyz"`` for
-    ``array[x, y, z]`` and so on. ``spacing`` (> 0) and ``origin`` (the first sample's place) are in world units and always in
-    the order x, y, z, as are ``directions`` (unit vectors along the array's x, y and z, perpendicular to each other)
-    and ``centers``: with ``"node"`` the box spans the samples, with ``"cell"`` it spans whole voxels, half a voxel more
-    at each end.
+    ``array`` has three axes, in the order ``axes``: ``"zyx"`` for ``array[z, y, x]``, ``"xyz"`` for ``array[x, y, z]``
+    and so on. The other arguments are always in the order x, y, z. ``spacing`` (> 0) and ``origin`` (the position of
+    the first sample) are in world units. ``directions``: unit vectors along the array's x, y and z, perpendicular to
+    each other. ``centers``: with ``"node"`` the box spans the samples, with ``"cell"`` it spans whole voxels, half a
+    voxel more at each end.
 
-    Contiguous arrays of uint8, int16, uint16 and float32 in native byte order are not copied: do not change them while
-    they are drawn. If one was changed since a ``Session`` read it, its next picture warns (``PictureWarning``) and measures
-    it again. (Contiguous as ``array[z, y, x]``: for ``axes="xyz"`` that is Fortran order.) All others are copied
-    once: any strides, either byte order, bool, int8, float16 and larger integers that fit 16 bits without a loss; other
-    integers, float64 and longdouble to float32, with a ``PrecisionWarning`` where that cannot hold the values.
+    Contiguous arrays (contiguous as ``array[z, y, x]``: for ``axes="xyz"`` that is Fortran order) of uint8, int16,
+    uint16 and float32 in native byte order are not copied: do not change them while they are drawn. If an array was
+    changed after a ``Session`` read it, the Session's next picture warns (``PictureWarning``) and reads the array
+    again.
 
-    NaN and infinity are kept; what they do is the scene's ``nan``: ``"error"`` or ``"transparent"``.
+    All other arrays are copied once. Nothing is lost for other strides, the other byte order, bool, int8, float16 and
+    larger integers that fit 16 bits. Other integers, float64 and longdouble become float32, with a
+    ``PrecisionWarning`` if float32 cannot hold the values.
 
-    Raises ``TypeError`` for arrays that hold no real numbers and masked ones, ``ValueError`` for other shapes, axes and
-    values out of range.
+    NaN and infinity are kept. The scene's key ``nan`` says how they are drawn: ``"error"`` or ``"transparent"``.
+
+    Raises ``TypeError`` for masked arrays and for arrays without real numbers, ``ValueError`` for other shapes, axes
+    and values out of range.
 
     >>> values = np.zeros((4, 5, 6), np.uint8)
     >>> volume = lamina.Volume(values, spacing=(1, 1, 2))
@@ -61,16 +64,16 @@ class Volume:
                  directions: Any = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
                  centers: str | Sequence[str] = "node") -> None:
         ordered = _conversion.array_zyx(array, axes)
-        steps = [tuple(length * number for number in direction) for length, direction
-                 in zip(_conversion.spacing_of(spacing), _conversion.directions_of(directions))]
-        place = _conversion.triple("origin", origin)
-        words = _conversion.centers_of(centers, ordered.shape)
-        drawn, self._conversion = _conversion.drawn_array(ordered)
+        step_vectors = [tuple(length * number for number in direction) for length, direction
+                        in zip(_conversion.spacing_of(spacing), _conversion.directions_of(directions))]
+        first_sample = _conversion.triple("origin", origin)
+        centerings = _conversion.centers_of(centers, ordered.shape)
+        samples, self._conversion = _conversion.drawn_array(ordered)
         if self._conversion:
             warn(self._conversion, PrecisionWarning)
-        self._core = _lamina.Volume.over(np.asarray(drawn), steps, place, words)
-        shared = np.shares_memory(drawn, ordered)
-        self._changeable: np.ndarray | None = drawn if shared and can_be_written(drawn) else None
+        self._core = _lamina.Volume.over(np.asarray(samples), step_vectors, first_sample, centerings)
+        is_shared = np.shares_memory(samples, ordered)
+        self._changeable: np.ndarray | None = samples if is_shared and can_be_written(samples) else None
         self._file: pathlib.Path | None = None
         self._source: str | dict[str, Any] | None = None
 
@@ -114,7 +117,7 @@ class Volume:
 
     @property
     def origin(self) -> tuple[float, float, float]:
-        """World place (x, y, z) of the first sample."""
+        """World position (x, y, z) of the first sample."""
         x, y, z = self._core.origin
         return x, y, z
 
@@ -137,7 +140,7 @@ class Volume:
 
     @property
     def file(self) -> pathlib.Path | None:
-        """The file that it was read from, or None."""
+        """The file that the volume was read from, or None."""
         return self._file
 
     def copy(self) -> Volume:
@@ -158,7 +161,7 @@ class Volume:
         return None if self._changeable is None else Watched(self._changeable)
 
     def save(self, file: Path) -> None:
-        """Writes a NRRD file (``.nrrd``), from which the command line draws the same."""
+        """Writes a NRRD file (``.nrrd``), which the command line draws as this module draws the volume."""
         self._core.save(pathlib.Path(file))
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
