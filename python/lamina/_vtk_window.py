@@ -105,3 +105,4 @@ def _keeps_halves(renderer: Any, window: Any) -> bool:
         renderer.SetBackground(*background)
         for prop in visible:
             prop.VisibilityOn()
+        window.Render()  # the window shows the picture again, and not the background alone

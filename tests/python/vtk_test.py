@@ -91,6 +91,10 @@ def test_a_float_picture_may_hold_codes_alone():
     pixels = pixels_of(renderer, precise=True)
     assert set(np.unique(pixels)) == {0, 1} and pixels[:, :, 1:].max() == 0
     assert volume.GetVisibility() and renderer.GetBackground() == (0, 0, 0)
+    window, shown = renderer.GetRenderWindow(), vtk.vtkUnsignedCharArray()
+    width, height = window.GetSize()
+    window.GetPixelData(0, 0, width - 1, height - 1, 1, shown, 0)  # 1: of the buffer that is seen
+    assert set(np.unique(numpy_support.vtk_to_numpy(shown))) == {0, 255}
 
 
 @pytest.mark.parametrize("is_red", [False, True])
