@@ -9,7 +9,6 @@ from typing import Any, Sequence
 import numpy as np
 
 from . import _conversion, _lamina
-from ._conversion import converted
 from ._errors import Error, PrecisionWarning, warn
 from ._watched import Watched, can_be_written
 
@@ -165,7 +164,7 @@ class Volume:
         self._core.save(pathlib.Path(file))
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
-        return converted(self.array, dtype, copy)
+        return _conversion.converted(self.array, dtype, copy)
 
     def __repr__(self) -> str:
         z, y, x = self.shape
