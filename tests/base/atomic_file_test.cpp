@@ -93,7 +93,7 @@ TEST(AtomicFile, HasNoNameUntilItIsComplete) {
     EXPECT_TRUE(folder.empty());
 }
 
-TEST(AtomicFile, CompleteIsNotThereYet) {
+TEST(AtomicFile, IsNotReplacedByCompleteWithoutCommit) {
     const TemporaryFolder folder;
     write_bytes_to(folder / "a.txt", "old");
     {
@@ -113,7 +113,7 @@ TEST(AtomicFile, CompleteIsNotThereYet) {
     EXPECT_EQ(read_bytes_of(folder / "a.txt"), "new");
 }
 
-TEST(AtomicFile, TwoOfOneNameDoNotMeet) {
+TEST(AtomicFile, TwoWritersOfOneNameDoNotInterfere) {
     const TemporaryFolder folder;
     AtomicFile one(folder / "a.txt"), two(folder / "a.txt");
     one.write("one");
@@ -129,7 +129,7 @@ TEST(AtomicFile, TwoOfOneNameDoNotMeet) {
 
 // Tests the names NAME.lamina-N.part, which remain if a process is killed during commit() or if the
 // file system has no nameless files.
-TEST(AtomicFile, WhatKilledProcessesLeftIsRemovedButNotWhatIsInUse) {
+TEST(AtomicFile, RemovesLeftoversOfKilledProcessesButNoFileInUse) {
     const TemporaryFolder folder;
     write_bytes_to(folder / "a.txt.lamina-0.part", "left");
     AtomicFile one(folder / "a.txt");
@@ -155,7 +155,7 @@ TEST(AtomicFile, WhatKilledProcessesLeftIsRemovedButNotWhatIsInUse) {
     EXPECT_EQ(names_in(folder), (std::set<std::string>{"a.txt", "a.txt.lamina-0.part"}));
 }
 
-TEST(AtomicFile, NamesMayBeAsLongAsTheFileSystemHasThem) {
+TEST(AtomicFile, TakesNamesAsLongAsTheFileSystemAllows) {
     const TemporaryFolder folder;
     const std::string longest(255, 'n');
     for (const char* text : {"new", "newer"}) {
@@ -185,7 +185,7 @@ TEST(AtomicFile, WritesWhatALinkLeadsTo) {
     expect_error([&] { AtomicFile(folder / "x"); }, {"cannot write", "loop"});
 }
 
-TEST(AtomicFile, AFolderThatIsGoneIsAnError) {
+TEST(AtomicFile, FailsIfItsFolderIsGone) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "gone");
     AtomicFile file(folder / "gone" / "a.txt");

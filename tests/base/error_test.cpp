@@ -35,7 +35,7 @@ void expect_no_library_speaks(const std::string& text) {
         EXPECT_EQ(text.find(mark), std::string::npos) << text;
 }
 
-TEST(ErrorText, IsOwnWordsOfErrorsThatUsersCause) {
+TEST(ErrorText, KeepsTheWordsOfErrorsThatUsersCause) {
     EXPECT_EQ(error_text(Error("a.json: found 3")), "a.json: found 3");
     EXPECT_EQ(error_text(UsageError("--x: found 3")), "--x: found 3");
     EXPECT_EQ(error_text(std::bad_alloc()), "out of memory");

@@ -33,7 +33,7 @@ std::string nested(std::size_t depth) {
 }
 
 // The parser of nlohmann's library, which has no limits, serves as the oracle.
-TEST(JsonText, DocumentsAreThoseOfTheLibrary) {
+TEST(JsonText, ParsesDocumentsAsNlohmannsLibraryDoes) {
     for (const char* text :
          {"null", "true", "-7", "18446744073709551615", "0.1", "1e-320", R"("é☃\n")", "[]", "{}",
           R"([1, [2, {"a": {}, "b": [[], null]}], "x", -0.0])",
@@ -42,7 +42,7 @@ TEST(JsonText, DocumentsAreThoseOfTheLibrary) {
     }
 }
 
-TEST(JsonText, MistakesSayWhere) {
+TEST(JsonText, MistakesAreReportedWithLineAndColumn) {
     expect_error([] { parse_json("{\"version\": 1,\n \"volume\" }"); }, {"line 2", "column"});
     expect_error([] { parse_json(""); }, {"line 1", "column 1"});
     expect_error([] { parse_json("[\n1e999]"); }, {"line 2, column ", "1e999"});
@@ -57,7 +57,7 @@ TEST(JsonText, MistakesSayWhere) {
               250u);
 }
 
-TEST(JsonText, DepthAndNumberAreLimited) {
+TEST(JsonText, LimitsTheDepthAndTheNumberOfValues) {
     EXPECT_EQ(parse_json(nested(most_json_depth)), nlohmann::json::parse(nested(most_json_depth)));
     expect_error([] { parse_json(fmt::format("[\n{}]", nested(most_json_depth))); },
                  {"line 2, column 64: nested more than 64 deep"});
@@ -70,7 +70,7 @@ TEST(JsonText, DepthAndNumberAreLimited) {
 }
 
 // If the list were searched after each of its objects, these would take an hour.
-TEST(JsonText, ListsOfObjectsTakeTimeInProportion) {
+TEST(JsonText, LongListsOfObjectsTakeLinearTime) {
     EXPECT_EQ(parse_json(list_of("{}", 1'000'000)).size(), 1'000'000u);
     EXPECT_EQ(parse_json(list_of("[]", 1'000'000)).size(), 1'000'000u);
 }
@@ -92,12 +92,12 @@ void parse_until_a_signal_comes() {
     _exit(1);
 }
 
-TEST(JsonTextDeathTest, SignalsAreHeard) {
+TEST(JsonTextDeathTest, ParsingStopsAtASignal) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     EXPECT_EXIT(parse_until_a_signal_comes(), testing::ExitedWithCode(128 + SIGTERM), "");
 }
 
-TEST(JsonText, FilesThatCannotBeRead) {
+TEST(JsonText, UnreadableFilesAreNamedInErrors) {
     const TemporaryFolder folder;
     expect_error([&] { load_json(folder / "none.json"); }, {"none.json", "no such file"});
     expect_error([&] { load_json(folder.path()); }, {"not a file"});

@@ -163,7 +163,7 @@ TEST(Modules, TheCheckItselfSeesViolations) {
         Wrong{"lamina_gl"});
 }
 
-TEST(Modules, IncludeOnlyThemselvesAndLowerRooms) {
+TEST(Modules, IncludeOnlyThemselvesAndLowerModules) {
     int seen = 0;
     std::set<std::string> found;
     for (const std::string& folder : module_folders()) {
@@ -296,7 +296,7 @@ TEST(Citations, TheCheckItselfSeesViolations) {
               Wrong{docs + "scene.md, \"Nothing\""});
 }
 
-TEST(Citations, ArePartOfTheCheckout) {
+TEST(Citations, LeadToDocumentsAndSectionsThatExist) {
     for (const fs::path& file : files_under(
              {"include", "src", "python", "tools", "shaders", "share", "tests", "cmake", "docs"})) {
         if (!is_code(file) && file.extension() != ".md") continue;

@@ -48,7 +48,7 @@ std::set<std::string> types_of(const fs::path& file) {
     return found;
 }
 
-TEST(Names, OfTypesStandForOneDefinition) {
+TEST(Names, StandForOneTypeEach) {
     std::map<std::string, std::string> defined_in;
     for (const char* const folder : {"include", "src", "tools"}) {
         for (const auto& entry :

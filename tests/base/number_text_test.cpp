@@ -19,7 +19,7 @@ TEST(NumberText, HasTheDigitsThatAreNeeded) {
     EXPECT_EQ(number_text(3.14159265, 1, 6), "3.14159");
 }
 
-TEST(NumberText, OddNumbers) {
+TEST(NumberText, IsDefinedForNaNInfinityAndAnEmptyRange) {
     EXPECT_EQ(fineness_of(3, 3), INFINITY);
     EXPECT_EQ(number_text(1. / 3, fineness_of(1. / 3, 1. / 3)), "0.3333");
     EXPECT_EQ(number_text(NAN, 0), "nan");

@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-TEST(OwnFiles, WhatIsThereIsOwnWhereItIsListed) {
+TEST(OwnFiles, RefuseExistingFilesThatAreNotListed) {
     const TemporaryFolder folder;
     const OwnFiles own(folder.path(), "study");
     own.expect_own({"a.csv", "b.csv"});  // neither file exists yet
@@ -26,7 +26,7 @@ TEST(OwnFiles, WhatIsThereIsOwnWhereItIsListed) {
     own.expect_own({"a.csv", "b.csv"});
 }
 
-TEST(OwnFiles, AreOfOneVerb) {
+TEST(OwnFiles, BelongToOneVerbOfTheProgram) {
     const TemporaryFolder folder;
     const OwnFiles study(folder.path(), "study"), crosscheck(folder.path(), "crosscheck");
     study.add({"report.html"});
@@ -36,7 +36,7 @@ TEST(OwnFiles, AreOfOneVerb) {
     study.expect_own({"report.html"});  // lines of one verb stay when another verb adds its own
 }
 
-TEST(OwnFiles, FoldersAndLinksThatLeadNowhereAreThere) {
+TEST(OwnFiles, RefuseUnlistedFoldersAndDanglingLinks) {
     const TemporaryFolder folder;
     const OwnFiles own(folder.path(), "study");
     std::filesystem::create_directory(folder / "pictures");

@@ -6,7 +6,7 @@
 namespace lamina {
 namespace {
 
-TEST(Printable, TextOfAnyLanguageStays) {
+TEST(Printable, TextOfAnyLanguageIsUnchanged) {
     for (const char* const text :
          {"", "plain text, 1..2 'quoted' C:\\x", "M\xC3\xBCnchen", "\xE2\x82\xAC",
           "\xF0\x9F\x8C\x8D", "\xC2\xA0", "\xED\x9F\xBF", "\xEE\x80\x80", "\xF4\x8F\xBF\xBF"})

@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-TEST(ProfileTest, WithoutOneAStageIsAStopwatch) {
+TEST(ProfileTest, AStageWithoutAProfileMeasuresTime) {
     ASSERT_EQ(Profile::recording(), nullptr);
     Stage stage("work");
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -37,7 +37,7 @@ TEST(ProfileTest, StagesNest) {
     EXPECT_EQ(outer.row, Profile::first_row);
 }
 
-TEST(ProfileTest, EndsOnce) {
+TEST(ProfileTest, AStageEndsOnce) {
     Profile profile;
     {
         Stage stage("work");
@@ -71,7 +71,7 @@ TEST(ProfileTest, EveryThreadHasARow) {
     }
 }
 
-TEST(ProfileTest, KeepsTheFirstAndCountsTheOthers) {
+TEST(ProfileTest, KeepsTheFirstSpansAndCountsTheOthers) {
     Profile profile;
     for (std::size_t i = 0; i < Profile::most_spans - 1; ++i) profile.add("kept", 0, 1, {});
     EXPECT_EQ(profile.spans_left_out(), 0);

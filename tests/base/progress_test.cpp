@@ -96,7 +96,7 @@ TEST(Progress, IsSilentWhenQuiet) {
 
 // Work shorter than the pause between two reports reports at least its end. It is repeated so often
 // that two cores sometimes reach the end together.
-TEST(Progress, ItsEndIsHeardHoweverShortTheWork) {
+TEST(Progress, ReportsItsEndHoweverShortTheWork) {
     for (int i = 0; i < 5000; ++i) {
         std::vector<double> shares;
         ProgressListener listener;

@@ -42,7 +42,7 @@ TEST(SignalStop, EachSignalRequestsAStop) {
     }
 }
 
-TEST(SignalStop, StopsOnlyWhatWorksForIt) {
+TEST(SignalStop, StopsOnlyWorkThatHasItsToken) {
     const HandlerOf usual(SIGINT, SIG_DFL);
     const SignalStop signals;
     std::raise(SIGINT);

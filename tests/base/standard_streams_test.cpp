@@ -19,7 +19,7 @@ TEST(StandardStreams, MessagesAreOneLineWithoutControlCharacters) {
               "lamina: wrote a\\x1b[2J\\nb\\xff.exr\n\r\033[Ka\\nb");
 }
 
-TEST(Warning, GoesToWhoTakesIt) {
+TEST(Warning, GoesToTheListenerOfTheScope) {
     warn("nobody hears");
     {
         const test::HeardWarnings heard;

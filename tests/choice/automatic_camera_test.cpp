@@ -69,7 +69,7 @@ TEST(FittedCamera, TwoOppositeEdgesTouchTheMargin) {
 // from one of these, where it is nearer to the middle by at most 1 - cos(1/4 degree) = 1e-5 of its
 // distance from the axis. In the picture this is at most 1e-5 * 40 of the width, because clouds are
 // at most 40 times as high as wide.
-TEST(FittedCamera, AllAroundEveryViewHoldsAllPoints) {
+TEST(FittedCamera, HoldsAllPointsInEveryViewOfATurntable) {
     for (unsigned seed = 0; seed < 50; ++seed) {
         const auto points =
             cloud(seed, {1, seed % 7 == 0 ? 40 : 2, seed % 5 == 0 ? .01 : 3}, {1000, -200, 0});

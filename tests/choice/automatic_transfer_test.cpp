@@ -36,7 +36,7 @@ TEST(AutomaticTransfer, BackgroundIsTransparentAndTheRareIsDense) {
     EXPECT_NE(chosen.reason.find("transparent"), std::string::npos) << chosen.reason;
 }
 
-TEST(AutomaticTransfer, NoColorIsFull) {
+TEST(AutomaticTransfer, NoColorChannelIsFullyBright) {
     for (const bool whole : {true, false}) {
         const auto chosen = choose_transfer_function(scan(), whole);
         for (const TransferKnot& knot : chosen.transfer_function.knots()) {
@@ -74,7 +74,7 @@ TEST(AutomaticTransfer, FewWholeNumbersAreLabels) {
     EXPECT_NE(choose_transfer_function(values, false).transfer_function, function);
 }
 
-TEST(AutomaticTransfer, OneValueShowsEverywhere) {
+TEST(AutomaticTransfer, DataOfOneValueAreVisibleEverywhere) {
     const auto function =
         choose_transfer_function(ValueDistribution({{5, 1}}), false).transfer_function;
     EXPECT_EQ(function.max_extinction(-1e9, 1e9), 1);
@@ -83,7 +83,7 @@ TEST(AutomaticTransfer, OneValueShowsEverywhere) {
               1u);  // no value at all
 }
 
-TEST(AutomaticTransfer, ShowsTheRangeThatIsWished) {
+TEST(AutomaticTransfer, ShowsTheGivenRange) {
     const auto function =
         choose_transfer_function(scan(), true, {.range = ValueRange{50, 150}}).transfer_function;
     EXPECT_EQ(function.knots().front().value, 50);

@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-TEST(BinnedValues, WholeNumbersHaveEquallyManyInEachInterval) {
+TEST(BinnedValues, EachIntervalHasEquallyManyWholeNumbers) {
     // The numbers 0 to 11 in at most five intervals: four intervals of three numbers.
     const ValueDistribution values({{0, 1}, {2, 1}, {3, 4}, {11, 2}});
     const ValueHistogram histogram = binned(values, {0, 11}, true, 5);
@@ -28,7 +28,7 @@ TEST(BinnedValues, AnEdgeBelongsToTheUpperIntervalButForTheLast) {
     EXPECT_EQ(histogram.shares, (std::vector<double>{1. / 8, 7. / 8}));
 }
 
-TEST(BinnedValues, OneValueAndNone) {
+TEST(BinnedValues, HaveOneIntervalForOneValueAndNoneForNone) {
     EXPECT_EQ(binned(ValueDistribution({{7, 3}}), {7, 7}, false, 100).shares,
               std::vector<double>{1});
     EXPECT_TRUE(binned({}, {}, false, 100).shares.empty());

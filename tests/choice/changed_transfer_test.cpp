@@ -53,7 +53,7 @@ TEST(StretchedTransfer, ValuesAscendWhateverTheRange) {
     EXPECT_GT(stretched_well, 100);
 }
 
-TEST(StretchedTransfer, HasNoRangeOfOneValue) {
+TEST(StretchedTransfer, RefusesSingleValuesAndTooNarrowRanges) {
     expect_error([] { stretched(function_of({5}), {0, 1}); }, {"has a single value, 5"});
     expect_error(
         [] {

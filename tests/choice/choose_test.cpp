@@ -95,7 +95,7 @@ TEST(Choose, TheUnitOfLengthDoesNotMatter) {
         EXPECT_NEAR(extinction(spacing) / extinction(1), 1, 2e-5) << spacing;
 }
 
-TEST(Choose, OnlyWhatIsOpenIsChosen) {
+TEST(Choose, SetsOnlyWhatTheSceneLeavesOpen) {
     const Ball one;
     Scene scene = open_scene();
     scene.camera = Camera{};
@@ -116,7 +116,7 @@ TEST(Choose, DoesNotDependOnThreads) {
     EXPECT_EQ(text(), with_all);
 }
 
-TEST(Choose, IsReadBackAsItWas) {
+TEST(Choose, ChosenScenesAreReadBackUnchanged) {
     const Ball one;
     Scene scene = open_scene();
     scene.volume = VolumeFile{"ball.nrrd"};
@@ -128,7 +128,7 @@ TEST(Choose, IsReadBackAsItWas) {
     EXPECT_FALSE(read.transfer_function.is_automatic() || read.camera.is_automatic());
 }
 
-TEST(Choose, DoesAsWished) {
+TEST(Choose, AppliesTheGivenDensityTurnAndZoom) {
     const Ball one;
     const Scene plain = chosen_of(open_scene(), one.field);
     const Scene dense = chosen_of(open_scene(), one.field, {.density = 2});
@@ -140,7 +140,7 @@ TEST(Choose, DoesAsWished) {
               plain.camera->fov_y / 2);
 }
 
-TEST(Choose, NothingFromNoNumber) {
+TEST(Choose, RefusesDataWithoutFiniteValues) {
     const Volume volume = test::volume_of(test::grid_of({9, 9, 9}, Centering::node),
                                           [](double, double, double) { return NAN; });
     const MinMaxBricks bricks = measure_bricks(volume);
@@ -152,7 +152,7 @@ TEST(Choose, NothingFromNoNumber) {
 
 // One vertex of 2197 is .0005 of the mesh; the tets around it do not count for the field. A slope
 // is added so that there are more values than the few of labels, among which no marker is sought.
-TEST(Choose, ASingleVertexFarFromAllOthersIsPadding) {
+TEST(Choose, AVertexValueFarFromAllOthersIsPadding) {
     const auto sloping_ball = [](const glm::dvec3& p) {
         return ball(p, 12) + 1e-3 * (p.x + .1 * p.y + .01 * p.z);
     };
@@ -184,7 +184,7 @@ TEST(Choose, ACameraThatIsTurnedAllAroundFitsAllViews) {
 }
 
 // Messages have enough digits to distinguish values and positions.
-TEST(Choose, FarFromZeroNumbersAreToldApart) {
+TEST(Choose, MessagesDistinguishNumbersFarFromZero) {
     Grid grid = test::grid_of({40, 40, 40}, Centering::node);
     grid.origin = {5e6, 0, 0};
     const Volume volume = test::volume_of<float>(grid, [](double x, double y, double z) {
@@ -232,7 +232,7 @@ TEST(Choose, PaddingDoesNotCountForTheSmallestGradient) {
 
 // The mesh is a cube of edge 1 cut into six tets. The edges of each tet are three edges of the
 // cube, two diagonals of its faces and the diagonal of the cube.
-TEST(Choose, TheSmallestGradientOfAMeshHasItsMeanEdge) {
+TEST(Choose, TheSmallestGradientOfAMeshIsPerItsMeanEdge) {
     Scene scene;
     scene.lighting = Lighting{};
     const SceneMesh mesh =
@@ -242,7 +242,7 @@ TEST(Choose, TheSmallestGradientOfAMeshHasItsMeanEdge) {
                 1e-14);
 }
 
-TEST(Choose, DataOfOneValueHaveSomeSmallestGradient) {
+TEST(Choose, DataOfOneValueHaveASmallestGradientOfOne) {
     for (const double value : {4.5, double{NAN}}) {
         const Volume volume = test::volume_of(test::grid_of({3, 3, 3}, Centering::node),
                                               [&](double, double, double) { return value; });
@@ -254,7 +254,7 @@ TEST(Choose, DataOfOneValueHaveSomeSmallestGradient) {
 }
 
 // Degenerate data of every kind get a transfer function and a camera of finite numbers.
-TEST(Choose, OddData) {
+TEST(Choose, DegenerateDataGetFiniteCamerasAndFunctions) {
     const auto check = [](const Volume& volume, const std::string& name) {
         const MinMaxBricks bricks = measure_bricks(volume);
         const Scene scene = chosen_of(open_scene(), VolumeField(volume, bricks));

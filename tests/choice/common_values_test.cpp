@@ -34,7 +34,7 @@ TEST(CommonValues, AFlowHasItsBackgroundInTheMiddle) {
     EXPECT_EQ(common.hi, 103.5);
 }
 
-TEST(CommonValues, WhereNothingGathersTheyAreOnlyTheClosestTogether) {
+TEST(CommonValues, AreTheDensestThirdIfThereIsNoBackground) {
     std::vector<WeightedValue> values;
     add(values, 0, 199, 1);
     add(values, 200, 255, 2);  // 112 of 312: more than a third
@@ -45,7 +45,7 @@ TEST(CommonValues, WhereNothingGathersTheyAreOnlyTheClosestTogether) {
               1. / 3 - 1e-12);  // tolerance for rounding of sums up to 1
 }
 
-TEST(UsualRange, LeavesOutAFewExtremeValuesAlone) {
+TEST(UsualRange, LeavesOutExtremeValuesUpToAThousandth) {
     std::vector<WeightedValue> values;
     add(values, -40, 40, 1000);
     values.push_back({-5000, 20});

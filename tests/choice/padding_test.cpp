@@ -41,7 +41,7 @@ TEST(Padding, IsFarFromAllOtherValues) {
     }
 }
 
-TEST(Padding, OfTwoKinds) {
+TEST(Padding, MayLieBothBelowAndAboveTheData) {
     auto values = scan();
     values.push_back({-9999, 5});
     const Padding found = find_padding(with(values, 1e30, 5), false);
@@ -65,7 +65,7 @@ TEST(Padding, MayBeRareIfItIsFarAway) {
     EXPECT_TRUE(find_markers(ValueDistribution()).empty());
 }
 
-TEST(Padding, IsNoneOfThese) {
+TEST(Padding, DoesNotIncludeImplantsSpecksOrBackground) {
     const auto none = [](const ValueDistribution& all) {
         return find_padding(all, true).values.empty();
     };

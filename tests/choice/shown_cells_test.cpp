@@ -79,7 +79,7 @@ Volume lone_samples(std::array<std::int64_t, 3> size, Centering centering, unsig
         [&](double, double, double) { return share(random) < most ? 200. : 90.; });
 }
 
-TEST(ShownCells, HaveTheHullOfThoseFoundByLookingAtAll) {
+TEST(ShownCells, HaveTheHullOfAnExhaustiveSearch) {
     std::mt19937 random(7);
     std::normal_distribution<double> normal;
     unsigned seed = 0;
@@ -105,7 +105,7 @@ TEST(ShownCells, HaveTheHullOfThoseFoundByLookingAtAll) {
     }
 }
 
-TEST(ShownCells, OneSampleAcrossAndValuesThatAreNotFinite) {
+TEST(ShownCells, ReachHalfAVoxelFromASheetAndOmitNaN) {
     const auto value = [](double x, double, double) {
         return x == 2 ? 200. : x > 5 ? double(NAN) : 0.;
     };
@@ -121,7 +121,7 @@ TEST(ShownCells, OneSampleAcrossAndValuesThatAreNotFinite) {
 
 // Files of the same data may store axes in opposite directions; the hull, and so the camera, must
 // be the same.
-TEST(ShownCells, AreTheSameForAxesThatAreStoredTheOtherWayRound) {
+TEST(ShownCells, DoNotDependOnTheDirectionOfStoredAxes) {
     const Volume volume = lone_samples({22, 19, 15}, Centering::cell, 5);
     Grid turned = volume.grid();
     turned.origin = volume.grid().to_world({21, 0, 14});
@@ -144,7 +144,7 @@ TEST(ShownCells, AreTheSameForAxesThatAreStoredTheOtherWayRound) {
 
 // For large volumes (large_volume, choice/field.h) the hull is that of bricks. The samples, here
 // all 0, are not read.
-TEST(ShownCells, OfLargeVolumesAreBricks) {
+TEST(ShownCells, AreWholeBricksInLargeVolumes) {
     const Grid grid = test::grid_of({1024, 1024, 258}, Centering::node);
     const auto samples =
         std::make_shared<ReservedMemory>(static_cast<std::size_t>(grid.sample_count()));

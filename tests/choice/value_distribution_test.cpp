@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-TEST(ValueDistribution, SharesAndQuantilesOfAFewValues) {
+TEST(ValueDistribution, HasTheSharesAndQuantilesOfItsValues) {
     const ValueDistribution values({{3, 2}, {1, 1}, {3, 2}, {7, 0}, {5, 3}});
     ASSERT_EQ(values.distinct(), 3u);  // 7 has no weight
     EXPECT_EQ(values.lowest(), 1);
@@ -26,7 +26,7 @@ TEST(ValueDistribution, SharesAndQuantilesOfAFewValues) {
     EXPECT_EQ(values.quantile(1), 5);
 }
 
-TEST(ValueDistribution, APartIsAWholeAgain) {
+TEST(ValueDistribution, RescalesTheSharesOfAnIntervalToOne) {
     const ValueDistribution part =
         ValueDistribution({{1, 1}, {2, 1}, {3, 3}, {4, 5}}).between(2, 3.5);
     ASSERT_EQ(part.distinct(), 2u);
