@@ -33,7 +33,7 @@ TEST(Codes, RoundAsTheirNamesSay) {
 }
 
 // Opacities that are codes already, as in a palette, are the same codes after double arithmetic.
-TEST(Codes, OpacityOfACodeIsThatCode) {
+TEST(Codes, OpacitiesThatAreCodesKeepTheirCode) {
     for (int bits = 1; bits <= max_code_bits; ++bits) {
         const std::uint32_t largest = largest_code(bits);
         for (std::uint32_t k = 0; k <= largest; ++k) {

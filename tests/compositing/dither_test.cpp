@@ -39,7 +39,7 @@ TEST(Dither, RanksAreThePermutationOfNumerics) {
 }
 
 // floor(P f) of the P slabs of a period show the code above a value, and the others the code below.
-TEST(Dither, ShowsTheCodeAboveAsOftenAsTheRestSays) {
+TEST(Dither, ShowsTheUpperCodeInProportionToTheRemainder) {
     for (const int period : {1, 4, 10, 11, 64, 256}) {
         const std::vector<std::uint32_t> ranks = dither_ranks(period, 5);
         for (const int whole : {0, 1, 127, 253}) {
@@ -70,7 +70,7 @@ TEST(Dither, GivesThePapersExample) {
     EXPECT_EQ(sum, 14);
 }
 
-TEST(Dither, IncrementsGiveMultiples) {
+TEST(Dither, GivesMultiplesOfItsIncrement) {
     for (const int increment : {2, 3, 7}) {
         constexpr int period = 60;
         for (double scaled = 0; scaled < 250; scaled += 3.1) {
@@ -88,7 +88,7 @@ TEST(Dither, IncrementsGiveMultiples) {
     }
 }
 
-TEST(Dither, KeepsTheEnds) {
+TEST(Dither, LeavesTheSmallestAndLargestCodeUnchanged) {
     for (const std::uint32_t largest : {1u, 15u, 255u, 65535u}) {
         for (const int increment : {1, 2, 3, 7}) {
             for (std::uint32_t rank = 0; rank < 16; ++rank) {
@@ -102,7 +102,7 @@ TEST(Dither, KeepsTheEnds) {
 
 // A ray of N = 2 P slabs that are too faint for 8 bits: it has nothing if undithered, and floor(P
 // f) codes of 1 in each period if dithered. Colour has a permutation of its own.
-TEST(Dither, RaysFollowThePattern) {
+TEST(Dither, AccumulatesRaysTooFaintForOneCode) {
     constexpr int period = 64;
     const std::vector<RaySample> ray(2 * period, {.3, .25 / 255});
     const Emulation emulation;  // 8 bits, truncate, separate

@@ -39,7 +39,7 @@ TEST(NodeCode, DecodesWhatItEncodes) {
     }
 }
 
-TEST(NodeCode, HasItsEnds) {
+TEST(NodeCode, EncodesClearAs0AndOpaqueAs1) {
     for (const NodeCode code : every_code) {
         for (const double share : shares) {
             EXPECT_EQ(encode_depth(code, 0, share), 0);
@@ -83,7 +83,7 @@ TEST(NodeCode, MinimaxIsSmooth) {
 
 // The formulas of docs/numerics.md, section 4, with each piece written as its addition to the one
 // before.
-TEST(NodeCode, MinimaxIsTheFormula) {
+TEST(NodeCode, MinimaxFollowsTheFormulaOfNumerics) {
     constexpr double e = std::numbers::e;
     for (const double w : shares) {
         const double y = 1 + std::log(1 / w) / e;
@@ -124,7 +124,7 @@ double worst_effect(NodeCode code, double share) {
 // The numbers are those of the table of docs/numerics.md, section 4. Each code is worst elsewhere:
 // phi at its last half code, with one node; alpha at its first, with all nodes; minimax is equally
 // bad everywhere.
-TEST(NodeCode, WorstEffectOfARoundingIsThatOfNumerics) {
+TEST(NodeCode, RoundingHasTheWorstEffectsStatedInNumerics) {
     EXPECT_NEAR(worst_effect(NodeCode::phi, 1.0 / 32), 210, .5);
     EXPECT_NEAR(worst_effect(NodeCode::alpha, 1.0 / 32), 15.5, .05);
     EXPECT_NEAR(worst_effect(NodeCode::minimax, 1.0 / 32), 1.14, .005);

@@ -125,7 +125,7 @@ TEST_P(OverBits, AccumulatesColorBelowOpacity) {
 }
 
 // M * t / M needs no rounding, so both kinds of rounding round the same product once.
-TEST_P(OverBits, SeparateIsFusedForAlpha) {
+TEST_P(OverBits, SeparateRoundingEqualsFusedForAlpha) {
     const std::uint32_t largest = largest_code(GetParam());
     std::mt19937 random(13);
     for (int i = 0; i < 100000; ++i) {
@@ -142,7 +142,7 @@ TEST_P(OverBits, SeparateIsFusedForAlpha) {
 INSTANTIATE_TEST_SUITE_P(All, OverBits, testing::Values(1, 2, 6, 8, 10, 12, 16));
 
 // With 16 bits, (2 x + M) / (2 M) would overflow (docs/numerics.md, section 2).
-TEST(Over, HoldsTheLargestProductOf16Bits) {
+TEST(Over, DoesNotOverflowWith16Bits) {
     for (const OverRounding rounding : both_roundings) {
         EXPECT_EQ(over(rounding, 65535, 65535, 65535, 65535), 65535u);
         EXPECT_EQ(over(rounding, 65535, 32768, 65535, 65535), 65535u);

@@ -69,7 +69,7 @@ gl::Defines over_defines(int bits, OverRounding rounding) {
     return defines;
 }
 
-TEST_F(ShaderTwins, OverOf4BitsForAllOperands) {
+TEST_F(ShaderTwins, AgreeOnOverOf4BitsForAllOperands) {
     for (const OverRounding rounding : {OverRounding::separate, OverRounding::fused}) {
         gl::Program program = program_of(
             include_of("over"),
@@ -91,7 +91,7 @@ TEST_F(ShaderTwins, OverOf4BitsForAllOperands) {
     }
 }
 
-TEST_F(ShaderTwins, OverOf8BitsForAllPairs) {
+TEST_F(ShaderTwins, AgreeOnOverOf8BitsForAllPairs) {
     for (const OverRounding rounding : {OverRounding::separate, OverRounding::fused}) {
         gl::Program program = program_of(
             include_of("over"),
@@ -114,7 +114,7 @@ TEST_F(ShaderTwins, OverOf8BitsForAllPairs) {
     }
 }
 
-TEST_F(ShaderTwins, RandomBits) {
+TEST_F(ShaderTwins, AgreeOnRandomBits) {
     gl::Program program = program_of(
         include_of("random_bits"),
         "    uint first = random_bits(column, row, uint(parameter), 1u);\n"
@@ -138,7 +138,7 @@ class ShaderTwinsOfBits : public gl::ContextTest<testing::TestWithParam<int>> {
 };
 
 // Operands are random; every fourth is 0 or the largest code, with which sums are extreme.
-TEST_P(ShaderTwinsOfBits, OverOfRandomOperands) {
+TEST_P(ShaderTwinsOfBits, AgreeOnOverOfRandomOperands) {
     const std::uint32_t largest = largest_code(GetParam());
     const auto operand = [&](std::uint32_t i, std::uint32_t which) {
         const std::uint32_t bits = random_bits(i, which, 0, 77);
@@ -206,7 +206,7 @@ std::uint32_t chosen_number_of(std::uint32_t index, double scaled, double size) 
     return static_cast<std::uint32_t>(random_bits(index, 1, 0, 3) * 0x1p-32 * size);
 }
 
-TEST_P(ShaderTwinsOfBits, RoundingAndDithering) {
+TEST_P(ShaderTwinsOfBits, AgreeOnRoundingAndDithering) {
     const int bits = GetParam();
     const std::uint32_t largest = largest_code(bits);
     struct Case {
@@ -257,7 +257,7 @@ gl::Program depth_program(NodeCode code, const std::string& body) {
 // 4.50, section 4.7.1).
 constexpr double log_error = 3 * 0x1p-21;
 
-TEST_F(ShaderTwins, DepthFromOpacity) {
+TEST_F(ShaderTwins, AgreeOnDepthFromOpacity) {
     gl::Program program = depth_program(
         NodeCode::phi,
         "    float value = index < 32768u ? exp2(float(index) * (26.0 / 32768.0) - 27.0)\n"
@@ -279,7 +279,7 @@ class DepthTwins : public gl::ContextTest<testing::TestWithParam<std::tuple<Node
     void SetUp() override { make_context(gl::ContextKind::osmesa); }
 };
 
-TEST_P(DepthTwins, EncodeDepth) {
+TEST_P(DepthTwins, AgreeOnEncodedDepths) {
     const auto [code, share] = GetParam();
     gl::Program program = depth_program(
         code,
@@ -303,7 +303,7 @@ TEST_P(DepthTwins, EncodeDepth) {
     }
 }
 
-TEST_P(DepthTwins, DecodeDepth) {
+TEST_P(DepthTwins, AgreeOnDecodedDepths) {
     const auto [code, share] = GetParam();
     gl::Program program = depth_program(code,
                                         "    float value = float(index) / 65535.0;\n"
@@ -314,10 +314,10 @@ TEST_P(DepthTwins, DecodeDepth) {
     const Results results(program);
     for (std::uint32_t i = 0; i < pixels; ++i) {
         const double value = results[i][0], expected = decode_depth(code, value, share);
-        // The relative error is the logarithm's 2^-21 of a depth of at least .28 (DepthFromOpacity)
-        // and 8e-7 of other roundings. Minimax takes exp() of up to ln 1024, 6.9, from numbers u <=
-        // 3.6 with an error of log_error / e: the exponential has e times this error, three
-        // roundings of such numbers (2^-22) and 17 units of exp() itself.
+        // The relative error is the logarithm's 2^-21 of a depth of at least .28
+        // (AgreeOnDepthFromOpacity) and 8e-7 of other roundings. Minimax takes exp() of up to ln
+        // 1024, 6.9, from numbers u <= 3.6 with an error of log_error / e: the exponential has e
+        // times this error, three roundings of such numbers (2^-22) and 17 units of exp() itself.
         double relative = 0x1p-21 / .28 + 8e-7;
         if (code == NodeCode::minimax) relative += log_error + 3 * 0x1p-22 + 17 * 0x1p-24;
         // Beyond depth 1, minimax's transmittance is a difference of numbers with such errors.

@@ -117,7 +117,7 @@ TEST(TreeShape, ParsesFactors) {
     EXPECT_EQ(to_text({16, 8, 8}), "16x8x8");
 }
 
-TEST(TreeShape, RefusesWhatAreNoFactors) {
+TEST(TreeShape, RefusesMalformedFactors) {
     for (const std::string text : {"",
                                    "x",
                                    "32x",
@@ -234,7 +234,7 @@ TEST_P(TreeFactors, CodesAreThoseOfARecursion) {
 INSTANTIATE_TEST_SUITE_P(Some, TreeFactors, testing::ValuesIn(some_factors));
 
 // Straight compositing is a tree of one level.
-TEST(Tree, OfOneLevelIsStraightCompositing) {
+TEST(Tree, IsStraightCompositingIfItHasOneLevel) {
     const std::vector<double> ray = oracle::random_ray(200, .999, 5);
     std::vector<RaySample> samples;
     for (const double unit : ray) samples.push_back({1, opacity_over(unit, 1.0 / 200)});
@@ -272,7 +272,7 @@ TEST(Tree, EqualFragmentsGiveTheSameInEitherOrder) {
 
 // LaMar 2004, Table 1 (docs/numerics.md, "Where the papers are wrong"): the values of an 8-bit
 // buffer for nine opacities after 64 samples.
-TEST(Tree, StraightRaysHoldWhatNumericsSaysOfTable1) {
+TEST(Tree, StraightRaysHaveTheCorrectedValuesOfTable1) {
     const std::vector<std::uint32_t> expected = {0, 0, 64, 64, 96, 136, 183, 220, 255};
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const double alpha = opacity_over(static_cast<double>(i) / 8, 1.0 / 64);
@@ -315,7 +315,7 @@ double exact_opacity(const std::vector<double>& ray) {
     return static_cast<double>(-std::expm1(-depth / static_cast<long double>(ray.size())));
 }
 
-TEST(Tree, IsTheStraightRayForEverySplit) {
+TEST(Tree, HasTheExactOpacityForEverySplit) {
     for (const Factors& factors : some_factors) {
         for (const int samples : {1, 16, 1000, 1021, 1024, 4096}) {
             const std::vector<double> ray = oracle::random_ray(samples, .9, 3);
@@ -335,7 +335,7 @@ TEST(Tree, IsTheStraightRayForEverySplit) {
 
 // Weights of 1 / (number of children) are wrong for children of unequal sizes; equal samples do not
 // show it.
-TEST(Tree, NeedsTheWeightsOfUnequalChildren) {
+TEST(Tree, NeedsWeightsForUnequalChildren) {
     std::vector<double> ray(5, 0.0);
     ray[0] = ray[1] = .999;  // the smaller of two children
     const TreeShape tree({2, 3}, 5);

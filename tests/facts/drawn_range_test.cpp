@@ -32,7 +32,7 @@ TEST(ExactRange, IsAPowerOfTwoAroundWhatChanges) {
     EXPECT_EQ(range.lo, std::floor(range.lo));
 }
 
-TEST(ExactRange, HoldsAllThatIsDrawnWhereAllChanges) {
+TEST(ExactRange, HoldsTheWholeRangeIfAllOfItChanges) {
     const ValueRange range = exact_range(test::smooth(), {0, 1}, SampleType::float32);
     EXPECT_EQ(range, (ValueRange{0, 1}));
     const ValueRange bytes =
@@ -41,7 +41,7 @@ TEST(ExactRange, HoldsAllThatIsDrawnWhereAllChanges) {
     EXPECT_EQ(bytes, (ValueRange{3, 259}));
 }
 
-TEST(ExactRange, EndsAtTheDistanceOfFloats) {
+TEST(ExactRange, IsNoNarrowerThanFloatsCanResolve) {
     const auto step =
         TransferFunction::linear({knot(1000, {1, 1, 1}, 0), knot(1000, {1, 1, 1}, 1)});
     const ValueRange floats = exact_range(step, {-1e9, 1e9}, SampleType::float32);
@@ -79,7 +79,7 @@ TEST(MeshWindow, IsTheRangeIfNothingChangesThere) {
 }
 
 // A step has no width of its own, so the distance of the values around it sets the width.
-TEST(MeshWindow, OfAStepIsAsWideAsTheValuesNearIt) {
+TEST(MeshWindow, IsAsWideAsTheValuesAroundAStep) {
     const auto step = TransferFunction::linear({knot(.5, {1, 1, 1}, 0), knot(.5, {1, 1, 1}, 1)});
     const ValueRange window = mesh_window(step, field, {.1, 9.97e36});
     EXPECT_LT(window.lo, .5);
@@ -88,7 +88,7 @@ TEST(MeshWindow, OfAStepIsAsWideAsTheValuesNearIt) {
     EXPECT_GE(window.hi - window.lo, .1);
 }
 
-TEST(DrawnRange, OfOneValueDividesItWithoutRounding) {
+TEST(DrawnRange, HasAPowerOfTwoWidthForOneValue) {
     for (const double value : {0., 17181., -17181., 1e-30}) {
         const ValueRange range = drawn_range(narrow(), {value, value});
         const double width = range.hi - range.lo;

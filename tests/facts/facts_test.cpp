@@ -19,7 +19,7 @@ Facts facts_of(const nlohmann::json& document) {
     return measure(scene, volume, measure_bricks(volume));
 }
 
-TEST(Facts, DepthsOfTheUnitBox) {
+TEST(Facts, HaveTheDepthsOfTheBoxSeenFromTheEye) {
     nlohmann::json document = minimal_scene();
     document["camera"] = {{"eye", {0.5, 0.5, 3}}, {"center", {0.5, 0.5, 0.5}}};
     Facts facts = facts_of(document);
@@ -116,7 +116,7 @@ TEST(Facts, BricksThatEndWhereSomethingBeginsAreEmpty) {
 
 // int16 is shifted by 32768, and float32 holds such codes to 32768 * 2^-24 = .002: the value 40 may
 // show if extinction rises from 40.004 on, but not from 41 on.
-TEST(Facts, IntegersKeepAMarginOfTheirCodes) {
+TEST(Facts, KeepAMarginForTheCodesOfIntegers) {
     const auto samples = std::make_shared<std::vector<std::int16_t>>(33 * 2 * 2);
     for (std::size_t i = 0; i < samples->size(); ++i) (*samples)[i] = i % 33 > 16 ? 100 : 40;
     const Volume volume(test::grid_of({33, 2, 2}, Centering::node), SampleType::int16,
@@ -131,7 +131,7 @@ TEST(Facts, IntegersKeepAMarginOfTheirCodes) {
     EXPECT_EQ(share_from(41), .5);
 }
 
-TEST(Facts, NonFiniteSamplesAreCountedAndNeedAWord) {
+TEST(Facts, CountNonFiniteSamplesAndRequireANanPolicy) {
     const Grid grid = reference_test::make_grid({3, 3, 3}, Centering::node);
     std::vector<float> samples(27, .5f);
     samples[13] = NAN;

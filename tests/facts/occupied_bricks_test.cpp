@@ -67,7 +67,7 @@ TEST(OccupiedBricks, DistancesAreThoseToTheNearest) {
 }
 
 // Tests boxes of any size, also longer than the largest distance.
-TEST(OccupiedBricks, AnyOfABoxIsFound) {
+TEST(OccupiedBricks, AreFoundInBoxesOfAnySize) {
     std::mt19937 random(4);
     const Place count{200, 9, 90};
     for (int trial = 0; trial < 40; ++trial) {
@@ -88,13 +88,13 @@ TEST(OccupiedBricks, AnyOfABoxIsFound) {
     }
 }
 
-TEST(OccupiedBricks, AllAreFarFromNothing) {
+TEST(OccupiedBricks, AllBricksAreFarthestIfNoneIsOccupied) {
     const OccupiedBricks bricks = with_shown({3, 4, 5}, {});
     EXPECT_EQ(bricks.distance.count(OccupiedBricks::farthest), 60u);
     EXPECT_FALSE(bricks.any_in({-9, -9, -9}, {99, 99, 99}));
 }
 
-TEST(OccupiedBricks, WhatIsEmptyAroundAPointShowsNothing) {
+TEST(OccupiedBricks, TheEmptyBoxAroundAPointHoldsNone) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> place(-3, 45);
     const Place count{11, 10, 9};

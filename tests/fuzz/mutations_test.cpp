@@ -76,7 +76,7 @@ class Mutator {
 
 class Mutations : public testing::TestWithParam<FuzzTarget> {};
 
-TEST_P(Mutations, OfTheCorpusAreReadOrRefused) {
+TEST_P(Mutations, AreReadOrRefused) {
     std::vector<std::string> corpus;
     for (const auto& path : entries_of(corpus_folder / GetParam().name))
         corpus.push_back(read_bytes_of(path));
