@@ -56,7 +56,7 @@ void draw_in_contexts() {
     }
 }
 
-TEST(CallersContext, OfOsmesaStays) {
+TEST(CallersContext, RemainsCurrentWithOsmesa) {
     const SharedLibrary library{"libOSMesa.so.8", "libOSMesa.so.6"};
     using Handle = void*;
     Handle (*const create)(unsigned, Handle) = library.function("OSMesaCreateContext");
@@ -149,7 +149,7 @@ class CallersEgl : public testing::Test {
     std::optional<SharedLibrary> library_;
 };
 
-TEST_F(CallersEgl, Stays) {
+TEST_F(CallersEgl, ContextRemainsCurrent) {
     const CallersFunctions caller(call<decltype(&eglGetProcAddress)>("eglGetProcAddress"));
     caller.clear_color(1, 0, 1, 1);
     draw_in_contexts();

@@ -142,7 +142,7 @@ int wrong_pixels(Context& context, int first_value, std::barrier<>& together) {
     return wrong + (bytes_allocated() != 37 * 23 * 16);
 }
 
-TEST(Context, TwoInTwoThreadsDrawWhatEachIsToldTo) {
+TEST(Context, TwoInTwoThreadsDrawIndependently) {
     using Pair = std::pair<ContextKind, ContextKind>;
     for (const auto& [kind, other_kind] :
          {Pair{ContextKind::osmesa, ContextKind::osmesa},
@@ -179,7 +179,7 @@ TEST(Context, GoesFromThreadToThread) {
 }
 
 // Objects of the two contexts have the same ids, so a mix-up would show.
-TEST(Context, SomeTakeTurnsInOneThread) {
+TEST(Context, TwoTakeTurnsInOneThread) {
     const auto outer = Context::create(ContextKind::osmesa);
     const auto inner = Context::create(has_egl() ? ContextKind::egl : ContextKind::osmesa);
     EXPECT_EQ(current_context(), nullptr);
@@ -211,7 +211,7 @@ TEST(Context, AutomaticNeverTakesSoftwareThroughEglWhileOsmesaIsThere) {
 }
 
 // A death test, in a process of its own, because Mesa reads the environment only once.
-TEST(ContextDeathTest, SaysWhatWasTriedAndWhatToDo) {
+TEST(ContextDeathTest, ErrorsSayWhatWasTriedAndWhatToDo) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     const auto create_on_old_mesa = [] {
         setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);

@@ -73,7 +73,7 @@ TEST(ShaderSource, GuardsIncludesAndTracksTheirLines) {
         "lib/b.glsl:1 lib/b.glsl:2 a.frag:2 a.frag:3 a.frag:3 lib/c.glsl:1 a.frag:3 a.frag:4");
 }
 
-TEST(ShaderSource, NamesMissingFilesAndWhoWantsThem) {
+TEST(ShaderSource, NamesMissingFilesAndTheirIncluders) {
     const Texts texts{{"a.frag", "#version 450 core\n\n#include \"b.glsl\"\n"}};
     EXPECT_EQ(message_of(texts, "a.frag"), "shader a.frag:3: no such shader file: b.glsl");
     EXPECT_EQ(message_of(texts, "z.frag"), "shader: no such shader file: z.frag");

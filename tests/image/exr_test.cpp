@@ -61,7 +61,7 @@ TEST(Exr, KeepsEveryBit) {
               0);
 }
 
-TEST(Exr, HeaderIsAsPromised) {
+TEST(Exr, StoresZippedFloatsAndTheScene) {
     const TemporaryFolder folder;
     write(folder / "a.exr", random_image(4, 3), {{"lamina_scene", "{\n  \"version\": 1}"}});
     const Imf::InputFile file((folder / "a.exr").c_str());
@@ -111,7 +111,7 @@ TEST(Exr, MissingAlphaIsOpaqueAndYIsGrey) {
     EXPECT_EQ(grey.pixel(1, 2)[3], 1);
 }
 
-TEST(Exr, OtherChannelsAreAnError) {
+TEST(Exr, RefusesChannelsOtherThanRgbaAndY) {
     const TemporaryFolder folder;
     write_half(folder / "rg.exr", {"R", "G"}, two_by_three);
     expect_error([&] { read_exr(folder / "rg.exr"); }, {"rg.exr", "G, R", "expected R, G, B"});
@@ -183,7 +183,7 @@ TEST(Exr, AttributesThatPromiseTooMuchAreErrors) {
                  {"268435456 tiles"});  // 16384 x 16384 tiles of one pixel
 }
 
-TEST(Exr, WhatIsNotAnImageFileIsAnError) {
+TEST(Exr, RefusesFilesThatAreNotImages) {
     const TemporaryFolder folder;
     expect_error([&] { read_exr(folder / "absent.exr"); }, {"absent.exr", "No such file"});
     expect_error([&] { read_exr(folder.path()); }, {"not a regular file"});

@@ -19,7 +19,7 @@ double luminance(const Codes& rgb) {
            0.0722 * linear_from_srgb(rgb[2] / 255.0);
 }
 
-TEST(FalseColor, WhiteAtZeroAndSaturatedAtTheScale) {
+TEST(FalseColor, IsWhiteAtZeroAndSaturatedAtTheScale) {
     EXPECT_EQ(color_of(0, 2), (Codes{255, 255, 255}));
     EXPECT_EQ(color_of(0, 0), (Codes{255, 255, 255}));
     EXPECT_EQ(color_of(2, 2), (Codes{103, 0, 31}));
@@ -28,7 +28,7 @@ TEST(FalseColor, WhiteAtZeroAndSaturatedAtTheScale) {
     EXPECT_EQ(color_of(-50, 2), color_of(-2, 2));
 }
 
-TEST(FalseColor, SizeReadsAsDarknessAndSignAsHue) {
+TEST(FalseColor, ShowsSizeAsDarknessAndSignAsHue) {
     double lighter[2] = {2, 2};
     for (int i = 1; i <= 100; ++i) {
         for (const int side : {0, 1}) {

@@ -46,7 +46,7 @@ TEST_F(LoadedImageTest, LinearFilesCompareWithEachOtherAndPngWithPng) {
     EXPECT_EQ(linf("a.png", "b.PNG"), 225 - 188);  // sRGB of .75 is .880825
 }
 
-TEST_F(LoadedImageTest, WhatCannotBeComparedIsAnErrorThatNamesTheFiles) {
+TEST_F(LoadedImageTest, RefusalsToCompareNameTheFiles) {
     write("a.exr", PreciseImage(2, 3));
     write("a.png", PreciseImage(2, 3));
     write("b.npy", PreciseImage(4, 3));
@@ -72,7 +72,7 @@ TEST_F(LoadedImageTest, LinearLightIsNotComparedWithDisplayValues) {
         expect_error([&] { linf(a, b); }, {a, b, "linear light", "display values", "color_space"});
 }
 
-TEST_F(LoadedImageTest, NotFiniteNamesFilePixelAndChannel) {
+TEST_F(LoadedImageTest, NonFiniteValuesAreErrorsNamingPixelAndChannel) {
     PreciseImage image(2, 2);
     image.pixel(0, 1)[1] = 7;
     write("a.npy", image);

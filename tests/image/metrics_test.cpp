@@ -66,7 +66,7 @@ TEST(Metrics, SmallErrorsOfDoubleImagesAreNotLostInFloat) {
     EXPECT_NEAR(image_error(a, b).all.linf, 255e-12, 255 * 0x1p-53);
 }
 
-TEST(Metrics, StoredCodesOfBothDepths) {
+TEST(Metrics, CompareStoredCodesOfBothDepths) {
     CodedImage a(2, 1, 1, 8), b(2, 1, 1, 8), c(2, 1, 1, 16);
     a.codes = {10, 200};
     b.codes = {13, 200};
@@ -77,7 +77,7 @@ TEST(Metrics, StoredCodesOfBothDepths) {
     EXPECT_EQ(difference(c, c).e, (std::vector<double>{0, 0}));
 }
 
-TEST(Metrics, WhatCannotBeComparedIsAnError) {
+TEST(Metrics, RefuseImagesThatCannotBeCompared) {
     expect_error([] { image_error(Image(3, 2), Image(2, 3)); }, {"3 x 2", "2 x 3"});
     expect_error([] { difference(CodedImage(1, 1, 3, 8), CodedImage(1, 1, 4, 8)); },
                  {"channels", "3 and 4"});

@@ -70,7 +70,7 @@ TEST(Npy, SinglePrecisionStaysSingle) {
         EXPECT_EQ(back.rgba[i], static_cast<double>(image.rgba[i]));
 }
 
-TEST(Npy, NumpyReadsWhatWeWrite) {
+TEST(Npy, IsReadByNumpy) {
     if (!numpy_is_there()) GTEST_SKIP() << "skipped: no numpy";
     const TemporaryFolder folder;
     PreciseImage image(3, 2);
@@ -90,7 +90,7 @@ TEST(Npy, NumpyReadsWhatWeWrite) {
     EXPECT_EQ((read_bytes_of(folder / "a.npy").size() - 24 * sizeof(double)) % 64, 0u);
 }
 
-TEST(Npy, WeReadWhatNumpyWrites) {
+TEST(Npy, ReadsFilesOfNumpy) {
     if (!numpy_is_there()) GTEST_SKIP() << "skipped: no numpy";
     const TemporaryFolder folder;
     const ProgramResult result = run_program(

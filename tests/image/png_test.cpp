@@ -69,7 +69,7 @@ std::string png_bytes(std::uint32_t width, std::uint32_t height, char depth, cha
 
 using Codes = std::vector<std::uint16_t>;
 
-TEST(Srgb, KnownValues) {
+TEST(Srgb, HasTheValuesOfTheStandard) {
     // Values of IEC 61966-2-1, as in many tables (6 digits). Near 0 the curve is 12.92 x.
     EXPECT_NEAR(srgb_from_linear(0.5), 0.735357, 5e-7);
     EXPECT_NEAR(srgb_from_linear(0.18), 0.461356, 5e-7);
@@ -91,7 +91,7 @@ TEST(Srgb, KnownValues) {
     }
 }
 
-TEST(Png, BackgroundThenCurveThenNearestCode) {
+TEST(Png, AppliesTheBackgroundThenTheCurveThenRounds) {
     const TemporaryFolder folder;
     const Image image = row_of({{0.5f, 0.18f, 0.001f, 1}, {0.25f, 0, 0, 0.5f}, {0, 0, 0, 0}});
     EXPECT_EQ(write(folder / "a.png", image, {0.5, 0.36, 1}), 0u);
@@ -215,7 +215,7 @@ TEST(Png, PromisedSizesAreCheckedBeforeMemoryIsTaken) {
     EXPECT_NE(with_size(8000, 8000).find("192000000 bytes"), std::string::npos);
 }
 
-TEST(Png, WhatIsNotAnImageFileIsAnError) {
+TEST(Png, RefusesFilesThatAreNotImages) {
     const TemporaryFolder folder;
     expect_error([&] { read_png(folder / "absent.png"); }, {"absent.png", "No such file"});
     expect_error([&] { read_png(folder.path()); }, {"not a regular file"});
