@@ -21,7 +21,7 @@ Scene automatic_scene() {
     return scene;
 }
 
-TEST(Histogram, OfAVolumeCountsItsSamples) {
+TEST(Histogram, CountsTheSamplesOfAVolume) {
     const Volume volume = test::volume_of<std::uint8_t>(
         test::grid_of({4, 4, 4}, Centering::node),
         [](double i, double j, double) { return j == 0 ? 40 : 10 * i; });
@@ -37,7 +37,7 @@ TEST(Histogram, OfAVolumeCountsItsSamples) {
     expect_error([&] { session.histogram(0); }, {"found 0"});
 }
 
-TEST(Histogram, LeavesOutWhatIsNotFinite) {
+TEST(Histogram, LeavesOutNonFiniteSamples) {
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
     Scene scene = automatic_scene();
     scene.nan = NanPolicy::transparent;
@@ -58,7 +58,7 @@ TEST(Histogram, LeavesOutWhatIsNotFinite) {
 }
 
 // The field is x, so each of the four intervals gets a fourth of the volume.
-TEST(Histogram, OfAMeshCountsVolumes) {
+TEST(Histogram, WeighsTheTetsOfAMeshByVolume) {
     Scene scene = automatic_scene();
     scene.method = Method::project;
     Session session(scene, test::kuhn_box({4, 2, 2}, [](const glm::dvec3& at) { return at.x; }),

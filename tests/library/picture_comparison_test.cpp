@@ -55,7 +55,7 @@ TEST(DifferenceCodes, AreThoseOfTheDifferencePicture) {
     expect_error([&] { difference_codes(std::vector<float>{0, NAN}, 1); }, {"1", "nan"});
 }
 
-TEST(PictureFiles, ComeBack) {
+TEST(PictureFiles, KeepPrecisionAndColorSpace) {
     const TemporaryFolder folder;
     PreciseImage precise(3, 2);
     precise.pixel(2, 1)[0] = 1.0 / 3;
@@ -102,7 +102,7 @@ TEST(Session, DrawsIntoTheCallersPicture) {
     EXPECT_EQ(session.statistics().trace_error, 0);  // statistics() are those of the drawn picture
 }
 
-TEST(Study, RunsIntoAnEmptyFolder) {
+TEST(Study, WritesOnlyToAnEmptyFolderUnlessResumed) {
     const TemporaryFolder folder;
     write_bytes_to(folder.path() / "scene.json", small_scene);
     write_bytes_to(folder.path() / "study.json",

@@ -52,7 +52,7 @@ void expect_linear(const FieldSampler& field, const glm::dvec3& p) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found->gradient[c], slope[c], tolerance);
 }
 
-TEST(Sampling, OfAVolumeMatchesALinearField) {
+TEST(Sampling, MatchesALinearFieldOnAVolume) {
     const Volume volume = linear_volume(Centering::node);
     const FieldSampler field(volume);
     const Grid::Bounds box = volume.grid().bounds();
@@ -62,7 +62,7 @@ TEST(Sampling, OfAVolumeMatchesALinearField) {
     expect_linear(field, box.max);
 }
 
-TEST(Sampling, OfAMeshMatchesALinearField) {
+TEST(Sampling, MatchesALinearFieldOnAMesh) {
     const FieldSampler field(test::kuhn_box({3, 2, 4}, linear));
     std::mt19937 random(2);
     for (int i = 0; i < 200; ++i)
@@ -73,7 +73,7 @@ TEST(Sampling, OfAMeshMatchesALinearField) {
         expect_linear(field, p);
 }
 
-TEST(Sampling, OfPlacesOutsideIsNothing) {
+TEST(Sampling, FindsNothingOutsideTheData) {
     const FieldSampler volume(linear_volume(Centering::node));
     const FieldSampler mesh(test::kuhn_box({1, 1, 1}, linear));
     const glm::dvec3 no_place(std::numeric_limits<double>::quiet_NaN(), 0, 0);
@@ -103,7 +103,7 @@ TEST(Sampling, RepeatsTheBorderInHalfVoxels) {
     EXPECT_FALSE(field.at(grid.to_world({-.6, 1.5, 2.5})));
 }
 
-TEST(Sampling, HasNoNumberBesideANan) {
+TEST(Sampling, IsNanInCellsWithANanCorner) {
     auto samples = std::make_shared<std::vector<float>>(27, 1.f);
     samples->front() = std::numeric_limits<float>::quiet_NaN();
     const FieldSampler field(Volume(test::grid_of({3, 3, 3}, Centering::node), SampleType::float32,
@@ -151,7 +151,7 @@ TEST(Sampling, FollowsARayThroughCellsAndTets) {
     EXPECT_TRUE(mesh.along({.5, .5, .5}, {0, 0, 0}).empty());
 }
 
-TEST(Sampling, NamesAScalarThatIsNotThere) {
+TEST(Sampling, RefusesScalarsThatTheMeshLacks) {
     EXPECT_THROW(FieldSampler(test::kuhn_box({1, 1, 1}, linear), "heat"), Error);
 }
 

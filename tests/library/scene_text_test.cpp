@@ -26,7 +26,7 @@ Volume ramp(int size) {
     return {grid, SampleType::uint8, {std::move(samples), first}};
 }
 
-TEST(SceneText, ComesBack) {
+TEST(SceneText, ComesBackUnchangedFromParsing) {
     const std::string text =
         R"({"version": 1, "volume": {"generate": "ramp"}, "image": {"width": 31},
             "transfer_function": {"points": [{"value": 0.1, "extinction": 3}]}})";
@@ -35,7 +35,7 @@ TEST(SceneText, ComesBack) {
     EXPECT_EQ(scene_text(parse_scene(full, "scene")), full);
 }
 
-TEST(SceneText, NamesItselfAndStartsPathsAtItsFolder) {
+TEST(SceneText, ErrorsNameTheFileAndPathsStartAtItsFolder) {
     expect_error([] { parse_scene(R"({"version": 1, "volmue": "a"})", "mine"); },
                  {"mine", "volume"});
     expect_error([] { parse_scene("{", "mine"); }, {"mine: parse error"});
@@ -43,7 +43,7 @@ TEST(SceneText, NamesItselfAndStartsPathsAtItsFolder) {
     EXPECT_EQ(scene.volume_file()->path, "/there/a.nrrd");
 }
 
-TEST(SceneText, NeedsNoNamesForDataInMemory) {
+TEST(SceneText, NeedsNoFileNamesForDataInMemory) {
     const Volume volume = ramp(8);
     // The colour map is stretched over the volume's values, 0 to 7.
     const std::string text =

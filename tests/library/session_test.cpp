@@ -60,7 +60,7 @@ TEST(Session, DrawsAVolumeInMemoryWithoutACopy) {
 
 // The predicted error, if there is one, bounds the error. Some settings that a scene states have
 // none; automatic settings have one, within max_error.
-TEST(Session, SaysWhatErrorIsExpectedWhereThatIsKnown) {
+TEST(Session, PredictsABoundOfTheErrorIfOneIsKnown) {
     const Volume volume = waves(12);
     Scene scene = scene_for(volume.grid().bounds());
     scene.target = Target::fixed8;
@@ -131,7 +131,7 @@ TEST(Session, ClipsAreSetAndTakenBack) {
     expect_error([&] { session.set_clip(clip); }, {"clip.planes: found the normal (0, 0, 0)"});
 }
 
-TEST(Session, GoesFromMethodToMethodOfOneVolume) {
+TEST(Session, SwitchesMethodsForOneVolume) {
     const Volume volume = waves(8);
     Scene scene = scene_for(volume.grid().bounds());
     scene.mesh = MeshSettings{.kuhn = true};
@@ -153,7 +153,7 @@ TEST(Session, GoesFromMethodToMethodOfOneVolume) {
     EXPECT_EQ(session.trace().rgba.size(), traced.rgba.size());
 }
 
-TEST(Session, AsksForAsManyThreadsAsItIsGiven) {
+TEST(Session, UsesAsManyThreadsAsGiven) {
     const Volume volume = waves(8);
     const Scene scene = scene_for(volume.grid().bounds());
     Session one(scene, volume, {ContextChoice::cpu, 1}),
@@ -163,7 +163,7 @@ TEST(Session, AsksForAsManyThreadsAsItIsGiven) {
     EXPECT_TRUE(two.statistics().drawn_by.ends_with("2 threads")) << two.statistics().drawn_by;
 }
 
-TEST(Session, PicturesOfOneSizeTakeTheMemoryOnce) {
+TEST(Session, ReusesThePictureMemoryForEqualSizes) {
     const Volume volume = waves(8);
     Session session(scene_for(volume.grid().bounds()), volume, native);
     const float* const first = session.draw().rgba.data();

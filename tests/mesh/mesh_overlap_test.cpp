@@ -32,7 +32,7 @@ MeshData both(MeshData mesh, const MeshData& other) {
     return mesh;
 }
 
-TEST(MeshOverlap, NoneWherePartsAreApartOrTouch) {
+TEST(MeshOverlap, IsNoneIfPartsAreApartOrTouch) {
     const auto nothing = [](const glm::dvec3&) { return 0.0; };
     EXPECT_EQ(overlapping(test::kuhn_box({3, 2, 2}, nothing)), 0);
     EXPECT_EQ(overlapping(test::three_sticks({.3, .2, .25})), 0);

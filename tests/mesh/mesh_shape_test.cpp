@@ -25,14 +25,14 @@ Convexity convexity_of(const MeshData& data) {
     return convexity(TetMesh(data, "mesh"));
 }
 
-TEST(MeshShape, ConvexMeshes) {
+TEST(MeshShape, ConvexMeshesAreRecognised) {
     EXPECT_EQ(convexity_of(box({3, 2, 4})), Convexity::exact);
     EXPECT_EQ(convexity_of(test::DelaunayMesh::make(200, 1)), Convexity::exact);
     EXPECT_EQ(convexity_of(test::twisted_prism(-20)), Convexity::exact);
 }
 
 // The sides of a box that is turned by an irrational angle are flat only up to 1e-16.
-TEST(MeshShape, RoundedCoordinates) {
+TEST(MeshShape, RoundedBoxesAreConvexWithinRounding) {
     MeshData turned = box({5, 5, 5});
     for (glm::dvec3& p : turned.points)
         p = {std::cos(1.) * p.x - std::sin(1.) * p.y, std::sin(1.) * p.x + std::cos(1.) * p.y, p.z};
@@ -48,7 +48,7 @@ TEST(MeshShape, RoundedCoordinates) {
     EXPECT_EQ(convexity_of(dented), Convexity::within_rounding);
 }
 
-TEST(MeshShape, NonconvexMeshes) {
+TEST(MeshShape, NonconvexMeshesAreRecognised) {
     const auto carved = [](const auto& keep) {
         return convexity_of(test::carved(box({3, 3, 3}), keep));
     };
@@ -75,7 +75,7 @@ TEST(MeshShape, NonconvexMeshes) {
     EXPECT_EQ(convexity_of(twice), Convexity::none);
 }
 
-TEST(MeshShape, EdgeRatio) {
+TEST(MeshShape, EdgeRatioIsLongestOverShortest) {
     // Edges of unit cubes: 1 to sqrt(3).
     EXPECT_NEAR(edge_lengths(TetMesh(box({2, 2, 2}), "box")).ratio(), std::sqrt(3.), 1e-15);
     MeshData data;

@@ -22,7 +22,7 @@ std::vector<glm::dvec3> gradients_of(const TetMesh& mesh) {
 // by 14 at most. That makes 216 in each direction, 375 in space, and the volume's own error 8
 // sqrt(3) |g| = 106: less than 500 u for each product of two edges. Some points have only slivers
 // around them.
-TEST(PointGradients, OfALinearFieldAreItsGradient) {
+TEST(PointGradients, MatchTheGradientOfALinearField) {
     const glm::dvec3 g(3, -.5, 7);
     for (const double least : {.1, 1e-6}) {
         const TetMesh mesh(test::split_box(3, 2000, least,
@@ -50,7 +50,7 @@ TEST(PointGradients, OfALinearFieldAreItsGradient) {
 
 // Two tets share point 0: one of volume 1/6 with gradient (1, 0, 0), one of volume 1/3 with (0, 0,
 // -4). The points of only one tet have its gradient.
-TEST(PointGradients, AreMeansByVolume) {
+TEST(PointGradients, AreMeansWeightedByVolume) {
     MeshData data;
     data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -2}};
     data.tets = {{0, 1, 2, 3}, {0, 4, 6, 5}};
@@ -62,7 +62,7 @@ TEST(PointGradients, AreMeansByVolume) {
     EXPECT_LE(glm::distance(found[5], {0, 0, -4}), 1e-14);
 }
 
-TEST(PointGradients, FlatTetsAndThoseWithoutAValueDoNotCount) {
+TEST(PointGradients, IgnoreFlatTetsAndTetsWithoutAValue) {
     MeshData data;
     data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {-1, 0, 0}, {9, 9, 9}};
     data.tets = {{0, 1, 2, 3}, {0, 1, 4, 2}, {0, 2, 5, 3}};  // the second lies in a plane

@@ -99,7 +99,7 @@ TEST(RayWalk, PassesEdgesPointsAndFacePlanes) {
     EXPECT_EQ(inside, 12 * 27);
 }
 
-TEST(RayWalk, EntersAgainAndSeesOverlaps) {
+TEST(RayWalk, ReentersSeparatePartsAndDetectsOverlaps) {
     MeshData two = test::kuhn_box({1, 1, 1}, slope);
     const auto count = static_cast<std::int32_t>(two.points.size());
     const auto add = [&](double shift) {

@@ -92,7 +92,7 @@ TEST(TetMesh, TurnsInvertedTets) {
     expect_neighbors_right(mesh);
 }
 
-TEST(TetMesh, CountsWhatIsWrong) {
+TEST(TetMesh, CountsDuplicateFlatAndRepeatedCornerTets) {
     MeshData data = test::kuhn_box({1, 1, 1}, height);
     data.cell_scalars.push_back({"c", {0, 1, 2, 3, 4, 5}});
     const auto add = [&](const Tet& tet) {
