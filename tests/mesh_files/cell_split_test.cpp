@@ -96,13 +96,13 @@ void try_all_numberings(std::int64_t type, const std::vector<glm::dvec3>& corner
     } while (std::next_permutation(numbers.begin(), numbers.end()));
 }
 
-TEST(CellSplit, HexahedraInAll40320Numberings) {
+TEST(CellSplit, TetsFillHexahedraInAll40320Numberings) {
     try_all_numberings(hexahedron, unit_cube, cube_quads, 1, 6);
 }
-TEST(CellSplit, WedgesInAll720Numberings) {
+TEST(CellSplit, TetsFillWedgesInAll720Numberings) {
     try_all_numberings(wedge, unit_wedge, wedge_quads, 0.5, 3);
 }
-TEST(CellSplit, PyramidsInAll120Numberings) {
+TEST(CellSplit, TetsFillPyramidsInAll120Numberings) {
     try_all_numberings(pyramid, unit_pyramid, pyramid_quads, 1.0 / 3, 2);
 }
 
@@ -116,7 +116,7 @@ TEST(CellSplit, VoxelsAreHexahedraInTheOrderOfTheAxes) {
 }
 
 // gmsh and others number wedges in the sense opposite to VTK's. Both must give positive tets.
-TEST(CellSplit, WedgesOfEitherSense) {
+TEST(CellSplit, TetsFillWedgesOfEitherSense) {
     const std::vector<glm::dvec3> other{{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
                                         {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
     try_all_numberings(wedge, other, wedge_quads, 0.5, 3);
@@ -266,7 +266,7 @@ TEST(CellSplit, CollapsedHexahedraFillTheirWedge) {
     } while (std::next_permutation(numbers.begin(), numbers.end()));
 }
 
-TEST(CellSplit, TypesOfCells) {
+TEST(CellSplit, EveryCellTypeIsKeptSplitSkippedOrRefused) {
     for (const int type : {10, 24}) EXPECT_EQ(use_of_cell(type), CellUse::tet);
     for (const int type : {11, 12, 13, 14, 25, 26, 27, 29, 31, 32, 33, 37})
         EXPECT_EQ(use_of_cell(type), CellUse::split);

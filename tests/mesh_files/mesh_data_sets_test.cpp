@@ -114,7 +114,7 @@ TEST_F(CanFiles, AreTheSameInEveryCoding) {
 
 // can.vtu was cut from hexahedra by the rule of split_cell(). Groups of six tets are joined to
 // hexahedra again, and split_cell() must give the same tets.
-TEST_F(CanFiles, ItsHexahedraAreCutAsOursAre) {
+TEST_F(CanFiles, HoldHexahedraCutAsSplitCellCutsThem) {
     ASSERT_EQ(can_.tets.size() % 6, 0u);
     for (std::size_t first = 0; first < can_.tets.size(); first += 96) {  // every 16th hexahedron
         std::set<std::int32_t> corners;

@@ -20,7 +20,7 @@ using testing::with;
 
 using MeshErrors = testing::BadMeshFiles;
 
-TEST_F(MeshErrors, NoFile) {
+TEST_F(MeshErrors, NameMissingFilesAndFolders) {
     for (const std::string name : {"none.vtu", "none.vtk", "none.node", "none.ele"}) {
         expect_error([&] { read_mesh(folder() / name); }, {name, "no such file"});
     }
@@ -28,7 +28,7 @@ TEST_F(MeshErrors, NoFile) {
     expect_error([&] { read_mesh(folder() / "dir.vtu"); }, {"dir.vtu", "not a regular file"});
 }
 
-TEST_F(MeshErrors, NotThatKindOfFile) {
+TEST_F(MeshErrors, RefuseFilesOfAnotherKind) {
     expect_bad("a.vtu", "", {"not a VTK XML file"});
     expect_bad("a.vtu", "solid cube", {"not a VTK XML file"});
     expect_bad("a.vtu", "<VTKFile type=\"PolyData\"></VTKFile>", {"'PolyData'"});
@@ -42,7 +42,7 @@ TEST_F(MeshErrors, NotThatKindOfFile) {
                {"line 4", "polydata", "UNSTRUCTURED_GRID"});
 }
 
-TEST_F(MeshErrors, Cells) {
+TEST_F(MeshErrors, NameTheBadCell) {
     const auto both = [&](const TestGrid& grid, std::initializer_list<std::string> parts) {
         expect_bad("a.vtu", make_vtu(grid), parts);
         expect_bad("a.vtu", make_vtu(grid, {"raw", true}), parts);
@@ -76,7 +76,7 @@ TEST_F(MeshErrors, Cells) {
 }
 
 // Takes no memory for what a small file promises but cannot hold.
-TEST_F(MeshErrors, ABillionTetsInASmallFile) {
+TEST_F(MeshErrors, RefuseHugeCountsWithoutTakingMemory) {
     rusage before{}, after{};
     getrusage(RUSAGE_SELF, &before);
     for (const std::string count : {"1000000000", "4000000000000000000"}) {
@@ -111,7 +111,7 @@ TEST_F(MeshErrors, ABillionTetsInASmallFile) {
     EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 1'000'000);
 }
 
-TEST_F(MeshErrors, LegacyVtk) {
+TEST_F(MeshErrors, NameTheFlawOfALegacyVtkFile) {
     const std::string good = VtkMaker(false, false).file(mixed_grid());
     expect_bad("a.vtk", with(good, "POINTS 24 double", "POINTS -24 double"),
                {"line 8", "POINTS", "'-24'"});
@@ -143,7 +143,7 @@ TEST_F(MeshErrors, LegacyVtk) {
     expect_bad("a.vtk", with(good, list, "CELLS 8 48\n-4 0 1 2 4 3"), {"CELLS", "cell 0"});
 }
 
-TEST_F(MeshErrors, TetGen) {
+TEST_F(MeshErrors, NameTheFlawOfATetGenFile) {
     const std::string nodes = "4 3 1 0\n1 0 0 0 5\n2 1 0 0 5\n3 0 1 0 5\n4 0 0 1 5\n";
     const std::string tets = "2 4 0\n1 1 2 3 4\n2 4 3 2 1\n";
     const auto bad_node = [&](const std::string& text, std::initializer_list<std::string> parts) {
@@ -184,7 +184,7 @@ TEST_F(MeshErrors, TetGen) {
 }
 
 // A file that is cut off anywhere gives an error, or is read if only scalars are missing.
-TEST_F(MeshErrors, TruncatedAnywhere) {
+TEST_F(MeshErrors, RefuseFilesTruncatedAnywhereInTheMesh) {
     for (const VtuStyle& style : {VtuStyle{"ascii"}, VtuStyle{"raw", true}, VtuStyle{"base64"}}) {
         const std::string good = make_vtu(mixed_grid(), style);
         const std::size_t end = good.rfind("</VTKFile>");
@@ -209,7 +209,7 @@ TEST_F(MeshErrors, TruncatedAnywhere) {
 }
 
 // A file of any format with random bytes changed gives an Error, or a mesh with valid indices.
-TEST_F(MeshErrors, DamagedAnywhere) {
+TEST_F(MeshErrors, RefuseDamagedFilesUnlessTheMeshIsValid) {
     std::mt19937 random(4);
     std::vector<std::pair<std::string, std::string>> files;
     for (const VtuStyle& style : all_vtu_styles()) {

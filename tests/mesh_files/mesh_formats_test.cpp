@@ -19,7 +19,7 @@ using testing::VtuMaker;
 using testing::VtuStyle;
 using MeshFormats = testing::MeshFiles;
 
-TEST_F(MeshFormats, VtuInEveryCoding) {
+TEST_F(MeshFormats, VtuIsReadInEveryCoding) {
     const MeshData expected = expected_mesh(mixed_grid());
     ASSERT_EQ(expected.tets.size(), 19u);
     for (std::size_t i = 0; i < 24; ++i) {  // lengths of the vectors (2 i, -i, 2 i)
@@ -34,7 +34,7 @@ TEST_F(MeshFormats, VtuInEveryCoding) {
     }
 }
 
-TEST_F(MeshFormats, LegacyVtkOfEveryKind) {
+TEST_F(MeshFormats, LegacyVtkIsReadInEveryVersionAndCoding) {
     TestGrid grid = mixed_grid();
     const MeshData expected = expected_mesh(grid);
     for (const bool binary : {false, true}) {
@@ -48,7 +48,7 @@ TEST_F(MeshFormats, LegacyVtkOfEveryKind) {
     }
 }
 
-TEST_F(MeshFormats, EveryTypeOfNumber) {
+TEST_F(MeshFormats, EveryIntegerTypeIsRead) {
     for (const char* const index :
          {"Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64"}) {
         TestGrid grid = mixed_grid();
@@ -102,7 +102,7 @@ TEST_F(MeshFormats, PiecesAreJoined) {
     }
 }
 
-TEST_F(MeshFormats, VtuOddities) {
+TEST_F(MeshFormats, UnusualXmlAndUnnamedArraysAreAccepted) {
     const MeshData expected = expected_mesh(mixed_grid());
     // CDATA, comments and information keys stand among the numbers, and a declaration and a comment
     // before the root element.
@@ -135,7 +135,7 @@ TEST_F(MeshFormats, QuadraticTetsGiveTheirCorners) {
     EXPECT_EQ(read("a.vtk", VtkMaker(true, false).file(grid)).tets, expected);
 }
 
-TEST_F(MeshFormats, NaNStays) {
+TEST_F(MeshFormats, NaNIsKept) {
     TestGrid grid = mixed_grid();
     grid.point_arrays[0].values[3] = std::nan("");
     grid.point_arrays[1].values[0] = std::nan("");
@@ -153,7 +153,7 @@ constexpr const char* text_points =
     "# vtk DataFile Version 2.0\nsome tet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n";
 constexpr const char* text_cells = "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
 
-TEST_F(MeshFormats, NumbersInEverySpelling) {
+TEST_F(MeshFormats, NumbersAreReadInEverySpelling) {
     const std::string text =
         std::string(text_points) +
         "+1.5 -.5 5.\n1e-3 1E+2 0\t1e-400 -1e-400 4.9e-324 \r\n 1e308 -0 inf\n" + text_cells;
@@ -168,7 +168,7 @@ TEST_F(MeshFormats, NumbersInEverySpelling) {
 }
 
 // Reads or skips every other kind of attribute that a legacy file may have.
-TEST_F(MeshFormats, LegacyAttributesOfEveryKind) {
+TEST_F(MeshFormats, LegacyAttributesOfEveryKindAreReadOrSkipped) {
     const std::string text = std::string(text_points) + "0 0 0 1 0 0 0 1 0 0 0 1\n" + text_cells +
                              "cell_data 1\nscalars c int\nlookup_table default\n7\n"
                              "POINT_DATA 4\n"
@@ -204,7 +204,7 @@ const std::string nodes_from_0 =
 const std::string nodes_from_1 =
     "4 3 1 0\r\n1 0 0 0 0.5\r\n2 1 0 0 1.5\r\n3 0 1 0 nan\r\n4 0 0 1 3.5\r\n";
 
-TEST_F(MeshFormats, TetGenCountedFrom0AndFrom1) {
+TEST_F(MeshFormats, TetGenIsReadCountedFrom0OrFrom1) {
     write("a.node", nodes_from_0);
     write("a.ele", "1 4 0\n0 0 1 2 3\n");
     write("b.node", nodes_from_1);
@@ -230,7 +230,7 @@ TEST_F(MeshFormats, TetGenAttributesAreNamedByComments) {
     EXPECT_EQ(mesh.cell_scalars[1].name, "part");
 }
 
-TEST_F(MeshFormats, OurOwnFilesGiveBackWhatWasWritten) {
+TEST_F(MeshFormats, WrittenFilesAreReadBackUnchanged) {
     MeshData mesh = read("a.vtu", make_vtu(mixed_grid()));
     mesh.points[5] = {1.0 / 3, -1e-300, 1.7976931348623157e308};
     mesh.point_scalars[0].values[2] = std::nan("");
@@ -250,7 +250,7 @@ TEST_F(MeshFormats, OurOwnFilesGiveBackWhatWasWritten) {
     }
 }
 
-TEST_F(MeshFormats, MeshesWithoutScalarsAndWithManyBlocks) {
+TEST_F(MeshFormats, LargeMeshesWithoutScalarsAreReadBack) {
     MeshData mesh;  // 3 MB of points: three blocks, the last of them full
     mesh.points.resize(std::size_t{1} << 17);
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -263,7 +263,7 @@ TEST_F(MeshFormats, MeshesWithoutScalarsAndWithManyBlocks) {
     expect_equal(read_mesh(folder() / "large.vtu"), mesh);
 }
 
-TEST(MeshFile, GoesByTheExtension) {
+TEST(MeshFile, IsRecognisedByItsExtension) {
     for (const char* const name : {"a.vtu", "b/a.vtk", "a.node", "a.ele"}) {
         EXPECT_TRUE(is_mesh_file(name)) << name;
     }

@@ -57,7 +57,7 @@ TEST_F(MeshPieces, ZeroAndMinusZeroAreOnePlace) {
     EXPECT_EQ(read("a.vtu", VtuMaker({"raw"}).file({one, two})).cells.merged_points, 4);
 }
 
-TEST_F(MeshPieces, OtherValuesAtASharedPointAreSaid) {
+TEST_F(MeshPieces, WarnOfDifferentValuesAtSharedPoints) {
     TestGrid two = cube_at(1);
     two.point_arrays[0].values[0] = 77;
     const MeshData mesh = read("a.vtu", VtuMaker({"raw"}).file({cube_at(0), two}));

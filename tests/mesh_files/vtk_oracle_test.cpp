@@ -63,7 +63,7 @@ TestGrid read_dump(const std::filesystem::path& path) {
 
 using VtkOracle = testing::MeshFiles;
 
-TEST_F(VtkOracle, ReadsWhatWeReadAndWhatWeWrite) {
+TEST_F(VtkOracle, AgreesOnReadAndWrittenFiles) {
     const MeshData ours = expected_mesh(mixed_grid());
     AtomicFile file(folder() / "ours.vtu");
     write_vtu(file, ours);

@@ -16,7 +16,7 @@ using testing::with;
 
 using VtuErrors = testing::BadMeshFiles;
 
-TEST_F(VtuErrors, Attributes) {
+TEST_F(VtuErrors, NameTheBadAttribute) {
     const std::string good = make_vtu(mixed_grid());
     const std::string points = "NumberOfPoints=\"24\"", cells = "NumberOfCells=\"8\"";
     for (const std::string count : {"-24", "2.4", "", "many", "99999999999999999999"}) {
@@ -46,7 +46,7 @@ TEST_F(VtuErrors, Attributes) {
                {"no AppendedData"});
 }
 
-TEST_F(VtuErrors, Numbers) {
+TEST_F(VtuErrors, NameTheArrayAndTheBadNumber) {
     const std::string good = make_vtu(mixed_grid());
     expect_bad("a.vtu", with(good, "-1.5 ", "-1.5x "), {"pressure", "'-1.5x'", "Float32"});
     expect_bad("a.vtu", with(good, "-1.5 ", "1e39 "), {"pressure", "'1e39'", "Float32"});
@@ -56,7 +56,7 @@ TEST_F(VtuErrors, Numbers) {
     expect_bad("a.vtu", with(good, "60000 ", std::string(100000, '9') + " "), {"999...'"});
 }
 
-TEST_F(VtuErrors, Offsets) {
+TEST_F(VtuErrors, NameTheArrayOfBadOffsets) {
     const std::string good = make_vtu(mixed_grid());
     expect_bad("a.vtu", with(good, "4 7 15 21", "4 17 15 21"), {"offsets", "15", "cell 2"});
     expect_bad("a.vtu", with(good, "4 7 15 21", "-4 7 15 21"), {"offsets", "-4", "cell 0"});
@@ -66,7 +66,7 @@ TEST_F(VtuErrors, Offsets) {
     expect_bad("a.vtu", with(good, "36\n40", "36\n4000000000000000000"), {"connectivity", "4000"});
 }
 
-TEST_F(VtuErrors, PiecesThatDoNotGoTogether) {
+TEST_F(VtuErrors, NameThePieceThatDoesNotMatch) {
     TestGrid other = mixed_grid();
     other.point_arrays[0].name = "density";
     expect_bad("a.vtu", VtuMaker(VtuStyle()).file({mixed_grid(), other}),
@@ -82,7 +82,7 @@ TEST_F(VtuErrors, PiecesThatDoNotGoTogether) {
                {"Piece 1", "index 30", "0 to 23"});
 }
 
-TEST_F(VtuErrors, AppendedData) {
+TEST_F(VtuErrors, NameFlawsOfAppendedData) {
     const std::string good = make_vtu(mixed_grid(), {"raw"});
     expect_bad("a.vtu", with(good, "offset=\"0\"", "offset=\"999999\""), {"offset", "999999"});
     expect_bad("a.vtu", with(good, "offset=\"0\"", "offset=\"-1\""), {"offset", "'-1'"});
@@ -96,7 +96,7 @@ TEST_F(VtuErrors, AppendedData) {
 }
 
 // Arrays must not share their bytes: a small file could fill any memory with them.
-TEST_F(VtuErrors, ArraysThatShareTheirBytes) {
+TEST_F(VtuErrors, RefuseArraysThatShareTheirBytes) {
     for (const VtuStyle& style : {VtuStyle{"raw"}, VtuStyle{"raw", true}, VtuStyle{"base64"}}) {
         const std::string good = make_vtu(mixed_grid(), style);
         const auto begin = good.find("<DataArray"), end = good.find("/>", begin) + 2;
@@ -107,7 +107,7 @@ TEST_F(VtuErrors, ArraysThatShareTheirBytes) {
     }
 }
 
-TEST_F(VtuErrors, ArraysFarLargerThanTheFile) {
+TEST_F(VtuErrors, RefuseArraysFarLargerThanTheFile) {
     for (const VtuStyle& style : all_vtu_styles()) {
         const std::string good = make_vtu(mixed_grid(), style);
         expect_bad("a.vtu", with(good, "NumberOfPoints=\"24\"", "NumberOfPoints=\"1000000\""),
@@ -115,7 +115,7 @@ TEST_F(VtuErrors, ArraysFarLargerThanTheFile) {
     }
 }
 
-TEST_F(VtuErrors, Compressors) {
+TEST_F(VtuErrors, NameUnknownCompressorsAndDamagedBlocks) {
     const std::string zlib = make_vtu(mixed_grid(), {"raw", true});
     expect_bad("a.vtu", with(zlib, "vtkZLibDataCompressor", "zip"),
                {"'zip'", "vtkZLibDataCompressor", "vtkLZ4DataCompressor", "vtkLZMADataCompressor"});
@@ -132,7 +132,7 @@ std::string words(std::initializer_list<std::uint32_t> values) {
     return testing::bytes_of_array("UInt32", doubles, false);
 }
 
-TEST_F(VtuErrors, ZlibHeaders) {
+TEST_F(VtuErrors, NameTheArrayOfABadZlibHeader) {
     const TestGrid grid = mixed_grid();
     const std::string good = make_vtu(grid, {"raw", true});
     const auto data = good.find('_', good.find("<AppendedData")) + 1;
@@ -149,7 +149,7 @@ TEST_F(VtuErrors, ZlibHeaders) {
     expect_bad("a.vtu", put(0, 0), {"pressure", "found 0", "expected 96"});
 }
 
-TEST_F(VtuErrors, XmlOfAnyDepthAndLength) {
+TEST_F(VtuErrors, AreGivenForXmlOfAnyDepthAndLength) {
     const std::string head = "<VTKFile type=\"UnstructuredGrid\">";
     std::string deep;
     for (int i = 0; i < 300000; ++i) deep += "<a>";

@@ -27,12 +27,12 @@ class VtuSurplus : public testing::MeshFiles {
     std::vector<std::string>& warnings_ = heard_.texts;
 };
 
-TEST_F(VtuSurplus, NoneIsSilent) {
+TEST_F(VtuSurplus, FilesWithoutItAreReadSilently) {
     for (const VtuStyle& style : all_vtu_styles())
         EXPECT_TRUE(warnings_of(make_vtu(mixed_grid(), style) + "\n \n").empty()) << style.name();
 }
 
-TEST_F(VtuSurplus, BehindTheFile) {
+TEST_F(VtuSurplus, IsWarnedOfBehindTheFile) {
     for (const VtuStyle& style : all_vtu_styles()) {
         const auto warnings = warnings_of(make_vtu(mixed_grid(), style) + "junk \n!");
         ASSERT_EQ(warnings.size(), 1u) << style.name();
@@ -42,7 +42,7 @@ TEST_F(VtuSurplus, BehindTheFile) {
     }
 }
 
-TEST_F(VtuSurplus, BehindAnArrayInBase64) {
+TEST_F(VtuSurplus, IsWarnedOfBehindABase64Array) {
     for (const bool compressed : {false, true}) {
         const auto warnings = warnings_of(with(make_vtu(mixed_grid(), {"binary", compressed}),
                                                "\n</DataArray>", " AAAA\n</DataArray>"));
@@ -53,7 +53,7 @@ TEST_F(VtuSurplus, BehindAnArrayInBase64) {
     }
 }
 
-TEST_F(VtuSurplus, InCompressedBlocks) {
+TEST_F(VtuSurplus, IsWarnedOfInCompressedBlocks) {
     const auto warnings = warnings_of(make_vtu(mixed_grid(), {"raw", true, false, false, "123"}));
     ASSERT_FALSE(warnings.empty());
     for (const std::string& warning : warnings) {

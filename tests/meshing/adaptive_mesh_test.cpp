@@ -70,7 +70,7 @@ TEST_F(AdaptiveMesh, KeepsTheToleranceWithFarFewerTetsThanKuhn) {
 }
 
 // Noise needs points inside cells. Tests cells of half a sample and axes of one sample, too.
-TEST_F(AdaptiveMesh, FollowsNoise) {
+TEST_F(AdaptiveMesh, KeepsTheToleranceInNoise) {
     for (const auto& size : {std::array<std::int64_t, 3>{5, 4, 6}, {1, 7, 5}, {1, 1, 4}}) {
         for (const Centering centering : {Centering::node, Centering::cell}) {
             const Volume volume = noise(grid_of(size, centering), 1);
@@ -121,7 +121,7 @@ TEST_F(AdaptiveMesh, StopsAtMaxTetsAndSaysWhatWasReached) {
     expect_error([&] { make(volume, settings, report); }, {"6 tets", "5", "--max-tets"});
 }
 
-TEST_F(AdaptiveMesh, LeavesCoarseWhatCannotBeSeen) {
+TEST_F(AdaptiveMesh, StaysCoarseWhereNothingIsVisible) {
     const Volume volume = generated("gaussians", 20);
     const auto upper_half = TransferFunction::linear(
         {{128, {{1, 1, 1}, 0}}, {130, {{1, 1, 1}, 9}}, {255, {{1, 1, 1}, 9}}});
@@ -185,7 +185,7 @@ TEST_F(AdaptiveMesh, FillsTurnedAndMirroredBoxes) {
 }
 
 // Tests answers that no Delaunay program may give.
-TEST(AdaptiveMeshFailures, AWrongAnswerIsRecognised) {
+TEST(AdaptiveMeshFailures, IncludeWrongAnswersOfTheDelaunayProgram) {
     const Volume volume = noise(grid_of({3, 3, 3}, Centering::node), 3);
     const TrilinearField field(volume);
     const CellRanges ranges(field);

@@ -36,7 +36,7 @@ std::filesystem::path script(const TemporaryFolder& folder, const std::string& c
     return path;
 }
 
-TEST(DelaunayProcess, FailuresOfTheProgramAreClear) {
+TEST(DelaunayProcess, ErrorsSayHowTheProgramFailed) {
     const TemporaryFolder folder;
     const auto run = [&](const std::string& commands) {
         return error_of([&] { delaunay_by_process(script(folder, commands), tetrahedron); });
@@ -120,7 +120,7 @@ TEST(DelaunayProcess, TemporaryFilesLieInTmpdir) {
     EXPECT_TRUE(temporary.empty());
 }
 
-TEST(DelaunayProcess, FoldersForTemporaryFilesThatAreNone) {
+TEST(DelaunayProcess, NamesAMissingFolderForTemporaryFiles) {
     const TemporaryFolder folder;
     const auto tool = script(folder, "exit 0");
     const TemporaryFilesIn there(folder / "absent");
@@ -145,7 +145,7 @@ TEST(DelaunayProcess, ManyMessagesDoNotStopTheProgram) {
 }
 
 // A terminal sends Ctrl-C to both processes, which is no failure of the program.
-TEST(DelaunayProcess, EndedWithWhoAskedItIsAnInterrupt) {
+TEST(DelaunayProcess, ASignalToBothProcessesIsAnInterrupt) {
     const TemporaryFolder folder;
     const auto tool = script(folder, "kill -TERM $PPID $$; sleep 20");
     const SignalStop signals;
@@ -175,7 +175,7 @@ TEST_F(Tetrahedralize, OneTetIsPositive) {
 }
 
 // The points fit, but the tets do not: they take more bytes, since each point has six or more.
-TEST_F(Tetrahedralize, AnAnswerWithoutRoomSaysWhere) {
+TEST_F(Tetrahedralize, NamesTheFolderWithoutRoomForTheAnswer) {
     const TemporaryFolder folder;
     std::vector<glm::dvec3> points;
     std::mt19937 random(1);
@@ -189,7 +189,7 @@ TEST_F(Tetrahedralize, AnAnswerWithoutRoomSaysWhere) {
 
 // The program ends when its parent is killed. It is reading an endless question, and has started up
 // once it has read more than a pipe holds.
-TEST_F(Tetrahedralize, EndsWithWhoAskedIt) {
+TEST_F(Tetrahedralize, EndsWhenItsParentIsKilled) {
     std::signal(SIGPIPE, SIG_IGN);
     int question[2], answer[2];
     ASSERT_EQ(pipe2(question, O_CLOEXEC), 0);
@@ -223,14 +223,14 @@ TEST_F(Tetrahedralize, EndsWithWhoAskedIt) {
     close(answer[0]);
 }
 
-TEST(DelaunayProcess, TheProgramIsToldWhoAsks) {
+TEST(DelaunayProcess, GivesTheProgramTheIdOfItsParent) {
     const TemporaryFolder folder;
     const auto tool = script(folder, "echo \"$@\" >&2; exit 1");
     expect_error([&] { delaunay_by_process(tool, tetrahedron); },
                  {"--parent " + std::to_string(getpid())});
 }
 
-TEST_F(Tetrahedralize, AParentThatIsGoneIsNotServed) {
+TEST_F(Tetrahedralize, EndsAtOnceIfItsParentIsGone) {
     const TemporaryFolder folder;
     const auto tool = script(folder, LAMINA_TETRAHEDRALIZE_BINARY " --parent 1");
     expect_error([&] { delaunay_by_process(tool, tetrahedron); }, {"has ended (exit code 1)"});
@@ -269,7 +269,7 @@ TEST_F(Tetrahedralize, LatticesGiveNoFlatTets) {
     EXPECT_NEAR(volume, 512, 1e-9);
 }
 
-TEST_F(Tetrahedralize, WhatHasNoVolumeIsAnError) {
+TEST_F(Tetrahedralize, RefusesPointsThatSpanNoVolume) {
     std::vector<glm::dvec3> plane, oblique;
     for (int i = 0; i < 5; ++i) {
         for (int j = 0; j < 5; ++j) {

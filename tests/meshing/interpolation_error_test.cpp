@@ -162,7 +162,7 @@ TEST(CellRanges, CoverTheirBlocks) {
 
 // The field is f = xy, on the tet at the corner: the linear function is 0, and xy is largest in the
 // middle of the edge from (1, 0, 0) to (0, 1, 0).
-TEST(InterpolationError, ClosedFormInOneCell) {
+TEST(InterpolationError, MatchesTheClosedFormInOneCell) {
     const Measured measured{volume_of(cube(2), [](double i, double j, double) { return i * j; })};
     const Corners corners{glm::dvec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const TetError error = measured.measure(corners, 0.01, ErrorGoal::bound);
@@ -175,7 +175,7 @@ TEST(InterpolationError, ClosedFormInOneCell) {
 
 // The field is xyz on the tet (0,0,0), (1,1,0), (1,0,1), (1,1,1), on which the linear function is
 // the last corner's weight.
-TEST(InterpolationError, ToleranceIsDecidedNearTheTruth) {
+TEST(InterpolationError, IsDecidedWithinAFewPercentOfTheTolerance) {
     const Measured measured{
         volume_of(cube(2), [](double i, double j, double k) { return i * j * k; })};
     const Corners corners{glm::dvec3{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 1}};
@@ -199,7 +199,7 @@ struct Case {
 
 // For noise, steps and constant regions the bound holds at every sampled point, and is near the
 // largest difference found.
-TEST(InterpolationError, HoldsAgainstBruteForce) {
+TEST(InterpolationError, BoundsTheErrorFoundByBruteForce) {
     std::vector<Case> cases{
         {"noise", noise(cube(9), 4)},
         {"cell", noise(grid_of({9, 9, 9}, Centering::cell), 5)},
@@ -257,14 +257,14 @@ TEST(InterpolationError, HoldsAgainstBruteForce) {
 }
 
 // Integer samples make differences that equal the tolerance exactly, all along edges.
-TEST(InterpolationError, EndsWhereTheErrorIsTheTolerance) {
+TEST(InterpolationError, IsDecidedEvenIfItEqualsTheTolerance) {
     const Measured measured{volume_of(cube(4), [](double i, double, double) { return i == 1; })};
     const Corners corners{glm::dvec3{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 0, 2}};
     const TetError error = measured.measure(corners, 1, ErrorGoal::decide);
     EXPECT_TRUE(error.bound == 1 || (error.found >= 0.98 && error.found <= 1));
 }
 
-TEST(InterpolationError, ThinTetsAreMeasuredToo) {
+TEST(InterpolationError, IsBoundedInThinTetsToo) {
     const Measured measured{noise(cube(6), 8)};
     std::mt19937 random(9);
     for (const double thickness : {1e-3, 1e-6, 1e-9, 1e-13}) {

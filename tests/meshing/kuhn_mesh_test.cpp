@@ -31,7 +31,7 @@ TEST(TrilinearField, PlanesFollowTheCentring) {
     EXPECT_EQ(planes(1, Centering::cell), (Planes{-0.5, 0.5}));
 }
 
-TEST(TrilinearField, IsTheDefinition) {
+TEST(TrilinearField, MatchesTheTrilinearFormula) {
     for (const Centering centering : {Centering::node, Centering::cell}) {
         const Volume volume = noise(grid_of({5, 4, 1}, centering), 2);
         const TrilinearField field(volume);
@@ -49,7 +49,7 @@ TEST(TrilinearField, IsTheDefinition) {
     }
 }
 
-TEST(TrilinearField, RejectsWhatIsNoNumber) {
+TEST(TrilinearField, RejectsNaNSamples) {
     const Volume volume =
         volume_of(grid_of({3, 3, 3}, Centering::node), [](double i, double j, double k) {
             return i + j + k == 3 ? std::numeric_limits<double>::quiet_NaN() : 0;
@@ -101,7 +101,7 @@ TEST(KuhnMesh, IsExactForLinearFields) {
 
 // In one cell with f = xy, the tets around the diagonal interpolate min(x, y). The difference from
 // xy is largest in the middle: 1/2 - 1/4.
-TEST(KuhnMesh, KnowsItsError) {
+TEST(KuhnMesh, ReportsItsInterpolationError) {
     const Volume volume = volume_of(grid_of({2, 2, 2}, Centering::node),
                                     [](double i, double j, double) { return i * j; });
     MeshReport report;
