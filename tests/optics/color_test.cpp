@@ -58,7 +58,7 @@ TEST(Color, NamesAreThoseOfCss) {
     EXPECT_FALSE(css_color("zebra"));
 }
 
-TEST(Color, MistakesAreSaid) {
+TEST(Color, MistakesAreNamedWithASuggestion) {
     expect_error([] { color_of("#ff80"); }, {"#ff80", "six hexadecimal digits"});
     expect_error([] { color_of("#ff80g0"); }, {"six hexadecimal digits"});
     expect_error([] { color_of("tomatoe"); }, {"tomatoe", "did you mean \"tomato\"?"});

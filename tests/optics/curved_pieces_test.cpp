@@ -106,7 +106,7 @@ TEST(CurvedPieces, OnlySmoothPointsAreFollowed) {
 }
 
 // Steps, bends of colour and transparent intervals stay as they are.
-TEST(CurvedPieces, CornersEndThem) {
+TEST(CurvedPieces, EndAtCorners) {
     const auto smooth = [](double value, const glm::dvec3& color, double extinction) {
         return TransferKnot{value, {color, extinction}, true};
     };

@@ -43,7 +43,7 @@ double worst_below(double depth, const Weight& weight) {
 }
 
 // Measures the errors that optics/segment_integral.h promises.
-TEST(ThinFrontWeight, IsAsGoodAsPromised) {
+TEST(ThinFrontWeight, KeepsTheErrorStatedForIt) {
     EXPECT_LE(worst_below(faint_depth, faint_front_weight), 3e-7);
     const double worst = worst_below(thin_depth, thin_front_weight);
     EXPECT_LE(worst, 3e-5);
@@ -54,7 +54,7 @@ TEST(ThinFrontWeight, IsAsGoodAsPromised) {
 // to h^2 / 8 times the second derivatives, which are of order 1 where p and q are small (h = 1 /
 // 255: 2e-6 times their sum); elsewhere by less than the change of the weight over one cell of the
 // table.
-TEST(FrontWeightTable, IsAsGoodAsPromised) {
+TEST(FrontWeightTable, KeepsTheErrorStatedForIt) {
     EXPECT_LE(worst(20), 2e-5);
     EXPECT_LE(worst(1e12), 5e-4);
 }
@@ -62,7 +62,7 @@ TEST(FrontWeightTable, IsAsGoodAsPromised) {
 // In the first cell of the table the weight, about p / 3 + q / 6, is interpolated from its corners,
 // whose slopes are off by half of the second derivatives (.54 in x = p, .8 in y = q / 2) times h =
 // 1 / 255: by .27 h p + .2 h q, at most .54 h = 2.12e-3 of the opacity, (p + q) / 2.
-TEST(FrontWeightTable, KeepsItsDigitsInFaintPieces) {
+TEST(FrontWeightTable, HasASmallRelativeErrorInFaintPieces) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> exponent(-14, -2.5);
     double worst = 0;
@@ -74,7 +74,7 @@ TEST(FrontWeightTable, KeepsItsDigitsInFaintPieces) {
     EXPECT_LE(worst, 2.2e-3);
 }
 
-TEST(FrontWeightTable, HoldsOutAtTheEnds) {
+TEST(FrontWeightTable, IsRightAtZeroAndHugeDepths) {
     const FrontWeightTable& table = FrontWeightTable::get();
     EXPECT_EQ(table.lookup(0, 0), 0);
     EXPECT_NEAR(table.lookup(1e30, 0), 1, 1e-6);

@@ -63,7 +63,7 @@ TEST(GivenPoints, ATentHasNoSpike) {
     EXPECT_EQ(f.max_extinction(-100, 100), steepest_optical_depth);
 }
 
-TEST(GivenPoints, OneOverAnIntervalIsOpaque) {
+TEST(GivenPoints, AnIntervalOfOpacityOneIsOpaque) {
     const auto f = TransferFunction::linear_opacity(
         {{0, {1, 1, 1}, 0}, {4, {1, 1, 1}, 1}, {6, {1, 1, 1}, 1}, {9, {1, 1, 1}, 0}}, 2);
     EXPECT_EQ(extinction_at(f, 4 + above), opaque_optical_depth / 2);
@@ -98,7 +98,7 @@ TEST(GivenPoints, OnePointIsConstant) {
     EXPECT_EQ(extinction_at(step, 3), std::log(2) / 2);
 }
 
-TEST(GivenPoints, BesideAnExtinctionItIsExtinctionThatIsLinear) {
+TEST(GivenPoints, ExtinctionIsLinearBesidePointsOfExtinction) {
     using Density = GivenPoint::Density;
     const glm::dvec3 white(1);
     const auto f = TransferFunction::linear(linear_in_opacity({{0, white, Density::extinction, 1},
@@ -113,7 +113,7 @@ TEST(GivenPoints, BesideAnExtinctionItIsExtinctionThatIsLinear) {
     EXPECT_EQ(extinction_at(f, 9), opaque_optical_depth / 2);
 }
 
-TEST(GivenPoints, APresetsOpacitiesAreTheSame) {
+TEST(GivenPoints, OpacitiesOfAPresetGiveTheSameFunction) {
     Colormap map;
     map.colors = {{0, glm::dvec3(1, 0, 0)}, {10, glm::dvec3(1, 0, 0)}};
     map.opacities = {{2, 0}, {5, 1}, {5, .25}, {9, .75}};
@@ -127,7 +127,7 @@ TEST(GivenPoints, APresetsOpacitiesAreTheSame) {
     EXPECT_EQ(preset.max_extinction(-9, 20), steepest_optical_depth / .5);
 }
 
-TEST(GivenPoints, MistakesAreSaid) {
+TEST(GivenPoints, MistakesAreNamed) {
     const auto make = [](std::vector<OpacityKnot> points, double unit_length) {
         return [=] { TransferFunction::linear_opacity(points, unit_length); };
     };

@@ -108,7 +108,7 @@ TEST(OpacitySlope, IsTheSameBothWays) {
     }
 }
 
-TEST(OpacitySlope, ASlopeThatIsNoneHasNoKnots) {
+TEST(OpacitySlope, FlatAndNearlyStraightSlopesHaveNoKnots) {
     EXPECT_TRUE(follow_opacity(.3, .3).empty());
     EXPECT_TRUE(follow_opacity(1, 1).empty());
     EXPECT_TRUE(follow_opacity(1 - 1e-9, 1).empty());  // all of it is at the steepest depth

@@ -52,7 +52,7 @@ TEST(RayLights, ALightBehindHasNoHighlight) {
 
 // Results are finite over the full range of gradients and of smallest gradients: no overflow and no
 // 0 / 0.
-TEST(RayLights, ExtremesAreNumbers) {
+TEST(RayLights, AreFiniteForExtremeGradients) {
     Lighting lighting = two_lights();
     for (const double smallest : {1e-150, 1e-30, 1., 1e150}) {
         lighting.smallest_gradient = smallest;
@@ -74,7 +74,7 @@ TEST(RayLights, ExtremesAreNumbers) {
     }
 }
 
-TEST(RayLights, BoundsHold) {
+TEST(RayLights, StayWithinTheirStatedBounds) {
     const RayLights lights(two_lights(), {0, 0, 1});
     const double brightest = .8;
     for (int i = 0; i < 1000; ++i) {

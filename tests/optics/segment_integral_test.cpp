@@ -45,7 +45,7 @@ TransferFunction random_transfer_function(std::mt19937& random, const glm::dvec3
 }
 
 // Compares with make_integral_cases.py, which computes another formula with 50 digits.
-TEST(SegmentIntegral, AgreesWithFiftyDigits) {
+TEST(SegmentIntegral, AgreesWithAComputationOf50Digits) {
     std::ifstream file(std::string(LAMINA_SOURCE_DIR) + "/tests/optics/integral_cases.json");
     const auto cases = nlohmann::json::parse(file);
     ASSERT_GT(cases.size(), 250u);
@@ -64,7 +64,7 @@ TEST(SegmentIntegral, AgreesWithFiftyDigits) {
     }
 }
 
-TEST(SegmentIntegral, HomogeneousSegmentIsTheExponential) {
+TEST(SegmentIntegral, IsAnExponentialInAHomogeneousSegment) {
     const glm::dvec3 color(0.2, 1, 3);
     const auto f = TransferFunction::linear({{0, {color, 2.5}}});
     for (const double length : {0., 1e-300, 1e-9, 1., 4., 100., 1e300}) {
@@ -78,7 +78,7 @@ TEST(SegmentIntegral, HomogeneousSegmentIsTheExponential) {
     }
 }
 
-TEST(SegmentIntegral, OneColorComesOutTimesAlphaAndInBothDirections) {
+TEST(SegmentIntegral, IsColorTimesAlphaInBothDirectionsForOneColor) {
     std::mt19937 random(7);
     const glm::dvec3 color(0.25, 1, 0.75);
     std::uniform_real_distribution<double> scalar(-1, 5);
@@ -112,7 +112,7 @@ TEST(SegmentIntegral, HalvesComposeToTheWhole) {
     }
 }
 
-TEST(SegmentIntegral, ExtremeNumbersStayNumbers) {
+TEST(SegmentIntegral, IsFiniteForExtremeExtinctionsAndLengths) {
     for (const double tau : {0., 1e-300, 1e-200, 1., 1e200, 1e300}) {
         for (const double length : {0., 1e-300, 1., 1e300}) {
             for (const double other : {0., 1e-9, 1., 1.5}) {
@@ -148,7 +148,7 @@ TEST(PieceWeights, AddUpToTheOpacityAcrossTheChangesOfMethod) {
     }
 }
 
-TEST(SegmentIntegral, NoLengthAtAStepTakesTheLaterSide) {
+TEST(SegmentIntegral, AConstantScalarAtAStepTakesTheLaterSide) {
     const auto f = TransferFunction::linear({{0, {glm::dvec3(1), 1}}, {0, {glm::dvec3(0.5), 2}}});
     EXPECT_EQ(integrate_segment(f, 0, 0, 1).optical_depth, 2);
     EXPECT_EQ(integrate_segment(f, 0, 1, 1).optical_depth, 2);

@@ -83,7 +83,7 @@ const Original originals[] = {
 
 // The shipped maps have 33 of the 256 points, in four digits, chosen so that straight lines between
 // them are within .42 codes of all 256.
-TEST(ShippedColormaps, AreTheirOriginals) {
+TEST(ShippedColormaps, AreWithinHalfACodeOfTheirOriginals) {
     for (const Original& original : originals) {
         const Colormap map = load_colormap(original.name, ImageColorSpace::display);
         EXPECT_FALSE(map.own_range);
@@ -98,7 +98,7 @@ TEST(ShippedColormaps, AreTheirOriginals) {
     }
 }
 
-TEST(ShippedColormaps, AreInLinearLightUnlessToldOtherwise) {
+TEST(ShippedColormaps, AreInLinearLightByDefault) {
     const Colormap linear = load_colormap("viridis");
     const Colormap display = load_colormap("viridis", ImageColorSpace::display);
     for (double x = 0; x <= 1; x += 1 / 64.0) {
@@ -109,7 +109,7 @@ TEST(ShippedColormaps, AreInLinearLightUnlessToldOtherwise) {
     }
 }
 
-TEST(ShippedColormaps, GreysAndCoolWarm) {
+TEST(ShippedColormaps, GreysAndCoolWarmHaveTheirPublishedColors) {
     EXPECT_EQ(color_at(load_colormap("greys", ImageColorSpace::display), .25), glm::dvec3(.25));
     // Moreland 2009, table: the middle is (221, 221, 221), the ends (59, 76, 192) and (180, 4, 38).
     const Colormap map = load_colormap("cool-warm", ImageColorSpace::display);
@@ -142,7 +142,7 @@ TEST(ShippedColormaps, NamesAreListedAndSuggested) {
     expect_error([] { load_colormap("maps/jet"); }, {"maps/jet", "expected one of cividis, cool"});
 }
 
-TEST(ShippedColormaps, APathIsAPreset) {
+TEST(ShippedColormaps, APathLoadsAPresetFile) {
     const TemporaryFolder folder;
     std::ofstream(folder / "two.json") << R"({"RGBPoints": [5, 0, 0, 0, 7, 1, 1, 1]})";
     const Colormap map = load_colormap(folder / "two.json", ImageColorSpace::display);

@@ -58,7 +58,7 @@ TEST(GridMesh, BoxFillsTheUnitCube) {
     EXPECT_GT(high, 0.5);
 }
 
-TEST(GridMesh, GradedHasTheRatioAskedFor) {
+TEST(GridMesh, HasTheGivenEdgeRatioIfGraded) {
     for (const double bump : {0.0, 0.25}) {
         const SceneMesh graded = make_graded_mesh(5, 20, 1e4, bump);
         EXPECT_EQ(graded.mesh.tets().size(), 6u * 5 * 5 * 20);
@@ -166,7 +166,7 @@ TEST_F(Kraus, TracesASceneOnce) {
     EXPECT_EQ(&plate.mesh.exact(plate.smooth), traced);
 }
 
-TEST_F(Kraus, DrawsWhatTheTracerSees) {
+TEST_F(Kraus, PicturesAgreeWithTheTracer) {
     KrausStage stage(capabilities(), small_sizes(), {});
     KrausSubject& box = stage.subject("box");
     const Image image = plain_picture(with_default_integration(box.dense), box.mesh.data(),
@@ -187,7 +187,7 @@ TEST_F(Kraus, EveryItemHasItsKeysAndWritesItsFiles) {
 }
 
 // Figure 10 of the paper: with equally spaced lengths, thin cells lose most of their opacity.
-TEST_F(Kraus, Figure10LinearLengthsAreTooDark) {
+TEST_F(Kraus, LinearLengthsMakeFigure10TooDark) {
     KrausStage stage(capabilities(), small_sizes(), {});
     const TemporaryFolder folder;
     const Json figure = draw_kraus_figure10(folder.path(), stage);

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 class LamarDrawn : public gl::GlTest {};
 
-TEST_F(LamarDrawn, Figure10OnASmallPicture) {
+TEST_F(LamarDrawn, TreesRecoverFigure10OnASmallPicture) {
     const TemporaryFolder folder;
     LamarStage stage(capabilities(), 32);
     const Json figure = draw_figure10(folder.path(), stage);
@@ -46,7 +46,7 @@ TEST_F(LamarDrawn, Figure10OnASmallPicture) {
 }
 
 // The paper's data are not available, so its numbers cannot be tested.
-TEST_F(LamarDrawn, WhatIsOnlyTrueOfThePapersDataIsNotJudged) {
+TEST_F(LamarDrawn, ClaimsAboutThePapersDataAreNotJudged) {
     const TemporaryFolder folder;
     LamarStage stage(capabilities(), 32);
     for (const Json& item :

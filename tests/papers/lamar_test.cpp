@@ -28,7 +28,7 @@ TEST(Findings, NameWhatDoesNotHold) {
     EXPECT_EQ(result["values"]["a"], 1);
 }
 
-TEST(Findings, TellWhatCannotBeTestedApart) {
+TEST(Findings, ListUntestableClaimsSeparately) {
     Findings findings;
     EXPECT_EQ(findings.result(nullptr)["verdict"], "left open by the paper");
     EXPECT_EQ(findings.result(nullptr)["note"], "The paper leaves this open.");
@@ -118,7 +118,7 @@ TEST(Lamar, Table1AgreesButForItsCaption) {
     EXPECT_EQ(table["values"]["rows"][4]["d"], "0.3946590");
 }
 
-TEST(Lamar, Table2IsThePapers) {
+TEST(Lamar, Table2AgreesWithThePaper) {
     const TemporaryFolder folder;
     const Json table = reproduce_table2(folder.path());
     EXPECT_EQ(table["agrees"], true);
@@ -140,7 +140,7 @@ TEST(Lamar, Table3HasOneMisprint) {
     EXPECT_EQ(table["values"]["rows"][1]["b"], table["paper"]["printed"][1]["b"]);
 }
 
-TEST(Lamar, Figure3FusedNeverDecreases) {
+TEST(Lamar, FusedCurvesOfFigure3NeverDecrease) {
     const TemporaryFolder folder;
     const Json figure = reproduce_figure3(folder.path());
     EXPECT_EQ(figure["agrees"], true);

@@ -8,7 +8,7 @@
 namespace lamina::papers {
 namespace {
 
-TEST(Ramp, ExactIsStraight) {
+TEST(Ramp, IsStraightIfExact) {
     const Curve ramp = exact_ramp(0.5);
     ASSERT_EQ(ramp.size(), 256u);
     EXPECT_EQ(ramp[0], 0);
@@ -16,7 +16,7 @@ TEST(Ramp, ExactIsStraight) {
     EXPECT_EQ(ramp[255], 127.5);
 }
 
-TEST(Ramp, OneSampleIsItsOwnOpacity) {
+TEST(Ramp, HasTheOpacityOfItsOnlySample) {
     const Curve ramp = composite_ramp({.samples = 1});
     for (int x = 0; x < ramp_width; ++x) EXPECT_EQ(ramp[static_cast<std::size_t>(x)], x);
 }
@@ -35,7 +35,7 @@ TEST(Ramp, IsTheOperatorAppliedNTimes) {
     }
 }
 
-TEST(Ramp, OneLevelOfTreeIsNoTree) {
+TEST(Ramp, ATreeOfOneLevelIsStraightCompositing) {
     EXPECT_EQ(composite_ramp_tree({.samples = 256}, {256}), composite_ramp({.samples = 256}));
 }
 
@@ -64,7 +64,7 @@ TEST(CurveShape, CountsFallsLevelsAndTheFirstShown) {
 
 // Section 5.2: with a code of .1 and period 10, one slab in 10 is rounded up. Nine slabs miss it at
 // one place in ten, and at the others meet it 0 .. 8 slabs late, equally often.
-TEST(DitherSpans, ThePapersExample) {
+TEST(DitherSpans, AgreeWithThePapersExample) {
     const SpanLoss loss = span_loss({0.1, 9, Dither{.period = 10}});
     EXPECT_DOUBLE_EQ(loss.lost, 0.1);
     EXPECT_DOUBLE_EQ(loss.mean_shift, 4);
@@ -74,7 +74,7 @@ TEST(DitherSpans, ThePapersExample) {
     EXPECT_EQ(span_loss({0.1, 9, Dither{.period = 9}}).lost, 1);
 }
 
-TEST(DitherSpans, WholePeriodsAreRight) {
+TEST(DitherSpans, LoseNothingOverWholePeriods) {
     const SpanLoss loss = span_loss({0.5, 64, Dither{.period = 16}});
     EXPECT_EQ(loss.lost, 0);
     EXPECT_EQ(loss.sum_error, 0);
