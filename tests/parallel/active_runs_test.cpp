@@ -29,7 +29,7 @@ TEST(ActiveRuns, AreAllPixelsThatShowSomething) {
     }
 }
 
-TEST(ActiveRuns, KeepPixelsOfOneChannel) {
+TEST(ActiveRuns, KeepPixelsWithOneNonzeroChannel) {
     for (int channel = 0; channel < 4; ++channel) {
         Image picture(11, 1);
         picture.pixel(9, 0)[channel] = 1e-30f;

@@ -37,21 +37,21 @@ double largest_error(const Image& picture, FragmentFormat format, bool opacity) 
     return 255 * largest;
 }
 
-TEST(FragmentCode, OfFloatsLosesNothing) {
+TEST(FragmentCode, KeepsFloatsExactly) {
     const Image picture = random_picture(width, height, 1, 5);
     EXPECT_EQ(largest_error(picture, FragmentFormat::float32, false), 0);
     EXPECT_EQ(largest_error(picture, FragmentFormat::float32, true), 0);
 }
 
 // Half has 11 bits: half a step in [.5, 1] is 2^-12.
-TEST(FragmentCode, OfHalvesIsOffByHalfAStep) {
+TEST(FragmentCode, RoundsHalvesByAtMostHalfAStep) {
     const Image picture = random_picture(width, height, 2);
     EXPECT_LE(largest_error(picture, FragmentFormat::half, false), 255 * 0x1p-12);
     EXPECT_LE(largest_error(picture, FragmentFormat::half, true), 255 * 0x1p-12);
 }
 
 // Errors are half a code and a few roundings of float32.
-TEST(FragmentCode, OfCodesIsOffByHalfACode) {
+TEST(FragmentCode, RoundsCodesByAtMostHalfACode) {
     constexpr double code16 = 255 * .5 / 65535, roundings = 255 * 4 * 6e-8;
     const Image picture = random_picture(width, height, 3);
     for (const bool opacity : {false, true})
@@ -61,7 +61,7 @@ TEST(FragmentCode, OfCodesIsOffByHalfACode) {
     EXPECT_LE(largest_error(picture, FragmentFormat::fixed8, true), code16 + roundings);
 }
 
-TEST(FragmentCode, OfCodesScalesLargeColours) {
+TEST(FragmentCode, ScalesColoursAboveOneToCodes) {
     constexpr float largest = 20;
     const Image picture = random_picture(width, height, 4, largest);
     const double error = largest_error(picture, FragmentFormat::fixed8, false);
@@ -90,7 +90,7 @@ TEST(FragmentCode, SendsOnlyWhatShows) {
     }
 }
 
-TEST(FragmentCode, IsPutBehindWhatIsThere) {
+TEST(FragmentCode, IsCompositedBehindThePicture) {
     const Image front = random_picture(width, height, 6), back = random_picture(width, height, 7);
     std::vector<std::byte> bytes;
     encode_rows(back, ActiveRuns(back, rows), rows, FragmentFormat::float32, bytes);

@@ -33,7 +33,7 @@ TEST(ComposedPictures, AreThoseOfOneRank) {
 }
 
 // docs/cluster.md: half a code of 8 bits, and one code of 16 bits for each later transfer.
-TEST(ComposedPictures, OfCodesAreOffByHalfACode) {
+TEST(ComposedPictures, AreOffByHalfACodeIfSentAsCodes) {
     for (const int group : {64, 3}) {
         const double error = error_of_composing(8, "coded", group, 1);
         EXPECT_LE(error, .5 + .002 * 8);
@@ -43,7 +43,7 @@ TEST(ComposedPictures, OfCodesAreOffByHalfACode) {
 
 // Four halves: each fragment is off by at most half a step of the largest values, 2^-12, and so is
 // the sum.
-TEST(ComposedPictures, OfHalvesAreOffByLittle) {
+TEST(ComposedPictures, AreOffByLittleIfSentAsHalves) {
     EXPECT_LE(error_of_composing(4, "half", 64, 1), 255 * 3 * 0x1p-12);
 }
 
@@ -103,31 +103,31 @@ TEST_F(RankPictures, AreThoseOfOneProcess) {
     }
 }
 
-TEST_F(RankPictures, OfFilesAreThoseOfOneProcess) {
+TEST_F(RankPictures, AreThoseOfOneProcessIfDataStayInFiles) {
     EXPECT_LE(difference(render_alone({}), render(3, {"--memory", "1M"})), wanted);
 }
 
-TEST_F(RankPictures, OfTheSceneAreWrittenWhateverIsTimedThen) {
+TEST_F(RankPictures, AreThoseOfOneProcessIfFramesAreTimed) {
     const Arguments timed{"--frames", "3"};
     EXPECT_LE(difference(render_alone(timed), render(2, timed)), wanted);
 }
 
 // A file name in Latin-1, which is no UTF-8.
-TEST_F(RankPictures, OfFilesWithAnyName) {
+TEST_F(RankPictures, AreDrawnFromFilesOfAnyName) {
     const std::filesystem::path renamed = folder / "caf\xe9.nrrd";
     std::filesystem::rename(volume, renamed);
     volume = renamed;
     EXPECT_LE(difference(render_alone({}), render(2, {})), wanted);
 }
 
-TEST_F(RankPictures, AreTheSameAgain) {
+TEST_F(RankPictures, AreReproducible) {
     for (const std::string wire : {"float32", "coded"}) {
         const Image one = render(4, {"--wire", wire}), other = render(4, {"--wire", wire});
         EXPECT_EQ(one.rgba, other.rgba);
     }
 }
 
-TEST_F(RankPictures, OfATurntableAreThoseOfOneProcess) {
+TEST_F(RankPictures, AreThoseOfOneProcessOnATurntable) {
     const auto turned = [&](const std::string& name, const Arguments& program, int ranks) {
         Arguments command = program;
         const Arguments rest{"render",      volume, "-o",     folder / (name + "-%d.exr"),
@@ -147,7 +147,7 @@ TEST_F(RankPictures, OfATurntableAreThoseOfOneProcess) {
     }
 }
 
-TEST_F(RankPictures, ReportWhatEachRankTook) {
+TEST_F(RankPictures, ComeWithStatisticsOfEachRank) {
     render(3, {"--stats", folder / "stats.json"});
     const auto stats = nlohmann::json::parse(read_bytes_of(folder / "stats.json"));
     ASSERT_EQ(stats["ranks"].size(), 3u);

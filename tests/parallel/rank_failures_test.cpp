@@ -49,7 +49,7 @@ class RankFailures : public testing::Test {
     std::filesystem::path volume = folder / "noise.nrrd";
 };
 
-TEST_F(RankFailures, WhatRanksCannotShareIsRefusedByName) {
+TEST_F(RankFailures, SettingsThatRanksCannotShareAreRefusedByName) {
     expect_refused({"--set", "render.target=fixed8"}, 1, "render.target: found fixed8");
     expect_refused({"--set", "render.slice.tree.factors=[2,2]", "--set", "render.target=float32"},
                    1, "render.slice.tree");
@@ -117,7 +117,7 @@ void expect_end(const Arguments& command, const std::filesystem::path& picture, 
     EXPECT_FALSE(std::filesystem::exists(picture));
 }
 
-TEST_F(RankFailures, ARankThatIsKilledEndsAll) {
+TEST_F(RankFailures, AKilledRankEndsAllRanks) {
     for (const std::size_t rank : {0u, 2u}) {
         expect_end(command(3, {"--frames", "3000"}), folder / "a.exr",
                    [&](const StartedProgram& program) {
@@ -126,7 +126,7 @@ TEST_F(RankFailures, ARankThatIsKilledEndsAll) {
     }
 }
 
-TEST_F(RankFailures, SignalsEndAll) {
+TEST_F(RankFailures, SignalsEndAllRanks) {
     for (const int signal : {SIGINT, SIGTERM}) {
         expect_end(command(3, {"--frames", "3000"}), folder / "a.exr",
                    [&](const StartedProgram& program) { program.send(signal); });

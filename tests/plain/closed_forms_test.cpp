@@ -120,7 +120,7 @@ TEST(PlainTracer, KnotsThatCoincideMakeLayers) {
 
 // A linear field has one gradient, hence one factor (docs/numerics.md, section 10). Integrals of
 // lit colours, up to 10 times the opacity, have errors of 1e-11.
-TEST(PlainTracer, ALinearFieldIsTheUnlitPictureTimesAConstant) {
+TEST(PlainTracer, LitLinearFieldsAreTheUnlitPictureTimesAConstant) {
     const glm::dvec3 gradient(.5, .25, -.125);
     const auto field = [&](const glm::dvec3& p) { return .25 + glm::dot(gradient, p); };
     const Volume volume = test::volume_of<float>(unit_box, [&](double i, double j, double k) {
@@ -153,7 +153,7 @@ TEST(PlainTracer, ALinearFieldIsTheUnlitPictureTimesAConstant) {
 
 // Depths that are not resolved count as errors: in this fog 60 halvings still leave depths of 1e12.
 // The colour in the middle of the first part is right to 1e-12 nevertheless.
-TEST(PlainTracer, SaysHowMuchHalvingHasLeftOver) {
+TEST(PlainTracer, EstimatesTheErrorThatHalvingLeaves) {
     const TransferFunction fog =
         TransferFunction::linear({{0, {{1, 0, .5}, 1e30}}, {1, {{0, 1, .5}, 1e30}}});
     const Volume volume = test::volume_of(unit_box, [](double, double, double k) { return k; });

@@ -102,7 +102,7 @@ TEST(TracerAndTwin, AgreeOnTurnedGridsAndThinOnes) {
 }
 
 // Cells with such a corner show nothing, and gradients come from the finite neighbours.
-TEST(TracerAndTwin, AgreeOnSamplesThatAreNoNumbers) {
+TEST(TracerAndTwin, AgreeOnNonFiniteSamples) {
     constexpr float nan = NAN, infinite = INFINITY;
     Random random(5);
     const Volume volume =
@@ -242,7 +242,7 @@ TEST(TracerAndTwin, AgreeOnRaysInFaces) {
     }
 }
 
-TEST(TracerAndTwin, AgreeOnMeshesOfSeveralPartsAndOnSuchThatOverlap) {
+TEST(TracerAndTwin, AgreeOnMeshesOfSeveralOrOverlappingParts) {
     MeshData hollow = test::carved(
         test::kuhn_box({5, 5, 5},
                        [](const glm::dvec3& p) { return .3 * std::fmod(p.x + 2 * p.y + p.z, 3.); }),
