@@ -46,7 +46,7 @@ TEST(MeshScene, ReadsFilesAndRequests) {
     EXPECT_FALSE(read_scene(made, "s.json").draws_mesh());  // by default the volume is traced
 }
 
-TEST(MeshScene, RefusesWhatCannotBe) {
+TEST(MeshScene, RefusesImpossibleSettings) {
     const auto refused = [](const nlohmann::json& scene, std::initializer_list<std::string> parts) {
         expect_error([&] { read_scene(scene, "s.json"); }, parts);
     };
@@ -91,7 +91,7 @@ TEST(MeshScene, ChoosesTheScalar) {
     EXPECT_EQ(mesh.scalar.values, (std::vector<double>{2.5, 2.5, 2.5, 2.5}));
 }
 
-TEST(MeshScene, MeasuresAndPlans) {
+TEST(MeshScene, MeasuresTheMeshAndExplainsThePlan) {
     const TemporaryFolder folder;
     Scene scene = read_scene(mesh_scene(write_tet(folder, "4")), "s.json");
     const MeshFacts facts = measure(scene, load_mesh(scene));

@@ -23,7 +23,7 @@ Plan plan_of(const nlohmann::json& document, const Capabilities& capabilities) {
     return make_plan(scene, measure(scene, volume, measure_bricks(volume)), capabilities, {});
 }
 
-TEST(Plan, WhereNothingWasTriedSamplesAreTwoAVoxelAlongTheView) {
+TEST(Plan, TakesTwoSlabsAVoxelWithoutTrials) {
     nlohmann::json document = with("/render/slice/classification", "post");
     document["camera"] = {{"eye", {0.5, 0.5, 3}}, {"center", {0.5, 0.5, 0.5}}};
     EXPECT_EQ(plan_of(document, usual()).slice.slabs, 30);  // 15 cells
@@ -45,7 +45,7 @@ TEST(Plan, FloatTexturesAreFilteredOnlyWhereThatWasMeasuredExact) {
 
 // The trials are as slicing/slab_trials.h makes them: 60 slabs with exact scalars, or 80 with
 // filtered ones, keep the goal of an error of 1.
-TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
+TEST(Plan, TheHardwareFilterSavesFetchesIfItKeepsTheError) {
     Scene scene = read_scene(with("/render/slice/filter", "auto"), "s");
     const Volume volume = load_volume(scene);
     const Facts facts = measure(scene, volume, measure_bricks(volume));
@@ -97,7 +97,7 @@ TEST(Plan, EmptyBricksAreLeaptOverWhereEnoughIsEmpty) {
     EXPECT_TRUE(leaps(.21, usual()));
 }
 
-TEST(Plan, LimitsOfTheContextAreErrorsThatNameThem) {
+TEST(Plan, ExceededLimitsOfTheContextAreNamed) {
     Capabilities capabilities = usual();
     capabilities.max_texture_size = 16;
     expect_error([&] { plan_of(minimal_scene(), capabilities); },
@@ -119,7 +119,7 @@ TEST(Plan, RaysAreDoubleInSoftwareAndForThinBoxes) {
 
 // llvmpipe ends the loops of a fragment after 65535 rounds. With a table a slab takes 2 + 4 + 4 =
 // 10 rounds or more: with n further knots in one cell of the search, 4 n more.
-TEST(Plan, InSoftwareAFragmentMarchesNoMoreSlabsThanItsLoopsCan) {
+TEST(Plan, SoftwareFragmentsMarchNoMoreSlabsThanLoopsAllow) {
     nlohmann::json document =
         with("/render/slice", {{"samples", 65536}, {"classification", "preintegrated"}});
     const auto factors = [&](const Capabilities& capabilities) {

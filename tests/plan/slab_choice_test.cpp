@@ -40,7 +40,7 @@ Scene automatic_scene(const std::string& target, double max_error, float color =
     return read_scene(document, "s");
 }
 
-TEST(SlabChoice, TheFewestSlabsThatKeepTheErrorElseTheLeastError) {
+TEST(SlabChoice, TakesTheFewestSlabsWithinTheErrorOrTheBestTried) {
     const Scene scene = automatic_scene("float32", 1);
     const SlabTrial most{200, .2, 9}, enough{100, .9, 9}, too_few{50, 3.6, 9};
     EXPECT_EQ(with_trials(scene, {most, too_few, enough}).chosen().slabs, 100);
@@ -72,7 +72,7 @@ TEST(SlabChoice, SlabsGetWhatCompositingLeavesOfTheError) {
 
 // Errors of second order fall to a quarter and a ninth with twice and three times the slabs. Errors
 // at steps fall to a half and a third, or go up and down.
-TEST(SlabChoice, ErrorsOfSecondOrderAreTold) {
+TEST(SlabChoice, ErrorsOfSecondOrderAreRecognised) {
     EXPECT_TRUE(are_of_second_order({{100, 9, 1}, {300, 1, 1}, {200, 2.2, 1}}));
     EXPECT_TRUE(are_of_second_order({{100, 9, 1}}));
     EXPECT_FALSE(are_of_second_order({{100, 9, 1}, {200, 4.5, 1}}));
@@ -83,7 +83,7 @@ TEST(SlabChoice, ErrorsOfSecondOrderAreTold) {
 
 // Slabs get max_error minus the rounding of the target that is chosen for so many slabs: hardly
 // anything with 16 bits, half a code with 8.
-TEST(SlabChoice, SlabsGetWhatTheChosenTargetLeaves) {
+TEST(SlabChoice, SlabsGetWhatTheChosenTargetLeavesOfTheError) {
     EXPECT_GT(slab_error_goal(automatic_scene("auto", 1), 1, 100, 1e6), .9);
     const Scene coarse = automatic_scene("auto", 4);
     EXPECT_LT(slab_error_goal(coarse, 1, 100, 1e6), .96 * 3.5);
@@ -93,7 +93,7 @@ TEST(SlabChoice, SlabsGetWhatTheChosenTargetLeaves) {
     EXPECT_LE(slab_error_goal(of_factors, 1, 100, 1e6), .96 * .85 * 4);
 }
 
-TEST(TargetChoice, TheFewestBytesWhoseRoundingsAreASmallShareOfTheError) {
+TEST(TargetChoice, TakesTheFewestBytesThatRoundFinelyEnough) {
     const auto target = [](double max_error, float color = 1) {
         const Scene scene = automatic_scene("auto", max_error, color);
         EXPECT_TRUE(scene.target.is_automatic());
@@ -109,7 +109,7 @@ TEST(TargetChoice, TheFewestBytesWhoseRoundingsAreASmallShareOfTheError) {
     EXPECT_EQ(target(.001), Target::float32);
 }
 
-TEST(TargetChoice, TreesOfGivenFactorsAndTets) {
+TEST(TargetChoice, TakesFloat32ForTetsAndGivenTreesOfShaderNodes) {
     Scene scene = automatic_scene("auto", 4);
     const Tried tried = with_trials(scene, {});
     scene.slice.tree = TreeSettings{.factors = {8, 8}, .nodes = NodeArithmetic::shader};

@@ -89,7 +89,7 @@ TEST(TableChoice, FewPointsKeepTheCoarsestTable) {
 }
 
 // Long segments need a table even of a single linear piece, and its layers are far apart.
-TEST(TableChoice, OfOnePieceTheErrorOfLongSegmentsIsFoundOnRays) {
+TEST(TableChoice, RaysRevealTheErrorOfLongSegmentsInOnePiece) {
     Scene scene =
         scene_of(TransferFunction::linear({knot(0, {1, .2, 0}, 0), knot(1, {0, .9, 1}, 40)}));
     scene.slice.samples = 2;

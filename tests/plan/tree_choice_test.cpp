@@ -54,7 +54,7 @@ void expect_one_node(const TreeQuestion& question, const TreeChoice& choice) {
     EXPECT_FALSE(choice.reason.empty());
 }
 
-TEST(TreeChoice, OneLevelMeetsTheErrorOrAnErrorSaysWhatCouldBeKept) {
+TEST(TreeChoice, OneLevelMeetsTheErrorOrNamesTheBestBound) {
     for (const Target target :
          {Target::float32, Target::float16, Target::fixed16, Target::fixed8}) {
         for (const double max_error : {1., 2., 4., 8.}) {
@@ -77,7 +77,7 @@ TEST(TreeChoice, OneLevelMeetsTheErrorOrAnErrorSaysWhatCouldBeKept) {
 
 // If slabs leave too little of max_error, the target is still accepted if compositing by itself
 // keeps max_error.
-TEST(TreeChoice, SlabsThatMissTheErrorLeaveCompositingItsBest) {
+TEST(TreeChoice, CompositingIsJudgedAloneIfSlabsMissTheError) {
     for (const double slab_error : {.9, 1., 7.}) {
         for (const Target target : {Target::float32, Target::float16, Target::fixed8}) {
             TreeQuestion question = question_of(target, 1024);
@@ -91,7 +91,7 @@ TEST(TreeChoice, SlabsThatMissTheErrorLeaveCompositingItsBest) {
 }
 
 // Each remedy that a message names keeps max_error, and no other is named.
-TEST(TreeChoice, RemediesHelp) {
+TEST(TreeChoice, NamesExactlyTheRemediesThatHelp) {
     const auto message = [](const TreeQuestion& question) -> std::string {
         try {
             choose_tree(question);
@@ -141,7 +141,7 @@ TEST(TreeChoice, OneSlabHasANodeWhereBlendingMissesTheError) {
     EXPECT_LE(choice.error_bound, 1);
 }
 
-TEST(TreeChoice, AnEmulatedBufferHasNoTreeAndMayNotDo) {
+TEST(TreeChoice, AnEmulatedBufferHasNoTreeAndMayMissTheError) {
     TreeQuestion question = question_of(Target::emulated, 100);
     question.emulation.bits = 16;
     EXPECT_FALSE(choose_tree(question).tree.has_value());
@@ -313,7 +313,7 @@ TEST(RoundingBound, HoldsForTreesOfTheMinimaxCode) {
     EXPECT_LE(closest, 1);
 }
 
-TEST(RoundingBound, IsThatOfBlendingAndOfOneNodeAndElseUnknown) {
+TEST(RoundingBound, IsKnownForBlendingAndOneNodeButNotForPhiTrees) {
     const TreeQuestion question = question_of(Target::fixed8, 64);
     EXPECT_EQ(rounding_bound(question, {}), straight_error_bound(question));
     EXPECT_EQ(rounding_bound(question, TreePlan{.factors = {64}, .code = NodeCode::phi}),

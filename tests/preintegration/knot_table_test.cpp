@@ -156,7 +156,7 @@ TEST(KnotTable, EveryKnotIsANodeAndEveryIntervalHasAnInnerOne) {
     EXPECT_EQ(stepped.anchors[2].node, stepped.anchors[1].node + 1);
 }
 
-TEST(KnotTable, NoRangeOfScalarsNoLengthAndOneColor) {
+TEST(KnotTable, TakesEmptyRangesZeroLengthsAndOneColor) {
     const auto f = step();
     const KnotTable point(f, {0.7, 0.7, 1.0, 256, 2, true});
     EXPECT_EQ(point.nodes.size(), 1u);
@@ -198,7 +198,7 @@ WorstErrors worst_errors(const TransferFunction& f) {
     return worst;
 }
 
-TEST(KnotTable, IsGoodAcrossKnotsToo) {
+TEST(KnotTable, InterpolatesAccuratelyAcrossKnots) {
     const WorstErrors of_smooth = worst_errors(smooth());
     const WorstErrors of_peak = worst_errors(narrow_peak());
     const WorstErrors of_step = worst_errors(step());
@@ -224,7 +224,7 @@ TEST(KnotTable, RefusesTooManyPointsAndTooManyBytes) {
 }
 
 // Between points that are one or two roundings apart no inner node fits.
-TEST(KnotTable, PointsOneRoundingApart) {
+TEST(KnotTable, NodesAscendThoughPointsAreOneRoundingApart) {
     for (const double gap : {0.0, 1e-16, 1e-12}) {
         const double below = std::nextafter(.7, 0) - gap;
         const auto transfer_function = TransferFunction::linear(

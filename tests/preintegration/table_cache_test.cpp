@@ -78,7 +78,7 @@ TEST(TableCache, KeepsEightTablesOfBothKindsTogether) {
     EXPECT_TRUE(oldest.expired());
 }
 
-TEST(TableCache, FindsTablesThatOthersHold) {
+TEST(TableCache, FindsTablesThatAreStillInUse) {
     TableCache cache;
     const auto held = cache.get(ramp(1), at_knots(16));
     for (int nodes = 2; nodes < 12; ++nodes) cache.get(ramp(1), evenly(nodes));
@@ -88,7 +88,7 @@ TEST(TableCache, FindsTablesThatOthersHold) {
 }
 
 // A table takes 16 * 16 * 2 texels of 4 floats.
-TEST(TableCache, KeepsNoMoreThanItMay) {
+TEST(TableCache, KeepsNoMoreBytesThanAllowed) {
     TableCache cache(2 * 16 * 16 * 2 * 4 * sizeof(float));
     std::weak_ptr<const PreintegrationTable> first = cache.get(ramp(1), evenly(16));
     cache.get(ramp(2), evenly(16));

@@ -147,7 +147,7 @@ double worst_color(const TransferFunction& f, const UniformTable& table) {
     return worst;
 }
 
-TEST(UniformTable, VariantsRankAsNumericsFound) {
+TEST(UniformTable, VariantsRankAsStatedInNumerics) {
     const auto worst = [](TableStore store, LengthMapping mapping, TableFormat format) {
         TableRequest request = request_of(65, 16);
         request.max_length = 10;
@@ -306,7 +306,7 @@ void expect_finite(const TransferFunction& f, TableRequest request) {
     }
 }
 
-TEST(UniformTable, HoldsOutAtTheEnds) {
+TEST(UniformTable, IsFiniteForExtremeFunctionsAndLengths) {
     TableRequest request = request_of(8, 5);
     expect_finite(TransferFunction::linear({knot(0, {1, 0, 1}, 0)}), request);
     expect_finite(TransferFunction::linear({knot(0, {1, 0, 1}, 1e300), knot(1, {0, 1, 9}, 0)}),
