@@ -53,7 +53,7 @@ double claimed_error(const Volume& volume, const Scene& scene) {
     return make_plan(scene, facts, cpu_capabilities(), {}).slice.found_error();
 }
 
-TEST(BrightColors, ExactSegmentsKeepToTheirClaim) {
+TEST(BrightColors, ExactSegmentsKeepTheErrorTheyClaim) {
     const Volume volume = sparse();
     const Scene scene = sparse_scene(1000);
     const double error = linf(render_tiles(volume, scene), trace(volume, scene, 1e-8));
@@ -63,7 +63,7 @@ TEST(BrightColors, ExactSegmentsKeepToTheirClaim) {
     EXPECT_GT(claimed_error(volume, scene), scene.max_error);
 }
 
-TEST(BrightColors, MakeTheClaimLargerInProportion) {
+TEST(BrightColors, EnlargeTheClaimedErrorInProportion) {
     const Volume volume = sparse();
     EXPECT_DOUBLE_EQ(claimed_error(volume, sparse_scene(.5)), exact_segment_error);
     const double once = claimed_error(volume, sparse_scene(10));

@@ -80,7 +80,7 @@ void expect_exact_chords(const Draw& draw) {
     }
 }
 
-TEST(ClippedTiles, HomogeneousBoxHasTheExactChordsOpacity) {
+TEST(ClippedCpuPictures, HomogeneousBoxHasTheExactChordsOpacity) {
     expect_exact_chords(
         [](const Volume& volume, const Scene& scene, const OmissionSwitch& omissions) {
             return render_tiles(volume, scene, omissions);
@@ -109,7 +109,7 @@ double float_error_of_length(const Clip& clip, const View::Ray& ray) {
     return error;
 }
 
-TEST_F(SlicingTest, FloatRaysEndAtPlanesToo) {
+TEST_F(SlicingTest, FloatRaysEndAtClipPlanes) {
     const Volume volume = constant();
     Capabilities gpu = capabilities();
     gpu.software = false;
@@ -215,7 +215,7 @@ void expect_exact_segments(const Draw& draw, const std::vector<Grid>& in,
     }
 }
 
-TEST(ClippedTiles, ExactSegmentsMeetTheTracer) {
+TEST(ClippedCpuPictures, ExactSegmentsMeetTheTracer) {
     expect_exact_segments(
         [](const Volume& volume, const Scene& scene, const OmissionSwitch& omissions) {
             return render_tiles(volume, scene, omissions);
@@ -254,7 +254,7 @@ void expect_many_slabs_to_converge(const Draw& draw, std::span<const Pose> from)
     }
 }
 
-TEST(ClippedTiles, ManySlabsMeetTheTracer) {
+TEST(ClippedCpuPictures, ManySlabsMeetTheTracer) {
     expect_many_slabs_to_converge(
         [](const Volume& volume, const Scene& scene, const OmissionSwitch& omissions) {
             return render_tiles(volume, scene, omissions);
@@ -272,7 +272,7 @@ TEST_F(SlicingTest, ManyClippedSlabsMeetTheTracer) {
 
 // A wall hides the volume behind it, and a clip plane cuts the wall away: rays must end early only
 // behind the plane.
-TEST(ClippedTiles, RaysEndEarlyBehindThePlane) {
+TEST(ClippedCpuPictures, RaysEndEarlyBehindThePlane) {
     const Grid grid = test::grid_of({32, 32, 32}, Centering::node);
     const Volume volume = test::volume_of<std::uint8_t>(
         grid, [](double x, double y, double z) { return z < 8 ? 255 : 4 * x + 3 * y; });
@@ -291,7 +291,7 @@ TEST(ClippedTiles, RaysEndEarlyBehindThePlane) {
     }
 }
 
-TEST(ClippedTiles, BricksBehindPlanesAreLeftOut) {
+TEST(ClippedCpuPictures, BricksBehindPlanesAreLeftOut) {
     const Grid grid = test::grid_of({33, 33, 33}, Centering::node);
     const Volume volume = noisy(grid);
     Scene scene = looking_at(grid, Projection::perspective, many_colors(grid, 3));
@@ -309,7 +309,7 @@ TEST(ClippedTiles, BricksBehindPlanesAreLeftOut) {
     EXPECT_LT(10 * drawn->fragments(), whole->fragments());
 }
 
-TEST(ClippedTiles, PlanesThatCutNothingAreLeftOut) {
+TEST(ClippedCpuPictures, PlanesThatCutNothingAreLeftOut) {
     Scene scene = posed(poses[1], smooth_transfer_function());
     const Volume volume = gaussians(12);
     scene.clip = test::clips_of_unit_box()[8].clip;  // keeps all of the box
@@ -323,7 +323,7 @@ TEST(ClippedTiles, PlanesThatCutNothingAreLeftOut) {
     EXPECT_EQ(clipped.rgba, render_tiles(volume, scene).rgba);
 }
 
-TEST(ClippedTiles, NothingIsDrawnWhereNothingIsLeft) {
+TEST(ClippedCpuPictures, NothingIsDrawnWhereNothingIsLeft) {
     Scene scene = posed(poses[1], smooth_transfer_function());
     const Volume volume = gaussians(12);
     scene.clip.planes = {{{1.5, .5, .5}, {1, 0, 0}}};

@@ -68,7 +68,7 @@ TEST_P(ClosedBox, RaysInEachFaceAndEdgeAreInside) {
     }
 }
 
-TEST_P(ClosedBox, HoldsForEveryClassification) {
+TEST_P(ClosedBox, IncludesItsFacesInEveryClassification) {
     const Volume volume = fog();
     for (const Classification classification : classifications) {
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {

@@ -97,7 +97,7 @@ TEST(ConstantRegionsTest, AreExact) {
 
 // Extinctions beyond float's range. A ray that misses the region has a length of 0 in it, and 0 *
 // infinity must not occur.
-TEST(ConstantRegionsTest, OfExtremeExtinction) {
+TEST(ConstantRegionsTest, StayFiniteWithExtremeExtinction) {
     const Volume volume = layered();
     Scene scene = unit_box_scene(
         TransferFunction::linear({knot(0, {.1, .9, .3}, 0), knot(255, {1, .1, .6}, 1e300)}),
@@ -112,7 +112,7 @@ TEST(ConstantRegionsTest, OfExtremeExtinction) {
 
 // Leaves of trees are marched, so regions are crossed in one step; targets with codes need every
 // slab's own code.
-TEST(ConstantRegionsTest, InTreesAndNotInCodes) {
+TEST(ConstantRegionsTest, AreTakenInTreesButNotWithCodes) {
     const Volume volume = layered();
     Scene scene = unit_box_scene(transfer_functions().front(), Projection::orthographic);
     scene.slice.samples = 150;
@@ -130,7 +130,7 @@ TEST(ConstantRegionsTest, InTreesAndNotInCodes) {
 
 // Regions that are almost constant are sampled: with one differing sample, with a slope of 1e-12,
 // with a step exactly at the region's value, and with NaN samples.
-TEST(ConstantRegionsTest, WhatAlmostIsConstantIsSampled) {
+TEST(ConstantRegionsTest, ExcludeWhatIsOnlyNearlyConstant) {
     const auto volume_of = [](float inside, float other) {
         std::vector<float> samples(33 * 33 * 33, inside);
         samples[16 * 1089 + 16 * 33 + 17] = other;
@@ -180,7 +180,7 @@ TEST(ConstantRegionsTest, WhatAlmostIsConstantIsSampled) {
 
 // Blocks of labels, sometimes of more kinds than are kept, and noise, with random transfer
 // functions and views.
-TEST(ConstantRegionsTest, RandomScenes) {
+TEST(ConstantRegionsTest, KeepThePictureOfRandomScenes) {
     std::mt19937 random(11);
     const auto uniform = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
     int taken = 0;

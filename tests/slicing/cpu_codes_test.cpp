@@ -27,7 +27,7 @@ double linf(const Image& a, const Image& b) {
 
 const std::vector<std::vector<int>> trees{{}, {64}, {4, 16}, {5, 3}, {1, 4, 4}, {2, 2, 2, 2, 2, 2}};
 
-class TileCodesTest : public SlicingTest {
+class CpuCodesTest : public SlicingTest {
   protected:
     Volume ramp_ = generate({"ramp", {}, SampleType::uint8});
 
@@ -42,7 +42,7 @@ class TileCodesTest : public SlicingTest {
 };
 
 // ramp_test.cpp and emulated_test.cpp compare OpenGL's ramp with simulations in integers.
-TEST_F(TileCodesTest, RampsAreTheShadersInEveryPixel) {
+TEST_F(CpuCodesTest, RampsMatchTheShadersInEveryPixel) {
     for (const int bits : {1, 4, 8, 13, 16}) {
         for (const AlphaRounding alpha :
              {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
@@ -66,7 +66,7 @@ TEST_F(TileCodesTest, RampsAreTheShadersInEveryPixel) {
     }
 }
 
-TEST_F(TileCodesTest, DitheredRampsAreTheShadersInEveryPixel) {
+TEST_F(CpuCodesTest, DitheredRampsMatchTheShadersInEveryPixel) {
     for (const Target target : {Target::emulated, Target::fixed8, Target::fixed16}) {
         for (const int increment : {1, 4}) {
             for (const bool color : {false, true}) {
@@ -88,7 +88,7 @@ TEST_F(TileCodesTest, DitheredRampsAreTheShadersInEveryPixel) {
 
 // Compares with the core (compositing/fixed_ray.h), which shares no code with the cpu engine's
 // vectors.
-TEST_F(TileCodesTest, StraightRampsAreTheCores) {
+TEST_F(CpuCodesTest, StraightRampsMatchTheFixedPointSimulation) {
     for (const std::optional<Dither>& dither :
          {std::optional<Dither>(), {Dither{11, 5, true, 4}}}) {
         Scene scene = ramp_scene(glm::dvec3(.3));
@@ -108,7 +108,7 @@ TEST_F(TileCodesTest, StraightRampsAreTheCores) {
 // In a trilinear field scalars may differ by a unit in their last place, because compilers may fuse
 // a product and a sum. That changes a code in at most 255 * 64 * 1e-7 of the pixels; stochastic
 // rounding compares with random numbers that are as close.
-TEST_F(TileCodesTest, FieldsHaveTheShadersCodes) {
+TEST_F(CpuCodesTest, FieldsMatchTheShadersInNearlyAllCodes) {
     const Volume volume =
         generate({"marschner-lobb", std::array<std::int64_t, 3>{31, 27, 29}, SampleType::uint8});
     const auto several =
@@ -143,7 +143,7 @@ TEST_F(TileCodesTest, FieldsHaveTheShadersCodes) {
 
 // Fragments in float agree to 1e-6, so one that lies on the border between two codes, or two
 // halves, sometimes rounds to the other side.
-TEST_F(TileCodesTest, NativeTargetsHoldWhatLlvmpipeBlends) {
+TEST_F(CpuCodesTest, NativeTargetsHoldWhatLlvmpipeBlends) {
     const Volume volume = gaussians(30);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 61, 47);
     scene.slice.samples = 40;

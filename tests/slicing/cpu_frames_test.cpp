@@ -64,7 +64,7 @@ std::vector<Case> cases(const TransferFunction& colored = smooth_transfer_functi
     return all;
 }
 
-TEST(TileFramesTest, EveryInstructionSetGivesTheSameBits) {
+TEST(CpuFramesTest, EveryInstructionSetGivesTheSameBits) {
     const Volume volume = gaussians(30);
     const std::vector<std::string> names = instruction_sets();
     for (const Case& each : cases()) {
@@ -78,7 +78,7 @@ TEST(TileFramesTest, EveryInstructionSetGivesTheSameBits) {
     }
 }
 
-TEST(TileFramesTest, ThreadsDoNotChangeThePicture) {
+TEST(CpuFramesTest, ThreadsDoNotChangeThePicture) {
     const Volume volume = gaussians(30);
     for (const Case& each : cases()) {
         const Image many = render_tiles(volume, each.scene, each.omissions);
@@ -87,7 +87,7 @@ TEST(TileFramesTest, ThreadsDoNotChangeThePicture) {
     }
 }
 
-TEST(TileFramesTest, FramesAfterTheFirstTakeNoMemory) {
+TEST(CpuFramesTest, FramesAfterTheFirstTakeNoMemory) {
     const Volume volume = gaussians(30);
     for (const Case& each : cases()) {
         const auto renderer = cpu_renderer(volume, each.scene, each.omissions);
@@ -108,7 +108,7 @@ Capabilities small_bricks() {
     return small;
 }
 
-TEST(TileFramesTest, FramesOfSeveralBricksTakeNoMemory) {
+TEST(CpuFramesTest, FramesOfSeveralBricksTakeNoMemory) {
     const Volume volume = gaussians(30);
     for (const Case& each : cases()) {
         const auto renderer = cpu_renderer(volume, each.scene, each.omissions, small_bricks());
@@ -135,7 +135,7 @@ Volume lumps() {
 }
 
 // Slabs are skipped that come near no visible brick: they would add only zeros.
-TEST(TileFramesTest, EmptySpaceIsSkippedBitForBit) {
+TEST(CpuFramesTest, EmptySpaceIsSkippedBitForBit) {
     const Volume volume = lumps();
     const TransferFunction top = TransferFunction::linear(
         {knot(.2, {.1, .5, .9}, 0), knot(.5, {.9, .5, .1}, 20), knot(1, {1, 1, 1}, 30)});
@@ -158,7 +158,7 @@ TEST(TileFramesTest, EmptySpaceIsSkippedBitForBit) {
 }
 
 // Views from all sides and from inside, and slabs of many cells.
-TEST(TileFramesTest, EmptySpaceIsSkippedInEveryView) {
+TEST(CpuFramesTest, EmptySpaceIsSkippedInEveryView) {
     const Volume volume = lumps();
     Scene scene = unit_box_scene(
         TransferFunction::linear({knot(.2, {.1, .5, .9}, 0), knot(1, {1, .2, 1}, 30)}),

@@ -32,7 +32,7 @@ TransferFunction hues(const Volume& volume, int count) {
 // Positions are good to two units in the last place of float (here 6e-6 of a voxel), scalars change
 // by less than half of their range in a voxel, and extinction by 3 over the range: so optical
 // depths differ by at most 1e-5 in each picture.
-TEST_F(SlicingTest, TilesShowWhatOpenGlShows) {
+TEST_F(SlicingTest, CpuShowsWhatOpenGlShows) {
     for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32}) {
         const Volume volume = lobes(type);
         for (const int intervals : {1, 5, 12, 60}) {
@@ -53,7 +53,7 @@ TEST_F(SlicingTest, TilesShowWhatOpenGlShows) {
     }
 }
 
-TEST_F(SlicingTest, TilesShowWhatOpenGlShowsFromEverywhere) {
+TEST_F(SlicingTest, CpuShowsWhatOpenGlShowsFromEverywhere) {
     const Volume volume = lobes(SampleType::uint8);
     for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
         for (const glm::dvec3& eye :
@@ -80,7 +80,7 @@ double chord_bound(double depth) {
     return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));
 }
 
-TEST(TilePictureTest, HomogeneousBoxHasTheExactChordsOpacity) {
+TEST(CpuPictureTest, HomogeneousBoxHasTheExactChordsOpacity) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 61, 47);
@@ -116,7 +116,7 @@ TEST(TilePictureTest, HomogeneousBoxHasTheExactChordsOpacity) {
     }
 }
 
-TEST(TilePictureTest, ThinBoxesHaveTheExactChordsOpacity) {
+TEST(CpuPictureTest, ThinBoxesHaveTheExactChordsOpacity) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{40, 1, 40}, SampleType::uint8});
     Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {1, 1, 1}, .3)}),
@@ -138,7 +138,7 @@ TEST(TilePictureTest, ThinBoxesHaveTheExactChordsOpacity) {
 }
 
 // Bounds: convergence_test.cpp.
-TEST(TilePictureTest, TwoSlabsAVoxelMeetTheReference) {
+TEST(CpuPictureTest, TwoSlabsAVoxelMeetTheReference) {
     const Volume volume =
         generate({"marschner-lobb", std::array<std::int64_t, 3>{48, 48, 48}, SampleType::uint8});
     Scene scene = unit_box_scene(
@@ -153,7 +153,7 @@ TEST(TilePictureTest, TwoSlabsAVoxelMeetTheReference) {
 }
 
 // Bound and reason: convergence_test.cpp.
-TEST(TilePictureTest, HardwareFilterHasAnErrorOfItsOwn) {
+TEST(CpuPictureTest, HardwareFilterHasAnErrorOfItsOwn) {
     const Volume volume =
         generate({"marschner-lobb", std::array<std::int64_t, 3>{32, 32, 32}, SampleType::uint8});
     Scene scene =
@@ -167,7 +167,7 @@ TEST(TilePictureTest, HardwareFilterHasAnErrorOfItsOwn) {
     EXPECT_GT(error, 0);
 }
 
-TEST(TilePictureTest, NanCellsAreTransparentWhereAskedFor) {
+TEST(CpuPictureTest, NanCellsAreTransparentWhereAskedFor) {
     Grid grid = reference_test::make_grid({12, 12, 12}, Centering::node, glm::dvec3(1. / 11));
     std::vector<float> samples(12 * 12 * 12);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i % 12) / 11;
@@ -186,7 +186,7 @@ TEST(TilePictureTest, NanCellsAreTransparentWhereAskedFor) {
     }
 }
 
-TEST(TilePictureTest, EmptySpaceIsLeftOutBitForBit) {
+TEST(CpuPictureTest, EmptySpaceIsLeftOutBitForBit) {
     const Volume volume = gaussians(64);
     const TransferFunction top = TransferFunction::linear(
         {knot(.8, {.1, .5, .9}, 0), knot(.9, {.9, .5, .1}, 20), knot(1, {1, 1, 1}, 30)});
@@ -205,7 +205,7 @@ TEST(TilePictureTest, EmptySpaceIsLeftOutBitForBit) {
 
 // Whole numbers stored as bytes and as words give the same picture, with and without a second
 // sample along x, because samples are fetched in a different way if there is none.
-TEST(TilePictureTest, BytesAndWordsGiveThePictureBitForBit) {
+TEST(CpuPictureTest, BytesAndWordsGiveThePictureBitForBit) {
     for (const std::array<std::int64_t, 3> size :
          {std::array<std::int64_t, 3>{37, 29, 33}, {1, 29, 33}, {37, 1, 33}, {2, 3, 1}}) {
         const Volume bytes = generate({"mixing", size, SampleType::uint8});
@@ -227,7 +227,7 @@ TEST(TilePictureTest, BytesAndWordsGiveThePictureBitForBit) {
 }
 
 // Bounds and reasons: bricks_test.cpp.
-TEST(TilePictureTest, BricksLeaveNoSeam) {
+TEST(CpuPictureTest, BricksLeaveNoSeam) {
     const Volume volume = gaussians(40);
     Capabilities small = cpu_capabilities();
     small.max_texture_bytes = 16 * 64 * 48 + 4 * 1000;
@@ -250,7 +250,7 @@ TEST(TilePictureTest, BricksLeaveNoSeam) {
 }
 
 // labels_test.cpp
-TEST(TilePictureTest, StepsAtLabelsShowTheirLaterSide) {
+TEST(CpuPictureTest, StepsAtLabelsShowTheirLaterSide) {
     constexpr int labels = 7, slabs = 2048;
     constexpr double extinction = .3;
     const Volume volume = test::volume_of<std::uint8_t>(

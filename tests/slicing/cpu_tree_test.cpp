@@ -11,7 +11,7 @@ double linf(const Image& a, const Image& b) {
     return image_error(a, b).all.linf;
 }
 
-class TileTreeTest : public SlicingTest {
+class CpuTreeTest : public SlicingTest {
   protected:
     Volume volume_ =
         generate({"mixing", std::array<std::int64_t, 3>{40, 40, 40}, SampleType::uint8});
@@ -29,7 +29,7 @@ class TileTreeTest : public SlicingTest {
 };
 
 // tree_test.cpp
-TEST_F(TileTreeTest, FloatNodesAreStraightCompositing) {
+TEST_F(CpuTreeTest, FloatNodesMatchStraightCompositing) {
     for (const int samples : {1000, 1021, 1024}) {
         const Image straight = render_tiles(volume_, scene_of(samples, Target::float32, {}),
                                             keep("early_termination"));
@@ -45,7 +45,7 @@ TEST_F(TileTreeTest, FloatNodesAreStraightCompositing) {
 
 // A node's code or colour on the border between two may round to either side; that is one rounding,
 // and the bounds of tree_test.cpp allow one for each level.
-TEST_F(TileTreeTest, NodesAreOpenGls) {
+TEST_F(CpuTreeTest, NodesMatchOpenGl) {
     for (const NodeCode code : {NodeCode::minimax, NodeCode::phi, NodeCode::alpha}) {
         for (const auto& [target, alpha_bits] :
              {std::pair{Target::fixed8, 8}, std::pair{Target::fixed8, 16},
@@ -69,7 +69,7 @@ TEST_F(TileTreeTest, NodesAreOpenGls) {
 }
 
 // Bounds and reasons: tree_test.cpp.
-TEST_F(TileTreeTest, ColourGoesThroughTheTree) {
+TEST_F(CpuTreeTest, ColoursKeepTheirErrorBound) {
     const Image expected = render_tiles(volume_, scene_of(1024, Target::float32, {}));
     const Image image = render_tiles(volume_, scene_of(1024, Target::fixed8, {32, 32}));
     EXPECT_LE(linf(image, expected), 2.2);
@@ -78,7 +78,7 @@ TEST_F(TileTreeTest, ColourGoesThroughTheTree) {
 
 // Both have the same bricks, because OpenGL, too, keeps the volume's own type if it has no exact
 // filter.
-TEST_F(TileTreeTest, BricksAreMarchedInOrder) {
+TEST_F(CpuTreeTest, BricksAreMarchedInOrder) {
     Capabilities small = cpu_capabilities(), small_textures = capabilities();
     small_textures.exact_float_filter = false;
     small.max_texture_bytes = small_textures.max_texture_bytes = 16 * 37 * 29 + 100;
@@ -90,7 +90,7 @@ TEST_F(TileTreeTest, BricksAreMarchedInOrder) {
     }
 }
 
-TEST_F(TileTreeTest, NativeFixedNodesAreOpenGls) {
+TEST_F(CpuTreeTest, NativeFixedNodesMatchOpenGl) {
     hues_ = TransferFunction::linear({knot(0, {.4, .7, 1}, .9), knot(255, {.4, .7, 1}, 1)});
     for (const Target target : {Target::fixed8, Target::fixed16}) {
         for (const Order order : {Order::back_to_front, Order::front_to_back}) {

@@ -138,7 +138,7 @@ TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
 }
 
 // Rays do not end early if slabs are blended one after the other, or in trees of several levels.
-TEST_F(EarlyTerminationTest, IsForRaysThatAreMarchedAsAWhole) {
+TEST_F(EarlyTerminationTest, AppliesOnlyToRaysMarchedAsAWhole) {
     const Volume volume = gaussians(24);
     Scene scene = fog(130);
     scene.slice.tree = TreeSettings{.factors = {8, 8}};

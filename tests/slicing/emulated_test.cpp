@@ -67,7 +67,7 @@ class EmulatedTest : public SlicingTest {
     }
 };
 
-TEST_F(EmulatedTest, StraightCompositingIsTheCores) {
+TEST_F(EmulatedTest, StraightCompositingMatchesTheFixedPointSimulation) {
     for (const int bits : {1, 4, 8, 12, 16}) {
         for (const AlphaRounding alpha :
              {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
@@ -81,7 +81,7 @@ TEST_F(EmulatedTest, StraightCompositingIsTheCores) {
     }
 }
 
-TEST_F(EmulatedTest, DitheringIsTheCores) {
+TEST_F(EmulatedTest, DitheringMatchesTheFixedPointSimulation) {
     for (const bool color : {false, true}) {
         for (const int increment : {1, 4, 8}) {
             Case wanted;
@@ -94,7 +94,7 @@ TEST_F(EmulatedTest, DitheringIsTheCores) {
     }
 }
 
-TEST_F(EmulatedTest, TreesAreTheCores) {
+TEST_F(EmulatedTest, TreesMatchTheFixedPointSimulation) {
     for (const int bits : {4, 8, 16}) {
         for (const AlphaRounding alpha : {AlphaRounding::nearest, AlphaRounding::stochastic}) {
             for (const std::vector<int>& factors :

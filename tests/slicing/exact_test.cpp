@@ -219,7 +219,7 @@ TEST_P(ExactTest, FillValuesShowNothing) {
 }
 
 // A transfer function of a single step has no width by which values could be scaled.
-TEST_P(ExactTest, AStepAtZeroIsWhereItIs) {
+TEST_P(ExactTest, AStepAtZeroStaysAtZero) {
     const Volume volume = test::volume_of<float>(
         test::grid_of({12, 10, 11}, Centering::node),
         [](double x, double y, double z) { return std::sin(.9 * x + .3 * y * y) * (z - 4.3); });
@@ -288,7 +288,7 @@ TEST_P(ExactTest, BricksLeaveNoSeam) {
 }
 
 // llvmpipe ends all loops of a fragment after 65535 rounds together (plan/choices.h).
-TEST_P(ExactTest, RaysOfManyCellsAndPointsArePartedWhereLoopsAreLimited) {
+TEST_P(ExactTest, LongRaysAreDividedWhereLoopsAreLimited) {
     const Volume volume = noise<std::uint8_t>({50, 50, 50}, Centering::cell, 255);
     std::vector<TransferKnot> knots;
     for (int i = 0; i < 200; ++i)
@@ -324,7 +324,7 @@ TEST_P(ExactTest, RaysOfManyCellsAndPointsArePartedWhereLoopsAreLimited) {
     }
 }
 
-TEST_P(ExactTest, ATreeGivesItsNumberOfLeaves) {
+TEST_P(ExactTest, LeavesOfATreeGiveTheNumberOfSlabs) {
     const Volume volume = gaussians(8);
     Scene scene = exact_scene(smooth_transfer_function(), Projection::perspective);
     scene.target = Target::fixed8;

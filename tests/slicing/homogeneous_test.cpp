@@ -79,7 +79,7 @@ TEST_F(SlicingTest, HomogeneousBoxHasTheExactChordsOpacity) {
     for (const Pose& pose : poses) expect_exact_chords(volume, pose, capabilities(), {});
 }
 
-TEST_F(SlicingTest, HomogeneousBoxHasTheExactChordsOpacityWithNothingLeftOut) {
+TEST_F(SlicingTest, HomogeneousBoxIsExactWithNothingLeftOut) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
     for (const Pose& pose : {poses[1], poses[2]}) {

@@ -38,7 +38,7 @@ Plan plan_of(const Volume& volume, const Scene& scene, const OmissionSwitch& omi
 // ray adds up to as much times the colour's change, here less than 1. A slab's products and sums in
 // float are off by some 2e-7 of 1. Scalars, and with them a ray's optical depth, are off by 1e-6 of
 // themselves: depth * exp(-depth) < .4.
-TEST_F(SlicingTest, LinearRunsAreExact) {
+TEST_F(SlicingTest, LinearSegmentsAreExact) {
     const Volume volume = ramp();
     for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
         for (const auto& [samples, extinction] :
@@ -55,7 +55,7 @@ TEST_F(SlicingTest, LinearRunsAreExact) {
 }
 
 // Tables with layers of length have an error of up to .0025 (plan/slice_planner.cpp).
-TEST_F(SlicingTest, LinearRunsAreWhatTheTableSays) {
+TEST_F(SlicingTest, LinearSegmentsMatchTheTable) {
     std::mt19937 random(5);
     const auto uniform = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
     for (int round = 0; round < 12; ++round) {
@@ -83,7 +83,7 @@ TEST_F(SlicingTest, LinearRunsAreWhatTheTableSays) {
 }
 
 // Transfer functions of almost one piece, or segments that are almost thin enough, need a table.
-TEST(LinearRunsTest, WhatAlmostAppliesHasATable) {
+TEST(LinearSegmentsTest, NeedATableIfAConditionIsOnlyNearlyMet) {
     const Volume volume = ramp();
     const auto is_linear = [&](const TransferFunction& transfer_function, int samples) {
         return plan_of(volume, scene_of(transfer_function, Projection::orthographic, samples))

@@ -214,7 +214,7 @@ TEST(LitSlabs, AutomaticSamplesKeepMaxErrorAgainstTheLitTracer) {
 }
 
 // Gradients beside NaN samples are one-sided differences.
-TEST_P(LitSlabsOf, WhatIsNoNumberIsTransparent) {
+TEST_P(LitSlabsOf, NanSamplesAreTransparent) {
     const Grid grid = unit_grid(10);
     const Volume volume = test::volume_of<float>(grid, [&](double x, double y, double z) {
         return x > 4 && y > 3 && z < 5 ? NAN : .1 + .05 * x + .02 * y + .01 * z * z;
@@ -241,7 +241,7 @@ Lighting dim() {
     return lighting;
 }
 
-TEST_P(LitSlabsOf, TreesAndClipsAreLit) {
+TEST_P(LitSlabsOf, TreesAndClippedVolumesAreLit) {
     const Volume volume = waves(12);
     for (const Classification each : both) {
         Scene scene = lit_scene(each, dim());
@@ -263,7 +263,7 @@ TEST_P(LitSlabsOf, TreesAndClipsAreLit) {
 
 // With codes of 16 bits, each slab rounds its opacity, its product with colour, and what it leaves
 // of the pixel by half a code, and its colour before that.
-TEST_P(LitSlabsOf, CodesAreLit) {
+TEST_P(LitSlabsOf, EmulatedTargetsAreLit) {
     const Volume volume = waves(12);
     for (const Classification each : both) {
         Scene scene = lit_scene(each, dim());

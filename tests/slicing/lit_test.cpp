@@ -171,7 +171,7 @@ TEST_P(LitTest, AmbientAloneIsTheUnlitPicture) {
 }
 
 // Gradients beside NaN samples are one-sided differences; cells without a NaN corner are visible.
-TEST_P(LitTest, WhatIsNoNumberIsTransparent) {
+TEST_P(LitTest, NanCellsAreTransparent) {
     std::uint32_t state = 7;
     const Volume volume = test::volume_of<float>(
         test::grid_of({9, 8, 7}, Centering::cell), [&](double x, double, double) {
@@ -221,7 +221,7 @@ TEST(LitPlans, LeaveOutWhatLightDoesNotNeed) {
 
 // Fill values for missing data, and a smallest gradient far below all gradients of the data. Rays
 // pass near the hidden fill values, where gradients are long.
-TEST_P(LitTest, ValuesThatStandForNothingKeepMaxError) {
+TEST_P(LitTest, FillValuesKeepMaxError) {
     const Grid grid = test::grid_of({14, 12, 13}, Centering::cell);
     const auto beside = [&](float fill) {
         return test::volume_of<float>(grid, [&](double x, double y, double z) -> double {
@@ -311,7 +311,7 @@ TEST_P(LitTest, SlabsDrawnOneByOneAreLit) {
     EXPECT_LE(linf(draw(volume, scene), reference), 1.1);
 }
 
-TEST_P(LitTest, WhatIsCutIsLit) {
+TEST_P(LitTest, ClippedVolumesAreLit) {
     const Volume volume = waves<std::uint8_t>(test::grid_of({12, 10, 11}, Centering::cell), 255);
     Scene scene = lit_scene(volume, 5, directional(), .01);
     look_from(volume, {.4, -.7, .9}, .6, scene);
@@ -319,7 +319,7 @@ TEST_P(LitTest, WhatIsCutIsLit) {
     EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-6)), 1);
 }
 
-TEST_P(LitTest, WhatCannotBeDrawnLitIsRefused) {
+TEST_P(LitTest, AnAutomaticSmallestGradientIsRefused) {
     const Volume volume = waves<float>(test::grid_of({5, 5, 5}, Centering::node), 1);
     Scene scene = lit_scene(volume, 5, Lighting{}, .01);
     scene.lighting->smallest_gradient = automatic;
@@ -327,7 +327,7 @@ TEST_P(LitTest, WhatCannotBeDrawnLitIsRefused) {
 }
 
 // llvmpipe ends all loops of a fragment after 65535 rounds together (plan/choices.h).
-TEST_P(LitTest, RaysThatWouldBeCutTooOftenAreRefusedWhereLoopsAreLimited) {
+TEST_P(LitTest, TooManyCutsAreRefusedWhereLoopsAreLimited) {
     const Volume volume = waves<float>(test::grid_of({5, 5, 5}, Centering::node), 1);
     Scene scene = lit_scene(volume, 5, Lighting{}, .01);
     scene.max_error = .01;

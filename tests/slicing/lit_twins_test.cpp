@@ -122,7 +122,7 @@ void compare_light(const Lighting& lighting, const glm::dvec3& eye, Random& rand
     }
 }
 
-TEST_F(SlicingTest, LightIsItsTwins) {
+TEST_F(SlicingTest, LightInShadersMatchesCpp) {
     Random random(7);
     for (int i = 0; i < 30; ++i) {
         const Lighting lighting = reference_test::random_lighting(random);
@@ -230,7 +230,7 @@ Grid turned(Centering centering) {
     return grid;
 }
 
-TEST_F(SlicingTest, GradientsOfCellsAreThoseOfTheSamples) {
+TEST_F(SlicingTest, GradientsOfCellsMatchThoseOfTheSamples) {
     constexpr std::uint64_t whole = 1 << 20, parts = 8 * 150;
     const Volume bytes =
         test::volume_of<std::uint8_t>(turned(Centering::cell), [](double x, double y, double z) {

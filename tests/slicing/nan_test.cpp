@@ -67,7 +67,7 @@ Capabilities with_bricks(Capabilities capabilities) {
     return capabilities;
 }
 
-TEST(TileNanTest, EveryPatternIsTheTracers) {
+TEST(CpuNanTest, EveryPatternMatchesTheTracer) {
     constexpr int slabs = 4000;
     std::mt19937 random(5);
     for (int pattern = 0; pattern < 20; ++pattern) {
@@ -93,7 +93,7 @@ TEST(TileNanTest, EveryPatternIsTheTracers) {
     }
 }
 
-TEST(TileNanTest, EveryInstructionSetGivesTheSameBits) {
+TEST(CpuNanTest, EveryInstructionSetGivesTheSameBits) {
     std::mt19937 random(6);
     for (int pattern = 0; pattern < 4; ++pattern) {
         const Volume volume = with_gaps(random);
@@ -108,7 +108,7 @@ TEST(TileNanTest, EveryInstructionSetGivesTheSameBits) {
     }
 }
 
-TEST_F(SlicingTest, EveryPatternOfNanIsTheTracers) {
+TEST_F(SlicingTest, EveryPatternOfNanMatchesTheTracer) {
     constexpr int slabs = 3000;
     std::mt19937 random(7);
     for (int pattern = 0; pattern < 8; ++pattern) {

@@ -95,7 +95,7 @@ TEST_F(SlicingTest, EachOmissionKeepsThePicture) {
 }
 
 // Conditions that are almost met: these things must not be left out.
-TEST_F(SlicingTest, WhatAlmostAppliesIsNotLeftOut) {
+TEST_F(SlicingTest, NearlyMetConditionsLeaveNothingOut) {
     const Volume volume = gaussians(32);
     Scene scene = unit_box_scene(
         TransferFunction::linear({knot(0, {.5, .5, .5}, 0), knot(1, {.5, .5, .500001}, 5)}),

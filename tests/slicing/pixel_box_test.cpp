@@ -59,7 +59,7 @@ TEST(PixelBox, HoldsAllPixelsWhoseRaysMeetTheBox) {
     EXPECT_GT(smaller, 100);
 }
 
-TEST(PixelBox, OfABoxAroundTheEyeIsThePicture) {
+TEST(PixelBox, IsThePictureIfTheBoxSurroundsTheEye) {
     const Grid grid = test::grid_of({10, 10, 10}, Centering::node);
     Camera camera;
     camera.eye = grid.to_world(glm::dvec3(4.5));

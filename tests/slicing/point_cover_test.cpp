@@ -18,7 +18,7 @@ Volume one_bright_voxel(double x, double y, double z) {
         grid, [&](double i, double j, double k) { return i == x && j == y && k == z ? 255. : 0.; });
 }
 
-TEST(PointCover, RaysThroughTheOnlyFeatureAreCoveredAndFewOthers) {
+TEST(PointCover, CoversRaysThroughTheOnlyFeatureAndFewOthers) {
     const Volume volume = one_bright_voxel(20, 9, 14);
     const TransferFunction optics = TransferFunction::linear(
         {knot(100, {1, 1, 1}, 0), knot(101, {1, 1, 1}, 50), knot(102, {1, 1, 1}, 0)});
@@ -42,7 +42,7 @@ TEST(PointCover, RaysThroughTheOnlyFeatureAreCoveredAndFewOthers) {
     }
 }
 
-TEST(PointCover, WithoutPointsNothingIsCovered) {
+TEST(PointCover, CoversNothingWithoutPoints) {
     const Volume volume = one_bright_voxel(20, 9, 14);
     const TransferFunction optics =
         TransferFunction::linear({knot(-1, {1, 1, 1}, 0), knot(256, {1, 1, 1}, 50)});

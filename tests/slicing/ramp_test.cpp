@@ -129,7 +129,7 @@ class RampTest : public SlicingTest {
 const std::vector<std::vector<int>> trees{
     {}, {256}, {64, 4}, {4, 64}, {16, 16}, {4, 4, 4, 4}, {2, 2, 2, 2, 2, 2, 2, 2}};
 
-TEST_F(RampTest, EveryCombinationIsTheIntegerSimulation) {
+TEST_F(RampTest, EveryCombinationMatchesTheIntegerSimulation) {
     for (const int samples : {16, 64, 256}) {
         for (const AlphaRounding alpha : {AlphaRounding::truncate, AlphaRounding::nearest}) {
             for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
@@ -144,7 +144,7 @@ TEST_F(RampTest, EveryCombinationIsTheIntegerSimulation) {
     }
 }
 
-TEST_F(RampTest, TextureBarriersGiveTheSame) {
+TEST_F(RampTest, TextureBarriersMatchTheIntegerSimulation) {
     Capabilities capabilities_without = capabilities();
     capabilities_without.framebuffer_fetch = false;
     for (const std::vector<int>& factors : {std::vector<int>{}, {16, 4}, {4, 4, 4}}) {

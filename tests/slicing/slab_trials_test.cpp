@@ -60,7 +60,7 @@ TEST(SlabTrials, ManyFramesOfSmoothPicturesTakeFewSlabs) {
     EXPECT_LE(image_error(draw(volume, scene, tried), traced).all.linf, scene.max_error);
 }
 
-TEST(SlabTrials, ManyFramesKeepExactSegmentsWhereFewSlabsDoNotDo) {
+TEST(SlabTrials, ManyFramesKeepExactSegmentsIfFewSlabsDoNotSuffice) {
     const Volume volume = gaussians(48);
     const TransferFunction peak = TransferFunction::linear(
         {knot(.5, {1, 1, 1}, 0), knot(.501, {1, .5, 0}, 200), knot(.502, {0, 0, 1}, 0)});
@@ -142,7 +142,7 @@ TEST(SlabTrials, TryNoMoreRaysThanAMillion) {
     EXPECT_LT(chosen.goal, .75 * scene.max_error);
 }
 
-TEST(SlabTrials, NothingIsTriedThatNobodyAskedFor) {
+TEST(SlabTrials, AreMadeOnlyWhereTheNumberOfSlabsMatters) {
     const Volume volume = gaussians(8);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::orthographic);
     scene.slice.samples = 9;
@@ -157,7 +157,7 @@ TEST(SlabTrials, NothingIsTriedThatNobodyAskedFor) {
 }
 
 // With one extinction and colour every number of slabs gives the same picture.
-TEST(SlabTrials, OneSlabOfAConstant) {
+TEST(SlabTrials, TakeOneSlabForAConstant) {
     const Volume volume = gaussians(8);
     Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {.2, .4, .8}, 2)}),
                                  Projection::perspective);
@@ -166,7 +166,7 @@ TEST(SlabTrials, OneSlabOfAConstant) {
 }
 
 // An opaque step, whose silhouette moves with the slabs for any number of them.
-TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
+TEST(SlabTrials, KnowThatAnErrorCannotBeKept) {
     const Volume volume = mixing(16);
     Scene scene = unit_box_scene(
         TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(.7, {1, 1, 1}, 0),
@@ -243,7 +243,7 @@ TEST(SlabTrials, ThinSilhouettesOfLabelsAreNotMissedByAllPictures) {
 }
 
 // In a larger picture not all rays are traced, but edges are, and some rays all over it.
-TEST(SlabTrials, OfLargePicturesRaysAreTracedWhereTheyMissMost) {
+TEST(SlabTrials, TraceOnlySomeRaysOfLargePictures) {
     const Volume volume = mixing(16);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 480, 360);
     const SlabTrial chosen = try_slabs(scene, volume).chosen();
@@ -265,7 +265,7 @@ Tried measure_filter(const Scene& scene, const Volume& volume) {
 
 // The cpu engine draws with 8-bit weights, in the number of slabs that the trials choose: if that
 // is automatic, all errors together keep the bound, else the error of the weights is measured.
-TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
+TEST(SlabTrials, TheHardwareFilterKeepsTheErrorItClaims) {
     for (const Volume& volume : {gaussians(32), mixing(24)}) {
         Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
         scene.slice.filter = automatic;
@@ -302,7 +302,7 @@ TEST(SlabTrials, TheHardwareFilterIsNotTakenWhereItsErrorIsTooLarge) {
     EXPECT_FALSE(trial(.99 * just_kept).keeps_goal());
 }
 
-TEST(SlabTrials, NoFilterIsTriedWhereNobodyAsksOrItCannotBeTaken) {
+TEST(SlabTrials, NoFilterIsTriedUnlessItIsAutomaticAndPossible) {
     Volume volume = gaussians(8);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
     scene.slice.samples = 9;

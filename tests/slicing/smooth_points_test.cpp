@@ -46,7 +46,7 @@ double claimed_error(const Scene& scene) {
     return make_plan(scene, facts, cpu_capabilities(), {}).slice.found_error();
 }
 
-TEST(SmoothPoints, KeepToTheirClaim) {
+TEST(SmoothPoints, KeepTheErrorTheyClaim) {
     for (const double unit : {.2, 2.0, 30.0}) {
         for (const TransferFunction& function : curves(unit)) {
             Scene scene = scene_of(function);
@@ -64,7 +64,7 @@ TEST(SmoothPoints, KeepToTheirClaim) {
     }
 }
 
-TEST(SmoothPoints, MayBeLit) {
+TEST(SmoothPoints, KeepTheErrorTheyClaimIfLit) {
     for (const TransferFunction& function : curves(2)) {
         Scene scene = scene_of(function);
         scene.lighting = Lighting{};

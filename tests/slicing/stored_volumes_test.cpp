@@ -73,20 +73,20 @@ void expect_same_in_all_ways(double largest) {
     }
 }
 
-TEST(StoredVolumes, OfBytesLookTheSame) {
+TEST(StoredVolumes, DrawBytesAsFromMemory) {
     expect_same_in_all_ways<std::uint8_t>(255);
 }
-TEST(StoredVolumes, OfSignedNumbersLookTheSame) {
+TEST(StoredVolumes, DrawSignedNumbersAsFromMemory) {
     expect_same_in_all_ways<std::int16_t>(-30000);
 }
-TEST(StoredVolumes, OfWordsLookTheSame) {
+TEST(StoredVolumes, DrawWordsAsFromMemory) {
     expect_same_in_all_ways<std::uint16_t>(65535);
 }
-TEST(StoredVolumes, OfFloatsLookTheSame) {
+TEST(StoredVolumes, DrawFloatsAsFromMemory) {
     expect_same_in_all_ways<float>(1e-3);
 }
 
-TEST(StoredVolumes, WithMoreBricksThanFitLookTheSame) {
+TEST(StoredVolumes, DrawMoreBricksThanFitAsFromMemory) {
     const Volume volume = noise<std::uint8_t>({400, 300, 130}, Centering::node, 255);
     ASSERT_GT(volume.byte_count(), std::size_t{1} << 23);
     expect_same(volume, scene_of(volume, Classification::exact), "exact");
@@ -97,7 +97,7 @@ TEST(StoredVolumes, WithMoreBricksThanFitLookTheSame) {
     expect_same(volume, inside, "eye inside");
 }
 
-TEST(StoredVolumes, OneToThreeSamplesWideLookTheSame) {
+TEST(StoredVolumes, DrawThinVolumesAsFromMemory) {
     for (const std::array<std::int64_t, 3>& size : {std::array<std::int64_t, 3>{1, 40, 70},
                                                     {40, 1, 33},
                                                     {34, 65, 1},
@@ -115,7 +115,7 @@ TEST(StoredVolumes, OneToThreeSamplesWideLookTheSame) {
     }
 }
 
-TEST(StoredVolumes, WithSamplesThatAreNoNumbersLookTheSame) {
+TEST(StoredVolumes, DrawNanAsFromMemory) {
     for (const Centering centering : {Centering::node, Centering::cell}) {
         const Volume volume = test::volume_of<float>(
             test::grid_of(some_size, centering), [](double x, double y, double z) {
@@ -131,7 +131,7 @@ TEST(StoredVolumes, WithSamplesThatAreNoNumbersLookTheSame) {
     }
 }
 
-TEST(StoredVolumes, InPartsLookTheSame) {
+TEST(StoredVolumes, DrawSeveralBricksAsFromMemory) {
     Capabilities capabilities = cpu_capabilities();
     capabilities.max_texture_bytes = 60 * 45 * 16;  // a picture of floats
     const Volume bytes = noise<std::uint8_t>({160, 70, 50}, Centering::node, 255);
@@ -144,7 +144,7 @@ TEST(StoredVolumes, InPartsLookTheSame) {
     }
 }
 
-TEST(StoredVolumes, WithLightLookTheSame) {
+TEST(StoredVolumes, DrawLightAsFromMemory) {
     const Volume bytes = noise<std::uint8_t>(some_size, Centering::node, 255);
     const Volume floats = noise<float>(some_size, Centering::cell, 1);
     for (const Volume& volume : {bytes, floats}) {
@@ -158,7 +158,7 @@ TEST(StoredVolumes, WithLightLookTheSame) {
     }
 }
 
-TEST(StoredVolumes, InFixedPointTreesLookTheSame) {
+TEST(StoredVolumes, DrawFixedPointTreesAsFromMemory) {
     const Volume volume = noise<std::uint8_t>(some_size, Centering::node, 255);
     Scene scene = scene_of(volume, Classification::post);
     scene.slice.samples = 64;
@@ -169,7 +169,7 @@ TEST(StoredVolumes, InFixedPointTreesLookTheSame) {
 }
 
 // Pages that show nothing are not read, and pages in memory are not read again.
-TEST(StoredVolumes, ReadWhatShowsAndThatOnce) {
+TEST(StoredVolumes, ReadOnlyVisiblePagesAndThoseOnce) {
     const Volume volume = test::volume_of<std::uint8_t>(
         test::grid_of({256, 128, 128}, Centering::node),
         [](double x, double y, double z) { return x > 200 && y > 100 && z < 20 ? 200 : 0; });
@@ -212,7 +212,7 @@ TEST(StoredVolumes, AViewFindsThePagesThatItSees) {
     EXPECT_EQ(seen(), 0u);
 }
 
-TEST(StoredVolumes, ThatFailToBeReadAreAnError) {
+TEST(StoredVolumes, ReportFailedAndChangedReads) {
     const Volume volume = noise<std::uint8_t>(some_size, Centering::node, 255);
     auto source = std::make_unique<test::SourceInMemory>(volume);
     test::SourceInMemory& files = *source;

@@ -70,7 +70,7 @@ double linf(const Image& a, const Image& b) {
 
 using TreeTest = SlicingTest;
 
-TEST_F(TreeTest, FloatNodesAreStraightCompositing) {
+TEST_F(TreeTest, FloatNodesMatchStraightCompositing) {
     for (const Example& example : examples()) {
         for (const int samples : {1000, 1021, 1024, 4096}) {
             Scene straight = scene_of(example, samples, Target::float32, {});
@@ -101,7 +101,7 @@ TEST_F(TreeTest, FloatNodesAreStraightCompositing) {
 // bounds. Colours may be off by another .5, with convex weights; in these scenes, which are not the
 // worst, the bounds hold nevertheless. With an alpha of 16 bits only both roundings of .5 remain,
 // and 1.83 / 257.
-TEST_F(TreeTest, ColourGoesThroughTheTree) {
+TEST_F(TreeTest, ColoursKeepTheirErrorBound) {
     for (const Example& example : examples()) {
         for (const auto& [samples, factor, most] :
              {std::tuple{1024, 32, 2.2}, std::tuple{4096, 64, 2.4}}) {
@@ -120,7 +120,7 @@ TEST_F(TreeTest, ColourGoesThroughTheTree) {
 // Fixed-point images of nodes hold colours above 1 divided by the largest colour; only the picture
 // is clamped. So colours are coarser by that factor: half a code times it for each of two levels,
 // in addition to the errors of alpha codes.
-TEST_F(TreeTest, ColoursAboveOneGoThroughTheTree) {
+TEST_F(TreeTest, ColoursAboveOneKeepTheirErrorBound) {
     const Example faint{
         "faint, bright", generated("mixing"),
         TransferFunction::linear({knot(0, {3, 0, .5}, 0), knot(255, {.5, 3, 1}, .2)})};
@@ -143,7 +143,7 @@ TEST_F(TreeTest, PhiFailsOnSheetsAndAutoDoesNotChooseIt) {
     EXPECT_LE(linf(render(sheets.volume, scene, capabilities()), expected), 1);
 }
 
-TEST_F(TreeTest, AutoStaysUnderItsBound) {
+TEST_F(TreeTest, AutomaticTreesStayUnderTheirBound) {
     for (const Example& example : examples()) {
         const Image expected = render(example.volume, scene_of(example, 1024, Target::float32, {}),
                                       capabilities(), keep("early_termination"));

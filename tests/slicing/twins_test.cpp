@@ -18,7 +18,7 @@ Image run(gl::Program& program) {
     return target.read_back();
 }
 
-TEST_F(SlicingTest, OpacityFromDepthIsItsTwinsToFloat32) {
+TEST_F(SlicingTest, OpacityFromDepthInShadersMatchesCppToFloat32) {
     gl::Program program = gl::full_screen_program(
         "#version 450 core\n"
         "#include \"optics/opacity.glsl\"\n"
@@ -93,7 +93,7 @@ void compare_runs(bool colored, int layers, bool filtered, bool lit = false) {
     }
 }
 
-TEST_F(SlicingTest, PreintegratedRunsAreTheirTwins) {
+TEST_F(SlicingTest, PreintegratedSegmentsInShadersMatchCpp) {
     for (const bool filtered : {false, true}) {
         compare_runs(true, 1, filtered, true);
         compare_runs(true, 5, filtered, true);

@@ -86,16 +86,16 @@ const Volume& some_volume() {
     return volume;
 }
 
-TEST(VolumeShares, OfExactSegmentsMakeOnePicture) {
+TEST(VolumeShares, MakeOnePictureOfExactSegments) {
     expect_same_from_everywhere(some_volume(), Classification::exact);
 }
-TEST(VolumeShares, OfSlabsMakeOnePicture) {
+TEST(VolumeShares, MakeOnePictureOfSlabs) {
     expect_same_from_everywhere(some_volume(), Classification::post);
 }
-TEST(VolumeShares, OfPreintegratedSlabsMakeOnePicture) {
+TEST(VolumeShares, MakeOnePictureOfPreintegratedSlabs) {
     expect_same_from_everywhere(some_volume(), Classification::preintegrated);
 }
-TEST(VolumeShares, OfLitVolumesMakeOnePicture) {
+TEST(VolumeShares, MakeOnePictureOfLitVolumes) {
     for (const auto classification : {Classification::exact, Classification::preintegrated}) {
         expect_same_from_everywhere(some_volume(), classification, [](Scene& scene) {
             scene.lighting = Lighting{};
@@ -120,14 +120,14 @@ TEST(VolumeShares, CutLightThatBendsInTheSamePlaces) {
         expect_same_together(waves, scene, "waves");
     }
 }
-TEST(VolumeShares, OfClippedVolumesMakeOnePicture) {
+TEST(VolumeShares, MakeOnePictureOfClippedVolumes) {
     for (const auto classification : {Classification::exact, Classification::post}) {
         expect_same_from_everywhere(some_volume(), classification, [](Scene& scene) {
             scene.clip.planes.push_back({{.4, .5, .6}, {.3, .5, .8}});
         });
     }
 }
-TEST(VolumeShares, OfSmallVolumesMakeOnePicture) {
+TEST(VolumeShares, MakeOnePictureOfSmallVolumes) {
     for (const std::array<std::int64_t, 3>& size :
          {std::array<std::int64_t, 3>{3, 3, 3}, {2, 9, 1}, {1, 1, 40}}) {
         for (const Centering centering : {Centering::cell, Centering::node}) {
@@ -138,7 +138,7 @@ TEST(VolumeShares, OfSmallVolumesMakeOnePicture) {
         }
     }
 }
-TEST(VolumeShares, OfVolumesAroundTheEyeMakeOnePicture) {
+TEST(VolumeShares, MakeOnePictureOfVolumesAroundTheEye) {
     for (const auto classification : {Classification::exact, Classification::preintegrated}) {
         Scene scene = scene_of(some_volume(), classification, {1, 2, 3});
         if (classification != Classification::exact) scene.slice.samples = 70;

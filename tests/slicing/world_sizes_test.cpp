@@ -51,7 +51,7 @@ std::vector<World> worlds() {
 // Multiplying by powers of two changes no digit.
 constexpr std::array exponents{-300, -110, 70, 300};
 
-TEST(TileWorldSizes, PowersOfTwoChangeNoBit) {
+TEST(CpuWorldSizes, PowersOfTwoChangeNoBit) {
     for (const World& world : worlds()) {
         const Image picture = render_tiles(world.volume, world.scene);
         World coded = world;
@@ -68,7 +68,7 @@ TEST(TileWorldSizes, PowersOfTwoChangeNoBit) {
     }
 }
 
-TEST_F(SlicingTest, WorldsOfPowersOfTwoChangeNoBit) {
+TEST_F(SlicingTest, ScalingTheWorldByPowersOfTwoChangesNoBit) {
     for (const World& world : worlds()) {
         const Image picture = render(world.volume, world.scene, capabilities());
         for (const int exponent : exponents) {
@@ -81,7 +81,7 @@ TEST_F(SlicingTest, WorldsOfPowersOfTwoChangeNoBit) {
 
 // Sizes that are not powers of two round coordinates once, by some 1e-16, far less than the
 // picture's error. The tracer does not scale by units.
-TEST(TileWorldSizes, EverySizeIsTheTracers) {
+TEST(CpuWorldSizes, EverySizeMatchesTheTracer) {
     for (const World& world : worlds()) {
         const Image reference = trace(world.volume, world.scene, 1e-6);
         const double error =
