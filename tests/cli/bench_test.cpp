@@ -112,7 +112,7 @@ TEST_F(Bench, ListsTheStandardSet) {
     EXPECT_NE(result.out.find("bonsai.nrrd: no such file"), std::string::npos) << result.out;
 }
 
-TEST_F(Bench, MistakesAreOneLine) {
+TEST_F(Bench, ReportsMistakesInOneLine) {
     const ProgramResult unknown = bench({"--scenes", "nosuchscene"});
     EXPECT_EQ(unknown.exit_code, 1);
     EXPECT_EQ(std::count(unknown.err.begin(), unknown.err.end(), '\n'), 1) << unknown.err;

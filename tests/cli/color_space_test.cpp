@@ -81,7 +81,7 @@ TEST_F(ColorSpaceFiles, MeansOfLightAreBrighterThanMeansOfDisplayValues) {
     EXPECT_GT(brighter, 100);
 }
 
-TEST_F(ColorSpaceFiles, CompareRefusesToMixThem) {
+TEST_F(ColorSpaceFiles, CompareRefusesToMixColorSpaces) {
     render("linear.exr", "slice", "linear");
     render("display.exr", "slice", "display");
     render("truth.exr", "trace", "display");
@@ -96,7 +96,7 @@ TEST_F(ColorSpaceFiles, CompareRefusesToMixThem) {
     EXPECT_NE(mixed.err.find("display values"), std::string::npos) << mixed.err;
 }
 
-TEST_F(ColorSpaceFiles, AMapIsNamed) {
+TEST_F(ColorSpaceFiles, AColormapIsFoundByItsName) {
     const auto named = [&](const std::string& name) {
         return lamina_run({"render", folder / "scene.json", "-o", folder / "map.png", "--context",
                            "cpu", "--quiet", "--set", "transfer_function.colormap=" + name, "--set",

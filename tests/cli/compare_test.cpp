@@ -135,7 +135,7 @@ TEST_F(Compare, RangeSetsTheColours) {
     EXPECT_EQ(blue_of("127.5", "(dark blue) over"), (146 + 67 + 1) / 2);  // between steps 2 and 3
 }
 
-TEST_F(Compare, BadInputIsOneLineAndExit1AndNothingWritten) {
+TEST_F(Compare, ReportsBadInputInOneLineAndWritesNothing) {
     const auto expect_failure = [&](const std::string& a, const std::string& b,
                                     const std::vector<std::string>& parts) {
         const ProgramResult result = compare(a, b, {"--diff", folder / "d.png"});
@@ -159,7 +159,7 @@ TEST_F(Compare, BadInputIsOneLineAndExit1AndNothingWritten) {
     EXPECT_EQ(compare("a.exr", "b.exr", {"--diff", folder / "absent" / "d.png"}).exit_code, 1);
 }
 
-TEST_F(Compare, BadUsageIsExit2) {
+TEST_F(Compare, ExitsWith2ForBadUsage) {
     EXPECT_EQ(run_program({LAMINA_BINARY, "compare"}).exit_code, 2);
     EXPECT_EQ(compare("a.exr", "b.exr", {"--nonsense"}).exit_code, 2);
     EXPECT_EQ(compare("a.exr", "b.exr", {"--max-linf", "much"}).exit_code, 2);

@@ -144,7 +144,7 @@ TEST_F(CpuEngine, RefusesInstructionsThatTheMachineHasNot) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
 }
 
-TEST_F(CpuEngine, ExplainsItself) {
+TEST_F(CpuEngine, ExplainsItsPlanWithoutWordsOfOpenGL) {
     const ProgramResult result = render("cpu", {"--explain", "--set", "render.target=emulated"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(has(result.out, "the cpu engine")) << result.out;
@@ -152,7 +152,7 @@ TEST_F(CpuEngine, ExplainsItself) {
         EXPECT_FALSE(has(result.out, word)) << result.out;
 }
 
-TEST_F(CpuEngine, IsNoPlaceToReproduceAPaper) {
+TEST_F(CpuEngine, IsRefusedForReproducingAPaper) {
     const ProgramResult result = run_program(
         {LAMINA_BINARY, "reproduce", "lamar", "table3", "-o", folder / "x", "--context", "cpu"});
     EXPECT_EQ(result.exit_code, 2);

@@ -91,7 +91,7 @@ class CrosscheckStopped : public testing::Test {
 // Five meshes follow the traced volume, and each keeps two steps: the mesh and its traced picture.
 // So 1 step is the traced volume, and 3, 5, 7 and 9 steps include the first mesh, the first two,
 // three and four.
-TEST_F(CrosscheckStopped, GoesOnToTheSamePage) {
+TEST_F(CrosscheckStopped, ResumesToTheSamePage) {
     ASSERT_EQ(lamina_run(command("whole")).exit_code, 0);
     int interrupted = 0;
     for (const std::size_t steps : {1, 3, 5, 7, 9}) {

@@ -131,7 +131,7 @@ TEST_F(Crosschecks, PartsOfTheFourPicturesAddUpToTheRawDifference) {
     EXPECT_LT(budget["reference_error"].get<double>(), 0.01);
 }
 
-TEST_F(Crosschecks, WritesIntoItsFolderAlone) {
+TEST_F(Crosschecks, WriteIntoTheirFolderAlone) {
     const auto before = std::filesystem::current_path();
     std::filesystem::create_directory(folder / "here");
     std::filesystem::current_path(folder / "here");
@@ -146,7 +146,7 @@ TEST_F(Crosschecks, WritesIntoItsFolderAlone) {
                                             "traced_volume.exr"}));
 }
 
-TEST_F(Crosschecks, LitScenesNameTheGradients) {
+TEST_F(Crosschecks, NameTheGradientsOfLitScenes) {
     EXPECT_FALSE(run_well({}, ".2", "8")["parts"].contains("gradients"));
     scene["lighting"] = json::object();
     const json parts = run_well({}, ".2", "8")["parts"];
@@ -216,7 +216,7 @@ TEST_F(Crosschecks, TheLadderHasEveryStepWithItsErrorsAndTimes) {
 }
 
 // Few slabs with a fine mesh: slicing dominates. Many slabs with a coarse mesh: the mesh does.
-TEST_F(Crosschecks, SaysWhichPartDominates) {
+TEST_F(Crosschecks, SayWhichPartDominates) {
     scene["mesh"]["tolerance"] = 0.02;
     scene["render"]["slice"]["samples"] = 4;
     scene["render"]["slice"]["classification"] = "post";
@@ -239,7 +239,7 @@ TEST_F(Crosschecks, SaysWhichPartDominates) {
 }
 
 // A finding has one L2 at most; the other numbers are in the tables and beside the pictures.
-TEST_F(Crosschecks, SaysEachThingOnceAndInFullWords) {
+TEST_F(Crosschecks, SayEachThingOnceAndInFullWords) {
     scene["mesh"]["tolerance"] = 0.2;
     scene["render"]["slice"]["samples"] = 1;
     const json budget = run_well({"--set", "render.max_error=0.001"}, ".2,.1", "1,32");
@@ -261,7 +261,7 @@ TEST_F(Crosschecks, SaysEachThingOnceAndInFullWords) {
 
 // If the scene states no mesh, the finest mesh of the ladder counts as the scene's, and refining
 // ends at 250000 tets.
-TEST_F(Crosschecks, TheDefaultLadderSaysWhatItTakesAndEnds) {
+TEST_F(Crosschecks, TheDefaultLadderSaysItsCostAndEnds) {
     scene.erase("mesh");
     const std::vector<std::string> short_ladder{"--samples", "8",     "--context",
                                                 "cpu",       "--set", "render.max_error=20"};
@@ -281,7 +281,7 @@ TEST_F(Crosschecks, TheDefaultLadderSaysWhatItTakesAndEnds) {
     EXPECT_EQ(budget["ladder"]["projection"].back()["tolerance"], .001);
 }
 
-TEST_F(Crosschecks, FindsWhereBothAgree) {
+TEST_F(Crosschecks, FindWhereBothMethodsAgree) {
     const json budget = run_well({"--set", "render.max_error=200"});
     EXPECT_EQ(budget["wanted"], 200);
     EXPECT_NE(out.find("agrees within 200/255 in every pixel"), std::string::npos) << out;

@@ -38,7 +38,7 @@ class FaultsOfDisks : public FaultsTestCase {
     }
 };
 
-TEST_F(FaultsOfDisks, FullOnesLeaveOldFilesAsTheyAre) {
+TEST_F(FaultsOfDisks, FullDisksLeaveOldFilesAsTheyAre) {
     const std::string volume = folder / "volume.nrrd";
     make(rendering(folder / "a.png"));
     make(rendering(folder / "b.png", {"--set", "render.slice.samples=7", "--set",
@@ -106,7 +106,7 @@ TEST_F(FaultsOfDisks, AStudyStopsAndGoesOnWhenThereIsRoom) {
     }
 }
 
-TEST_F(FaultsOfDisks, FoldersOfCrosschecksAndReproductions) {
+TEST_F(FaultsOfDisks, FoldersThatCannotBeWrittenAreOneLine) {
     const auto expect_failure = [&](std::vector<std::string> arguments) {
         arguments.insert(arguments.end(), {"-o", out / "made", "--quiet"});
         expect_one_line(lamina_run(arguments, fill_the_disk), 1, {"made", "cannot write"});
@@ -123,7 +123,7 @@ TEST_F(FaultsOfDisks, FoldersOfCrosschecksAndReproductions) {
     expect_failure({"reproduce", "lamar", "table1"});
 }
 
-TEST_F(FaultsOfDisks, PlacesThatCannotBeWritten) {
+TEST_F(FaultsOfDisks, PlacesThatCannotBeWrittenAreNamed) {
     std::filesystem::create_directory(out / "folder.exr");
     write_bytes_to(out / "file", "old");
     std::filesystem::create_symlink("/dev/full", out / "device.exr");
@@ -136,7 +136,7 @@ TEST_F(FaultsOfDisks, PlacesThatCannotBeWritten) {
     EXPECT_EQ(contents(out), before);
 }
 
-TEST_F(FaultsOfDisks, WhatIsReadIsNotReplaced) {
+TEST_F(FaultsOfDisks, InputsAreNotReplaced) {
     make(rendering(folder / "a.png"));
     make(rendering(folder / "b.png"));
     std::filesystem::create_symlink("volume.nrrd", folder / "link");
@@ -156,7 +156,7 @@ TEST_F(FaultsOfDisks, WhatIsReadIsNotReplaced) {
 }
 
 // Files that the scene names, and files that belong to these, are inputs, too.
-TEST_F(FaultsOfDisks, NothingThatASceneIsMadeOfIsReplaced) {
+TEST_F(FaultsOfDisks, FilesOfASceneAreNotReplaced) {
     write_bytes_to(folder / "apart.nhdr",
                    "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
                    "data file: apart.raw\n");

@@ -39,7 +39,7 @@ class FaultsOfEnds : public FaultsTestCase {
     }
 };
 
-TEST_F(FaultsOfEnds, SignalsLeaveTheOldFileAndSayTheirNumber) {
+TEST_F(FaultsOfEnds, SignalsLeaveTheOldFileAndGiveTheExitCode) {
     for (const std::string method : {"slice", "project", "trace"}) {
         for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
             for (const auto delay : {0ms, 40ms}) {
@@ -77,7 +77,7 @@ TEST_F(FaultsOfEnds, AFolderThatGoesAwayIsAFailure) {
 }
 
 // Kills the program 25 times, at random moments from its start to a little after its end.
-TEST_F(FaultsOfEnds, KilledAtAnyMomentTheOldPictureOrTheNewOneIsThere) {
+TEST_F(FaultsOfEnds, KillingLeavesTheOldPictureOrTheNewOne) {
     const std::vector<std::string> samples[] = {{"--set", "render.slice.samples=40"},
                                                 {"--set", "render.slice.samples=60"}};
     std::string whole[2];
@@ -111,7 +111,7 @@ TEST_F(FaultsOfEnds, KilledAtAnyMomentTheOldPictureOrTheNewOneIsThere) {
 }
 
 // The two files of a .node mesh always belong to the same mesh.
-TEST_F(FaultsOfEnds, KilledAtAnyMomentTwoFilesAreOneMesh) {
+TEST_F(FaultsOfEnds, KillingLeavesTwoFilesOfOneMesh) {
     make({"generate", "gaussians", "-o", folder / "other.nrrd", "--size", "15,15,15"});
     const auto meshing = [&](std::size_t i) {
         return command({"mesh", folder / (i == 0 ? "volume.nrrd" : "other.nrrd"), "-o",

@@ -20,7 +20,7 @@ class FaultsOfMachines : public FaultsTestCase {
     }
 };
 
-TEST_F(FaultsOfMachines, NoLibraryOfOpenGL) {
+TEST_F(FaultsOfMachines, MissingOpenGLLibrariesAreNamed) {
     for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", "libEGL.so.1"})
         write_bytes_to(folder / name, "no library");
     const auto broken = with("LD_LIBRARY_PATH", folder.path().string());
@@ -31,7 +31,7 @@ TEST_F(FaultsOfMachines, NoLibraryOfOpenGL) {
     EXPECT_EQ(lamina_run(drawing_by("auto"), broken).exit_code, 0);  // takes the cpu engine
 }
 
-TEST_F(FaultsOfMachines, NoDeviceOfEGL) {
+TEST_F(FaultsOfMachines, AMissingEGLDeviceIsReported) {
     expect_one_line(
         lamina_run(drawing_by("egl"), with("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null")), 1,
         {"EGL", "install"});
@@ -39,12 +39,12 @@ TEST_F(FaultsOfMachines, NoDeviceOfEGL) {
 }
 
 // With an unknown driver OSMesa itself would crash.
-TEST_F(FaultsOfMachines, ADriverThatIsNone) {
+TEST_F(FaultsOfMachines, AnUnknownDriverIsNamed) {
     expect_one_line(lamina_run(drawing_by("osmesa"), with("GALLIUM_DRIVER", "abacus")), 1,
                     {"GALLIUM_DRIVER", "abacus", "llvmpipe"});
 }
 
-TEST_F(FaultsOfMachines, ShadersThatDoNotCompile) {
+TEST_F(FaultsOfMachines, ShadersThatDoNotCompileAreNamedWithTheLine) {
     const auto shaders = folder.path() / "shaders";
     std::filesystem::create_directories(shaders / "gl");
     write_bytes_to(shaders / "gl" / "full_screen.vert", "#version 450 core\n\nvoid main() { x }\n");
@@ -56,7 +56,7 @@ TEST_F(FaultsOfMachines, ShadersThatDoNotCompile) {
 }
 
 // Copies the program and puts `script` beside it as lamina-tetrahedralize.
-TEST_F(FaultsOfMachines, TetrahedralizersThatAreNone) {
+TEST_F(FaultsOfMachines, FailingTetrahedralizersAreReported) {
     const std::string program = folder / "lamina", tool = folder / "lamina-tetrahedralize";
     std::filesystem::copy_file(LAMINA_BINARY, program);
     const auto mesh = [&](const std::string& script) {
@@ -113,7 +113,7 @@ TEST_F(FaultsOfMachines, DecimalCommasChangeNothing) {
                     2, {"render.max_error", "0,5"});
 }
 
-TEST_F(FaultsOfMachines, NamesOfEveryKind) {
+TEST_F(FaultsOfMachines, OddFileNamesWork) {
     make(rendering(folder / "a.exr"));
     const std::string expected = read_bytes_of(folder / "a.exr");
     for (const std::string& name :
@@ -140,7 +140,7 @@ TEST_F(FaultsOfMachines, NamesOfEveryKind) {
 }
 
 // Nobody writes into these pipes: opening one would block forever.
-TEST_F(FaultsOfMachines, PipesInPlaceOfFiles) {
+TEST_F(FaultsOfMachines, PipesInPlaceOfFilesAreRefused) {
     const auto pipe_called = [&](const std::string& name) {
         const std::string path = folder / name;
         EXPECT_EQ(mkfifo(path.c_str(), 0600), 0) << name;
@@ -172,7 +172,7 @@ TEST_F(FaultsOfMachines, PipesInPlaceOfFiles) {
 }
 
 // A pipe with the name of the volume's index, beside the volume: the index is made without it.
-TEST_F(FaultsOfMachines, PipesInPlaceOfAnIndex) {
+TEST_F(FaultsOfMachines, PipesInPlaceOfAnIndexAreNotUsed) {
     // Stays in its file if memory is limited to 1M.
     const std::string volume = folder / "large.nrrd";
     make({"generate", "gaussians", "-o", volume, "--size", "128,128,128"});
@@ -187,7 +187,7 @@ TEST_F(FaultsOfMachines, PipesInPlaceOfAnIndex) {
     expect_one_line(lamina_run({"index", volume}, with_cache), 1, {index, "found another file"});
 }
 
-TEST_F(FaultsOfMachines, FoldersThatAreNotThere) {
+TEST_F(FaultsOfMachines, MissingFoldersAreReportedOnlyIfNeeded) {
     const auto lost = [&] {
         unsetenv("HOME");
         setenv("TMPDIR", "/absent", 1);

@@ -29,7 +29,7 @@ class FaultsOfMemory : public FaultsTestCase {
     }
 };
 
-TEST_F(FaultsOfMemory, TooLittleIsOneLineForTheCpuEngine) {
+TEST_F(FaultsOfMemory, TooLittleIsReportedInOneLineByTheCpuEngine) {
     const std::string volume = folder / "volume.nrrd";
     make({"generate", "gaussians", "-o", volume, "--size", "32,32,32"});
     rlim_t to_start = mebibyte;  // with less, the system's loader cannot load the libraries
@@ -95,7 +95,7 @@ TEST_F(FaultsOfMemory, SmallStacksChangeNothing) {
 }
 
 // Mesa crashes without memory, so the program checks the limit before it starts Mesa.
-TEST_F(FaultsOfMemory, TooLittleForOpenGLIsSaidBefore) {
+TEST_F(FaultsOfMemory, TooLittleForOpenGLIsReportedBeforeItStarts) {
     for (const char* context : {"osmesa", "egl"}) {
         for (const rlim_t mebibytes : {200, 500, 900}) {
             const ProgramResult result = run_within(

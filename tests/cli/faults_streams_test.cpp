@@ -58,7 +58,7 @@ TEST_F(FaultsOfStreams, ResultsThatDoNotArriveAreAFailure) {
     }
 }
 
-TEST_F(FaultsOfStreams, MessagesThatDoNotArriveAreNone) {
+TEST_F(FaultsOfStreams, LostMessagesAreNoFailure) {
     for (const auto& stderr_fault :
          {leads_to(STDERR_FILENO, "/dev/full"), is_closed(STDERR_FILENO)}) {
         for (const std::vector<std::string>& arguments : that_print)
@@ -71,7 +71,7 @@ TEST_F(FaultsOfStreams, MessagesThatDoNotArriveAreNone) {
 }
 
 // If stdout is closed, its number is free, and the next file that is opened would get it.
-TEST_F(FaultsOfStreams, ClosedOnesDoNotLandInFiles) {
+TEST_F(FaultsOfStreams, ClosedStreamsDoNotLandInFiles) {
     make(rendering(folder / "a.exr"));
     const std::string expected = read_bytes_of(folder / "a.exr");
     for (int closed = 1; closed < 8; ++closed) {

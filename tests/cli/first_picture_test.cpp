@@ -93,7 +93,7 @@ void expect_good(const Image& picture, const std::string& what, std::size_t kind
     EXPECT_GE(look.kinds, kinds) << what;
 }
 
-TEST_F(FirstPicture, OfEveryGeneratedVolume) {
+TEST_F(FirstPicture, IsGoodForEveryGeneratedVolume) {
     for (const std::string name : {"constant", "marschner-lobb", "gaussians", "sheets", "mixing"}) {
         for (const std::string type : {"uint8", "uint16", "float"}) {
             const std::string said = render(generated(name, type), "p.exr");
@@ -107,7 +107,7 @@ TEST_F(FirstPicture, OfEveryGeneratedVolume) {
     }
 }
 
-TEST_F(FirstPicture, OfRealData) {
+TEST_F(FirstPicture, IsGoodForRealData) {
     const char* const data = std::getenv("LAMINA_DATA");
     if (data == nullptr) GTEST_SKIP() << "LAMINA_DATA is not set";
     int count = 0;
@@ -210,7 +210,7 @@ TEST_F(FirstPicture, ShortcutsWorkForScenesToo) {
     expect_same("a.png", "b.png");
 }
 
-TEST_F(FirstPicture, AMissingMethodIsWhatTheSceneHas) {
+TEST_F(FirstPicture, UsesProjectionForASceneWithAMeshAlone) {
     const std::string volume = generated("gaussians");
     run({"mesh", volume, "--kuhn", "-o", folder / "m.vtu", "--quiet"});
     write_bytes_to(folder / "s.json",

@@ -90,7 +90,7 @@ TEST_F(Folders, AStudysDataAreNotReplaced) {
     expect_different({"study", folder / "study.json", "-o", out}, "0123.exr");
 }
 
-TEST_F(Folders, OtherNamesOfAFileAreThatFile) {
+TEST_F(Folders, LinksToInputsAreNotReplaced) {
     std::filesystem::create_hard_link(folder / "scene.json", out / "budget.json");
     expect_different({"crosscheck", folder / "scene.json", "-o", out}, "budget.json");
     std::filesystem::remove(out / "budget.json");
@@ -131,7 +131,7 @@ TEST_F(Folders, NoVerbReplacesWhatItReads) {
     make({"integrate", out / "segments.json", "-o", out / "integrals.json"});
 }
 
-TEST_F(Folders, WhatAStudyDidNotWriteIsNotReplaced) {
+TEST_F(Folders, FilesThatAStudyDidNotWriteAreNotReplaced) {
     for (const char* name : {"results.json", "results.csv", "report.html"})
         expect_own({"study", folder / "study.json", "-o", out, "--quiet"}, name);
     std::filesystem::remove_all(out);
@@ -150,7 +150,7 @@ TEST_F(Folders, WhatAStudyDidNotWriteIsNotReplaced) {
     make(merge);
 }
 
-TEST_F(Folders, WhatAReproductionDidNotWriteIsNotReplaced) {
+TEST_F(Folders, FilesThatAReproductionDidNotWriteAreNotReplaced) {
     for (const char* name : {"table3.csv", "lamar.json", "lamar.html"})
         expect_own({"reproduce", "lamar", "table3", "-o", out}, name);
     write_bytes_to(out / "figure2.svg", "mine");  // belongs to an item that is not made here
@@ -158,12 +158,12 @@ TEST_F(Folders, WhatAReproductionDidNotWriteIsNotReplaced) {
     expect_one_line(lamina_run({"reproduce", "lamar", "figure2", "-o", out}), 1, {"figure2.svg"});
 }
 
-TEST_F(Folders, WhatASelftestDidNotWriteIsNotReplaced) {
+TEST_F(Folders, FilesThatASelftestDidNotWriteAreNotReplaced) {
     expect_own({"selftest", "--group", "metamorphic", "--context", "cpu", "--quiet", "-o", out},
                "selftest.txt");
 }
 
-TEST_F(Folders, WhatACrosscheckDidNotWriteIsNotReplaced) {
+TEST_F(Folders, FilesThatACrosscheckDidNotWriteAreNotReplaced) {
     if (std::string(LAMINA_TETRAHEDRALIZE_BINARY).empty()) GTEST_SKIP() << "built without TetGen";
     for (const char* name : {"report.html", "sliced.exr"}) {
         expect_own({"crosscheck", folder / "scene.json", "-o", out, "--context", "cpu", "--quiet",

@@ -63,7 +63,7 @@ class Executable {
     ElfW(Ehdr) header_;
 };
 
-TEST(Hardening, ReleasesAreBuiltWithIt) {
+TEST(Hardening, AppliesToReleaseBuilds) {
     if (!LAMINA_HARDENED) GTEST_SKIP() << "no release build";
     for (const std::string program : {LAMINA_BINARY, LAMINA_TETRAHEDRALIZE_BINARY}) {
         if (program.empty()) continue;  // built without TetGen

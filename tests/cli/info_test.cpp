@@ -86,7 +86,7 @@ TEST_F(Info, TextHasTheDigitsThatTellValuesApart) {
 }
 
 // 17 whole numbers make nine rows; each has two numbers, the last one has one.
-TEST_F(Info, RowsOfTheHistogramAreAsWide) {
+TEST_F(Info, RowsOfTheHistogramAreEquallyWide) {
     std::string values;
     for (int i = 0; i < 17; ++i) values += fmt::format(" {}", i);
     write_bytes_to(
@@ -97,7 +97,7 @@ TEST_F(Info, RowsOfTheHistogramAreAsWide) {
     EXPECT_NE(shown.find("16 .. 17         5.882 %"), std::string::npos) << shown;
 }
 
-TEST_F(Info, OfAMeshItIsTheFirstScalarPointByPoint) {
+TEST_F(Info, DescribesTheFirstScalarOfAMeshPointByPoint) {
     write_bytes_to(folder / "m.node",
                    "5 3 2 0\n0 0 0 0 1 9\n1 1 0 0 2 9\n2 0 1 0 3 9\n3 0 0 1 4 9\n4 1 1 1 10 9\n");
     write_bytes_to(folder / "m.ele", "2 4 0\n0 0 1 2 3\n1 1 2 3 4\n");

@@ -53,7 +53,7 @@ class Memory : public testing::Test {
     mutable std::string said;
 };
 
-TEST_F(Memory, PicturesAreThoseOfTheVolumeInMemory) {
+TEST_F(Memory, LimitsDoNotChangeThePicture) {
     for (const std::vector<std::string>& more : {std::vector<std::string>{},
                                                  {"--method", "trace"},
                                                  {"--set", "render.slice.samples=90"},
@@ -62,7 +62,7 @@ TEST_F(Memory, PicturesAreThoseOfTheVolumeInMemory) {
             << fmt::format("{}", fmt::join(more, " "));
 }
 
-TEST_F(Memory, AnIndexIsKeptAndMadeAgainWhereTheVolumeChanged) {
+TEST_F(Memory, IndexIsKeptAndMadeAgainWhereTheVolumeChanged) {
     const std::string picture = render("1M");
     const auto cached = [&] {
         return std::filesystem::directory_iterator(folder / "cache/lamina")->path();
@@ -89,7 +89,7 @@ TEST_F(Memory, AnIndexIsKeptAndMadeAgainWhereTheVolumeChanged) {
     EXPECT_NE(said.find("made again"), std::string::npos) << said;
 }
 
-TEST_F(Memory, InfoSaysTheSame) {
+TEST_F(Memory, LimitsDoNotChangeWhatInfoSays) {
     const auto info = [&](const char* memory) {
         const ProgramResult result = run({"info", volume, "--json", "--memory", memory});
         EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -98,7 +98,7 @@ TEST_F(Memory, InfoSaysTheSame) {
     EXPECT_EQ(info("1M"), info("1G"));
 }
 
-TEST_F(Memory, MistakesAreOneLine) {
+TEST_F(Memory, MistakesAreReportedInOneLine) {
     const auto expect = [&](std::vector<std::string> arguments, int code,
                             std::initializer_list<const char*> parts) {
         const ProgramResult result = run(arguments);

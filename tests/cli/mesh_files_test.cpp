@@ -106,7 +106,7 @@ TEST_F(MeshFiles, AreTracedInDoublePrecision) {
     EXPECT_LT(stats["error_estimate"].get<double>(), 1e-12);
 }
 
-TEST_F(MeshFiles, AndSceneMeshesAreTheSame) {
+TEST_F(MeshFiles, DrawTheSameAsMeshesOfScenes) {
     ASSERT_EQ(
         lamina_run({"generate", "gaussians", "--size", "9,8,7", "-o", path("g.nrrd")}).exit_code,
         0);
@@ -138,7 +138,7 @@ TEST_F(MeshFiles, MayHaveNamesThatAreNotUtf8) {
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
 }
 
-TEST_F(MeshFiles, BadOnesAreOneLineAndLeaveNothing) {
+TEST_F(MeshFiles, AreReportedInOneLineIfBadAndLeaveNothing) {
     write("cube.ele", "1 4 0\n0 0 1 3 8\n");
     write_scene("s.json", "cube.node");
     const ProgramResult result = lamina_run({"render", path("s.json"), "-o", path("s.exr")});
@@ -151,7 +151,7 @@ TEST_F(MeshFiles, BadOnesAreOneLineAndLeaveNothing) {
 }
 
 // Mid-edge points of a quadratic tet are not drawn; the program warns and counts them.
-TEST_F(MeshFiles, WhatIsLeftOutIsCounted) {
+TEST_F(MeshFiles, CountWhatIsLeftOut) {
     std::string nodes = "10 3 1 0\n1 0 0 0 0\n2 1 0 0 0\n3 0 1 0 0\n4 0 0 1 0\n";
     for (int i = 5; i <= 10; ++i) nodes += fmt("%d %g .5 .5 0\n", i, i / 20.0);
     write("q.node", nodes);

@@ -68,7 +68,7 @@ TEST_F(MeshVerb, KuhnNeedsNoTetGen) {
     EXPECT_FALSE(std::filesystem::exists(vtu));
 }
 
-TEST_F(MeshVerb, AdaptiveInBothFormats) {
+TEST_F(MeshVerb, WritesTheSameAdaptiveMeshInBothFormats) {
     if (!with_tetgen()) GTEST_SKIP() << "built without TetGen";
     const ProgramResult result = lamina_run({"mesh", volume, "-o", node, "--tolerance", "0.08"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -84,7 +84,7 @@ TEST_F(MeshVerb, AdaptiveInBothFormats) {
     EXPECT_EQ(a["bounds"], b["bounds"]);
 }
 
-TEST_F(MeshVerb, SaysWhatMaxTetsLeft) {
+TEST_F(MeshVerb, WarnsIfMaxTetsLimitsTheError) {
     if (!with_tetgen()) GTEST_SKIP() << "built without TetGen";
     const ProgramResult result = lamina_run({"mesh", volume, "-o", vtu, "--max-tets", "300"});
     EXPECT_EQ(result.exit_code, 0);
@@ -93,7 +93,7 @@ TEST_F(MeshVerb, SaysWhatMaxTetsLeft) {
     EXPECT_LE(info(vtu)["tets"], 300);
 }
 
-TEST_F(MeshVerb, TheScenesTransferFunctionAndSettingsCount) {
+TEST_F(MeshVerb, UsesTheScenesTransferFunctionAndSettings) {
     if (!with_tetgen()) GTEST_SKIP() << "built without TetGen";
     const ProgramResult result = lamina_run({"mesh", scene, "-o", vtu});
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -102,7 +102,7 @@ TEST_F(MeshVerb, TheScenesTransferFunctionAndSettingsCount) {
     EXPECT_EQ(info(vtu)["tets"], 7986);
 }
 
-TEST_F(MeshVerb, MistakesOfUsageAreExitTwo) {
+TEST_F(MeshVerb, ExitsWith2ForMistakesOfUsage) {
     for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--tolerance", "0"},
                                                   {"--tolerance", "-1"},
                                                   {"--tolerance", "1.5"},

@@ -74,7 +74,7 @@ TEST_F(Messages, NamesOfWhatIsWrittenAreEscaped) {
         EXPECT_TRUE(json::accept(read_bytes_of(home / file))) << file;
 }
 
-TEST_F(Messages, StudiesAndCrosschecksOfAnyName) {
+TEST_F(Messages, StudiesAndCrosschecksMayHaveAnyName) {
     const std::filesystem::path home = folder / hostile;
     std::filesystem::create_directory(home);
     write_bytes_to(home / "scene.json", blobs_scene(8, 6, 4).dump());
@@ -148,7 +148,7 @@ TEST_F(Messages, AnAutomaticTreeIsNoReasonToRefuseFloat32) {
 }
 
 // A mesh that is made from the volume has no file, so messages name the scene.
-TEST_F(Messages, AMeshThatIsMadeHasTheScenesName) {
+TEST_F(Messages, AMeshMadeFromAVolumeIsNamedByItsScene) {
     json scene = gaussians_scene(4, 8, 6, 4);
     scene["volume"] = "v.nrrd";
     scene["mesh"] = {{"kuhn", true}};

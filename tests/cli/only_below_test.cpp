@@ -58,7 +58,7 @@ class OnlyBelow : public FaultsTestCase {
     const fs::path up = folder / "uploads";
 };
 
-TEST_F(OnlyBelow, DataFilesOfHeaders) {
+TEST_F(OnlyBelow, RestrictsDataFilesOfHeaders) {
     int number = 0;
     const auto each = [&](const std::string& data, bool is_below) {
         const std::string name = fmt::format("h{}", number++);
@@ -76,7 +76,7 @@ TEST_F(OnlyBelow, DataFilesOfHeaders) {
 }
 
 // A folder whose name begins with the folder's name is not below it.
-TEST_F(OnlyBelow, FilesThatAreNamedThemselves) {
+TEST_F(OnlyBelow, RestrictsFilesNamedDirectly) {
     fs::create_directory(folder / "uploads2");
     fs::copy_file(folder / "volume.nrrd", folder / "uploads2/v.nrrd");
     fs::copy_file(folder / "volume.nrrd", up / "v.nrrd");
@@ -88,7 +88,7 @@ TEST_F(OnlyBelow, FilesThatAreNamedThemselves) {
         expect_refused(file);
 }
 
-TEST_F(OnlyBelow, HeadersOfPairs) {
+TEST_F(OnlyBelow, RestrictsPairsOfHeaderAndData) {
     std::string header(352, '\0');  // NIfTI-1: sizeof_hdr, dim, datatype, bitpix, pixdim, magic
     const auto put = [&](std::size_t at, const auto& value) {
         std::memcpy(&header[at], &value, sizeof value);
@@ -109,7 +109,7 @@ TEST_F(OnlyBelow, HeadersOfPairs) {
 }
 
 // No folder outside is searched, and messages do not tell whether a file outside exists.
-TEST_F(OnlyBelow, FoldersAndAbsentFiles) {
+TEST_F(OnlyBelow, RestrictsFoldersAndHidesWhetherFilesExist) {
     fs::create_directories(folder / "inner/array");
     write_bytes_to(folder / "inner/array/.zarray", "{}");
     fs::create_directory(up / "group.zarr");
@@ -122,7 +122,7 @@ TEST_F(OnlyBelow, FoldersAndAbsentFiles) {
 }
 
 // Pictures are outputs of lamina, and may be outside.
-TEST_F(OnlyBelow, SeriesAreWrittenAnywhere) {
+TEST_F(OnlyBelow, DoesNotRestrictWherePicturesAreWritten) {
     fs::copy_file(folder / "volume.nrrd", up / "volume.nrrd");
     fs::copy_file(folder / "scene.json", up / "scene.json");
     const auto arguments = below({"render", up / "scene.json", "-o", out / "t_%04d.exr",
@@ -132,7 +132,7 @@ TEST_F(OnlyBelow, SeriesAreWrittenAnywhere) {
     EXPECT_TRUE(fs::exists(out / "t_0002.exr"));
 }
 
-TEST_F(OnlyBelow, WhatScenesName) {
+TEST_F(OnlyBelow, RestrictsFilesNamedByScenes) {
     nlohmann::json scene = nlohmann::json::parse(read_bytes_of(folder / "scene.json"));
     expect_refused_by({"render", folder / "scene.json", "-o", out / "p.png", "--context", "cpu"});
     fs::copy_file(folder / "volume.nrrd", up / "volume.nrrd");
@@ -159,7 +159,7 @@ TEST_F(OnlyBelow, WhatScenesName) {
     EXPECT_TRUE(fs::is_empty(out));
 }
 
-TEST_F(OnlyBelow, PartsOfMeshes) {
+TEST_F(OnlyBelow, RestrictsPartsOfMeshes) {
     const auto mesh = [&](const fs::path& file) {
         make({"mesh", folder / "volume.nrrd", "--kuhn", "-o", file, "--quiet"});
     };
@@ -180,7 +180,7 @@ TEST_F(OnlyBelow, PartsOfMeshes) {
     expect_refused(up / "pair.node");
 }
 
-TEST_F(OnlyBelow, ChunksAndHeadersOfArrays) {
+TEST_F(OnlyBelow, RestrictsChunksAndHeadersOfArrays) {
     const fs::path array = up / "a.zarr";
     fs::create_directory(array);
     const std::string header =
@@ -200,7 +200,7 @@ TEST_F(OnlyBelow, ChunksAndHeadersOfArrays) {
     expect_refused(array);
 }
 
-TEST_F(OnlyBelow, TheFolderMustBeOne) {
+TEST_F(OnlyBelow, RefusesWhatIsNotAFolder) {
     for (const fs::path& wrong : {folder / "absent", folder / "scene.json", fs::path()}) {
         const ProgramResult result =
             lamina_run({"info", folder / "volume.nrrd", "--only-below", wrong});

@@ -59,7 +59,7 @@ TEST(Order, TableNamesWhatItMeasures) {
         EXPECT_NE(result.out.find(word), std::string::npos) << word;
 }
 
-TEST(Order, ASceneBringsItsCamera) {
+TEST(Order, UsesTheCameraOfAScene) {
     const TemporaryFolder folder;
     two_tets(folder);
     const auto covered = [&](const std::string& eye) {
@@ -76,7 +76,7 @@ TEST(Order, ASceneBringsItsCamera) {
     EXPECT_GT(covered("[4, 0.2, 1]"), 4 * covered("[40, 0.2, 1]"));
 }
 
-TEST(Order, MistakesAreNamed) {
+TEST(Order, NamesMistakes) {
     const TemporaryFolder folder;
     const std::string mesh = two_tets(folder);
     for (const char* size : {"", "30", "30x", "x30", "0x5", "-1x5", "30x20x10", "99999x5"}) {

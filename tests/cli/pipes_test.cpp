@@ -130,7 +130,7 @@ TEST_F(Pipes, TextsGoToStdout) {
 }
 
 // NPY has the numbers of the EXR file in float32; for the tracer, in double precision.
-TEST_F(Pipes, NumpyFilesOfEveryMethod) {
+TEST_F(Pipes, NumpyFilesHaveTheNumbersOfExr) {
     ASSERT_EQ(run({"render", "scene.json", "-o", "a.exr"}).exit_code, 0);
     ASSERT_EQ(run({"render", "scene.json", "-o", "a.npy"}).exit_code, 0);
     const Image exr = read_exr(folder / "a.exr");
@@ -163,7 +163,7 @@ TEST_F(Pipes, PathsAreRelativeToTheCurrentFolder) {
     EXPECT_NE(over.err.find("g.nrrd"), std::string::npos) << over.err;
 }
 
-TEST_F(Pipes, MistakesAreOneLine) {
+TEST_F(Pipes, MistakesAreReportedInOneLine) {
     write_bytes_to(folder / "bad.json", "{\"version\": 1,\n nonsense}");
     expect_failure(1, {"render", "-", "-o", "-", "--format", "png"}, {"stdin", "line 2"});
     write_bytes_to(folder / "bad.json", "{\"version\": 1, \"volume\": \"absent.nrrd\"}");

@@ -169,7 +169,7 @@ class ProfileOption : public testing::Test {
     std::vector<Event> events;
 };
 
-TEST_F(ProfileOption, OfSlicingByTheCpuEngine) {
+TEST_F(ProfileOption, HasTheStagesOfSlicingByTheCpuEngine) {
     profile("slice", "cpu");
     expect_stages({"scene", "load", "measure", "bricks", "facts", "plan", "context", "set_up",
                    "tables", "upload", "geometry", "draw", "read", "write"});
@@ -178,7 +178,7 @@ TEST_F(ProfileOption, OfSlicingByTheCpuEngine) {
     EXPECT_EQ(named("draw")[0].counts["samples"], stats["fragments"]);
 }
 
-TEST_F(ProfileOption, TablesAreBuiltByThePlan) {
+TEST_F(ProfileOption, ShowsThatThePlanBuildsTables) {
     scene["render"]["slice"]["classification"] = "preintegrated";
     scene["render"]["slice"]["samples"] = 30;
     write_bytes_to(folder / "scene.json", scene.dump());
@@ -188,14 +188,14 @@ TEST_F(ProfileOption, TablesAreBuiltByThePlan) {
         EXPECT_TRUE(is_in(table, named("plan").at(0), rounding));
 }
 
-TEST_F(ProfileOption, OfSlicingByOpenGL) {
+TEST_F(ProfileOption, HasTheStagesOfSlicingByOpenGL) {
     profile("slice", "osmesa");
     expect_stages({"compile", "upload", "geometry", "draw"});
     EXPECT_TRUE(has_opengl());
     check_opengl();
 }
 
-TEST_F(ProfileOption, OfProjectionByTheCpuEngine) {
+TEST_F(ProfileOption, HasTheStagesOfProjectionByTheCpuEngine) {
     profile("project", "cpu");
     expect_stages({"load volume", "make mesh", "neighbours", "order graph", "visible parts",
                    "order", "sort", "parts", "draw", "set-up", "tiles"});
@@ -206,14 +206,14 @@ TEST_F(ProfileOption, OfProjectionByTheCpuEngine) {
     EXPECT_EQ(draws[0].counts["fragments"], stats["fragments"]);
 }
 
-TEST_F(ProfileOption, OfProjectionByOpenGL) {
+TEST_F(ProfileOption, HasTheStagesOfProjectionByOpenGL) {
     profile("project", "osmesa");
     expect_stages({"compile", "order", "sort", "parts", "geometry", "submit", "finish"});
     EXPECT_TRUE(has_opengl());
     check_opengl();
 }
 
-TEST_F(ProfileOption, OfTheTracers) {
+TEST_F(ProfileOption, HasTheStagesOfTheTracers) {
     profile("trace", "auto");
     expect_stages({"load", "measure", "trace"});
 }
@@ -239,7 +239,7 @@ TEST_F(ProfileOption, SaysWhereItCannotWrite) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
 }
 
-TEST_F(ProfileOption, IsAFileOfItsOwn) {
+TEST_F(ProfileOption, NeedsAFileOfItsOwn) {
     EXPECT_EQ(render({"--profile", folder / "a.exr"}).exit_code, 2);
     EXPECT_EQ(render({"--profile", folder / "scene.json"}).exit_code, 2);
     const ProgramResult without =
@@ -248,7 +248,7 @@ TEST_F(ProfileOption, IsAFileOfItsOwn) {
     EXPECT_NE(without.err.find("-o"), std::string::npos) << without.err;
 }
 
-TEST_F(ProfileOption, OfARunThatFailsIsNotWritten) {
+TEST_F(ProfileOption, WritesNothingForARunThatFails) {
     EXPECT_EQ(
         render({"--set", "render.slice.samples=-1", "--profile", folder / "p.json"}).exit_code, 2);
     EXPECT_FALSE(std::filesystem::exists(folder / "p.json"));

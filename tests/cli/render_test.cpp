@@ -85,7 +85,7 @@ TEST_F(Render, SliceAndTraceAgree) {
     EXPECT_LT(image_error(trace, read_npy(folder / "trace.npy")).all.linf, 255 * 6e-8);
 }
 
-TEST_F(Render, TwiceGivesIdenticalFiles) {
+TEST_F(Render, GivesIdenticalFilesTwice) {
     for (const char* name : {"a.exr", "b.exr"}) {
         ASSERT_EQ(render({"-o", folder / name, "--context", "osmesa"}).exit_code, 0);
     }
@@ -139,12 +139,12 @@ TEST_F(Render, ExplainSaysWhatIsLeftOut) {
     EXPECT_EQ(render({"--explain", "--no-omit=perspective"}).exit_code, 0);
 }
 
-TEST_F(Render, QuietMeansQuiet) {
+TEST_F(Render, IsSilentIfAskedToBeQuiet) {
     const ProgramResult result = render({"-o", folder / "a.exr", "--quiet"});
     EXPECT_EQ(result.out + result.err, "");
 }
 
-TEST_F(Render, MistakesOfUsageAreExitTwo) {
+TEST_F(Render, ExitsWith2ForMistakesOfUsage) {
     const std::vector<std::vector<std::string>> mistakes = {
         {"-o", folder / "a.exr", "--set", "render.slice.sampels=8"},
         {"-o", folder / "a.exr", "--set", "render.slice.samples=-8"},
@@ -170,7 +170,7 @@ TEST_F(Render, MistakesOfUsageAreExitTwo) {
     }
 }
 
-TEST_F(Render, BadScenesAreOneLineAndLeaveNothing) {
+TEST_F(Render, ReportsBadScenesInOneLineAndWritesNothing) {
     expect_failure(with("/colour", 1), {"bad.json", "colour", "unknown key"});
     expect_failure(with("/image/width", 0), {"image.width", "found 0"});
     expect_failure(with("/image", {{"width", 1000000}, {"height", 1000000}}),
@@ -186,7 +186,7 @@ TEST_F(Render, BadScenesAreOneLineAndLeaveNothing) {
     EXPECT_NE(unwritable.err.find("/nowhere/at/all.exr"), std::string::npos);
 }
 
-TEST_F(Render, WhatCannotBeDrawnLitIsRefused) {
+TEST_F(Render, RefusesSettingsThatCannotBeLit) {
     const json light{{"smallest_gradient", 1}};
     json mesh = with("/lighting", light);
     mesh["mesh"] = {{"kuhn", true}};
@@ -224,7 +224,7 @@ TEST_F(Render, TracesLitScenes) {
 
 // The tracer's tolerance is 1e-5; the plain twin's error is far smaller. tools/fuzz_scenes has the
 // same bound.
-TEST_F(Render, TracesPlainly) {
+TEST_F(Render, TracesWithThePlainTracerWithinTolerance) {
     const auto trace = [&](const std::string& name, const std::vector<std::string>& more) {
         std::vector<std::string> options{"--method", "trace",
                                          "-o",       folder / (name + ".npy"),
@@ -261,7 +261,7 @@ TEST_F(Render, OutputsAreRegularFilesAndLinksStayLinks) {
     EXPECT_FALSE(std::filesystem::exists(folder / "b.exr"));
 }
 
-TEST_F(Render, BadVolumesAreOneLineAndLeaveNothing) {
+TEST_F(Render, ReportsBadVolumesInOneLineAndWritesNothing) {
     write_bytes_to(
         folder / "huge.nrrd",
         "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 16384 16384 4096\nencoding: raw\n\nabc");

@@ -62,7 +62,7 @@ TEST(Reproduce, JudgesOrderAndDithering) {
     }
 }
 
-TEST(Reproduce, BadNamesAreExitTwo) {
+TEST(Reproduce, ExitsWith2ForUnknownNames) {
     const TemporaryFolder folder;
     const ProgramResult item = reproduce({"lamar", "figure99", "-o", folder / "x"});
     EXPECT_EQ(item.exit_code, 2);
@@ -79,7 +79,7 @@ TEST(Reproduce, BadNamesAreExitTwo) {
     EXPECT_TRUE(folder.empty());
 }
 
-TEST(Reproduce, AFileInTheWayIsExitOne) {
+TEST(Reproduce, ExitsWith1IfAFileIsInTheWay) {
     const TemporaryFolder folder;
     write_bytes_to(folder / "x", "");
     for (const auto& [paper, item] : {std::pair{"lamar", "table2"}, {"kraus", "figure7"}}) {
@@ -108,7 +108,7 @@ TEST(Reproduce, ItemsWithoutTheirDataSetAreSkipped) {
 
 // Writes stdout to a file, which is buffered like a pipe. The program is stopped early: all items
 // take minutes.
-TEST(Reproduce, ALineIsWrittenAsItsItemEnds) {
+TEST(Reproduce, WritesALineAsSoonAsItsItemEnds) {
     const TemporaryFolder folder;
     StartedProgram program({"sh", "-c", "exec \"$0\" reproduce lamar -o \"$1\" > \"$2\"",
                             LAMINA_BINARY, folder / "x", folder / "lines"});

@@ -77,20 +77,20 @@ class SameWarnings : public testing::Test {
     }
 };
 
-TEST_F(SameWarnings, OfABoundThatIsNotKept) {
+TEST_F(SameWarnings, AreGivenForABoundThatIsNotKept) {
     json scene = gaussians_scene(12, 24, 18, 4);
     scene["render"] = {{"max_error", 1e-5}, {"slice", {{"tree", "auto"}}}};
     expect_both_say(scene, "render.max_error: 1e-05 is not kept");
 }
 
-TEST_F(SameWarnings, OfColorsThatTheTargetClamps) {
+TEST_F(SameWarnings, AreGivenForColorsThatTheTargetClamps) {
     json scene = gaussians_scene(12, 24, 18, 4);
     scene["transfer_function"]["points"][1]["color"] = {1.5, 1, 0};
     scene["render"]["target"] = "fixed8";
     expect_both_say(scene, "1 transfer-function points have a colour above 1");
 }
 
-TEST_F(SameWarnings, OfSamplesThatAreNone) {
+TEST_F(SameWarnings, AreGivenForNonFiniteSamples) {
     json scene = volume_scene(
         "type: float\nsizes: 3 2 2\nencoding: ascii\n\n1 2 250 4 5 6 7 nan 9 80 200 30\n");
     scene["nan"] = "transparent";
@@ -98,7 +98,7 @@ TEST_F(SameWarnings, OfSamplesThatAreNone) {
     expect_both_say(traced(scene), "1 samples are NaN or infinite");
 }
 
-TEST_F(SameWarnings, OfPadding) {
+TEST_F(SameWarnings, AreGivenForPadding) {
     std::string samples;
     for (int i = 0; i < 512; ++i)
         samples += (i % 8 < 2 ? "-30000" : std::to_string(i * 37 % 211)) + " ";
@@ -109,7 +109,7 @@ TEST_F(SameWarnings, OfPadding) {
     expect_both_say(traced(scene), "is padding, which");
 }
 
-TEST_F(SameWarnings, OfCellsThatAreDrawnOtherwise) {
+TEST_F(SameWarnings, AreGivenForQuadraticCells) {
     std::string nodes = "10 3 1 0\n1 0 0 0 0\n2 1 0 0 90\n3 0 1 0 200\n4 0 0 1 255\n";
     for (int i = 5; i <= 10; ++i)
         nodes += std::to_string(i) + " 0." + std::to_string(i) + " .5 .5 9\n";
@@ -118,7 +118,7 @@ TEST_F(SameWarnings, OfCellsThatAreDrawnOtherwise) {
     expect_both_say(traced(scene), "1 quadratic cells are drawn with straight edges");
 }
 
-TEST_F(SameWarnings, OfTetsThatOverlap) {
+TEST_F(SameWarnings, AreGivenForOverlappingTets) {
     const json scene = mesh_scene(
         "8 3 1 0\n1 0 0 0 0\n2 1 0 0 90\n3 0 1 0 200\n4 0 0 1 255\n"
         "5 .1 .1 .1 0\n6 1.1 .1 .1 90\n7 .1 1.1 .1 200\n8 .1 .1 1.1 255\n",
@@ -127,7 +127,7 @@ TEST_F(SameWarnings, OfTetsThatOverlap) {
     expect_both_say(traced(scene), "the mesh overlaps itself on the rays of");
 }
 
-TEST_F(SameWarnings, OfMeshesThatStop) {
+TEST_F(SameWarnings, AreGivenForMeshesThatStopAtMaxTets) {
     const std::filesystem::path maker = LAMINA_TETRAHEDRALIZE_BINARY;
     if (maker.empty()) GTEST_SKIP() << "built without TetGen";
     // The library searches for lamina-tetrahedralize in PATH.

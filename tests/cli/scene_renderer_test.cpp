@@ -46,7 +46,7 @@ class SceneRendererAndProgram : public testing::Test {
     TemporaryFolder folder;
 };
 
-TEST_F(SceneRendererAndProgram, DrawSlabsAlike) {
+TEST_F(SceneRendererAndProgram, DrawTheSameSlabs) {
     nlohmann::json document = gaussians_scene(24, 40, 30, 60);
     document["render"]["slice"]["classification"] = "preintegrated";
     document["render"]["slice"]["samples"] = "auto";
@@ -72,7 +72,7 @@ TEST_F(SceneRendererAndProgram, DrawSlabsAlike) {
     }
 }
 
-TEST_F(SceneRendererAndProgram, DrawTetsAlike) {
+TEST_F(SceneRendererAndProgram, DrawTheSameTets) {
     nlohmann::json document = gaussians_scene(9, 40, 30, 60);
     document["mesh"] = {{"kuhn", true}};
     document["render"]["method"] = "project";

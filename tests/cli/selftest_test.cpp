@@ -78,7 +78,7 @@ TEST(Selftest, FindsAMutatedShader) {
     EXPECT_GE(failed, 40u);  // most of 68; the others show nothing
 }
 
-TEST(Selftest, RefusesWhatIsUnknown) {
+TEST(Selftest, RefusesUnknownGroups) {
     const TemporaryFolder folder;
     const ProgramResult group =
         lamina_run({"selftest", "--group", "optic", "-o", (folder / "out").string()});

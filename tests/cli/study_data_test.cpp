@@ -50,7 +50,7 @@ class StudyDataSets : public StudyTestCase {
     }
 };
 
-TEST_F(StudyDataSets, AVolumeThatChangedIsNotGoneOnWith) {
+TEST_F(StudyDataSets, AChangedVolumeEndsResuming) {
     use_volume();
     make_volume("gaussians");
     expect_refused_after("made.nrrd", [&] { make_volume("marschner-lobb"); });
@@ -72,7 +72,7 @@ TEST_F(StudyDataSets, AVolumeThatChangedIsNotGoneOnWith) {
     });
 }
 
-TEST_F(StudyDataSets, AMeshOrAColormapThatChangedIsNotGoneOnWith) {
+TEST_F(StudyDataSets, AChangedMeshOrColormapEndsResuming) {
     make_volume("gaussians", "4,4,4");
     const auto make_mesh = [&] {
         const ProgramResult made = lamina_run(
@@ -96,7 +96,7 @@ TEST_F(StudyDataSets, AMeshOrAColormapThatChangedIsNotGoneOnWith) {
 }
 
 // The file is written differently, but the volume is the same.
-TEST_F(StudyDataSets, WhatHoldsTheSameIsGoneOnWith) {
+TEST_F(StudyDataSets, EqualSamplesInAnotherFileAreResumed) {
     use_volume();
     make_volume("gaussians");
     run_well("out");
@@ -122,7 +122,7 @@ TEST_F(StudyDataSets, ShardsOfDifferentDataDoNotMerge) {
     expect_one_line(run("a", {"--shard", "2/2"}), {"made.nrrd", "a/runs.json"});
 }
 
-TEST_F(StudyDataSets, AListWithoutHashesIsAnOlderOnes) {
+TEST_F(StudyDataSets, AListWithoutHashesIsOfAnOlderVersion) {
     run_well("out");
     json list = document("out", "runs.json");
     list.erase("data");
@@ -130,7 +130,7 @@ TEST_F(StudyDataSets, AListWithoutHashesIsAnOlderOnes) {
     expect_one_line(run("out", {"--resume"}), {"runs.json", "older lamina"});
 }
 
-TEST_F(StudyDataSets, ADamagedReferenceIsMadeAgainAndThatIsSaid) {
+TEST_F(StudyDataSets, ADamagedReferenceIsMadeAgainAndReported) {
     run_well("out");
     const auto before = contents(folder / "out" / "references");
     const std::vector<CsvRow> rows = results("out");

@@ -47,7 +47,7 @@ TEST_F(StudyMistakes, UnknownKeysAreNamedWithASuggestion) {
                {"drop.0.becuse", "\"because\""});
 }
 
-TEST_F(StudyMistakes, AKeyThatIsNoneIsAnError) {
+TEST_F(StudyMistakes, KeysThatDoNotExistAreErrors) {
     for (const char* key : {"", ".", "render.", "render..target"})
         expect_bad("sweep", {{key, {1, 2}}}, {"sweep", std::string(key) + ": not a key"});
     expect_bad("sweep", {{"image.width.x", {1, 2}}, {"image.width", 8}},
@@ -55,7 +55,7 @@ TEST_F(StudyMistakes, AKeyThatIsNoneIsAnError) {
     expect_bad("sweep", {{"transfer_function.points.7.value", {1, 2}}}, {"points.7.value"});
 }
 
-TEST_F(StudyMistakes, KeysOfManyPartsAreAnError) {
+TEST_F(StudyMistakes, KeysWithTooManyPartsAreErrors) {
     std::string parts = "a";
     for (int i = 0; i < 100'000; ++i) parts += ".a";
     for (const std::string& key : {parts, std::string(200'000, '.')}) {
@@ -72,7 +72,7 @@ TEST_F(StudyMistakes, AnEmptySweepIsAnError) {
     expect_refused({"study.json", "sweep", "is missing"});
 }
 
-TEST_F(StudyMistakes, TooManyRunsNeedAYes) {
+TEST_F(StudyMistakes, ManyRunsNeedConsent) {
     json hundred = json::array(), thousand = json::array();
     for (int i = 1; i <= 1000; ++i) {
         if (i <= 100) hundred.push_back(i);
@@ -111,7 +111,7 @@ TEST_F(StudyMistakes, MissingFilesAreNamed) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
-TEST_F(StudyMistakes, BaselineIsOneRun) {
+TEST_F(StudyMistakes, ABaselineOfNotOneRunIsAnError) {
     expect_bad("baseline", {{"render.target", "float32"}},
                {"baseline", "found 2 runs", "\"blobs\"", "slice, float32", "project, float32"});
     expect_bad("baseline", {{"render.target", "fixed16"}}, {"baseline", "no run", "\"ramp\""});
@@ -122,7 +122,7 @@ TEST_F(StudyMistakes, BaselineIsOneRun) {
     expect_bad("baseline", "first", {"baseline", "\"first\""});
 }
 
-TEST_F(StudyMistakes, DropLeavesSomethingOfEveryScene) {
+TEST_F(StudyMistakes, DroppingAllRunsOfASceneIsAnError) {
     expect_bad("drop",
                {{{"where", {{"render.target", {"float32", "fixed8"}}}}, {"because", "all"}}},
                {"drop", "no run", "\"ramp\""});
@@ -136,19 +136,19 @@ TEST_F(StudyMistakes, DropLeavesSomethingOfEveryScene) {
     expect_bad("drop", {{{"where", {{"scene", "ramp"}}}}}, {"drop.0.because", "is missing"});
 }
 
-TEST_F(StudyMistakes, ScenesHaveNamesOfTheirOwn) {
+TEST_F(StudyMistakes, ScenesMustHaveDifferentNames) {
     expect_bad("scenes", {"blobs.json", "ramp.json", "blobs.json"}, {"scenes", "\"blobs\""});
     expect_bad("scenes", {"ramp.json", {{"scene", "blobs.json"}, {"name", "ramp"}}},
                {"scenes", "\"ramp\""});
 }
 
-TEST_F(StudyMistakes, ContextIsAWordOfTheCommandLine) {
+TEST_F(StudyMistakes, UnknownContextsAreErrors) {
     expect_bad("base", {{"context", "directx"}}, {"context", "\"directx\"", "osmesa"});
     expect_bad("base", {{"context", 5}}, {"context", "\"5\"", "osmesa"});
     expect_bad("sweep", {{"context", {"cpu", "gpu"}}}, {"context", "\"gpu\"", "osmesa"});
 }
 
-TEST_F(StudyMistakes, ValuesAreChecked) {
+TEST_F(StudyMistakes, InvalidValuesAreErrors) {
     expect_bad("version", 2, {"version", "2"});
     expect_bad("rounds", 0, {"rounds", "0", "from 1"});
     expect_bad("frames", 2.5, {"frames", "2.5"});
@@ -160,7 +160,7 @@ TEST_F(StudyMistakes, ValuesAreChecked) {
                {"no run can be drawn", "render.target", "\"fixed7\""});
 }
 
-TEST_F(StudyMistakes, WhatIsNoJsonIsAnError) {
+TEST_F(StudyMistakes, FilesThatAreNotJsonObjectsAreErrors) {
     command("out");
     for (const char* text : {"", "{\"version\": 1,", "lamina", "[1, 2]", "{\"a\": 1, \"a\": 2}"}) {
         write_bytes_to(folder / "study.json", text);
@@ -175,7 +175,7 @@ TEST_F(StudyMistakes, WhatIsNoJsonIsAnError) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
-TEST_F(StudyMistakes, UsageIsExitTwo) {
+TEST_F(StudyMistakes, MistakesOfUsageExitWith2) {
     for (const char* shard : {"3/2", "0/2", "1/0", "1", "1/", "/2", "a/b", "1/2x", "1 /2", "-1/2",
                               "1/99999999999", "", "1/2/3", "1.5/2"})
         expect_refused({"--shard"}, 2, {std::string("--shard=") + shard});

@@ -82,7 +82,7 @@ class StudyStopped : public StudyTestCase {
     }
 };
 
-TEST_F(StudyStopped, KilledAtFiveMomentsAndResumedEveryRunIsThereOnce) {
+TEST_F(StudyStopped, ResumingAfterKillsMakesEveryRunOnce) {
     be_slow();
     const std::pair<std::size_t, std::chrono::milliseconds> moments[] = {
         {0, 0ms}, {1, 3ms}, {5, 7ms}, {9, 1ms}, {14, 5ms}};
@@ -196,7 +196,7 @@ TEST_F(StudyStopped, ARunThatFailedIsTriedAgain) {
     expect_every_run_once("out");
 }
 
-TEST_F(StudyStopped, InterruptedItSaysWhatIsKept) {
+TEST_F(StudyStopped, SaysWhatIsKeptIfInterrupted) {
     be_slow();
     study["rounds"] = 1;
     study["frames"] = 40;

@@ -104,7 +104,7 @@ TEST_F(TimeSeriesRun, EachStepIsThePictureOfItsFile) {
 }
 
 // The choices for the first step are kept: choices for a later step would make it brighter.
-TEST_F(TimeSeriesRun, AllStepsLookAsTheFirst) {
+TEST_F(TimeSeriesRun, AllStepsUseTheChoicesOfTheFirst) {
     const std::string said = run_well("v_%02d.nrrd", "0:2", "those of step 0", {"--size", "30x20"});
     EXPECT_NE(said.find("wrote 3 of 3"), std::string::npos) << said;
     write_scene({{"volume", "v_00.nrrd"}, {"nan", "transparent"}}, true);
@@ -115,7 +115,7 @@ TEST_F(TimeSeriesRun, AllStepsLookAsTheFirst) {
     EXPECT_NE(bytes.find("v_02.nrrd"), std::string::npos);
 }
 
-TEST_F(TimeSeriesRun, WhatIsThereIsKept) {
+TEST_F(TimeSeriesRun, FinishedStepsAreKept) {
     run_well("scene.json", "0:2", "wrote 3 of 3");
     const auto before = picture("out/p_01.exr");
     run_well("scene.json", "0:3", "wrote 1 of 4 steps");
@@ -141,7 +141,7 @@ TEST_F(TimeSeriesRun, NothingIsDrawnWhereAStepIsMissing) {
     expect_bad("scene_%d.json", "0:1", 2, {"scene"});
 }
 
-TEST_F(TimeSeriesRun, Usage) {
+TEST_F(TimeSeriesRun, MistakesOfUsageExitWith2) {
     for (const char* const time : {"3", "3:1", "0:4:0", "a:b", "-1:2", "0:2:1:1", "0:2:", ""})
         EXPECT_EQ(run("scene.json", time).exit_code, 2) << time;
     EXPECT_EQ(run("scene.json", "0:1", {"--frames", "2"}).exit_code, 2);
@@ -151,14 +151,14 @@ TEST_F(TimeSeriesRun, Usage) {
               2);
 }
 
-TEST_F(TimeSeriesRun, OtherGridsAreSaid) {
+TEST_F(TimeSeriesRun, AnotherGridGivesAWarning) {
     write("v_01.nrrd",
           "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 9 8 7\nspacings: 1 1 2\nencoding: raw\n\n" +
               blob(1));
     run_well("scene.json", "0:1", "step 1: its grid is not that of step 0");
 }
 
-TEST_F(TimeSeriesRun, TheTimeAxisOfAFile) {
+TEST_F(TimeSeriesRun, StepsAreReadFromTheTimeAxisOfAFile) {
     write("4d.nrrd",
           "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 9 8 7 3\nkinds: domain domain domain "
           "time\nencoding: raw\n\n" +
@@ -170,7 +170,7 @@ TEST_F(TimeSeriesRun, TheTimeAxisOfAFile) {
     expect_bad("scene.json", "1:3", 1, {"4d.nrrd", "time", "found 3", "0 to 2"});
 }
 
-TEST_F(TimeSeriesRun, MeshesOfFilesAndOfAPvd) {
+TEST_F(TimeSeriesRun, MeshesAreReadFromFilesAndFromAPvd) {
     std::string pvd = "<VTKFile type=\"Collection\"><Collection>";
     for (int step = 0; step < 3; ++step) {
         testing::TestGrid grid;

@@ -92,7 +92,7 @@ TEST_F(TurntableRun, TheFirstViewIsTheScenesOwnPicture) {
     }
 }
 
-TEST_F(TurntableRun, TheCurrentFolderIsAFolderToo) {
+TEST_F(TurntableRun, WritesIntoTheCurrentFolder) {
     const ProgramResult result =
         lamina_run({"render", "scene.json", "-o", "v_%d.png", "--turntable", "2"}, [this] {
             if (chdir(folder.path().c_str()) != 0) _exit(126);
@@ -102,7 +102,7 @@ TEST_F(TurntableRun, TheCurrentFolderIsAFolderToo) {
     EXPECT_TRUE(std::filesystem::exists(folder / "v_1.png"));
 }
 
-TEST_F(TurntableRun, WhatIsThereAndWholeIsKept) {
+TEST_F(TurntableRun, KeepsWholeFiles) {
     turn_well("v_%d.png", "wrote 4 of 4 views");
     const auto whole = files();
     std::filesystem::remove(folder / "v_0.png");
@@ -156,7 +156,7 @@ TEST_F(TurntableRun, FilesOfOthersAreLeftAlone) {
     EXPECT_EQ(turn("4", "w_%d.png", {"--force"}).exit_code, 2);
 }
 
-TEST_F(TurntableRun, StoppedAndContinued) {
+TEST_F(TurntableRun, ContinuesAfterAStop) {
     const std::vector<std::string> arguments{
         LAMINA_BINARY,         "render",  folder / "scene.json", "-o",
         folder / "s_%03d.png", "--quiet", "--turntable",         "300"};
@@ -185,7 +185,7 @@ TEST_F(TurntableRun, StoppedAndContinued) {
     EXPECT_TRUE(files().contains("s_299.png"));
 }
 
-TEST_F(TurntableRun, MistakesAreExitTwo) {
+TEST_F(TurntableRun, ExitsWith2ForMistakes) {
     const auto before = files();
     const auto expect_mistake = [&](const std::vector<std::string>& options,
                                     const std::string& part) {

@@ -40,7 +40,7 @@ TEST(Verbs, ResultsThatDoNotReachStdoutAreAFailure) {
     EXPECT_EQ(run_program({"sh", "-c", command}).exit_code, 1);
 }
 
-TEST(Verbs, UnknownVerbsAndOptionsAreExitTwo) {
+TEST(Verbs, UnknownVerbsAndOptionsExitWith2) {
     EXPECT_EQ(lamina_run({}).exit_code, 2);
     EXPECT_EQ(lamina_run({"paint"}).exit_code, 2);
     EXPECT_EQ(lamina_run({"info"}).exit_code, 2);
