@@ -108,7 +108,7 @@ TEST(CutMesh, ScalarsAreLinearAndConstantsStay) {
 }
 
 // A piece of a tet has no value if, and only if, the tet has none.
-TEST(CutMesh, TetsWithoutValueStayWithout) {
+TEST(CutMesh, TetsWithoutValueStayWithoutValue) {
     MeshData whole = kuhn(4);
     for (std::size_t i = 0; i < whole.points.size(); i += 7)
         whole.point_scalars[0].values[i] = i % 2 == 0 ? NAN : -INFINITY;

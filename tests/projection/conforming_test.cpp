@@ -50,19 +50,19 @@ const auto zero = [](const glm::dvec3&) { return 0.0; };
 // off by 9e-6 of an edge (docs/numerics.md, section 6) is so for both of its tets, and this cancels
 // except at the box's surface: 2.5 * .2 * 9e-6 * 255 = .001. A crack between Kuhn's tets, or a tet
 // drawn twice, costs units.
-TEST_P(Conforming, Kuhn) {
+TEST_P(Conforming, KuhnMeshesHaveNoCracks) {
     expect_constant(scene_mesh(scaled(test::kuhn_box({8, 8, 8}, zero), 0.125)), 0.02, "kuhn");
 }
 
 // So many tets have depths on faces in float32, except for faces that are edge-on.
-TEST_P(Conforming, KuhnOfManyTets) {
+TEST_P(Conforming, LargeKuhnMeshesHaveNoCracks) {
     expect_constant(scene_mesh(scaled(test::kuhn_box({13, 13, 13}, zero), 1 / 13.0)), 0.02,
                     "kuhn 13");
 }
 
 // A box of `across` x `across` pixels whose sides lie exactly on pixel centres, seen along an axis:
 // rays along a side must meet the box if they do in the tracer. A single wrong one costs 200.
-TEST_P(Conforming, SidesOnPixelCentres) {
+TEST_P(Conforming, SidesOnPixelCentresMeetTheTracersRays) {
     const SceneMesh mesh = scene_mesh(scaled(test::kuhn_box({2, 2, 2}, zero), 0.5));
     for (const int across : {50, 100, 256}) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -84,11 +84,11 @@ TEST_P(Conforming, SidesOnPixelCentres) {
     }
 }
 
-TEST_P(Conforming, Irregular) {
+TEST_P(Conforming, IrregularMeshesHaveNoCracks) {
     expect_constant(scene_mesh(test::split_box(3, 2000, 1e-2, zero)), 0.02, "split");
 }
 
-TEST_P(Conforming, Graded) {
+TEST_P(Conforming, GradedMeshesHaveNoCracks) {
     expect_constant(scene_mesh(test::split_box(4, 4000, 1e-4, zero)), 0.2, "graded");
 }
 

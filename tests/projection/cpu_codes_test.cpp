@@ -18,9 +18,9 @@ int differing(const Image& a, const Image& b) {
     return count;
 }
 
-class TileCodes : public gl::GlTest {
+class CpuCodes : public gl::GlTest {
   protected:
-    TileCodes()
+    CpuCodes()
         : mesh_(scene_mesh(test::split_box(11, 1000, 1e-2, [](const glm::dvec3& p) {
               return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
           }))) {}
@@ -50,7 +50,7 @@ class TileCodes : public gl::GlTest {
     SceneMesh mesh_;
 };
 
-TEST_F(TileCodes, EmulatedTargets) {
+TEST_F(CpuCodes, MatchOpenGlInEmulatedTargets) {
     for (const int bits : {3, 8, 13, 16}) {
         for (const AlphaRounding alpha :
              {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
@@ -64,7 +64,7 @@ TEST_F(TileCodes, EmulatedTargets) {
     }
 }
 
-TEST_F(TileCodes, DitheredTargets) {
+TEST_F(CpuCodes, MatchOpenGlInDitheredTargets) {
     for (const Target target : {Target::fixed8, Target::fixed16, Target::emulated}) {
         for (const ProjectDither dither : {ProjectDither::alpha, ProjectDither::after_blend}) {
             Scene wanted = scene(target);
@@ -76,7 +76,7 @@ TEST_F(TileCodes, DitheredTargets) {
     }
 }
 
-TEST_F(TileCodes, NativeTargets) {
+TEST_F(CpuCodes, MatchOpenGlInNativeTargets) {
     EXPECT_LE(differing_of(scene(Target::fixed8)), most_differing(8));
     EXPECT_LE(differing_of(scene(Target::fixed16)), most_differing(16));
     // Values are truncated to 11 bits after each fragment. They are on a border as often as codes

@@ -66,7 +66,7 @@ Image draw(const SceneMesh& mesh, const Scene& scene) {
     return project(mesh, scene, cpu_capabilities());
 }
 
-TEST(TetTileFrames, EveryInstructionSetGivesTheSameBits) {
+TEST(CpuTetFrames, EveryInstructionSetGivesTheSameBits) {
     const SceneMesh mesh = mesh_of(1500);
     const std::vector<std::string> names = instruction_sets();
     for (const Case& each : cases()) {
@@ -79,7 +79,7 @@ TEST(TetTileFrames, EveryInstructionSetGivesTheSameBits) {
     }
 }
 
-TEST(TetTileFrames, ThreadsDoNotChangeThePicture) {
+TEST(CpuTetFrames, ThreadsDoNotChangeThePicture) {
     const SceneMesh mesh = mesh_of(3000);
     for (const Case& each : cases()) {
         const Image many = draw(mesh, each.scene);
@@ -88,7 +88,7 @@ TEST(TetTileFrames, ThreadsDoNotChangeThePicture) {
     }
 }
 
-TEST(TetTileFrames, FramesAfterTheFirstTakeNoMemory) {
+TEST(CpuTetFrames, FramesAfterTheFirstTakeNoMemory) {
     const SceneMesh mesh = mesh_of(1500);
     for (const Case& each : cases()) {
         const auto renderer = make_renderer(mesh, each.scene, cpu_capabilities());

@@ -45,9 +45,9 @@ Difference difference(const Image& a, const Image& b) {
             static_cast<int>(worst.end() - std::ranges::upper_bound(worst, 1e-3))};
 }
 
-class TilePicture : public gl::GlTest {
+class CpuPicture : public gl::GlTest {
   protected:
-    TilePicture() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, field))) {}
+    CpuPicture() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, field))) {}
 
     Scene scene(const TransferFunction& transfer_function) const {
         Scene scene = projection_scene(transfer_function, 101, 83);
@@ -113,17 +113,17 @@ class TilePicture : public gl::GlTest {
     SceneMesh mesh_;
 };
 
-TEST_F(TilePicture, Constant) {
+TEST_F(CpuPicture, MatchesOpenGlForOneConstant) {
     expect_same(scene(TransferFunction::linear({knot(0, {1, .6, .2}, 1.5)})),
                 SegmentSource::constant, "constant");
 }
 
-TEST_F(TilePicture, Parts) {
+TEST_F(CpuPicture, MatchesOpenGlForTetsCutAtPoints) {
     expect_same(scene(crooked()), SegmentSource::parts, "coloured");
     expect_same(scene(of_one_color()), SegmentSource::parts, "one colour");
 }
 
-TEST_F(TilePicture, Analytic) {
+TEST_F(CpuPicture, MatchesOpenGlForAnalyticSegments) {
     for (const TransferFunction& transfer_function : {crooked(), of_one_color()}) {
         Scene wanted = scene(transfer_function);
         wanted.project.coloring = Coloring::analytic;
@@ -131,7 +131,7 @@ TEST_F(TilePicture, Analytic) {
     }
 }
 
-TEST_F(TilePicture, CutTables) {
+TEST_F(CpuPicture, MatchesOpenGlForCutTables) {
     expect_same(scene(crooked()), SegmentSource::cut_table, "coloured");
     expect_same(scene(of_one_color()), SegmentSource::cut_table, "one colour");
 }
@@ -139,7 +139,7 @@ TEST_F(TilePicture, CutTables) {
 // Tables are bilinear in 64 nodes, so a difference of 4e-8 in a scalar is less than 1e-5 of a
 // cell's width, and changes the value by as much of the change over the cell, which is at most 10
 // %.
-TEST_F(TilePicture, Tables) {
+TEST_F(CpuPicture, MatchesOpenGlForTables) {
     for (const bool colored : {true, false}) {
         for (const LengthMapping mapping :
              {LengthMapping::octave, LengthMapping::log2, LengthMapping::linear}) {
@@ -160,7 +160,7 @@ TEST_F(TilePicture, Tables) {
     }
 }
 
-TEST_F(TilePicture, TableFormats) {
+TEST_F(CpuPicture, MatchesOpenGlForEveryTableFormat) {
     for (const TableFormat format :
          {TableFormat::fixed8, TableFormat::fixed16, TableFormat::float16, TableFormat::float32}) {
         Scene wanted = scene(crooked());
@@ -172,7 +172,7 @@ TEST_F(TilePicture, TableFormats) {
 
 // The cpu engine counts tets with a segment of length above 0, OpenGL those whose polygon covers a
 // pixel centre: up to 1/128 pixel more on each side of tets that are a few pixels wide.
-TEST_F(TilePicture, CountsAreAlike) {
+TEST_F(CpuPicture, CountsNearlyTheTetsOfOpenGl) {
     const Scene wanted = scene(crooked());
     const View view(*wanted.camera, wanted.width, wanted.height);
     const ProjectPlan plan = plan_of(mesh_, wanted, cpu_capabilities()).project;

@@ -97,7 +97,7 @@ class EyeInside : public ProjectionTest {
 };
 INSTANTIATE_TEST_SUITE_P(Projection, EyeInside, both_engines, engine_name);
 
-TEST_P(EyeInside, PicturesAreTheTracers) {
+TEST_P(EyeInside, PicturesMatchTheTracer) {
     std::mt19937 random(9);
     for (int number = 0; number < 40; ++number) {
         const SceneMesh mesh = random_mesh(random);
@@ -108,7 +108,7 @@ TEST_P(EyeInside, PicturesAreTheTracers) {
 // The eye is at a corner of tets: three faces of each of these tets are seen edge-on, and only a
 // rule for ties decides which of them are fronts. The corner lies inside the mesh, because at one
 // on its surface the exact picture jumps along lines.
-TEST_P(EyeInside, AtACornerOfTetsPicturesAreTheTracers) {
+TEST_P(EyeInside, PicturesFromACornerOfTetsMatchTheTracer) {
     std::mt19937 random(10);
     for (int number = 0; number < 20; ++number) {
         const SceneMesh mesh = random_mesh({2, 2, 2}, random);

@@ -78,7 +78,7 @@ TEST_P(LitProjection, CoarseMeshesKeepMaxError) {
     keeps_max_error(scene_mesh(test::split_box(7, 40, .05, waves)), 10, "coarse");
 }
 
-TEST_P(LitProjection, TheEyeMayBeInside) {
+TEST_P(LitProjection, KeepsMaxErrorWithTheEyeInside) {
     const SceneMesh mesh = scene_mesh(test::split_box(3, 300, .05, waves));
     Scene scene = lit_scene(3, directional());
     scene.camera->eye = {.31, .42, .63};
@@ -124,7 +124,7 @@ TEST_P(LitProjection, AmbientAloneIsTheUnlitPicture) {
 
 // The picture stays the same if everything is turned and scaled; the tracer's does, too
 // (tests/reference/lit_mesh_test.cpp).
-TEST_P(LitProjection, EverythingTurnedAndScaled) {
+TEST_P(LitProjection, TurningAndScalingEverythingChangesNothing) {
     const glm::dmat3 turn({2. / 3, 1. / 3, 2. / 3}, {-2. / 3, 2. / 3, 1. / 3},
                           {-1. / 3, -2. / 3, 2. / 3});
     const double scale = 5;
@@ -157,7 +157,7 @@ TEST_P(LitProjection, ClippedMeshesMeetTheTracer) {
 }
 
 // A tet with a NaN shows nothing, and its neighbours are lit by the gradients of the other tets.
-TEST_P(LitProjection, WhatIsNoNumberLeavesItsNeighboursLit) {
+TEST_P(LitProjection, TetsWithNanLeaveTheirNeighboursLit) {
     MeshData data = test::split_box(6, 300, .1, waves);
     data.point_scalars[0].values[20] = NAN;
     const SceneMesh mesh = scene_mesh(data);
@@ -202,7 +202,7 @@ TEST(LitTets, EveryInstructionSetGivesTheSameBits) {
 }
 
 // Nothing is divided by 0 if all tets are opaque from their faces on, or if gradients are nearly 0.
-TEST(LitTets, ExtremesAreNumbers) {
+TEST(LitTets, StayFiniteAtExtremes) {
     const SceneMesh mesh = scene_mesh(test::kuhn_box(
         {2, 2, 2}, [](const glm::dvec3& p) { return p.x < 1.5 ? .5 : .5 + 1e-7 * p.y; }));
     for (const double extinction : {1e-30, 1., 1e30}) {
@@ -215,7 +215,7 @@ TEST(LitTets, ExtremesAreNumbers) {
     }
 }
 
-TEST(LitTets, ThePlanLeavesOutWhatLightDoesNotNeed) {
+TEST(LitTets, OmitNothingThatLightNeeds) {
     const SceneMesh mesh = scene_mesh(test::kuhn_box({2, 2, 2}, waves));
     Scene scene = projection_scene(TransferFunction::linear({knot(0, {1, .5, .2}, .5)}), 20, 15);
     scene.camera->eye = {9, -3, 4};
@@ -232,7 +232,7 @@ TEST(LitTets, ThePlanLeavesOutWhatLightDoesNotNeed) {
     EXPECT_NE(text.find("the gradient needs scalars and colour"), std::string::npos) << text;
 }
 
-TEST(LitTets, WhatCannotBeDrawnLitIsRefused) {
+TEST(LitTets, SettingsThatCannotBeLitAreRefused) {
     const SceneMesh mesh = scene_mesh(test::kuhn_box({2, 2, 2}, waves));
     const Scene lit = lit_scene(1, Lighting{});
     const auto refused = [&](const auto& change, std::initializer_list<std::string> words) {

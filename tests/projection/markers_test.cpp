@@ -117,7 +117,7 @@ TEST_P(Markers, ChangeNothingWhereThereAreNone) {
 
 INSTANTIATE_TEST_SUITE_P(BothEngines, Markers, both_engines, engine_name);
 
-TEST(FarScalars, RunBeyondWhatMeetsTheWindowAlone) {
+TEST(FarScalars, ReachBeyondTheWindowOnlyIfTheyMeetIt) {
     const ValueRange window{10, 12};
     EXPECT_FALSE(runs_beyond({10, 12}, window, 8));
     EXPECT_FALSE(runs_beyond({-6, 11}, window, 8));  // 8 widths below

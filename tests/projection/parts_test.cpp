@@ -68,7 +68,7 @@ TEST_P(Parts, AreExact) {
 
 // The scalar at the eye is exactly a point of the transfer function: that point's surface is seen
 // edge-on from within.
-TEST_P(Parts, EyeOnASurfaceOfThePoints) {
+TEST_P(Parts, AreExactWithTheEyeOnASurfaceOfAPoint) {
     MeshData data = test::kuhn_box({cells, cells, cells}, [](const glm::dvec3& p) { return p.x; });
     const SceneMesh mesh = scene_mesh(std::move(data));
     Scene wanted = scene(TransferFunction::linear({knot(0, {1, 0, 0}, .1), knot(4, {0, 1, 0}, 0),
@@ -83,7 +83,7 @@ TEST_P(Parts, EyeOnASurfaceOfThePoints) {
 
 // The field has labels, like a segmentation. The tets with the last one have a constant value, at
 // which the transfer function has a step: its later side counts.
-TEST_P(Parts, StepAtTheLargestValue) {
+TEST_P(Parts, ShowTheLaterSideOfAStepAtTheLargestValue) {
     MeshData data =
         test::kuhn_box({4, 4, 4}, [](const glm::dvec3& p) { return p.x < 2 ? 0. : 1.; });
     const SceneMesh mesh = scene_mesh(std::move(data));
@@ -100,7 +100,7 @@ TEST_P(Parts, StepAtTheLargestValue) {
     }
 }
 
-TEST_P(Parts, WhatShowsNothingIsNotListed) {
+TEST_P(Parts, OmitWhatShowsNothing) {
     const TransferFunction peak = TransferFunction::linear(
         {knot(.6, {1, 1, 1}, 0), knot(.65, {1, 1, 1}, 1), knot(.7, {1, 1, 1}, 0)});
     const TetPieces pieces(peak, {0, 1});

@@ -76,7 +76,7 @@ TEST(ProjectPlan, ManyPointsAndTrianglesUseTables) {
     EXPECT_EQ(triangles.project.source, SegmentSource::cut_table);
 }
 
-TEST(ProjectPlan, GeometryFollowsInterpolation) {
+TEST(ProjectPlan, LinearInterpolationUsesTriangles) {
     EXPECT_EQ(plan_for(colored).project.geometry, ProjectGeometry::silhouette);
     for (const auto& change : {std::function<void(Scene&)>([](Scene& scene) {
                                    scene.project.interpolation = Interpolation::linear;
@@ -99,7 +99,7 @@ TEST(ProjectPlan, VertexColoursAreInterpolatedInThePicture) {
 
 // Vertex and attenuation mix colours of visible scalars with those of transparent ones, so one
 // colour needs that these are equal, too.
-TEST(ProjectPlan, ColoursThatAreMixedAreOneWhereAllAreEqual) {
+TEST(ProjectPlan, MixedColoursCountAsOneOnlyIfAllAreEqual) {
     const auto hidden = [](const glm::dvec3& color) {
         return TransferFunction::linear(
             {knot(0, color, 0), knot(.5, color, 0), knot(.5, {1, 0, 0}, 0), knot(1, {1, 0, 0}, 1)});

@@ -123,7 +123,7 @@ TEST_P(Rings, AreTheSameInEveryTarget) {
 }
 
 // Rays on which no tets overlap are right, even if tets overlap elsewhere.
-TEST_P(Rings, OfAMeshThatOverlapsAreWrongOnOverlappingRaysAlone) {
+TEST_P(Rings, AreWrongOnlyOnRaysWhereTheMeshOverlaps) {
     const char* const folder = std::getenv("LAMINA_DATA");
     if (folder == nullptr) GTEST_SKIP() << "needs LAMINA_DATA";
     MeshData data = read_mesh(std::filesystem::path(folder) / "can.vtu");

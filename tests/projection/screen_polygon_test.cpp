@@ -74,7 +74,7 @@ TEST(ScreenPolygon, SurroundsItsPoints) {
     }
 }
 
-TEST(ScreenPolygon, NothingWithoutAPixelCentre) {
+TEST(ScreenPolygon, IsEmptyWithoutAPixelCentre) {
     const std::vector<glm::dvec2> between{{10.6, 10.6}, {11.4, 10.6}, {11, 11.4}};
     EXPECT_EQ(surround(between, 1.0 / 128, 800, 600).count, 0);
     const std::vector<glm::dvec2> outside{{-5, -5}, {-2, -5}, {-3, -1}};
@@ -85,7 +85,7 @@ TEST(ScreenPolygon, NothingWithoutAPixelCentre) {
 
 // A polygon that reaches far beyond the picture is cut, and still covers the same pixels of the
 // picture.
-TEST(ScreenPolygon, HugePolygons) {
+TEST(ScreenPolygon, IsCutIfItIsHuge) {
     const std::vector<glm::dvec2> points{{-1e9, -1e9}, {1e9, -1e9}, {300, 400}};
     const ScreenPolygon polygon = surround(points, 1.0 / 128, 800, 600);
     ASSERT_GE(polygon.count, 3);

@@ -148,7 +148,7 @@ void compare_table(const TableCase& wanted) {
     }
 }
 
-TEST_F(SegmentTwins, TablesGiveWhatTheirLookUpGives) {
+TEST_F(SegmentTwins, TablesMatchTheirLookUpInCpp) {
     TableCase wanted;
     wanted.request.kind = TableKind::uniform;
     wanted.request.lo = -1;
@@ -184,7 +184,7 @@ TEST_F(SegmentTwins, TablesGiveWhatTheirLookUpGives) {
 
 // --- one piece ---
 
-TEST_F(SegmentTwins, FrontWeightsArePieceWeights) {
+TEST_F(SegmentTwins, FrontWeightsMatchPieceWeightsInCpp) {
     gl::Program program = gl::full_screen_program(
         "#version 450 core\n"
         "#include \"optics/piece_weights.glsl\"\n"
@@ -323,18 +323,18 @@ TransferFunction crooked(double scale, bool colored) {
          knot(.75, color({1, .5, 0}), 6 * scale), knot(.9375, color({1, 0, 1}), 5 * scale)});
 }
 
-TEST_F(SegmentTwins, AnalyticSegmentsAreIntegrateSegment) {
+TEST_F(SegmentTwins, AnalyticSegmentsMatchTheIntegralInCpp) {
     for (const bool colored : {true, false}) {
         const TransferFunction transfer_function = crooked(1, colored);
         for (const float length : {1e-4f, .35f, 4.0f, 100.0f}) {
-            // The bound is 3e-6 of the weights (FrontWeightsArePieceWeights), as those of a
+            // The bound is 3e-6 of the weights (FrontWeightsMatchPieceWeightsInCpp), as those of a
             // segment's pieces add up to less than 1, and some roundings.
             EXPECT_LE(worst_analytic(transfer_function, colored, length), 4e-6) << length;
         }
     }
 }
 
-TEST_F(SegmentTwins, AnalyticSegmentsHoldOutAtTheEnds) {
+TEST_F(SegmentTwins, AnalyticSegmentsArePreciseAtExtremes) {
     const TransferFunction one_piece = TransferFunction::linear({knot(0, {1, .5, 0}, 2)});
     EXPECT_LE(worst_analytic(one_piece, true, .7f), 4e-6);
     const TransferFunction nothing =

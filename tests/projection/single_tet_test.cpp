@@ -56,7 +56,7 @@ class SingleTet : public ProjectionTest {
     }
 };
 
-TEST_P(SingleTet, RandomPosesFillingTheView) {
+TEST_P(SingleTet, RandomPosesMatchTheTracer) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (int pose = 0; pose < 150; ++pose) {
@@ -89,7 +89,7 @@ TEST_P(SingleTet, RandomPosesFillingTheView) {
 
 // The poses of docs/numerics.md, section 7, with points, edges and faces exactly on pixel centres
 // (65 pixels) and between them.
-TEST_P(SingleTet, DegeneratePoses) {
+TEST_P(SingleTet, DegeneratePosesMatchTheTracer) {
     const std::array<double, 4> scalars{0, 1, .5, .25};
     const SceneMesh corner =
         scene_mesh(tet({glm::dvec3(0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, scalars));
@@ -137,7 +137,7 @@ TEST_P(SingleTet, DegeneratePoses) {
 // Both geometries are exact, but the triangles' corners are rounded to the rasteriser's grid, by up
 // to 1/512 pixel in each direction. This shifts the picture of the tet by as much, and so changes a
 // pixel by up to 1.5 / 512 of the change from pixel to pixel, which is below 255 / 20.
-TEST_P(SingleTet, TrianglesAgree) {
+TEST_P(SingleTet, TrianglesAndSilhouettesAgree) {
     std::mt19937 random(7);
     for (int pose = 0; pose < 20; ++pose) {
         std::array<glm::dvec3, 4> points;

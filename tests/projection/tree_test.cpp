@@ -67,7 +67,7 @@ TEST_P(TetTree, IsAsPreciseAsItsNodes) {
 // Native blending rounds opacity to nearest and fuses (docs/numerics.md, section 2), as this
 // emulation does, except for sums half-way between codes. Both stay within the bound of
 // IsAsPreciseAsItsNodes, for e = 1.
-TEST_P(TetTree, EmulatedNodesAreAsNativeOnes) {
+TEST_P(TetTree, EmulatedNodesMatchNativeOnes) {
     const double depth = .02;
     Scene emulated = with_tree(scene(Target::emulated, depth), {8, 8});
     emulated.emulate = {16, AlphaRounding::nearest, OverRounding::fused, 1};
@@ -78,7 +78,7 @@ TEST_P(TetTree, EmulatedNodesAreAsNativeOnes) {
 
 // One leaf holds all tets, and its depths are multiplied by 1. The opacity of a node times white is
 // the picture itself.
-TEST_P(TetTree, OfOneLeafIsThePlainPicture) {
+TEST_P(TetTree, IsThePlainPictureWithOneLeaf) {
     Scene plain = scene(Target::fixed8, 2);
     plain.project.order = ProjectOrder::exact;
     EXPECT_EQ(error(with_tree(plain, {1}), plain).linf, 0);
@@ -87,14 +87,14 @@ TEST_P(TetTree, OfOneLeafIsThePlainPicture) {
 // In a buffer of 8 bits, tets of less than half a code vanish and others become a whole code; in
 // leaves they are four times as dense. The bound of IsAsPreciseAsItsNodes for one level, 72 / 4
 // e^(3 D) + 4, is weaker than this test's, because roundings of tets that differ average out.
-TEST_P(TetTree, PaysWhereTetsAreThin) {
+TEST_P(TetTree, HalvesTheErrorWhereTetsAreThin) {
     const Scene exact = scene(Target::float32, .1);
     const Scene plain = scene(Target::fixed8, .1);
     EXPECT_LE(error(with_tree(plain, {4}), exact).l2, .5 * error(plain, exact).l2);
 }
 
 // Nothing of one frame's buffers shows in the next frame.
-TEST_P(TetTree, FramesAreAlike) {
+TEST_P(TetTree, DrawsEveryFrameAlike) {
     const Scene wanted = with_tree(scene(Target::fixed8, 1), {5, 3});
     const Plan plan = plan_of(mesh_, wanted, capabilities());
     EXPECT_TRUE(plan.project.scattered);

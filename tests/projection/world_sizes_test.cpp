@@ -64,7 +64,7 @@ TEST_P(ProjectedWorldSizes, PowersOfTwoChangeNoBit) {
     }
 }
 
-TEST_P(ProjectedWorldSizes, GalaxiesAndAtomsAreTheTracers) {
+TEST_P(ProjectedWorldSizes, GalaxiesAndAtomsMatchTheTracer) {
     for (const double size : {1e-58, 1e-31, 1e21, 1e58}) {
         const SceneMesh mesh = resized_mesh(size);
         const Scene scene = resized(scenes().front(), size);
@@ -75,7 +75,7 @@ TEST_P(ProjectedWorldSizes, GalaxiesAndAtomsAreTheTracers) {
     }
 }
 
-TEST_P(ProjectedWorldSizes, BeyondWhatPredicatesCanTellIsRefused) {
+TEST_P(ProjectedWorldSizes, SizesBeyondExactPredicatesAreRefused) {
     const SceneMesh mesh = resized_mesh(1e70);
     const Scene scene = resized(scenes().front(), 1e70);
     EXPECT_THROW(project(mesh, scene, capabilities()), Error);

@@ -95,7 +95,7 @@ void test_batches(const std::vector<std::pair<double, double>>& ranges, Random& 
     }
 }
 
-TEST(CellBatch, SegmentsAreThoseOfSingleCells) {
+TEST(CellBatch, SegmentsEqualThoseOfSingleCells) {
     Random random(11);
     test_batches({}, random);
     test_batches({{-1, 1000}}, random);
@@ -125,7 +125,7 @@ void test_fetch(Random& random) {
     }
 }
 
-TEST(CellBatch, SamplesAreThoseOfTheCells) {
+TEST(CellBatch, SamplesEqualThoseOfTheCells) {
     Random random(12);
     test_fetch<std::uint8_t>(random);
     test_fetch<float>(random);

@@ -46,7 +46,7 @@ TEST(Chord, AxisWithOneSampleIsOneVoxelThick) {
     EXPECT_EQ(clip_to_box(grid, {{1, 1, 5}, {0, 0, -1}}).world_length(), 0.25);
 }
 
-TEST(Chord, EyeInsideOnAFaceAndBeyondTheBox) {
+TEST(Chord, StartsAtAnEyeInsideOrOnAFace) {
     const Grid grid = make_grid({3, 3, 3}, Centering::node);
     EXPECT_EQ(clip_to_box(grid, {{0.75, 1, 1}, {1, 0, 0}}).world_length(), 1.25);
     EXPECT_EQ(clip_to_box(grid, {{0, 1, 1}, {1, 0, 0}}).world_length(), 2.0);
@@ -105,7 +105,7 @@ TEST(Chord, EntryIsOnTheBox) {
 // A chord through the middle of a rotated box, along a direction with components a, b, c in the
 // box's own axes, is min(size / |component|) long. The rotation (1, 2, 2; 2, 1, -2; 2, -2, 1) / 3
 // is exact but for the factor 1/3 in the steps.
-TEST(Chord, RotatedBoxThroughItsMiddle) {
+TEST(Chord, IsExactThroughTheMiddleOfARotatedBox) {
     Grid grid;
     grid.size = {17, 9, 5};
     grid.centering = {Centering::node, Centering::cell, Centering::node};
@@ -129,7 +129,7 @@ TEST(Chord, RotatedBoxThroughItsMiddle) {
     }
 }
 
-TEST(Chord, ViewAndRayAgree) {
+TEST(Chord, HasTheSameLengthForViewAndRay) {
     const Grid grid = make_grid({4, 4, 4}, Centering::node);
     const Camera camera = camera_at(grid, Projection::perspective, {1, 2, 3}, 1.2);
     const View view(camera, 20, 10);
@@ -176,7 +176,7 @@ Chord clip_simply(const Grid& grid, const View::Ray& ray) {
 
 // Clips many rays together in each instruction set, and expects the chords of single rays, bit for
 // bit: through the box and beside it, along its axes, and cut by half-spaces.
-TEST(Chord, OfManyRaysAreThoseOfEachAlone) {
+TEST(Chord, IsTheSameForManyRaysTogetherAndAlone) {
     Random random(5);
     Grid grid = make_grid({7, 5, 9}, Centering::cell, {.3, 1.7, .9});
     grid.origin = {.1, -3, 17};

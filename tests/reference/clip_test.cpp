@@ -159,7 +159,7 @@ TEST(ClippedTracer, ClippedNoiseIsCroppedNoise) {
     }
 }
 
-TEST(ClippedTracer, NormalsThatAreNoneAreErrors) {
+TEST(ClippedTracer, InvalidNormalsAreErrors) {
     for (const double z : {0., std::nan(""), HUGE_VAL}) {
         Clip clip;
         clip.planes = {{{0, 0, 0}, {0, 0, z}}};

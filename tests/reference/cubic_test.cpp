@@ -54,7 +54,7 @@ TEST(Cubic, SolveFindsTheValue) {
     }
 }
 
-TEST(Cubic, SolveNearATangency) {
+TEST(Cubic, SolveIsPreciseNearATangency) {
     // (t - 1/2)^2 = v: close to the vertex the root is 1/2 -+ sqrt(v).
     const Cubic parabola{{0.25, -1, 1, 0}};
     for (const double v : {1e-4, 1e-8, 1e-12, 1e-15}) {

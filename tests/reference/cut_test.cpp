@@ -159,7 +159,7 @@ TEST(SegmentPieces, TileTheirSegmentsInIntervals) {
 }
 
 // If a constant scalar is a knot, the interval above the knot counts.
-TEST(SegmentPieces, ConstantsOnStepsAreAbove) {
+TEST(SegmentPieces, ConstantsOnStepsTakeTheIntervalAbove) {
     const TransferFunction function = TransferFunction::linear(
         {{0, {{1, 1, 1}, 1}}, {2, {{1, 1, 1}, 3}}, {2, {{1, 1, 1}, 7}}, {5, {{1, 1, 1}, 8}}});
     const TransferIntervals intervals(function);
@@ -174,7 +174,7 @@ TEST(SegmentPieces, ConstantsOnStepsAreAbove) {
 
 // Depths of linear segments must equal their closed form: the pieces that are cut from them lose no
 // digits.
-TEST(SegmentPieces, DepthIsThatOfTheClosedForm) {
+TEST(SegmentPieces, DepthEqualsTheClosedForm) {
     Random random(5);
     for (int i = 0; i < 2000; ++i) {
         const TransferFunction function = reference_test::random_function(

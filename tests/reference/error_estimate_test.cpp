@@ -60,7 +60,7 @@ TEST(ErrorEstimate, IsZeroWhereEverythingIsExact) {
     EXPECT_GT(largest_alpha(result.image), 0.1);
 }
 
-TEST(ErrorEstimate, CountsEarlyTermination) {
+TEST(ErrorEstimate, IncludesEarlyTermination) {
     const Grid grid = make_grid({400, 2, 2}, Centering::node);
     const Volume volume = make_volume<std::uint8_t>(grid, std::vector<std::uint8_t>(1600, 1));
     Camera camera = camera_at(grid, Projection::orthographic, {1, 0, 0}, 1);

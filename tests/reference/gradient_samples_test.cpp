@@ -44,7 +44,7 @@ std::vector<float> sampled(const Grid& grid, const Field& field) {
 // A linear field has its gradient everywhere, also at the border and beyond it, where the border
 // sample repeats. Values are exact in float32, and each axis contributes a few roundings of 1e-16
 // of the gradient.
-TEST(GradientSamples, OfALinearFieldAreItsGradientInTheWorld) {
+TEST(GradientSamples, MatchTheGradientOfALinearField) {
     const Grid grid = turned_grid({4, 3, 2});
     const glm::dvec3 g(1.5, -4, 8);
     const std::vector<float> samples =
@@ -76,7 +76,7 @@ TEST(GradientSamples, AreDifferencesOfNeighbours) {
     EXPECT_EQ(x(3, .25), 5);
 }
 
-TEST(GradientSamples, BesideWhatIsNoNumberAreOneSided) {
+TEST(GradientSamples, AreOneSidedBesideNonFiniteSamples) {
     const Grid grid = make_grid({6, 1, 1}, Centering::cell);
     for (const float hole : {NAN, INFINITY, -INFINITY}) {
         const std::vector<float> samples{0, 1, 4, hole, 5, hole};
@@ -91,7 +91,7 @@ TEST(GradientSamples, BesideWhatIsNoNumberAreOneSided) {
     }
 }
 
-TEST(GradientSamples, IntegersDoNotWrap) {
+TEST(GradientSamples, DoNotWrapForIntegers) {
     const Grid grid = make_grid({2, 2, 2}, Centering::node);
     const std::vector<std::uint8_t> samples{255, 0, 0, 0, 0, 0, 0, 0};
     EXPECT_EQ(gradient_at(grid, samples, {0, 0, 0}, glm::dvec3(0)), glm::dvec3(-255));

@@ -89,7 +89,7 @@ std::vector<Grid> grids() {
     return result;
 }
 
-TEST(Homogeneous, OrthographicAndPerspectiveFromEverywhere) {
+TEST(Homogeneous, BoxesAreExactFromEverywhere) {
     for (const Grid& grid : grids()) {
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
             for (const glm::dvec3& direction :
@@ -108,7 +108,7 @@ TEST(Homogeneous, OrthographicAndPerspectiveFromEverywhere) {
     }
 }
 
-TEST(Homogeneous, EyeInsideAndOnAFace) {
+TEST(Homogeneous, BoxesAreExactFromInsideAndFromACorner) {
     for (const Grid& grid : grids()) {
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
             Camera camera = camera_at(grid, projection, {1, 2, 3}, 0.01);
@@ -119,7 +119,7 @@ TEST(Homogeneous, EyeInsideAndOnAFace) {
     }
 }
 
-TEST(Homogeneous, FarAway) {
+TEST(Homogeneous, BoxesAreExactFromFarAway) {
     const Grid grid = make_grid({9, 8, 7}, Centering::node);
     Camera camera = camera_at(grid, Projection::perspective, {1, 2, 3}, 1e5);
     camera.fov_y = 5e-4;
@@ -128,7 +128,7 @@ TEST(Homogeneous, FarAway) {
     expect_exact_opacity(grid, camera, 3 / diagonal_of(grid));
 }
 
-TEST(Homogeneous, BehindTheEye) {
+TEST(Homogeneous, BoxesBehindTheEyeShowNothing) {
     const Grid grid = make_grid({4, 4, 4}, Centering::node);
     Camera camera = camera_at(grid, Projection::perspective, {1, 0, 0}, 2);
     camera.center = camera.eye + (camera.eye - camera.center);

@@ -44,7 +44,7 @@ TEST(EmissionIntegral, LinearPiecesEqualTheClosedForm) {
 
 // For a cubic position and constant extinction s, the integrals of t^n s exp(-s t) follow by
 // recurrence: I_n = n / s I_(n-1) - exp(-s), I_0 = 1 - exp(-s).
-TEST(EmissionIntegral, CubicPositionUnderConstantExtinction) {
+TEST(EmissionIntegral, CubicPositionsEqualTheClosedForm) {
     for (const double s : {2.0, 10.0, 300.0, 1e5, 1e7}) {
         const EmissionPiece piece{{{0.25, 1.5, -2.0, 1.0}}, {{s, 0, 0, 0}}};
         double moment = -std::expm1(-s), expected = 0.25 * moment;
@@ -88,7 +88,7 @@ void add(const EmissionPiece& piece, double before, double allowed_by_length, do
 
 // Integrates vectors of pieces, from nearly transparent ones to boundary layers, which are
 // bisected. Errors must be within the estimates, and estimates within the tolerance.
-TEST(PieceBatch, PiecesAreThoseIntegratedOneByOne) {
+TEST(PieceBatch, PiecesEqualThoseIntegratedOneByOne) {
     Random random(7);
     for (const double tolerance : {1e-3, 1e-6, 1e-12}) {
         for (std::size_t count = 1; count <= 33; ++count) {

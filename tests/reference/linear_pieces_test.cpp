@@ -87,7 +87,7 @@ void test_segments(const std::vector<double>& knots, Random& random) {
     }
 }
 
-TEST(LinearPieces, AreThoseOfSingleSegments) {
+TEST(LinearPieces, EqualThoseOfSingleSegments) {
     Random random(5);
     std::vector<double> many;
     for (int i = 0; i < 300; ++i) many.push_back(random.uniform(-1, 1));
@@ -105,7 +105,7 @@ TEST(LinearPieces, AreThoseOfSingleSegments) {
 
 // Tests a function of one interval, with depths from 1e-300 to 1e3, up to where the weights have a
 // closed form.
-TEST(LinearPieces, WeightsAreThoseOfThePiece) {
+TEST(LinearPieces, WeightsEqualTheirClosedForm) {
     Random random(6);
     for (int i = 0; i < 5000; ++i) {
         const double p = i % 7 == 0 ? 0 : std::pow(10, random.uniform(-300, 3));
@@ -132,7 +132,7 @@ TEST(LinearPieces, WeightsAreThoseOfThePiece) {
 }
 
 // Interpolation may overflow to infinity: such ends lie behind the last knot.
-TEST(LinearPieces, InfiniteScalarsLieOutside) {
+TEST(LinearPieces, PlaceInfiniteScalarsOutsideAllKnots) {
     for (const int count : {2, 24, 25, 256}) {
         std::vector<TransferKnot> knots;
         for (int i = 0; i < count; ++i) knots.push_back({1. * i, {{1, .1 * (i % 2), 1}, 2}});

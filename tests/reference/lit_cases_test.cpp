@@ -56,7 +56,7 @@ void expect_rgba(const PreciseImage& image, double estimate, const json& one, st
     }
 }
 
-TEST(LitCases, Volumes) {
+TEST(LitCases, VolumesMatchTheHighPrecisionResults) {
     const json all = cases("volumes");
     ASSERT_GE(all.size(), 30u);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -75,7 +75,7 @@ TEST(LitCases, Volumes) {
     }
 }
 
-TEST(LitCases, Meshes) {
+TEST(LitCases, MeshesMatchTheHighPrecisionResults) {
     const json all = cases("meshes");
     ASSERT_GE(all.size(), 20u);
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -84,7 +84,7 @@ TEST(LitMesh, AmbientAloneAndNoWeightAreTheUnlitPicture) {
 
 // A turned and scaled scene, as in lit_volume_test.cpp. Rounding displaces rays by some 1e-15, and
 // the tets of this mesh are not thin.
-TEST(LitMesh, EverythingTurnedAndScaled) {
+TEST(LitMesh, TurningAndScalingEverythingChangesNothing) {
     const glm::dmat3 turn({2. / 3, 1. / 3, 2. / 3}, {-2. / 3, 2. / 3, 1. / 3},
                           {-1. / 3, -2. / 3, 2. / 3});
     const double scale = 5;
@@ -112,7 +112,7 @@ TEST(LitMesh, EverythingTurnedAndScaled) {
 }
 
 // A tet with a NaN shows nothing, and the points around it get the gradients of their other tets.
-TEST(LitMesh, WhatIsNoNumberLeavesItsNeighboursLit) {
+TEST(LitMesh, TetsWithNanLeaveTheirNeighboursLit) {
     MeshData data = test::split_box(6, 300, .1, waves);
     data.point_scalars[0].values[20] = NAN;
     const View view = view_of_box(Projection::perspective);
@@ -127,7 +127,7 @@ TEST(LitMesh, WhatIsNoNumberLeavesItsNeighboursLit) {
     }
 }
 
-TEST(LitMesh, TheErrorEstimateIsHonest) {
+TEST(LitMesh, TheErrorEstimateCoversTheError) {
     Random random(44);
     for (int i = 0; i < 20; ++i) {
         const MeshData data = test::split_box(static_cast<std::uint32_t>(i), 60, .1, waves);

@@ -93,7 +93,7 @@ TEST(LitVolume, AmbientAloneAndNoWeightAreTheUnlitPicture) {
 }
 
 // Scaling the world by powers of two changes no digit of the tracer's numbers.
-TEST(LitVolume, TheWorldScaled) {
+TEST(LitVolume, ScalingTheWorldByPowersOfTwoChangesNothing) {
     const Lit scene = noise(Centering::cell);
     for (const double s : {8., 0x1p-30}) {
         Lit scaled = scene;
@@ -121,7 +121,7 @@ TEST(LitVolume, TheWorldScaled) {
 // distance of 4. Extinction changes by at most 3 / .02 per unit of the scalar; light by at most the
 // change of the gradient (10) divided by the smallest gradient (.5), times its power (5). Both make
 // less than 1e3 * 1e-14 of the rounding.
-TEST(LitVolume, EverythingTurned) {
+TEST(LitVolume, TurningEverythingChangesNothing) {
     const glm::dmat3 turns[] = {glm::dmat3({0, 1, 0}, {0, 0, 1}, {1, 0, 0}),
                                 glm::dmat3({2. / 3, 1. / 3, 2. / 3}, {-2. / 3, 2. / 3, 1. / 3},
                                            {-1. / 3, -2. / 3, 2. / 3})};
@@ -167,7 +167,7 @@ TEST(LitVolume, NoiseInFlatRegionsDoesNotShow) {
     }
 }
 
-TEST(LitVolume, WhatIsNoNumberIsTransparentAndLeavesItsNeighboursLit) {
+TEST(LitVolume, NanCellsAreTransparentAndLeaveNeighboursLit) {
     Lit scene = noise(Centering::node);
     for (const std::size_t hole : {40, 41, 77}) scene.samples[hole] = NAN;
     for (const Camera& camera : cameras(scene.grid)) {
@@ -195,7 +195,7 @@ TEST(LitVolume, NumberOfThreadsDoesNotMatter) {
 
 // The estimate is within the tolerance, and the true error (against a picture with tolerance 1e-11)
 // is within the estimate. 1e-13: rounding.
-TEST(LitVolume, TheErrorEstimateIsHonest) {
+TEST(LitVolume, TheErrorEstimateCoversTheError) {
     Random random(43);
     for (int i = 0; i < 24; ++i) {
         const Grid grid =
@@ -219,7 +219,7 @@ TEST(LitVolume, TheErrorEstimateIsHonest) {
     }
 }
 
-TEST(LitVolume, WithoutASmallestGradientIsAnError) {
+TEST(LitVolume, AMissingSmallestGradientIsAnError) {
     const Lit scene = noise(Centering::cell);
     EXPECT_THROW(scene.trace(cameras(scene.grid).front(), Lighting{}), Error);
 }

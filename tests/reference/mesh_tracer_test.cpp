@@ -143,7 +143,7 @@ TEST(MeshTracer, NothingLeaksThroughEdgesAndPoints) {
 
 // On these rays the scalar is constant, exactly where the transfer function steps from nothing to
 // opaque. Rounding decides what a tet shows, and the estimate must include that.
-TEST(MeshTracer, EstimateCountsSidesOfSteps) {
+TEST(MeshTracer, EstimateIncludesTheSidesOfSteps) {
     const glm::dvec3 gradient(.3, .7, 0);  // the rays below run along z
     const MeshData data =
         test::split_box(9, 2000, 1e-3, [&](const glm::dvec3& p) { return glm::dot(gradient, p); });

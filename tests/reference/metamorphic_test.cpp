@@ -75,7 +75,7 @@ Scene stored_differently(const Scene& scene, const std::array<std::size_t, 3>& o
     return result;
 }
 
-TEST(Metamorphic, AxesPermutedAndReversed) {
+TEST(Metamorphic, PermutingAndReversingAxesChangesNothing) {
     for (const Centering centering : {Centering::node, Centering::cell}) {
         const Scene scene = make_scene(centering);
         const Scene others[] = {
@@ -95,7 +95,7 @@ TEST(Metamorphic, AxesPermutedAndReversed) {
 }
 
 // If world and camera are mirrored at x = 0, the picture is mirrored left to right.
-TEST(Metamorphic, WorldMirrored) {
+TEST(Metamorphic, MirroringTheWorldMirrorsThePicture) {
     const Scene scene = make_scene(Centering::node);
     const auto mirror = [](glm::dvec3 p) { return glm::dvec3(-p.x, p.y, p.z); };
     Scene mirrored = scene;
@@ -118,7 +118,7 @@ TEST(Metamorphic, WorldMirrored) {
     }
 }
 
-TEST(Metamorphic, WorldScaledAndExtinctionScaledBack) {
+TEST(Metamorphic, ScalingWorldAndExtinctionChangesNothing) {
     const Scene scene = make_scene(Centering::cell);
     for (const double s : {3.0, 1e-6, 7e8}) {
         Scene scaled = scene;
@@ -140,7 +140,7 @@ TEST(Metamorphic, WorldScaledAndExtinctionScaledBack) {
     }
 }
 
-TEST(Metamorphic, GridRefined) {
+TEST(Metamorphic, RefiningTheGridChangesNothing) {
     const Scene scene = make_scene(Centering::node);
     Scene fine = scene;
     for (std::size_t a = 0; a < 3; ++a) {

@@ -218,7 +218,7 @@ TEST(OneCell, LinearCellsComposeToSegments) {
 
 // The field only touches a knot, from below, at the middle of the ray: a parabola's vertex on a
 // peak's tip.
-TEST(OneCell, TangentKnots) {
+TEST(OneCell, TangentKnotsEqualTheLimitOfLinearPieces) {
     OneCell cell;
     cell.corners = {0, 1, 1, 0,
                     0, 1, 1, 0};  // x + y - 2xy: along the diagonal 2t - 2t^2, vertex 1/2

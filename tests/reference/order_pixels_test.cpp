@@ -81,7 +81,7 @@ MeshData carved_box(const std::array<std::int32_t, 3>& cells, const Keep& keep) 
 }
 
 // Two tets, one behind the other, drawn in both orders.
-TEST(OrderPixels, TwoTets) {
+TEST(OrderPixels, AreWrongIfTwoTetsAreDrawnInTheWrongOrder) {
     MeshData data;
     data.points = {{-3, -3, 0}, {3, -3, 0}, {0, 3, 0}, {0, 0, 1}};
     for (int i = 0; i < 4; ++i)
@@ -107,7 +107,7 @@ TEST(OrderPixels, TwoTets) {
     }
 }
 
-TEST(OrderPixels, ConvexMeshes) {
+TEST(OrderPixels, AreRightForConvexMeshes) {
     expect_none_wrong(test::DelaunayMesh::make(1500, 3), OrderMethod::mpvo, 2);
     expect_none_wrong(test::kuhn_box({6, 5, 7}, nothing), OrderMethod::mpvo, 2);
     expect_none_wrong(test::DelaunayMesh::make(300, 3), OrderMethod::exact, 1);
@@ -115,7 +115,7 @@ TEST(OrderPixels, ConvexMeshes) {
     EXPECT_GT(judge(mesh, OrderMethod::centroid, views(mesh, 1, 40)).wrong, 0);
 }
 
-TEST(OrderPixels, NonconvexMeshes) {
+TEST(OrderPixels, AreRightForNonconvexMeshes) {
     const auto l_shape = [](const glm::dvec3& c) { return c.x < 2 || c.y < 2; };
     const auto ring = [](const glm::dvec3& c) { return c.x < 2 || c.x > 4 || c.y < 2 || c.y > 4; };
     const auto boxes = [](const glm::dvec3& c) { return c.x < 2 || c.x > 3; };
@@ -142,7 +142,7 @@ TEST(OrderPixels, NonconvexMeshes) {
 }
 
 // Views along the axes have rays exactly in the planes of faces and through edges and points.
-TEST(OrderPixels, RaysInThePlanesOfFaces) {
+TEST(OrderPixels, AreRightOnRaysInThePlanesOfFaces) {
     const TetMesh mesh(carved_box({6, 6, 6},
                                   [](const glm::dvec3& c) {
                                       return c.x < 2 || c.x > 4 || c.y < 2 || c.y > 4 || c.z < 1;
@@ -170,7 +170,7 @@ TEST(OrderPixels, RaysInThePlanesOfFaces) {
 }
 
 // A real cycle cannot be drawn right: only its pixels are wrong.
-TEST(OrderPixels, WrongWithinCyclesOnly) {
+TEST(OrderPixels, AreWrongWithinCyclesOnly) {
     Camera above;
     above.eye = {0, 0, 9};
     above.projection = Projection::orthographic;
@@ -198,7 +198,7 @@ TEST(OrderPixels, WrongWithinCyclesOnly) {
 
 // In meshes of needles and slivers with holes, cycles are possible, and nothing is wrong outside
 // them.
-TEST(OrderPixels, NeedlesWithHoles) {
+TEST(OrderPixels, AreRightOutsideCyclesOfNeedlesWithHoles) {
     for (const double least : {.1, 1e-3}) {
         std::mt19937 random(5);
         const TetMesh mesh(test::carved(test::split_box(3, 400, least, nothing),
@@ -238,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(OrderPixels, RealMeshes,
                          });
 
 // Parts of the can overlap: pixels are wrong only within cycles, or on rays on which parts overlap.
-TEST(OrderPixels, SelfOverlappingCan) {
+TEST(OrderPixels, OutsideCyclesAreWrongOnlyWherePartsOverlap) {
     const std::filesystem::path file = data_file("can.vtu");
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
     const TetMesh mesh(read_mesh(file), "can");

@@ -137,7 +137,7 @@ void expect_same(const MeshData& data, const std::vector<TestLine>& lines, doubl
     });
 }
 
-TEST(PacketWalk, PassesWhatLinesAlonePass) {
+TEST(PacketWalk, PassesTheTetsOfSingleLines) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
     const auto point = [&](double least, double most) {
@@ -154,7 +154,7 @@ TEST(PacketWalk, PassesWhatLinesAlonePass) {
 }
 
 // These lines meet edges and points exactly, so floats decide none of the steps.
-TEST(PacketWalk, LeavesTiesToLinesAlone) {
+TEST(PacketWalk, LeavesTiesToSingleLines) {
     std::vector<TestLine> lines;
     for (const glm::dvec3& direction :
          {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 1), glm::dvec3(1, 1, 1), glm::dvec3(-1, 0, 2)}) {

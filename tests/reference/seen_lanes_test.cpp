@@ -73,7 +73,7 @@ void test_segments() {
     EXPECT_GT(cut, 100u);
 }
 
-TEST(SeenLanes, AreTheSegmentsThatShow) {
+TEST(SeenLanes, AreTheVisibleSegments) {
     test::for_each_instruction_set([](const std::string&) { test_segments(); });
 }
 

@@ -72,7 +72,7 @@ void expect_at(const std::optional<SeenPoint>& point, double x, double opacity) 
     EXPECT_NEAR(point->opacity, opacity, 1e-12);
 }
 
-TEST(SeenPoint, OfOneExtinctionIsWhereTheClosedFormSays) {
+TEST(SeenPoint, MatchesTheClosedFormOfOneExtinction) {
     for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
         for (const double extinction : {.05, 1.0, 4.0}) {
             const Rays rays = seen(scene_along_x(
@@ -86,7 +86,7 @@ TEST(SeenPoint, OfOneExtinctionIsWhereTheClosedFormSays) {
 }
 
 // With extinction k x the depth up to x is k x^2 / 2. A clip at x = 1 takes away k / 2 of it.
-TEST(SeenPoint, OfARampIsWhereTheClosedFormSays) {
+TEST(SeenPoint, MatchesTheClosedFormOfARamp) {
     for (const bool clipped : {false, true}) {
         for (const double k : {.1, 2.0}) {
             Scene scene =

@@ -35,7 +35,7 @@ TEST(SpecialValues, CellsAroundANonFiniteSampleAreTransparent) {
     }
 }
 
-TEST(SpecialValues, AllNonFinite) {
+TEST(SpecialValues, VolumesWithoutFiniteSamplesShowNothing) {
     const Grid grid = make_grid({3, 3, 3}, Centering::cell);
     const Volume volume =
         make_volume<float>(grid, std::vector<float>(27, std::numeric_limits<float>::quiet_NaN()));
@@ -43,7 +43,7 @@ TEST(SpecialValues, AllNonFinite) {
 }
 
 // A constant field exactly on a step has the optics of TransferFunction::at(): the later knot's.
-TEST(SpecialValues, ConstantFieldOnAStep) {
+TEST(SpecialValues, ConstantsOnStepsShowTheLaterSide) {
     const TransferFunction up = TransferFunction::linear(
         {{0, {glm::dvec3(1), 0}}, {5, {glm::dvec3(1), 0}}, {5, {glm::dvec3(1), 0.5}}});
     const TransferFunction down = TransferFunction::linear(
@@ -66,7 +66,7 @@ TEST(SpecialValues, ConstantFieldOnAStep) {
 }
 
 // In a palette, optics are constant between steps, so the depth along a ramp is a weighted sum.
-TEST(SpecialValues, PaletteAlongARamp) {
+TEST(SpecialValues, PalettesStepHalfwayBetweenPoints) {
     const Grid grid = make_grid({5, 2, 2}, Centering::node);
     std::vector<std::uint8_t> samples;
     for (int i = 0; i < 20; ++i) samples.push_back(static_cast<std::uint8_t>(i % 5));
@@ -94,7 +94,7 @@ TEST(SpecialValues, TransparentCellsAreNotIntegrated) {
 }
 
 // On `cell` axes the box extends by half a voxel at both ends, where the border value repeats.
-TEST(SpecialValues, BorderValueRepeats) {
+TEST(SpecialValues, BorderValuesRepeatForHalfAVoxel) {
     const Grid grid = make_grid({3, 1, 1}, Centering::cell);
     const Volume volume = make_volume<std::uint8_t>(grid, {0, 1, 3});
     const TransferFunction identity =

@@ -45,7 +45,7 @@ void expect_segment(const TransferFunction& function, int cells, double rounding
     }
 }
 
-TEST(Stiff, RampsOfAnyDensity) {
+TEST(Stiff, RampsOfAnyDensityEqualOneSegment) {
     for (const double extinction : {1.0, 1e2, 1e4, 1e7}) {
         for (const int cells : {1, 2, 16, 256}) {
             SCOPED_TRACE(testing::Message() << extinction << " in " << cells << " cells");
@@ -54,7 +54,7 @@ TEST(Stiff, RampsOfAnyDensity) {
     }
 }
 
-TEST(Stiff, SurfaceBehindAStep) {
+TEST(Stiff, SurfacesBehindAStepEqualOneSegment) {
     for (const double step : {0.3, 0.5, 0.7}) {  // in a cell, on a plane between cells, in a cell
         for (const int cells : {1, 2, 16}) {
             expect_segment(TransferFunction::linear({{0, {{1, 0, 0}, 0.5}},
@@ -66,7 +66,7 @@ TEST(Stiff, SurfaceBehindAStep) {
     }
 }
 
-TEST(Stiff, ThinSpikes) {
+TEST(Stiff, ThinSpikesEqualOneSegment) {
     for (const double peak : {1e2, 1e4, 1e7}) {
         for (const int cells : {1, 2, 16}) {
             SCOPED_TRACE(testing::Message() << peak << " in " << cells << " cells");
@@ -82,7 +82,7 @@ TEST(Stiff, ThinSpikes) {
 
 // In a picture of random cells with a surface and a spike, all numbers are finite, the time is
 // bounded, and errors are within the estimate.
-TEST(Stiff, PictureOfSurfaces) {
+TEST(Stiff, PicturesOfSurfacesKeepTheErrorEstimate) {
     Random random(31);
     const Grid grid = make_grid({12, 12, 12}, Centering::cell);
     const Volume volume = make_volume<float>(grid, random_samples(grid, random));
@@ -103,7 +103,7 @@ TEST(Stiff, PictureOfSurfaces) {
     EXPECT_GT(largest_alpha(fine.image), 0.999);
 }
 
-TEST(Stiff, ExtinctionBeyondAllMeasure) {
+TEST(Stiff, ExtremeExtinctionShowsTheFront) {
     const Volume volume = ramp_volume(4);
     const TraceResult result = trace_along_x(volume, ramp_function(1e300), false);
     EXPECT_EQ(result.image.rgba[3], 1);

@@ -50,7 +50,7 @@ struct Keeper {
     }
 };
 
-TEST(TraceTiles, AreCompleteWhenTheyAreSaidToBe) {
+TEST(TraceTiles, AreCompleteWhenTheyAreReported) {
     const Grid box = make_grid({3, 3, 3}, Centering::node);
     std::vector<float> samples;
     for (int i = 0; i < 27; ++i)

@@ -119,7 +119,7 @@ void test_type() {
                        true, random);
 }
 
-TEST(VisibleCells, AreThoseWhoseRangeMeetsTheFunctions) {
+TEST(VisibleCells, AreThoseWhoseRangeMeetsTheVisibleValues) {
     test_type<std::uint8_t>();
     test_type<std::int16_t>();
     test_type<std::uint16_t>();
