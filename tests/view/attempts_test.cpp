@@ -33,7 +33,7 @@ void add(Attempts& attempts, const Scene& scene, double ms = 1) {
     attempts.add(scene, scene, 2.5, statistics);
 }
 
-TEST(Attempts, OneSceneHasOneRowThatGoesOn) {
+TEST(Attempts, EachSceneHasOneRow) {
     Attempts attempts;
     const Scene first = small_scene(R"({"target": "fixed8"})"), second = small_scene();
     add(attempts, first, 10);
@@ -57,7 +57,7 @@ TEST(Attempts, OneSceneHasOneRowThatGoesOn) {
     EXPECT_EQ(attempts.rows()[1].error.linf, .05);
 }
 
-TEST(Attempts, OnlyWhatIsMeasuredInFullStaysInAnotherView) {
+TEST(Attempts, OnlyFullyMeasuredRowsStayInAnotherView) {
     Attempts attempts;
     const Scene scene = small_scene();
     add(attempts, scene);
@@ -75,7 +75,7 @@ TEST(Attempts, OnlyWhatIsMeasuredInFullStaysInAnotherView) {
     EXPECT_EQ(attempts.rows().size(), 2u);
 }
 
-TEST(Attempts, SaysInShortWhatWasTried) {
+TEST(Attempts, DescribesAttemptsInShort) {
     const Scene slices = small_scene(R"({"target": "fixed8", "slice": {"samples": 512,
         "classification": "post", "tree": {"factors": [16, 32], "code": "phi"}}})");
     EXPECT_EQ(short_text(slices), "slice, post, fixed8, tree 16x32, phi, 512 slabs");
@@ -118,7 +118,7 @@ std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
     return rows;
 }
 
-TEST(Attempts, CsvHasAllOfThem) {
+TEST(Attempts, CsvHasEveryAttempt) {
     Attempts attempts;
     const Scene scene = small_scene(R"({"target": "fixed8", "max_error": 2,
                                         "slice": {"samples": 64, "tree": {"factors": [8, 8]}}})");
@@ -142,7 +142,7 @@ TEST(Attempts, CsvHasAllOfThem) {
     EXPECT_EQ(scene_text(parse_scene(rows[2].back(), "again.json")), scene_text(scene));
 }
 
-TEST(TextFile, IsThereInFullOrNotAtAll) {
+TEST(TextFile, IsWrittenInFullOrNotAtAll) {
     const TemporaryFolder folder;
     save_text(folder / "a.csv", "one\r\n");
     save_text(folder / "a.csv", "two\r\n");

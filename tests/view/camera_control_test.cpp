@@ -39,7 +39,7 @@ class CameraControls : public testing::Test {
     double seconds_ = 1;
 };
 
-TEST_F(CameraControls, DragsMeanWhatTheButtonSays) {
+TEST_F(CameraControls, TheButtonDecidesWhatADragDoes) {
     struct Case {
         PointerButton button;
         bool shift;
@@ -64,7 +64,7 @@ TEST_F(CameraControls, DragsMeanWhatTheButtonSays) {
     }
 }
 
-TEST_F(CameraControls, WhatIsOutsideOfThePictureIsNotMeant) {
+TEST_F(CameraControls, EventsOutsideThePictureChangeNothing) {
     EXPECT_FALSE(press(PointerButton::left, 5, 100));
     EXPECT_FALSE(pointer(150, 80));
     pointer(411, 100);
@@ -72,7 +72,7 @@ TEST_F(CameraControls, WhatIsOutsideOfThePictureIsNotMeant) {
     EXPECT_EQ(now().eye, camera_.eye);
 }
 
-TEST_F(CameraControls, StepsMoveForAMoment) {
+TEST_F(CameraControls, StepsCountAsMovingForAMoment) {
     pointer(110, 120);
     EXPECT_TRUE(handle({.kind = Kind::wheel, .seconds = seconds_, .place = {0, 1}}));
     EXPECT_LT(height_at_center(now()), height_at_center(camera_));
@@ -84,7 +84,7 @@ TEST_F(CameraControls, StepsMoveForAMoment) {
     EXPECT_FALSE(key('J'));
 }
 
-TEST_F(CameraControls, KeysSeeAlongAxes) {
+TEST_F(CameraControls, KeysTurnTheViewAlongAxes) {
     for (int i = 0; i < 6; ++i) {
         EXPECT_TRUE(key('1' + i));
         glm::dvec3 from(0);

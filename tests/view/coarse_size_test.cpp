@@ -19,7 +19,7 @@ double divisor_after(double fixed, double all, int pictures) {
     return size.divisor();
 }
 
-TEST(CoarseSize, FindsTheLargestPictureThatIsInTime) {
+TEST(CoarseSize, FindsTheLargestPictureWithinTheTime) {
     EXPECT_EQ(divisor_after(0, 30, 10), 1);    // at full size a picture takes 30 ms, of 35 allowed
     EXPECT_EQ(divisor_after(0, 100, 10), 2);   // 25 ms; with divisor 1.5 it would take 44
     EXPECT_EQ(divisor_after(0, 1000, 10), 6);  // 28 ms; with divisor 4 it would take 62
@@ -32,7 +32,7 @@ TEST(CoarseSize, DoesNotGiveUpPixelsForNothing) {
     EXPECT_EQ(divisor_after(100, 400, 10), 4);
 }
 
-TEST(CoarseSize, FollowsWhatPicturesTake) {
+TEST(CoarseSize, FollowsTheTimesOfPictures) {
     CoarseSize size(35);
     size.add(1, 30);
     EXPECT_EQ(size.divisor(), 1);

@@ -38,7 +38,7 @@ Scene scene_of(const Image& picture) {
     return scene;
 }
 
-TEST(Comparison, IsOfBLessA) {
+TEST(Comparison, SubtractsAFromB) {
     const Image a = picture_of(.25f);
     Image b = a;
     b.pixel(1, 1)[3] = 2.f / 255;
@@ -101,7 +101,7 @@ TEST(Comparison, NeedsTheSameViewAndAFullPicture) {
     EXPECT_FALSE(comparison.pinned());
 }
 
-TEST(Comparison, WithTheTruthGoesAsFarAsItIsTraced) {
+TEST(Comparison, CoversTheTracedPixelsOfTheTruth) {
     const Image b = picture_of(.5f);
     const Scene scene = scene_of(b);
     Comparison comparison;

@@ -63,7 +63,7 @@ TEST(Document, UndoBringsPointsBackThatTheFunctionDoesNotNeed) {
     EXPECT_EQ(document.transfer().curves().density.size(), 3u);
 }
 
-TEST(Document, SettingsAreSteps) {
+TEST(Document, ChangesOfSettingsCanBeUndone) {
     Document document = opened();
     const Revisions before = document.revisions();
     document.set_setting("render.target", "fixed8");
@@ -101,7 +101,7 @@ TEST(Document, CountsWhatChanges) {
     EXPECT_FALSE(document.size_follows_window);
 }
 
-TEST(Document, UndoLeavesTheViewThatOneHasTurnedTo) {
+TEST(Document, UndoKeepsTheView) {
     Document document = opened();
     document.set_setting("render.target", "float16");
     Camera camera = *document.scene().camera;
@@ -124,7 +124,7 @@ TEST(Document, ColoursKeepTheirLookInAnotherSpace) {
     EXPECT_TRUE(document.scene().transfer_function == before);
 }
 
-TEST(Document, TakesWhatTheDataSuggest) {
+TEST(Document, TakesTheTransferFunctionChosenFromData) {
     Document document = opened();
     document.choose_transfer_function();
     EXPECT_TRUE(document.scene().transfer_function.is_automatic());
@@ -137,7 +137,7 @@ TEST(Document, TakesWhatTheDataSuggest) {
     EXPECT_EQ(document.scene().transfer_function->knots().size(), 2u);
 }
 
-TEST(Document, ShowsOpacitiesOfAnOpenColormapForTheirLength) {
+TEST(Document, ShowsOpacitiesOfAnOpenColormapForTheirUnitLength) {
     Document document;
     document.open(parse_scene(
         R"({"version": 1, "volume": {"generate": "gaussians"},
@@ -152,7 +152,7 @@ TEST(Document, ShowsOpacitiesOfAnOpenColormapForTheirLength) {
     EXPECT_NEAR(document.transfer().unit_length(), .1, 1e-9);
 }
 
-TEST(Document, AnotherSceneHasNoPast) {
+TEST(Document, AnotherSceneCannotBeUndone) {
     Document document = opened();
     document.set_setting("render.target", "float16");
     document.open(small_scene());

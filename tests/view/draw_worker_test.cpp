@@ -100,7 +100,7 @@ class DrawWorkers : public testing::Test {
                        }};
 };
 
-TEST_F(DrawWorkers, TheFullPictureIsTheSessions) {
+TEST_F(DrawWorkers, TheFullPictureMatchesTheSession) {
     request_.trace = false;
     ask();
     const auto first = wait_full();
@@ -133,7 +133,7 @@ TEST_F(DrawWorkers, TheNewestRequestWins) {
     EXPECT_EQ(last->full->rgba, Session(request_.scene, native).draw().rgba);
 }
 
-TEST_F(DrawWorkers, WhatMovesIsCoarseUnlessThatIsSwitchedOff) {
+TEST_F(DrawWorkers, MovingPicturesAreCoarseUnlessSwitchedOff) {
     request_.trace = false;
     ask();
     wait_full();
@@ -178,7 +178,7 @@ TEST_F(DrawWorkers, TheTracerReplacesThePictureAndMeasuresIt) {
     EXPECT_EQ(end->screen->rgb, screen_codes(to_float(truth)));
 }
 
-TEST_F(DrawWorkers, TheTruthAloneIsTracedWhereTheSceneAsksForIt) {
+TEST_F(DrawWorkers, ScenesToTraceShowTheTruthAlone) {
     request_.scene.method = Method::trace;
     ask();
     const auto end = wait_truth();
@@ -188,7 +188,7 @@ TEST_F(DrawWorkers, TheTruthAloneIsTracedWhereTheSceneAsksForIt) {
     EXPECT_EQ(end->resolved->method, Method::trace);
 }
 
-TEST_F(DrawWorkers, WhatIsWrongIsSaidAndThePictureStays) {
+TEST_F(DrawWorkers, FailuresAreReportedAndThePictureStays) {
     request_.trace = false;
     ask();
     const auto good = wait_full();
@@ -206,7 +206,7 @@ TEST_F(DrawWorkers, WhatIsWrongIsSaidAndThePictureStays) {
     EXPECT_TRUE(wait_full()->failure.empty());
 }
 
-TEST_F(DrawWorkers, EndsWhileItLoadsOrDrawsOrTraces) {
+TEST_F(DrawWorkers, AWorkerCanEndWhileItLoadsDrawsOrTraces) {
     for (int steps = 0; steps < 3; ++steps) {
         request_.scene.width = 700;
         request_.scene.height = 500;

@@ -17,7 +17,7 @@ Scene scene_of(const std::string& render) {
         "scene.json");
 }
 
-TEST(FactorsText, IsWhatSceneFilesHave) {
+TEST(FactorsText, IsReadAsInSceneFiles) {
     const Scene scene = scene_of(R"({"target": "fixed8", "slice": {"samples": 512}})");
     EXPECT_EQ(factors_text(scene), "none");
     for (const char* const text : {"[16, 8, 4]", " [16,8,4] ", "16x8x4"})
@@ -41,7 +41,7 @@ TEST(FactorsText, LeavesTheRestOfTheTree) {
     EXPECT_EQ((*changed.slice.tree)->factors, (std::vector<int>{4, 4}));
 }
 
-TEST(FactorsText, OfTetsHaveFixedNodes) {
+TEST(FactorsText, GivesTreesOfTetsFixedNodes) {
     Scene scene = scene_of(R"({"method": "project", "target": "fixed8"})");
     scene = with_factors(scene, "[64]");
     ASSERT_TRUE(scene.project.tree);
@@ -50,7 +50,7 @@ TEST(FactorsText, OfTetsHaveFixedNodes) {
     EXPECT_EQ(factors_text(scene), "[64]");
 }
 
-TEST(FactorsText, SaysWhatMakesNoSense) {
+TEST(FactorsText, NamesInvalidFactors) {
     const Scene scene = scene_of(R"({"target": "fixed8"})");
     for (const char* const text : {"[16, 8", "[]", "[0]", "[1.5]", "[70000]", "[\"a\"]", "16y8",
                                    "16x", "-4", "[2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2,2]", "{}"}) {

@@ -15,7 +15,7 @@ FrameStatistics statistics_of(double ms, std::map<std::string, double> stages) {
     return statistics;
 }
 
-TEST(FrameHistory, StagesAreThoseThatWereDoneAndAddUp) {
+TEST(FrameHistory, StagesAddUpToTheFrame) {
     FrameHistory history;
     // The stage set_up contains tables and upload: 50 - 8 - 12 = 30 ms are its own.
     history.add(statistics_of(100, {{"facts", 20},
@@ -50,7 +50,7 @@ TEST(FrameHistory, StagesAreThoseThatWereDoneAndAddUp) {
     EXPECT_EQ(history.frames()[2].stages, (Stages{{"draw", 10}}));
 }
 
-TEST(FrameHistory, KeepsTheLastOnes) {
+TEST(FrameHistory, KeepsTheLastFrames) {
     FrameHistory history;
     EXPECT_EQ(history.longest_ms(), 0);
     EXPECT_EQ(history.median_ms(false), 0);

@@ -17,7 +17,7 @@ Scene scene_with(const std::string& render) {
                        "scene");
 }
 
-TEST(KeyEffects, ReasonsAreOfTheSceneAsItIs) {
+TEST(KeyEffects, ReasonsFollowTheScene) {
     const Scene slicing = scene_with("{}");
     EXPECT_EQ(why_without_effect(slicing, "render.slice.samples"), "");
     EXPECT_NE(why_without_effect(slicing, "render.project.coloring"), "");
@@ -35,7 +35,7 @@ TEST(KeyEffects, ReasonsAreOfTheSceneAsItIs) {
     EXPECT_EQ(why_without_effect(emulated, "render.trace.of"), "");
 }
 
-TEST(KeyEffects, AKeyWithoutOneLeavesThePicture) {
+TEST(KeyEffects, KeysWithoutEffectLeaveThePicture) {
     const SessionOptions native{ContextChoice::cpu, 0, true};
     struct Change {
         const char *render, *path;

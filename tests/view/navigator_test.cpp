@@ -62,7 +62,7 @@ TEST(Navigator, OrbitKeepsCentreAndDistance) {
 }
 
 // A drag over the picture's whole height turns by 180 degrees; a quarter of it by 45.
-TEST(Navigator, OrbitTurnsBySoMuch) {
+TEST(Navigator, OrbitTurnsBy180DegreesAcrossThePicture) {
     for (const Camera& camera : cameras()) {
         // A drag to the left moves the eye to the right.
         const Camera turned_by = orbited(camera, {-.25, 0});
@@ -154,7 +154,7 @@ TEST(Navigator, AxisViewsLookAlongAxes) {
     }
 }
 
-TEST(Navigator, TheOtherProjectionKeepsTheSize) {
+TEST(Navigator, ChangingTheProjectionKeepsTheSize) {
     for (const Camera& camera : cameras()) {
         const Projection other = camera.projection == Projection::perspective
                                      ? Projection::orthographic

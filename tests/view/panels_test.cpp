@@ -26,7 +26,7 @@ void draw_all(Document& document, const Shown& shown) {
     }
 }
 
-TEST(Panels, DrawBeforeAnythingIsThere) {
+TEST(Panels, DrawWithoutAScene) {
     Document document;
     draw_all(document, Shown());
     document.open(parse_scene(R"({"version": 1, "volume": {"generate": "ramp"}})", "scene"));

@@ -67,7 +67,7 @@ void turn(Document& document) {
     document.set_camera(turned(*document.scene().camera, 40));
 }
 
-TEST(PinnedPicture, IsDrawnAgainInTheViewOfTheOther) {
+TEST(PinnedPicture, IsDrawnAgainInTheNewView) {
     DrawnDocument drawn;
     Comparison& comparison = drawn.precision.comparison;
     comparison.by = CompareBy::difference;
@@ -103,7 +103,7 @@ TEST(PinnedPicture, IsDrawnAgainInTheViewOfTheOther) {
     EXPECT_EQ(drawn.shown().full->rgba, drawn_alone(drawn.document.scene()).rgba);
 }
 
-TEST(PinnedPicture, MovingPicturesAreOfTheOther) {
+TEST(PinnedPicture, IsNotDrawnWhileTheOtherMoves) {
     DrawnDocument drawn;
     drawn.draw();
     drawn.precision.pin(drawn.document, drawn.shown());
@@ -134,7 +134,7 @@ TEST(PinnedPicture, MovingPicturesAreOfTheOther) {
     EXPECT_EQ(last.screen->rgb, screen_codes(b));
 }
 
-TEST(PinnedPicture, ThatCannotBeDrawnIsSaidAndTheOtherGoesOn) {
+TEST(PinnedPicture, ReportsThatItCannotBeDrawnAndKeepsTheOther) {
     DrawnDocument drawn;
     drawn.draw();
     drawn.precision.pin(drawn.document, drawn.shown());

@@ -77,7 +77,7 @@ TEST(PrecisionPanels, AreDrawnAndChangeNothing) {
 }
 
 // Finds a row of the panel by clicking down the window's middle until a click changes the document.
-TEST(PrecisionPanels, AClickOnARowGoesBackToIt) {
+TEST(PrecisionPanels, AClickOnARowRestoresItsScene) {
     test::HeadlessImGui imgui;
     AttemptsPanel panel;
     Document document;

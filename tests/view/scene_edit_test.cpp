@@ -31,7 +31,7 @@ TEST(SceneEdit, ChangesOneKeyAndNoOther) {
     EXPECT_EQ(after.file, before.file);
 }
 
-TEST(SceneEdit, ReachesListsAndWhatIsNotThereYet) {
+TEST(SceneEdit, ReachesListsAndCreatesMissingGroups) {
     Scene edited = with_setting(scene(), "clip.planes",
                                 {{{"point", {1, 2, 3}}, {"normal", {0, 0, 1}}},
                                  {{"point", {4, 5, 6}}, {"normal", {0, 1, 0}}}});
@@ -64,7 +64,7 @@ TEST(SceneEdit, SaysWhatIsWrong) {
     EXPECT_NE(message("render.slice.tree.factors", "32y"), "");
 }
 
-TEST(SceneEdit, ColoursLookAsBeforeInAnotherSpace) {
+TEST(SceneEdit, KeepsTheLookOfColoursInAnotherSpace) {
     Scene before = scene();
     before.background = {.2, .5, 1};
     const Scene after = with_setting(before, "image.color_space", "display");

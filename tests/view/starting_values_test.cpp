@@ -16,7 +16,7 @@ Scene scene_with(const std::string& more = "") {
                        "scene");
 }
 
-TEST(StartingValues, MayStandInAScene) {
+TEST(StartingValues, AreValidInAScene) {
     const Grid::Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
     const Scene scene = scene_with();
     const auto look = [&](const auto& again, const SettingNode& node) -> void {
@@ -38,7 +38,7 @@ TEST(StartingValues, MayStandInAScene) {
               1u);
 }
 
-TEST(StartingValues, OfWhatWasAutomaticAreWhatWasChosen) {
+TEST(StartingValues, AreWhatWasChosenForAutomaticKeys) {
     const Scene scene = scene_with();
     Scene resolved = scene;
     resolved.slice.samples = 321;

@@ -105,7 +105,7 @@ TEST(TransferEditor, SeveralPointsKeepTheirDistances) {
     EXPECT_NEAR(editor.curves().density[2].value, .1 + 1.6, 1e-15);  // rounding of numbers below 4
 }
 
-TEST(TransferEditor, StepsAreMadeAndMoved) {
+TEST(TransferEditor, MakesAndMovesSteps) {
     TransferEditor editor = four_points();
     EXPECT_TRUE(editor.make_step({Curve::density, 1}));
     EXPECT_EQ(editor.curves().density.size(), 5u);
@@ -122,7 +122,7 @@ TEST(TransferEditor, StepsAreMadeAndMoved) {
     EXPECT_LT(editor.curves().density[2].value, 3.3);
 }
 
-TEST(TransferEditor, AddsAndRemoves) {
+TEST(TransferEditor, AddsAndRemovesPoints) {
     TransferEditor editor = four_points();
     const TransferCurves before = editor.curves();
     EXPECT_TRUE(editor.add_density(2.5, .4));
@@ -148,7 +148,7 @@ TEST(TransferEditor, SelectsRectangles) {
     EXPECT_EQ(editor.selection().size(), 3u);
 }
 
-TEST(TransferEditor, InvalidInputLeavesEverything) {
+TEST(TransferEditor, InvalidInputChangesNothing) {
     TransferEditor editor = four_points();
     const TransferCurves before = editor.curves();
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -172,7 +172,7 @@ TEST(TransferEditor, InvalidInputLeavesEverything) {
     EXPECT_EQ(editor.curves().density[1].value, 3.3);
 }
 
-TEST(TransferEditor, AnyDragsLeaveAFunction) {
+TEST(TransferEditor, RandomDragsLeaveAValidFunction) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     TransferEditor editor = four_points();
@@ -294,7 +294,7 @@ TEST(TransferEditor, ShapesReplaceExtinctionAlone) {
     EXPECT_FALSE(editor.set_density({}));
 }
 
-TEST(TransferEditor, PalettesStepHalfway) {
+TEST(TransferEditor, PalettesStepHalfwayBetweenPoints) {
     TransferEditor editor =
         editor_of(TransferFunction::linear({knot(0, {1, 0, 0}, .5), knot(2, {0, 1, 0}, 1)}));
     EXPECT_TRUE(editor.set_palette(true));
@@ -304,7 +304,7 @@ TEST(TransferEditor, PalettesStepHalfway) {
     EXPECT_EQ(editor.function().at(1).extinction, .75);
 }
 
-TEST(TransferEditor, ColoursChangeTheirSpace) {
+TEST(TransferEditor, ConvertsColoursToAnotherSpace) {
     TransferEditor editor = four_points();
     const glm::dvec3 color = editor.curves().colors[1].color;
     EXPECT_TRUE(editor.convert_colors(ImageColorSpace::linear, ImageColorSpace::display));

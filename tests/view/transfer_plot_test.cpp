@@ -91,7 +91,7 @@ class TransferPlotUse : public testing::Test {
     std::string last_edit_;
 };
 
-TEST_F(TransferPlotUse, DragsAPoint) {
+TEST_F(TransferPlotUse, ADragMovesAPoint) {
     const ImVec2 from = place_of(1);
     const double value = editor_.curves().density[1].value;
     const DensityPoint last = editor_.curves().density[2];
@@ -122,7 +122,7 @@ TEST_F(TransferPlotUse, ADoubleClickAddsAPoint) {
     EXPECT_EQ(editor_.curves().density.size(), 3u);
 }
 
-TEST_F(TransferPlotUse, SelectsAndNudges) {
+TEST_F(TransferPlotUse, ClicksSelectAndArrowKeysMovePoints) {
     click(place_of(1));
     EXPECT_TRUE(editor_.is_selected({Curve::density, 1}));
     const DensityPoint before = editor_.curves().density[1];
@@ -144,7 +144,7 @@ TEST_F(TransferPlotUse, SelectsAndNudges) {
     EXPECT_FALSE(editor_.is_selected({Curve::density, 2}));
 }
 
-TEST_F(TransferPlotUse, WindowAndLevelByTheRightButton) {
+TEST_F(TransferPlotUse, TheRightButtonChangesWindowAndLevel) {
     const ImVec2 empty(plot_.frame().min.x + 5, plot_.frame().min.y + 5);
     drag(empty, {empty.x + 40, empty.y}, 1);
     EXPECT_EQ(last_edit_, "window and level");

@@ -12,7 +12,7 @@
 namespace lamina::view {
 namespace {
 
-TEST(ViewerSettings, ComeBack) {
+TEST(ViewerSettings, AreLoadedAsTheyWereSaved) {
     const TemporaryFolder folder;
     const auto file = folder / "new" / "lamina" / "viewer.json";
     ViewerSettings settings;
@@ -30,7 +30,7 @@ TEST(ViewerSettings, ComeBack) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1);
 }
 
-TEST(ViewerSettings, AreDefaultsWhereThereAreNone) {
+TEST(ViewerSettings, AreDefaultsWithoutAFile) {
     const TemporaryFolder folder;
     EXPECT_TRUE(ViewerSettings::load(folder / "none.json").recent.empty());
     std::ofstream(folder / "bad.json") << "{\"trace\": 7}";
@@ -43,7 +43,7 @@ TEST(ViewerSettings, AreDefaultsWhereThereAreNone) {
     }
 }
 
-TEST(ViewerSettings, AreWhereTheSystemWantsThem) {
+TEST(ViewerSettings, LieInTheUsersConfigurationFolder) {
     setenv("XDG_CONFIG_HOME", "/somewhere", 1);
     EXPECT_EQ(ViewerSettings::file(), "/somewhere/lamina/viewer.json");
     setenv("XDG_CONFIG_HOME", "relative", 1);
