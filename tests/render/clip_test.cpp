@@ -35,7 +35,7 @@ TEST(ChangedClip, DrawsEveryFrameAsANewRenderer) {
     }
 }
 
-TEST(ChangedClip, MeshesLikewise) {
+TEST(ChangedClip, DrawsEveryFrameOfAMeshAsANewRenderer) {
     const auto mesh = split_box();
     SceneRenderer frames(mesh_scene(), mesh, cpu_capabilities());
     const Image whole = frames.draw_picture();
@@ -54,7 +54,7 @@ TEST(ChangedClip, MeshesLikewise) {
 }
 
 // The clip removes the whole mesh, with omissions and without.
-TEST(ChangedClip, NothingIsLeftOfAMesh) {
+TEST(ChangedClip, CanRemoveAWholeMesh) {
     OmissionSwitch nothing_left_out;
     nothing_left_out.none = true;
     for (const OmissionSwitch& omissions : {OmissionSwitch{}, nothing_left_out}) {
@@ -67,7 +67,7 @@ TEST(ChangedClip, NothingIsLeftOfAMesh) {
     }
 }
 
-TEST(ChangedClip, PicturesOfNothingSayWhy) {
+TEST(ChangedClip, SaysWhyAPictureShowsNothing) {
     const auto data = blobs();
     const auto warning_of = [&](const Clip& clip) {
         Scene scene = volume_scene();

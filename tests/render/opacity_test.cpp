@@ -207,7 +207,7 @@ std::shared_ptr<const SceneMesh> mesh() {
         SceneMesh{TetMesh(std::move(data), "mesh"), std::move(scalar), false, {}});
 }
 
-TEST(LinearOpacity, TheTracerIntegratesIt) {
+TEST(LinearOpacity, IsIntegratedByTheTracer) {
     for (const Case& given : cases) {
         const Scene scene = scene_of(given, Method::trace);
         expect_near(trace(scene, volume()).image, given, scene.trace_tolerance, "traced volume");
@@ -215,7 +215,7 @@ TEST(LinearOpacity, TheTracerIntegratesIt) {
     }
 }
 
-TEST(LinearOpacity, SlicingIntegratesIt) {
+TEST(LinearOpacity, IsIntegratedBySlicing) {
     const auto data = std::make_shared<const VolumeData>(volume());
     for (const Case& given : cases) {
         SceneRenderer frames(scene_of(given, Method::slice), data, cpu_capabilities());
@@ -225,7 +225,7 @@ TEST(LinearOpacity, SlicingIntegratesIt) {
     }
 }
 
-TEST(LinearOpacity, ProjectedTetsIntegrateIt) {
+TEST(LinearOpacity, IsIntegratedByProjectedTets) {
     for (const Case& given : cases) {
         SceneRenderer frames(scene_of(given, Method::project), mesh(), cpu_capabilities());
         // Beside the plan's bound: weights of coloured parts are polynomials good to 3e-5, and sums
@@ -236,7 +236,7 @@ TEST(LinearOpacity, ProjectedTetsIntegrateIt) {
 }
 
 // The field is not linear here, and the tracer is the truth.
-TEST(LinearOpacity, SlicingIsTheTracersOnCurvedFields) {
+TEST(LinearOpacity, SlicingMatchesTheTracerOnCurvedFields) {
     const auto data = std::make_shared<const VolumeData>(
         generate({"gaussians", std::array<std::int64_t, 3>{24, 20, 28}, SampleType::uint8}));
     for (const double top : {120., 255.}) {

@@ -52,7 +52,7 @@ void expect_equal(const Frames& drawn, const Frames& alone) {
     }
 }
 
-TEST(OpenGlSessions, SomeInTwoThreadsDrawWhatEachDrawsAlone) {
+TEST(OpenGlSessions, DrawInSeveralThreadsAsAlone) {
     const auto osmesa = gl::ContextKind::osmesa;
     const auto other_kind = has_egl() ? gl::ContextKind::egl : osmesa;
     const Frames alone = draw_frames(osmesa, 20);
@@ -130,7 +130,7 @@ std::vector<VolumeCase> volume_cases() {
     return cases;
 }
 
-TEST_F(OpenGlSession, CamerasUploadAndCompileNothing) {
+TEST_F(OpenGlSession, NewCamerasUploadAndCompileNothing) {
     const auto data = blobs();
     for (VolumeCase& one : volume_cases()) {
         // Segments are short, so a table of one layer serves every view.
@@ -173,7 +173,7 @@ TEST_F(OpenGlSession, CamerasOfOtherKindsKeepTheVolume) {
     }
 }
 
-TEST_F(OpenGlSession, TransferFunctionsOfOneKindUploadNoVolumeAndCompileNothing) {
+TEST_F(OpenGlSession, TransferFunctionsOfOneKindCompileNothing) {
     const auto data = blobs();
     for (VolumeCase& one : volume_cases()) {
         // The sizes of the tables are fixed, whatever their errors, because programs are compiled
@@ -200,7 +200,7 @@ TEST_F(OpenGlSession, TransferFunctionsOfOneKindUploadNoVolumeAndCompileNothing)
 }
 
 // Both renderers use the same programs with different uniforms.
-TEST_F(OpenGlSession, TwoTakeTurnsWithTheSamePrograms) {
+TEST_F(OpenGlSession, TwoRenderersShareTheirPrograms) {
     const auto data = blobs();
     for (const VolumeCase& one : volume_cases()) {
         SceneRenderer first(one.scene, data, capabilities());
@@ -264,7 +264,7 @@ TEST(SessionOfTheCpuEngine, KeepsAMeshsOrder) {
     expect_fresh(frames, data, frames.picture(), "another transfer function");
 }
 
-TEST(OpenGlSessions, TheCpuEngineNeedsNothingCurrent) {
+TEST(OpenGlSessions, TheCpuEngineNeedsNoCurrentContext) {
     EXPECT_EQ(DrawContext(ContextChoice::cpu).make_current(), nullptr);
 }
 

@@ -96,7 +96,7 @@ TEST(Pipeline, StretchesAColormapOverDataInMemory) {
     EXPECT_EQ(of_volume.scene().transfer_function->knots().back().value, 9);
 }
 
-TEST(Pipeline, ChoosesInPlaceOfAFileThatGivesAFunction) {
+TEST(Pipeline, ChoosesAFunctionInPlaceOfAFileThatGivesOne) {
     Scene scene = read_scene(minimal_scene(), "s");
     const TransferFunction given = *scene.transfer_function;
     scene.transfer_function = automatic;
@@ -116,7 +116,7 @@ TEST(Pipeline, SaysThatOpacityOneWasReplaced) {
 }
 
 // Data without a finite number are refused by both tracers.
-TEST(Pipeline, TracesNoVolumeWithoutANumber) {
+TEST(Pipeline, RefusesToTraceAVolumeWithoutANumber) {
     Scene scene = read_scene(minimal_scene(), "s");
     scene.method = Method::trace;
     scene.nan = NanPolicy::transparent;
@@ -129,7 +129,7 @@ TEST(Pipeline, TracesNoVolumeWithoutANumber) {
 }
 
 // Both tracers follow both policies for NaN: an error, or transparent cells.
-TEST(Pipeline, TracesPlainlyWhatTheTracerTraces) {
+TEST(Pipeline, ThePlainTracerMatchesTheTracer) {
     Scene scene = read_scene(minimal_scene(), "s");
     scene.method = Method::trace;
     const Volume volume = test::volume_of(

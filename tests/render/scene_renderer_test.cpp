@@ -64,7 +64,7 @@ TEST(SceneRenderer, DrawsEveryFrameAsANewOne) {
     expect_fresh("another size");
 }
 
-TEST(SceneRenderer, SettingsAreChosenAgain) {
+TEST(SceneRenderer, ChoosesSettingsAgain) {
     const auto data = blobs();
     SceneRenderer frames(volume_scene(), data, cpu_capabilities());
     for (const Target target : {Target::fixed8, Target::float16, Target::float32}) {
@@ -86,7 +86,7 @@ TEST(SceneRenderer, SettingsAreChosenAgain) {
     }
 }
 
-TEST(SceneRenderer, DoesAgainWhatAChangeNeeds) {
+TEST(SceneRenderer, RepeatsOnlyWhatAChangeNeeds) {
     Scene scene = volume_scene();
     // Segments are short, so one layer of a table serves all views.
     scene.transfer_function = smooth(1);
@@ -128,7 +128,7 @@ TEST(SceneRenderer, DoesAgainWhatAChangeNeeds) {
     EXPECT_EQ(frames.counts(), expected);
 }
 
-TEST(SceneRenderer, CopiesOfTheVolumeAreTakenOver) {
+TEST(SceneRenderer, KeepsCopiesOfTheVolume) {
     SceneRenderer frames(volume_scene(), blobs(), cpu_capabilities());
     frames.draw();
     frames.set_transfer_function(smooth(3));
@@ -139,7 +139,7 @@ TEST(SceneRenderer, CopiesOfTheVolumeAreTakenOver) {
     EXPECT_EQ(frames.renderer().stages_ms().at("upload"), 0);
 }
 
-TEST(SceneRenderer, MeshesLikewise) {
+TEST(SceneRenderer, DrawsEveryFrameOfAMeshAsANewOne) {
     const auto mesh = split_box();
     for (const auto& geometry :
          {Auto<ProjectGeometry>(automatic), Auto<ProjectGeometry>(ProjectGeometry::triangles)}) {
@@ -182,7 +182,7 @@ std::int64_t bytes_in_use() {
 
 // A picture has 1.9 MB and the copy of the volume .05. 48 frames may add at most a tenth of their
 // pictures' size.
-TEST(SceneRenderer, MemoryDoesNotGrowAfterTheFirstRound) {
+TEST(SceneRenderer, NeedsNoMoreMemoryAfterTheFirstRound) {
     SceneRenderer frames(volume_scene(), blobs(), cpu_capabilities());
     frames.set_size(400, 300);
     const auto round = [&] {
@@ -220,7 +220,7 @@ void turn(SceneRenderer& frames) {
     }
 }
 
-TEST(SceneRenderer, TwoInTwoThreadsDrawWhatEachDrawsAlone) {
+TEST(SceneRenderer, DrawsInTwoThreadsAsAlone) {
     const auto data = blobs();
     const auto mesh = split_box();
     SceneRenderer alone(volume_scene(), data, cpu_capabilities());

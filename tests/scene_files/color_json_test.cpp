@@ -47,7 +47,7 @@ TEST(ColorJson, DisplayValuesAreDecodedForLinearLight) {
     expect_color("tomato", "display", glm::dvec3(255, 99, 71) / 255.);
 }
 
-TEST(ColorJson, MistakesAreSaid) {
+TEST(ColorJson, MistakesAreNamed) {
     const auto expect_refused = [](const nlohmann::json& color,
                                    std::initializer_list<std::string> parts) {
         expect_error([&] { read_scene(colored(color, "display"), "s"); }, parts);
@@ -73,7 +73,7 @@ nlohmann::json mapped(const nlohmann::json& map, const char* space) {
     return document;
 }
 
-TEST(ColorJson, AShippedMapIsStretchedOverTheDataUnlessToldOtherwise) {
+TEST(ColorJson, AShippedMapIsStretchedOverTheDataIfNoRangeIsGiven) {
     nlohmann::json map{{"colormap", "greys"}, {"points", {{{"value", 0}, {"extinction", 1}}}}};
     Scene over_data = read_scene(mapped(map, "display"), "s");
     ASSERT_TRUE(has_open_colormap(over_data));
@@ -107,7 +107,7 @@ TEST(ColorJson, AnOpenMapIsWrittenAsItIsGiven) {
     EXPECT_EQ(again.transfer_function, first.transfer_function);
 }
 
-TEST(ColorJson, DataBeyondAllMapsAreRefusedByFileAndKey) {
+TEST(ColorJson, DataBeyondAllMapsAreRefusedNamingFileAndKey) {
     const nlohmann::json map{{"colormap", "greys"},
                              {"points", {{{"value", 0}, {"extinction", 1}}}}};
     Scene scene = read_scene(mapped(map, "display"), "dir/s");
@@ -131,7 +131,7 @@ TEST(ColorJson, APresetInUnitsAndAFileKeepTheirRange) {
     EXPECT_EQ(colormap_file_of(two), folder / "two.json");
 }
 
-TEST(ColorJson, MistakesWithMapsAreSaid) {
+TEST(ColorJson, MistakesWithMapsAreNamed) {
     const nlohmann::json no_such{{"colormap", "virdis"}, {"points", nlohmann::json::array()}};
     expect_error([&] { read_scene(mapped(no_such, "linear"), "dir/s"); },
                  {"dir/s", "transfer_function.colormap", "did you mean \"viridis\"?"});

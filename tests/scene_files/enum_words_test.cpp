@@ -44,7 +44,7 @@ void expect_numbers(const std::string& shader, const std::string& prefix) {
     }
 }
 
-TEST(EnumWords, ShadersHaveTheNumbersOfTheirTwins) {
+TEST(EnumWords, HaveTheNumbersOfTheShaders) {
     expect_numbers<NodeCode>("compositing/node_code.glsl", "CODE_");
     expect_numbers<AlphaRounding>("compositing/codes.glsl", "ROUND_");
     expect_numbers<SegmentSource>("projection/tet.frag", "SOURCE_");

@@ -87,7 +87,7 @@ TEST(Keys, AreReadAndWrittenBack) {
                     R"("more":[{"number":1,"power":0.5,"range":"auto","on":true}],"height":3.0})");
 }
 
-TEST(Keys, ThatAreLeftOutKeepTheirDefaults) {
+TEST(Keys, KeepTheirDefaultsIfTheyAreLeftOut) {
     EXPECT_EQ(read_room(R"({"lamp": {"number": 3}})"), Room{});
     EXPECT_EQ(room_keys().json(Room{}).dump(),
               R"({"lamp":{"number":3,"power":0.5,"range":"auto","on":false},"height":"open"})");
@@ -109,7 +109,7 @@ TEST(Keys, MistakesNameFileAndPath) {
     expect(R"({"lamp": {"number": 3}, "height": []})", {"height: found [], expected \"open\" or"});
 }
 
-TEST(Keys, MakeTheSchema) {
+TEST(Keys, DetermineTheSchema) {
     const nlohmann::json schema = room_keys().schema();
     const nlohmann::json& lamp = schema["properties"]["lamp"];
     EXPECT_EQ(lamp["description"], "The first one.");

@@ -119,7 +119,7 @@ TEST(SceneErrors, NameFileKeyFoundAndExpected) {
     }
 }
 
-TEST(SceneErrors, MissingPartsAreNamed) {
+TEST(SceneErrors, NameMissingParts) {
     for (const char* key : {"version", "volume"}) {
         nlohmann::json document = minimal_scene();
         document.erase(key);
@@ -127,20 +127,20 @@ TEST(SceneErrors, MissingPartsAreNamed) {
     }
 }
 
-TEST(SceneErrors, ImagesThatNoMemoryHolds) {
+TEST(SceneErrors, RefuseImagesThatAreTooLarge) {
     nlohmann::json document = with("/image/width", 32000);
     document["image"]["height"] = 32000;
     expect_error([&] { read_scene(document, "bad.json"); }, {"32000 x 32000", "at most"});
 }
 
-TEST(SceneErrors, PathsThatNoFileCanHave) {
+TEST(SceneErrors, RefuseImpossiblePaths) {
     for (const std::string& path : {std::string(), std::string("a\0b.nrrd", 8)}) {
         expect_error([&] { read_scene(with("/volume", path), "bad.json"); },
                      {"bad.json", "volume", "the path of a file"});
     }
 }
 
-TEST(SceneErrors, FilesThatAreNoScenes) {
+TEST(SceneErrors, NameFilesThatAreNoScenes) {
     const TemporaryFolder folder;
     expect_error([&] { load_json(folder / "none.json"); }, {"none.json", "no such file"});
     expect_error([&] { load_json(folder.path()); }, {"not a file"});

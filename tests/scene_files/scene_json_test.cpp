@@ -25,7 +25,7 @@ void expect_kept(const Scene& scene, const std::string& name) {
     }
 }
 
-TEST(SceneJson, KeepsWhatShips) {
+TEST(SceneJson, KeepsTheScenesThatShip) {
     for (const auto& entry :
          std::filesystem::directory_iterator(LAMINA_SOURCE_DIR "/data/scenes")) {
         nlohmann::json document = load_json(entry.path());

@@ -172,7 +172,7 @@ TEST(SceneReader, TurnedCameraKeepsItsDistanceAndHeight) {
     EXPECT_NEAR(quarter.eye.z, 1 - 2, 1e-14);
 }
 
-TEST(SceneReader, WhatIsLeftOutIsAutomatic) {
+TEST(SceneReader, OmittedKeysAreAutomatic) {
     nlohmann::json document{{"version", 1}, {"volume", {{"generate", "gaussians"}}}};
     Scene scene = read_scene(document, "s.json");
     EXPECT_TRUE(scene.transfer_function.is_automatic() && scene.camera.is_automatic());

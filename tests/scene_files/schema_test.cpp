@@ -7,7 +7,7 @@
 namespace lamina {
 namespace {
 
-TEST(Schema, IsTheOneOfTheKeyTables) {
+TEST(Schema, MatchesTheKeyTables) {
     EXPECT_EQ(read_file_bytes(LAMINA_SOURCE_DIR "/docs/scene.schema.json"), scene_schema_text())
         << "run tools/generated";
 }

@@ -22,7 +22,7 @@ TEST(SliceReader, NothingIsDitheredOrInATreeByDefault) {
     EXPECT_EQ(scene.emulate.seed, 1u);
 }
 
-TEST(SliceReader, Emulation) {
+TEST(SliceReader, ReadsSettingsOfEmulation) {
     const Scene scene = read(
         "/render",
         {{"target", "emulated"},
@@ -39,7 +39,7 @@ TEST(SliceReader, Emulation) {
     EXPECT_EQ(read("/render/emulate/bits", 1).emulate.bits, 1);
 }
 
-TEST(SliceReader, Dither) {
+TEST(SliceReader, ReadsSettingsOfDithering) {
     const auto none = read("/render/slice/dither", nlohmann::json::object()).slice.dither;
     ASSERT_TRUE(none.has_value());
     EXPECT_EQ(none->period, 16);
@@ -56,7 +56,7 @@ TEST(SliceReader, Dither) {
     EXPECT_FALSE(read("/render/slice/dither/period", "auto").slice.dither->period.is_given());
 }
 
-TEST(SliceReader, Trees) {
+TEST(SliceReader, ReadsSettingsOfTrees) {
     const auto read_tree = [](const nlohmann::json& value) {
         return *read("/render/slice/tree", value).slice.tree;
     };

@@ -30,13 +30,13 @@ TEST(VolumeSelection, IsReadAndWrittenBack) {
     EXPECT_EQ(Json(scene_json(scene)["volume"]), everything);
 }
 
-TEST(VolumeSelection, IsAPathWhereNothingIsTold) {
+TEST(VolumeSelection, IsAPathWhereNothingIsGiven) {
     const Scene scene = read_scene(with("/volume", {{"path", "/a.nrrd"}}), "s.json");
     EXPECT_EQ(scene.volume_file()->selection, VolumeRequest{});
     EXPECT_EQ(scene_json(scene)["volume"], "/a.nrrd");
 }
 
-TEST(VolumeSelection, NamesWhatIsWrong) {
+TEST(VolumeSelection, MistakesNameTheKey) {
     const auto expect = [](const char* key, const Json& value,
                            std::initializer_list<std::string> parts) {
         Json volume = everything;

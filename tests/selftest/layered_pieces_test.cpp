@@ -15,7 +15,7 @@ namespace {
 
 // The ray runs along the layers' axis; extinction goes 0 .. 2 .. 0 over a length of 3: optical
 // depth 3.
-TEST(LayeredPieces, OpticalDepthOfATent) {
+TEST(LayeredPieces, HaveTheOpticalDepthOfATent) {
     LayeredBox box;
     box.samples = {0, 1, 0};
     box.edges = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 3}}};
@@ -48,7 +48,7 @@ TEST(LayeredPieces, AgreeWithTheTracer) {
 
 // If only rounding is uncertain, bounds contain the exact value and are not much wider than
 // rounding requires: a homogeneous box of depth D has D exp(-D) (some 2^-20), at most .4e-6.
-TEST(LayeredPieces, BoundsAreTight) {
+TEST(LayeredPieces, HaveTightBounds) {
     SelftestScene scene = plain_scene("", "");
     scene.scene.transfer_function = optics_of({{0, {{1, 1, 1}, 1}}});
     scene.scene.slice.samples = 4;

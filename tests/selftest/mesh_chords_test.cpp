@@ -18,7 +18,7 @@ SceneMesh mesh_of(MeshData data) {
 }
 
 // The chords of a box's tets add up to the box's chord, however it is divided.
-TEST(MeshChords, OfABoxAddUp) {
+TEST(MeshChords, AddUpToTheChordOfTheBox) {
     const SelftestScene scene = plain_scene("", "");
     const TransferFunction optics = optics_of({{0, {{1, 1, 1}, 1}}});
     const View view(*scene.scene.camera, 24, 18);

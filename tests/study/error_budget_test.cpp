@@ -113,7 +113,7 @@ TEST(ErrorBudget, FindsTheDominantPart) {
 }
 
 // The dominant part has the largest L2, not the largest error in one pixel.
-TEST(ErrorBudget, DominantIsByL2) {
+TEST(ErrorBudget, DominantPartHasTheLargestL2) {
     FourPictures pictures{all_of(.5F), all_of(.5F), all_of(.625F), all_of(.5F)};
     pictures.traced_mesh.pixel(1, 1)[0] = pictures.projected.pixel(1, 1)[0] = .75F;
     const ErrorBudget budget = error_budget(pictures);

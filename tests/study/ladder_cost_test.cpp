@@ -26,13 +26,13 @@ LadderCost after_two_meshes() {
     return cost;
 }
 
-TEST(LadderCost, FollowsThePowerThatWasSeen) {
+TEST(LadderCost, FollowsTheMeasuredPower) {
     const LadderCost cost = after_two_meshes();
     EXPECT_NEAR(cost.expected_seconds(steps_of({.025, .0125}, 1000000, true)), 64 + 512, 1e-9);
 }
 
 // The third mesh has 64,000 tets; the fourth would have 512,000, and gets the most, 100,000.
-TEST(LadderCost, EndsWithTheMeshThatHasTheMost) {
+TEST(LadderCost, EndsWithTheMeshOfTheMostTets) {
     const LadderCost cost = after_two_meshes();
     EXPECT_NEAR(cost.expected_seconds(steps_of({.025, .0125, .00625}, 100000, true)), 64 + 100,
                 1e-9);

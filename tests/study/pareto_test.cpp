@@ -22,7 +22,7 @@ std::vector<bool> front_by_definition(const std::vector<CostAndError>& points) {
     return front;
 }
 
-TEST(Pareto, FrontIsAsDefined) {
+TEST(Pareto, FrontMatchesItsDefinition) {
     std::mt19937 random(7);
     for (int trial = 0; trial < 2000; ++trial) {
         // With few values, many points are equal in one number or in both.
@@ -34,7 +34,7 @@ TEST(Pareto, FrontIsAsDefined) {
     }
 }
 
-TEST(Pareto, OfPointsWithoutTies) {
+TEST(Pareto, FrontWithoutTiesMatchesItsDefinition) {
     std::mt19937 random(8);
     std::uniform_real_distribution<double> value(0, 1);
     std::vector<CostAndError> points(500);

@@ -65,7 +65,7 @@ TEST_F(RunLists, EveryRunHasAnIdOfItsOwnThatStays) {
     EXPECT_TRUE(first.dropped.empty());
 }
 
-TEST_F(RunLists, IdsChangeWithAllThatDecidesWhatIsMeasured) {
+TEST_F(RunLists, IdsChangeWithEverythingThatIsMeasured) {
     const RunList before = list();
     const auto expect_other_ids = [&](const char* what) {
         const RunList after = list();
@@ -94,7 +94,7 @@ TEST_F(RunLists, IdsChangeWithAllThatDecidesWhatIsMeasured) {
     EXPECT_EQ(list().id(), before.id());
 }
 
-TEST_F(RunLists, SurvivesItsFile) {
+TEST_F(RunLists, AreReadAsTheyWereWritten) {
     study["drop"] = {{{"where", {{"render.target", "fixed8"}, {"scene", "a"}}}, {"because", "x"}}};
     RunList made = list();
     made.data = {{"a.nrrd", "0123456789abcdef"}, {"cannot be read", ""}};
@@ -130,7 +130,7 @@ TEST_F(RunLists, ListsOfDifferentDataDoNotMatch) {
     expect_error([&] { match_data(now, "now", list_of({"1"}), "runs.json"); }, {"3 data sets"});
 }
 
-TEST_F(RunLists, WhatIsTheSameAsAnotherRunIsDroppedAndSaid) {
+TEST_F(RunLists, EqualRunsAreDroppedAndReported) {
     study["sweep"] = {{{"render.slice.samples", {8, 16, 8}}},
                       {{"render.slice.samples", {16, 32}}},
                       {{"render.target", {"float32", "fixed8"}}, {"render.slice.samples", 8}}};
@@ -143,7 +143,7 @@ TEST_F(RunLists, WhatIsTheSameAsAnotherRunIsDroppedAndSaid) {
     EXPECT_NE(made.dropped[0].because.find("same"), std::string::npos);
 }
 
-TEST_F(RunLists, NullTakesAKeyAway) {
+TEST_F(RunLists, NullRemovesAKey) {
     const StudyFile file = load();
     const RunList made = list_runs(file);
     int without = 0;
@@ -214,13 +214,13 @@ TEST_F(RunLists, DropRulesThatMatchNothingAreMistakes) {
     expect_error([&] { list(); }, {"study.json", "drop.0.where", "no run has these values"});
 }
 
-TEST_F(RunLists, DropRulesAreNotWithoutNumber) {
+TEST_F(RunLists, DropRulesAreLimitedInNumber) {
     study["drop"] =
         std::vector<json>(1001, {{"where", {{"render.target", "fixed8"}}}, {"because", "again"}});
     expect_error([&] { list(); }, {"study.json", "drop", "1001 rules", "at most 1000"});
 }
 
-TEST_F(RunLists, BaselineIsOneRunOfEachScene) {
+TEST_F(RunLists, HaveOneBaselineOfEachScene) {
     study["baseline"] = {{"render.target", "float32"}, {"render.slice.samples", nullptr}};
     const RunList made = list();
     ASSERT_EQ(made.baselines.size(), 2u);
@@ -232,7 +232,7 @@ TEST_F(RunLists, BaselineIsOneRunOfEachScene) {
     }
 }
 
-TEST_F(RunLists, CountsBeforeTheyAreMade) {
+TEST_F(RunLists, AreCountedBeforeTheyAreMade) {
     EXPECT_EQ(run_count(load()), 12u);
     json values = json::array();
     for (int i = 1; i <= 1000; ++i) values.push_back(i);

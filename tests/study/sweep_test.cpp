@@ -50,7 +50,7 @@ std::vector<SweepGrid> read(const json& sweep) {
     return read_sweep(reader);
 }
 
-TEST(Factorizations, OfAPowerOfTwoAreItsCompositions) {
+TEST(Factorizations, CountTheCompositionsForAPowerOfTwo) {
     // Exponents of 2^10 in k factors are compositions of 10 into k parts: there are C(9, k - 1).
     EXPECT_EQ(factorizations(1024, 1).size(), 1u);
     EXPECT_EQ(factorizations(1024, 2).size(), 1u + 9);
@@ -69,7 +69,7 @@ TEST(Factorizations, HaveTheProductAndNoFactorBelowTwoAndNoRepeats) {
     expect_factorizations(12, 2);
 }
 
-TEST(Factorizations, OfAPrimeIsThePrimeAlone) {
+TEST(Factorizations, HoldOnlyThePrimeForAPrime) {
     EXPECT_EQ(factorizations(97, 16), (std::vector<std::vector<int>>{{97}}));
 }
 
@@ -116,11 +116,11 @@ TEST(Sweep, ReadsListsSingleValuesAndFactorizations) {
     EXPECT_EQ(factors, (std::set<json>{{8}, {2, 4}, {4, 2}}));
 }
 
-TEST(Sweep, WithoutLevelsFactorizationsAreAll) {
+TEST(Sweep, TakesAllFactorizationsWithoutLevels) {
     EXPECT_EQ(read({{"k", {{"factorizations", 1024}}}})[0].count(), 512u);
 }
 
-TEST(Sweep, EmptyOnesAreErrors) {
+TEST(Sweep, EmptySweepsAreErrors) {
     expect_error([] { read(json::object()); }, {"study.json", "sweep", "{}"});
     expect_error([] { read(json::array()); }, {"study.json", "sweep", "[]"});
     expect_error([] { read(json::array({json::object()})); }, {"study.json", "sweep.0", "{}"});

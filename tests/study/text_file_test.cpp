@@ -12,14 +12,14 @@ std::string row_of(const std::string& cell) {
     return table.text().substr(5);
 }
 
-TEST(CsvTable, QuotesWhatEndsACell) {
+TEST(CsvTable, QuotesCellsWithSeparators) {
     EXPECT_EQ(row_of("plain text"), "plain text\n");
     EXPECT_EQ(row_of("a,b"), "\"a,b\"\n");
     EXPECT_EQ(row_of("say \"a\""), "\"say \"\"a\"\"\"\n");
     EXPECT_EQ(row_of("two\nlines"), "\"two\nlines\"\n");
 }
 
-TEST(CsvTable, NothingIsAFormula) {
+TEST(CsvTable, KeepsTextFromBeingAFormula) {
     EXPECT_EQ(row_of("=1+1"), "'=1+1\n");
     EXPECT_EQ(row_of("=HYPERLINK(\"x\",\"y\")"), "\"'=HYPERLINK(\"\"x\"\",\"\"y\"\")\"\n");
     EXPECT_EQ(row_of("+A1"), "'+A1\n");
@@ -30,7 +30,7 @@ TEST(CsvTable, NothingIsAFormula) {
     EXPECT_EQ(row_of("\r=1"), "\"'\r=1\"\n");
 }
 
-TEST(CsvTable, NumbersStayNumbers) {
+TEST(CsvTable, KeepsNumbersAsNumbers) {
     for (const char* const number : {"-1", "-.5", "-1e-300", "-1e-400", "-inf", "12", "-0"})
         EXPECT_EQ(row_of(number), std::string(number) + "\n");
     EXPECT_EQ(row_of(""), "\n");

@@ -6,7 +6,7 @@
 namespace lamina::study {
 namespace {
 
-TEST(TimeLeft, IsOfWhatWasSeen) {
+TEST(TimeLeft, FollowsTheMeasuredTimes) {
     TimeLeft left;
     left.add_first(10, 2);
     left.add_first(20, 4);
@@ -19,7 +19,7 @@ TEST(TimeLeft, IsOfWhatWasSeen) {
     EXPECT_DOUBLE_EQ(left.of(0, 0), 0);
 }
 
-TEST(TimeLeft, IsSaidInFewDigits) {
+TEST(TimeLeft, IsGivenInFewDigits) {
     EXPECT_EQ(duration_text(0.2), "less than 1 s");
     EXPECT_EQ(duration_text(0.5), "1 s");
     EXPECT_EQ(duration_text(99.4), "99 s");

@@ -34,7 +34,7 @@ std::vector<T> octaves(double first, double last) {
 
 constexpr double ulp = 0x1p-24;  // the error of one rounding to float, relative
 
-TEST_P(Arithmetic, Exponential) {
+TEST_P(Arithmetic, ExponentialIsPreciseToFloat32) {
     const std::vector<float> x = spaced(-87, 88);
     std::vector<float> result(count);
     vector_exp(x, result);
@@ -48,7 +48,7 @@ TEST_P(Arithmetic, Exponential) {
     }
 }
 
-TEST_P(Arithmetic, ExponentialAtItsEnds) {
+TEST_P(Arithmetic, ExponentialIsSafeAtExtremes) {
     const std::vector<float> x = {
         0, -0.f, -88, -1e30f, -std::numeric_limits<float>::infinity(), 88.3, 1e30, 1, 1, 1, 1, 1,
         1, 1,    1,   1};
@@ -60,7 +60,7 @@ TEST_P(Arithmetic, ExponentialAtItsEnds) {
     for (const std::size_t i : {5, 6}) EXPECT_NEAR(result[i] / std::exp(88.3), 1, 1e-5);
 }
 
-TEST_P(Arithmetic, Logarithm) {
+TEST_P(Arithmetic, LogarithmIsPreciseToFloat32) {
     const std::vector<float> x = octaves(-120, 127);
     std::vector<float> result(count);
     vector_log(x, result);
@@ -76,7 +76,7 @@ TEST_P(Arithmetic, Logarithm) {
 }
 
 // Near 1, where n is 0, the result is log(m) alone, so the error is relative.
-TEST_P(Arithmetic, LogarithmNearOneIsRelative) {
+TEST_P(Arithmetic, LogarithmNearOneHasASmallRelativeError) {
     const std::vector<float> x = spaced(.75, 1.375);
     std::vector<float> result(count);
     vector_log(x, result);
@@ -86,7 +86,7 @@ TEST_P(Arithmetic, LogarithmNearOneIsRelative) {
     }
 }
 
-TEST_P(Arithmetic, OpacityFromDepthToFloat32) {
+TEST_P(Arithmetic, OpacityFromDepthIsPreciseToFloat32) {
     const std::vector<float> depth = octaves(-60, 8);
     std::vector<float> result(count);
     vector_opacity(depth, result);
@@ -97,7 +97,7 @@ TEST_P(Arithmetic, OpacityFromDepthToFloat32) {
     }
 }
 
-TEST_P(Arithmetic, OpacityFromDepthToDouble) {
+TEST_P(Arithmetic, OpacityFromDepthIsPreciseToDouble) {
     const std::vector<double> depth = octaves<double>(-80, 8);
     std::vector<double> result(count);
     vector_opacity(depth, result);
@@ -107,7 +107,7 @@ TEST_P(Arithmetic, OpacityFromDepthToDouble) {
     }
 }
 
-TEST_P(Arithmetic, OpacityAtItsEnds) {
+TEST_P(Arithmetic, OpacityIsExactAtItsEnds) {
     std::vector<float> depth(16, std::numeric_limits<float>::infinity());
     depth[0] = 0;
     std::vector<float> result(16);

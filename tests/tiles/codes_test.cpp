@@ -61,12 +61,12 @@ void expect_over_and_under(const Operands& operands, std::uint32_t largest) {
     }
 }
 
-TEST_P(Codes, OverOf4BitsForAllOperands) {
+TEST_P(Codes, OverOf4BitsMatchesScalarsForAllOperands) {
     expect_over_and_under(
         operands_of([](std::uint32_t i, std::uint32_t which) { return i >> 4 * which & 15; }), 15);
 }
 
-TEST_P(Codes, OverOf8BitsForAllPairs) {
+TEST_P(Codes, OverOf8BitsMatchesScalarsForAllPairs) {
     for (const std::uint32_t color : {0u, 1u, 2u, 63u, 100u, 127u, 128u, 200u, 254u, 255u}) {
         const auto operand = [color](std::uint32_t i, std::uint32_t which) {
             return which == 0 ? color : which == 1 ? i & 255 : i >> 8;
@@ -76,7 +76,7 @@ TEST_P(Codes, OverOf8BitsForAllPairs) {
 }
 
 // Random operands; a quarter of them are 0 or the largest code, for which sums are largest.
-TEST_P(Codes, OverOfRandomOperands) {
+TEST_P(Codes, OverMatchesScalarsForRandomOperands) {
     for (int bits = 1; bits <= max_code_bits; ++bits) {
         const std::uint32_t largest = largest_code(bits);
         const auto operand = [largest](std::uint32_t i, std::uint32_t which) {
@@ -104,7 +104,7 @@ std::uint32_t chosen_number(std::uint32_t index, double scaled, double size) {
     return static_cast<std::uint32_t>(random_bits(index, 1, 0, 3) * 0x1p-32 * size);
 }
 
-TEST_P(Codes, RoundingAlpha) {
+TEST_P(Codes, RoundingOfAlphaMatchesScalars) {
     std::vector<double> scaled(count), result(count);
     std::vector<std::uint32_t> random(count);
     for (const int bits : {1, 2, 4, 6, 8, 10, 12, 16}) {
@@ -125,7 +125,7 @@ TEST_P(Codes, RoundingAlpha) {
     }
 }
 
-TEST_P(Codes, Dithering) {
+TEST_P(Codes, DitheringMatchesScalars) {
     struct Pattern {
         int period, increment;
     };
@@ -147,7 +147,7 @@ TEST_P(Codes, Dithering) {
     }
 }
 
-TEST_P(Codes, StochasticOver) {
+TEST_P(Codes, StochasticOverMatchesScalars) {
     std::vector<double> source(count), alpha(count), below(count), result(count);
     std::vector<std::uint32_t> random(count);
     for (const int bits : {1, 4, 8, 16}) {
@@ -167,7 +167,7 @@ TEST_P(Codes, StochasticOver) {
     }
 }
 
-TEST_P(Codes, RandomBits) {
+TEST_P(Codes, RandomBitsMatchScalars) {
     std::vector<std::uint32_t> column(count), row(count), sample(count), result(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         column[i] = i % 256;

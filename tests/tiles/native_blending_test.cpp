@@ -131,22 +131,22 @@ void expect_equal(Target format, Order order) {
     EXPECT_EQ(different, 0u) << "of " << 4 * pixels * layers << ", by up to " << largest;
 }
 
-TEST_F(NativeBlending, Fixed8) {
+TEST_F(NativeBlending, MatchesOpenGlInFixed8) {
     expect_equal(Target::fixed8, Order::back_to_front);
     expect_equal(Target::fixed8, Order::front_to_back);
 }
 
-TEST_F(NativeBlending, Fixed16) {
+TEST_F(NativeBlending, MatchesOpenGlInFixed16) {
     expect_equal(Target::fixed16, Order::back_to_front);
     expect_equal(Target::fixed16, Order::front_to_back);
 }
 
-TEST_F(NativeBlending, Float16) {
+TEST_F(NativeBlending, MatchesOpenGlInFloat16) {
     expect_equal(Target::float16, Order::back_to_front);
     expect_equal(Target::float16, Order::front_to_back);
 }
 
-TEST_F(NativeBlending, Float32) {
+TEST_F(NativeBlending, MatchesOpenGlInFloat32) {
     expect_equal(Target::float32, Order::back_to_front);
     expect_equal(Target::float32, Order::front_to_back);
 }

@@ -28,7 +28,7 @@ void for_codes_and_shares(F f) {
         for (const float share : {1.0f, 1.0f / 3, 1.0f / 32, 1.0f / 1024}) f(code, share);
 }
 
-TEST_P(NodeCodes, Encode) {
+TEST_P(NodeCodes, EncodeDepthsToFloat32) {
     std::vector<float> depth(count), result(count);
     for (std::size_t i = 0; i < count; ++i)  // 1e-8 to 1e4
         depth[i] = static_cast<float>(std::exp2(static_cast<double>(i) * (40. / count) - 26.6));
@@ -52,7 +52,7 @@ TEST_P(NodeCodes, Encode) {
     });
 }
 
-TEST_P(NodeCodes, Decode) {
+TEST_P(NodeCodes, DecodeDepthsToFloat32) {
     std::vector<float> value(count), result(count), small(count), small_result(count);
     for (std::size_t i = 0; i < count; ++i) {
         value[i] = static_cast<float>(i) / (count - 1);

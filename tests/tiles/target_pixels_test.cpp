@@ -124,7 +124,7 @@ TEST_P(TargetPixels, RoundsOpacitiesAndColors) {
     }
 }
 
-TEST_P(TargetPixels, CompositesByChance) {
+TEST_P(TargetPixels, CompositesStochastically) {
     std::vector<std::uint32_t> random(count);
     for (std::uint32_t i = 0; i < count; ++i) random[i] = random_bits(i, 0, 0, 5);
     const Planes sources = random_values(6);

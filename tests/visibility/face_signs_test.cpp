@@ -33,7 +33,7 @@ void expect_exact(const TetMesh& mesh, const Eye& eye) {
     }
 }
 
-TEST(FaceSigns, OfOneTet) {
+TEST(FaceSigns, SayFromWhichSideFacesAreSeen) {
     MeshData data;
     data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     data.tets = {{0, 1, 2, 3}};
@@ -52,7 +52,7 @@ TEST(FaceSigns, OfOneTet) {
     EXPECT_EQ(signs({{0, 0, 0}}), farther_bit(0));
 }
 
-TEST(FaceSigns, RoundedOnesAreExact) {
+TEST(FaceSigns, AreExactDespiteRounding) {
     const TetMesh needles(test::split_box(3, 1000, 1e-9, nothing), "needles");
     const TetMesh delaunay(test::DelaunayMesh::make(400, 5), "delaunay");
     std::mt19937 random(1);

@@ -70,7 +70,7 @@ std::vector<std::int32_t> gap_faces_of_all(const TetMesh& mesh) {
     return found;
 }
 
-TEST(GapFaces, NoneOfConvexMeshes) {
+TEST(GapFaces, DoNotExistInConvexMeshes) {
     const TetMesh box(test::kuhn_box({8, 7, 6}, nothing), "kuhn");
     const TetMesh delaunay(test::DelaunayMesh::make(3000, 7), "delaunay");
     const TetMesh prism(test::twisted_prism(-20), "prism");
@@ -107,7 +107,7 @@ TEST(GapFaces, SeeADentOfAnUlp) {
 
 // Compares the search, with its tree, boxes and left-out faces, with a test of all pairs of open
 // faces.
-TEST(OpenFaceConstraints, AreAllPairsThatShow) {
+TEST(OpenFaceConstraints, AreAllPairsOfFacesThatHideEachOther) {
     for (const TetMesh& mesh : {carved_kuhn(), carved_delaunay(120, 3), two_boxes(.5),
                                 TetMesh(test::twisted_prism(20), "prism")}) {
         OpenFaceConstraints gaps(mesh);

@@ -37,7 +37,7 @@ double least_broken(const TetMesh& mesh, const Eye& eye) {
     return least;
 }
 
-TEST(OrderCycles, ThreeSticks) {
+TEST(OrderCycles, BreakTheSmallestOverlapOfThreeSticks) {
     const TetMesh mesh(test::three_sticks({.3, .1, .2}), "sticks");
     VisibilityOrder exact(mesh, OrderMethod::exact);
     for (const Eye& eye : {Eye{{0, 0, -1}, true}, Eye{{0, 0, 1}, true}, Eye{{.2, .1, 9}}}) {
@@ -59,7 +59,7 @@ TEST(OrderCycles, ThreeSticks) {
     EXPECT_EQ(mpvo.report().cycles, 0);
 }
 
-TEST(OrderCycles, InAConnectedMesh) {
+TEST(OrderCycles, AreFoundInAConnectedMesh) {
     const TetMesh mesh(test::twisted_prism(20), "prism");
     const Eye eye{{0, 0, -1}, true};
     for (const OrderMethod method : {OrderMethod::mpvo, OrderMethod::exact}) {
@@ -111,7 +111,7 @@ TEST(OrderCycles, AreKeptApart) {
 
 // Random sticks cut one another and make many cycles. Compares components, and the order between
 // them, with reachability by brute force.
-TEST(OrderCycles, ComponentsAgainstReachability) {
+TEST(OrderCycles, MatchReachabilityByBruteForce) {
     MeshData data;
     std::uint32_t state = 1;
     const auto uniform = [&] {

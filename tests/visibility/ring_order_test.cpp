@@ -115,7 +115,7 @@ TEST(RingOrder, AnOrderOfWholeTetsIsWrongSomewhere) {
     EXPECT_EQ(judge(mesh, view, order.sort_pixels(view)).wrong, 0);
 }
 
-TEST(RingOrder, TetsThatOverlapAreLeftAndCounted) {
+TEST(RingOrder, KeepsAllOverlappingTets) {
     // Turns the first stick over, so that it cuts others.
     MeshData mesh = test::three_sticks({.3, .3, .3});
     for (std::size_t i = 0; i < 4; ++i) mesh.points[i].z *= -1;
@@ -127,7 +127,7 @@ TEST(RingOrder, TetsThatOverlapAreLeftAndCounted) {
 }
 
 // Batches, which are parts of a list, keep the pixels of their items.
-TEST(DrawOrder, PartsKeepTheirPixels) {
+TEST(DrawOrder, SublistsKeepTheirPixels) {
     const std::vector<int> items{0, 1, 2, 3, 4, 5, 6, 7};
     const std::vector<LimitedRun> runs{
         {1, 3, {0, 0, 0, 0}}, {3, 4, {1, 1, 0, 0}}, {6, 8, {2, 2, 0, 0}}};

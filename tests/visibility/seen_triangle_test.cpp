@@ -107,7 +107,7 @@ TEST(SeenTriangle, ShowsWhatRaysMeet) {
 
 // Triangles that touch along an edge or at a corner, or whose edges cross exactly as seen, give
 // exact zeros.
-TEST(SeenTriangle, TouchingIsNoOverlap) {
+TEST(SeenTriangle, DoesNotOverlapATriangleThatItTouches) {
     const Eye above{{0, 0, -1}, true};
     const Triangle exit{glm::dvec3(0, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0)};
     ASSERT_EQ(SeenTriangle(above, exit).sign(), 1);
@@ -133,7 +133,7 @@ TEST(SeenTriangle, TouchingIsNoOverlap) {
 
 // One triangle is behind the eye, and both look like a star of David: no plane through an edge of
 // one separates their pyramids.
-TEST(SeenTriangle, BehindTheEye) {
+TEST(SeenTriangle, IgnoresTrianglesBehindTheEye) {
     const Eye eye{{0, 0, 0}, false};
     const auto ring = [](double start, double z, double sense) {
         Triangle t;
@@ -178,7 +178,7 @@ TEST(SeenThrough, KeepsEveryBoxWithSomethingShown) {
     EXPECT_GT(dropped, kept);
 }
 
-TEST(SeenArea, OfKnownTriangles) {
+TEST(SeenArea, IsExactForKnownTriangles) {
     const Triangle octant{glm::dvec3(5, 0, 0), glm::dvec3(0, 5, 0), glm::dvec3(0, 0, 5)};
     EXPECT_NEAR(seen_area({{0, 0, 0}}, octant), pi / 2, 1e-15);  // an eighth of the sphere
     EXPECT_NEAR(seen_area({{0, 0, -7}, true}, octant), 12.5, 1e-14);

@@ -67,7 +67,7 @@ TEST(VisibilityOrder, CarvedMeshesHaveNoViolation) {
 }
 
 // Tests face_violations() itself: a reversed order breaks every face that is not edge-on.
-TEST(OrderCheck, CountsWhatIsWrong) {
+TEST(OrderCheck, CountsEveryWrongFace) {
     const TetMesh mesh(test::DelaunayMesh::make(300, 2), "delaunay");
     const Eye eye{{.3, -2, .4}};
     std::int64_t hiding = 0;
@@ -99,7 +99,7 @@ TEST(OrderCheck, CountsWhatIsWrong) {
     EXPECT_EQ(face_violations(mesh, eye, order), nearer);
 }
 
-TEST(OrderCheck, RefusesWhatIsNoOrder) {
+TEST(OrderCheck, RefusesListsThatAreNoOrder) {
     const TetMesh mesh(test::kuhn_box({1, 1, 1}, nothing), "box");
     const std::vector<std::int32_t> few{0, 1, 2}, twice{0, 1, 2, 3, 4, 4}, beyond{0, 1, 2, 3, 4, 6};
     expect_error([&] { face_violations(mesh, {}, few); }, {"3", "6"});
@@ -107,7 +107,7 @@ TEST(OrderCheck, RefusesWhatIsNoOrder) {
     expect_error([&] { face_violations(mesh, {}, beyond); }, {"place 5", "tet 6"});
 }
 
-TEST(VisibilityOrder, CentroidAndNone) {
+TEST(VisibilityOrder, CentroidSortsByDepthAndNoneKeepsTheList) {
     const TetMesh mesh(test::DelaunayMesh::make(500, 3), "delaunay");
     VisibilityOrder centroid(mesh, OrderMethod::centroid), none(mesh, OrderMethod::none);
     const auto depth = [&](std::int32_t tet) {
@@ -134,7 +134,7 @@ std::vector<std::int32_t> sorted_by(const TetMesh& mesh, OrderMethod method, con
     return {sorted.begin(), sorted.end()};
 }
 
-TEST(VisibilityOrder, DependsOnNothingElse) {
+TEST(VisibilityOrder, DependsOnMeshAndEyeAlone) {
     std::mt19937 random(3);
     const TetMesh mesh(test::carved(test::DelaunayMesh::make(400, 9),
                                     [&](const glm::dvec3&) { return random() % 3 > 0; }),

@@ -78,7 +78,7 @@ TEST(MinMaxBricks, KeepTheExtremesOfIntegers) {
     EXPECT_EQ(bricks.non_finite, 0);
 }
 
-TEST(MinMaxBricks, OfNothingFiniteAreEmpty) {
+TEST(MinMaxBricks, AreEmptyWithoutFiniteSamples) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const MinMaxBricks bricks =
         measure_bricks(make_volume<float>({2, 1, 1}, SampleType::float32, {nan, nan}));

@@ -42,14 +42,14 @@ void expect_right_answers(SampleType type, std::size_t count) {
     }
 }
 
-TEST(RangeAnswers, AreThoseOfEachRange) {
+TEST(RangeAnswers, MatchAnswersComputedForEachRange) {
     expect_right_answers<std::uint8_t>(SampleType::uint8, 15000);
     expect_right_answers<std::int16_t>(SampleType::int16, 15000);
     expect_right_answers<float>(SampleType::float32, 15000);
 }
 
 // There are so many bricks that the constructor computes the answers for all ranges.
-TEST(RangeAnswers, OfManyBytesAreThoseOfEachRange) {
+TEST(RangeAnswers, MatchAnswersComputedForEachRangeOfManyBytes) {
     expect_right_answers<std::uint8_t>(SampleType::uint8, (1 << 20) + 1);
 }
 

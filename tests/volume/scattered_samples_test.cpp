@@ -20,7 +20,7 @@ double step_at(double x, double y, double /*z*/) {
     return x >= 4 && x <= 14 ? 7 : static_cast<double>(static_cast<int>(x + 90 * y) % 251);
 }
 
-TEST(ScatteredSamples, AreThoseOfTheVolume) {
+TEST(ScatteredSamples, MatchTheSamplesOfTheVolume) {
     const Volume volume =
         test::volume_of<std::uint8_t>(test::grid_of(size, Centering::node), step_at);
     const Volume stored = test::stored(volume);

@@ -107,7 +107,7 @@ TEST(ValueStatistics, FloatsAreExact) {
         grid, [&](double, double, double) { return static_cast<double>(random() % 8193) - 4096; }));
 }
 
-TEST(ValueStatistics, OneValueAndNoValue) {
+TEST(ValueStatistics, AreDefinedForOneValueAndForNone) {
     const Grid grid = grid_of({4, 4, 4}, Centering::node);
     const ValueStatistics same =
         measured(volume_of<float>(grid, [](double, double, double) { return 0.1; }));

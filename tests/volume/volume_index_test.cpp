@@ -46,7 +46,7 @@ void expect_equal(const VolumeIndex& index, const Volume& volume) {
 }
 
 // The index, made in whole rows or in blocks, is that of the volume in memory.
-TEST(VolumeIndex, IsWhatIsMeasuredInMemory) {
+TEST(VolumeIndex, MatchesWhatIsMeasuredInMemory) {
     for (const Volume& volume : {waves<std::uint8_t>(), waves<std::int16_t>(),
                                  waves<std::uint16_t>(), waves<float>(), holes()}) {
         for (const std::array<std::int64_t, 3>& block :
@@ -76,7 +76,7 @@ TEST_F(VolumeIndexFile, IsReadAsItWasWritten) {
     expect_equal(*found.index, holes());
 }
 
-TEST_F(VolumeIndexFile, OfOtherSamplesIsStale) {
+TEST_F(VolumeIndexFile, IsStaleForOtherSamples) {
     write();
     EXPECT_FALSE(read("elsewhere").index);
     EXPECT_EQ(read("elsewhere").wrong, "the index is of other samples");
@@ -109,7 +109,7 @@ TEST_F(VolumeIndexFile, NeverFollowsALinkAndReplacesNothingElse) {
 }
 
 // An index file that is cut short anywhere, or has any byte changed, is rejected.
-TEST_F(VolumeIndexFile, ThatIsDamagedIsNotUsed) {
+TEST_F(VolumeIndexFile, IsNotUsedIfDamaged) {
     write();
     const std::string bytes = read_bytes_of(file());
     const auto put = [&](const std::string& text) { write_bytes_to(file(), text); };

@@ -87,7 +87,7 @@ bool stays_as_it_is(const Volume& whole, const std::filesystem::path& path,
     return true;
 }
 
-TEST(ArrayOracle, ReadsWhatOthersWrite) {
+TEST(ArrayOracle, AgreesWithFilesOfOtherLibraries) {
     int in_files = 0, in_hdf5 = 0;
     const TemporaryFolder folder;
     const std::string script =

@@ -55,7 +55,7 @@ class BrickedCopies : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(BrickedCopies, OfPackedFiles) {
+TEST_F(BrickedCopies, EqualPackedFiles) {
     const std::string sizes = "dimension: 3\nsizes: 131 67 70\nencoding: gzip\n";
     const std::size_t count = 131 * 67 * 70;
     expect_copy(nrrd("type: uint8\n" + sizes, gzipped(some_bytes(count))));
@@ -120,7 +120,7 @@ TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
 }
 
 // Copies one of several channels and times; samples of the others are skipped.
-TEST_F(BrickedCopies, OfAPartOfAPackedFile) {
+TEST_F(BrickedCopies, EqualTheChosenChannelAndTimeOfAPackedFile) {
     const std::size_t count = 3 * 31 * 17 * 23 * 2;
     const fs::path path = nrrd(
         "type: short\nendian: little\ndimension: 5\nsizes: 3 31 17 23 2\nkinds: vector domain "
@@ -135,7 +135,7 @@ TEST_F(BrickedCopies, OfAPartOfAPackedFile) {
 }
 
 // Copies samples of a type that is drawn as another, and a file of zeros.
-TEST_F(BrickedCopies, OfWhatIsDrawn) {
+TEST_F(BrickedCopies, EqualTheSamplesThatAreDrawn) {
     expect_copy(nrrd("type: int8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n",
                      some_bytes(31 * 17 * 23)));
     const std::string empty = gzipped(std::string(600 * 600 * 300, '\0'));
@@ -143,7 +143,7 @@ TEST_F(BrickedCopies, OfWhatIsDrawn) {
 }
 
 // Chunks are flatter if the memory limit is low.
-TEST_F(BrickedCopies, InLayersThatFitTheMemory) {
+TEST_F(BrickedCopies, EqualPackedFilesIfMemoryIsLimited) {
     set_memory_limit(std::uint64_t{1} << 20);
     const fs::path path = nrrd("type: uint8\ndimension: 3\nsizes: 300 200 70\nencoding: gzip\n",
                                gzipped(some_bytes(300 * 200 * 70)));
@@ -151,7 +151,7 @@ TEST_F(BrickedCopies, InLayersThatFitTheMemory) {
     set_memory_limit(0);
 }
 
-TEST_F(BrickedCopies, OfOtherSamplesAreNotUsed) {
+TEST_F(BrickedCopies, AreNotUsedForOtherSamples) {
     const std::string head = "type: uint8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n";
     const fs::path path = nrrd(head, some_bytes(31 * 17 * 23));
     const fs::path copy = write_bricked_copy(path, {}).folder;
@@ -170,7 +170,7 @@ TEST_F(BrickedCopies, OfOtherSamplesAreNotUsed) {
     }
 }
 
-TEST_F(BrickedCopies, LeaveNothingOfAFailedOne) {
+TEST_F(BrickedCopies, LeaveNothingAfterAFailure) {
     const fs::path path = nrrd("type: uint8\ndimension: 3\nsizes: 31 17 23\nencoding: gzip\n",
                                gzipped(some_bytes(31 * 17 * 22)));
     expect_error([&] { write_bricked_copy(path, {}); }, {"a.nrrd", "truncated"});

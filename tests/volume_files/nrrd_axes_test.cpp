@@ -82,7 +82,7 @@ TEST_F(NrrdAxes, LargeDataAreTakenPieceByPiece) {
     for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i], values[3 * i + 1]) << i;
 }
 
-TEST_F(NrrdAxes, WithoutDirectionsInSpaceAreChannels) {
+TEST_F(NrrdAxes, AreChannelsWithoutDirectionsInSpace) {
     const auto path =
         write("a.nrrd",
               "NRRD0004\ntype: uint8\ndimension: 4\nspace dimension: 3\nsizes: 1 2 2 3\nspace "
@@ -191,7 +191,7 @@ TEST_F(NrrdAxes, NamedSpacesOfPatientsBecomeLps) {
     EXPECT_EQ(other.origin, glm::dvec3(5, 6, 7));
 }
 
-TEST_F(NrrdAxes, FilesOfAFolderGoByTheirNumbers) {
+TEST_F(NrrdAxes, FilesOfAFolderAreSortedByTheirNumbers) {
     for (const char* name : {"b2", "b10", "a11", "b02", ".hidden", "b", "b10c", "b9"})
         write(name, "x");
     std::vector<std::string> names;

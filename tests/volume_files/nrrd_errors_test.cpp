@@ -27,12 +27,12 @@ std::string with(const std::string& field, const std::string& line) {
     return text.replace(begin, text.find('\n', begin) + 1 - begin, line);
 }
 
-TEST_F(NrrdErrors, MissingFile) {
+TEST_F(NrrdErrors, NameAMissingFile) {
     expect_says(error_of(folder() / "none.nrrd"), {"none.nrrd", "no such file"});
     expect_says(error_of(folder()), {"not a regular file"});
 }
 
-TEST_F(NrrdErrors, GarbageInsteadOfAHeader) {
+TEST_F(NrrdErrors, ReportGarbageInPlaceOfAHeader) {
     expect_says(error_of(write("a.nrrd", "")), {"a.nrrd: not a NRRD file"});
     expect_says(error_of(write("a.nrrd", "P5 10000 10000 255\n")), {"not a NRRD file"});
     expect_says(error_of(write("a.nrrd", std::string(100000, '\x80'))), {"not a NRRD file"});
@@ -44,7 +44,7 @@ TEST_F(NrrdErrors, GarbageInsteadOfAHeader) {
     expect_says(error_of(write("a.nrrd", good)), {"without an empty line"});
 }
 
-TEST_F(NrrdErrors, MissingAndBadFields) {
+TEST_F(NrrdErrors, NameMissingAndBadFields) {
     const std::string data(24, 'x');
     for (const std::string field : {"type", "dimension", "sizes", "encoding"}) {
         expect_says(error_of(write("a.nrrd", with(field, "") + "\n" + data)), {field});
@@ -73,7 +73,7 @@ TEST_F(NrrdErrors, MissingAndBadFields) {
 
 // teem would print lines with errors into buffers of some 1000 bytes. Remarks, which it never sees,
 // may be long.
-TEST_F(NrrdErrors, LongLines) {
+TEST_F(NrrdErrors, RefuseLongLinesOfFields) {
     for (const std::string field : {"axis mins: ", "labels: ", "foo: ", "kinds: ", "no colon "}) {
         std::string line = field;
         for (int i = 0; i < 485; ++i) line += "1 ";
@@ -86,7 +86,7 @@ TEST_F(NrrdErrors, LongLines) {
     EXPECT_NO_THROW(open_nrrd(path));
 }
 
-TEST_F(NrrdErrors, TypesAndEncodingsThatAreNotSupported) {
+TEST_F(NrrdErrors, NameUnsupportedTypesAndEncodings) {
     const std::string data(24 * 8, 'x');
     expect_says(
         error_of(write("a.nrrd",
@@ -96,7 +96,7 @@ TEST_F(NrrdErrors, TypesAndEncodingsThatAreNotSupported) {
                 {"'hex'", "expected raw, gzip, bzip2 or ascii"});
 }
 
-TEST_F(NrrdErrors, NotThreeAxes) {
+TEST_F(NrrdErrors, RefuseWhatHasNotThreeAxes) {
     expect_says(error_of(write(
                     "a.nrrd", "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 4 3\nencoding: raw\n\n" +
                                   std::string(12, 'x'))),
@@ -111,7 +111,7 @@ TEST_F(NrrdErrors, NotThreeAxes) {
         {"vector"});
 }
 
-TEST_F(NrrdErrors, DirectionsThatMakeNoGrid) {
+TEST_F(NrrdErrors, RefuseDirectionsThatMakeNoGrid) {
     const auto directions = [&](const std::string& text) {
         return error_of(write("a.nrrd", good + "space dimension: 3\nspace directions: " + text +
                                             "\n\n" + std::string(24, 'x')));
@@ -129,7 +129,7 @@ TEST_F(NrrdErrors, DirectionsThatMakeNoGrid) {
     expect_says(directions("(1,0,0) (0,inf,0) (0,0,1)"), {"a.nrrd"});
 }
 
-TEST_F(NrrdErrors, MoreVoxelsThanTheFileHas) {
+TEST_F(NrrdErrors, RefuseMoreVoxelsThanTheFileHas) {
     const std::string size = "sizes: 1048576 1048576 1\n";  // 2^40
     for (const std::string encoding : {"raw", "gzip", "bzip2", "ascii"}) {
         const std::string text =
@@ -144,7 +144,7 @@ TEST_F(NrrdErrors, MoreVoxelsThanTheFileHas) {
     expect_says(error_of(write("a.nrrd", huge + "\n")), {"a.nrrd"});
 }
 
-TEST_F(NrrdErrors, TruncatedData) {
+TEST_F(NrrdErrors, ReportTruncatedData) {
     const std::string text = with("encoding", "encoding: gzip\n") + "\n";
     const std::string packed = gzip("abcdefghijklmnopqrstuvwx");
     open_nrrd(write("a.nrrd", text + packed));
@@ -156,7 +156,7 @@ TEST_F(NrrdErrors, TruncatedData) {
                 {"(24 bytes)", "23 bytes"});
 }
 
-TEST_F(NrrdErrors, TruncatedBzip2) {
+TEST_F(NrrdErrors, ReportTruncatedBzip2) {
     const std::string text = with("encoding", "encoding: bzip2\n") + "\n";
     const std::string packed = bzip2("abcdefghijklmnopqrstuvwx");
     open_nrrd(write("a.nrrd", text + packed));
@@ -167,7 +167,7 @@ TEST_F(NrrdErrors, TruncatedBzip2) {
     expect_says(error_of(write("a.nrrd", text + bzip2("abc"))), {"found 3 bytes, expected 24"});
 }
 
-TEST_F(NrrdErrors, DamagedBzip2) {
+TEST_F(NrrdErrors, ReportDamagedBzip2) {
     const std::string text = with("encoding", "encoding: bzip2\n") + "\n";
     std::string packed = bzip2("abcdefghijklmnopqrstuvwx");
     packed[packed.size() - 4] =
@@ -177,7 +177,7 @@ TEST_F(NrrdErrors, DamagedBzip2) {
                 {"damaged bzip2 data: no bzip2 header"});
 }
 
-TEST_F(NrrdErrors, DamagedGzip) {
+TEST_F(NrrdErrors, ReportDamagedGzip) {
     const std::string text = with("encoding", "encoding: gzip\n") + "\n";
     std::string packed = gzip("abcdefghijklmnopqrstuvwx");
     packed[packed.size() - 6] =
@@ -186,7 +186,7 @@ TEST_F(NrrdErrors, DamagedGzip) {
     expect_says(error_of(write("a.nrrd", text + std::string(100, 'x'))), {"damaged gzip"});
 }
 
-TEST_F(NrrdErrors, BadText) {
+TEST_F(NrrdErrors, NameTheBadSampleOfText) {
     const std::string text =
         "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 1 1\nencoding: ascii\n\n";
     expect_says(error_of(write("a.nrrd", text + "1 2       \n")), {"found 2 samples, expected 3"});
@@ -199,7 +199,7 @@ TEST_F(NrrdErrors, BadText) {
 }
 
 // teem calls fields missing that it cannot read; lamina's messages must not.
-TEST_F(NrrdErrors, FieldsThatAreThereAreNotCalledMissing) {
+TEST_F(NrrdErrors, DoNotCallPresentFieldsMissing) {
     const std::string sizes = "1000000000 1000000000 1000000000";
     expect_says(error_of(write("a.nrrd", with("sizes", "sizes: " + sizes + "\n") + "\n")),
                 {"a.nrrd: line 4: sizes: found '" + sizes + "', expected at most 2^62 samples"});
@@ -212,7 +212,7 @@ TEST_F(NrrdErrors, FieldsThatAreThereAreNotCalledMissing) {
 }
 
 // teem would take 2^32 for 0, and "1 2" for 1.
-TEST_F(NrrdErrors, SkipsThatAreNoNumbers) {
+TEST_F(NrrdErrors, RefuseSkipsThatAreNoNumbers) {
     const std::string data(24, 'x');
     for (const std::string skip : {"4294967296", "4294967297", "-1", "1.5", "1 2", "x"}) {
         expect_says(error_of(write("a.nrrd", good + "line skip: " + skip + "\n\n" + data)),
@@ -245,7 +245,7 @@ TEST_F(NrrdErrors, LargeNumbersAreRefused) {
     }
 }
 
-TEST_F(NrrdErrors, DataFilesThatCannotBeUsed) {
+TEST_F(NrrdErrors, NameDataFilesThatCannotBeUsed) {
     const auto data_file = [&](const std::string& name) {
         return error_of(write("a.nhdr", good + "data file: " + name + "\n"));
     };
@@ -270,7 +270,7 @@ TEST_F(NrrdErrors, DataFilesThatCannotBeUsed) {
     expect_says(data_file("LIST\na.raw\nb.raw\nc.raw"), {"found 3 files, expected 2"});
 }
 
-TEST_F(NrrdErrors, SkipsBeyondTheEnd) {
+TEST_F(NrrdErrors, RefuseSkipsBeyondTheEnd) {
     const std::string data(24, 'x');
     expect_says(error_of(write("a.nrrd", good + "line skip: 1000000000\n\n" + data)),
                 {"line skip"});

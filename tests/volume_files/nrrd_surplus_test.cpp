@@ -44,7 +44,7 @@ class NrrdSurplus : public testing::NrrdFiles {
     std::vector<std::string>& warnings_ = heard_.texts;
 };
 
-TEST_F(NrrdSurplus, NoneIsSilent) {
+TEST_F(NrrdSurplus, IsNotReportedIfThereIsNone) {
     EXPECT_TRUE(warnings_of(write("a.nrrd", header("raw") + samples)).empty());
     EXPECT_TRUE(warnings_of(write("a.nrrd", header("gzip") + gzip(samples))).empty());
     EXPECT_TRUE(warnings_of(write("a.nrrd", header("bzip2") + bzip2(samples))).empty());
@@ -59,7 +59,7 @@ TEST_F(NrrdSurplus, NoneIsSilent) {
         warnings_of(write("a.nrrd", header("raw", "byte skip: -4\n") + samples + "xyz")).empty());
 }
 
-TEST_F(NrrdSurplus, RawData) {
+TEST_F(NrrdSurplus, IsReportedForRawData) {
     expect_warning(header("raw") + samples + "xyz",
                    {"3 bytes more than the 4 x 3 x 2 uint8 samples"});
     expect_warning(header("raw", "byte skip: 2\n") + "12" + samples + "\n", {"1 bytes more"});
@@ -69,7 +69,7 @@ TEST_F(NrrdSurplus, RawData) {
     expect_says(warnings[0], {"data.raw: found 2 bytes more"});
 }
 
-TEST_F(NrrdSurplus, PackedData) {
+TEST_F(NrrdSurplus, IsReportedForPackedData) {
     expect_warning(header("gzip") + gzip(samples) + "junk!", {"5 bytes behind its gzip data"});
     expect_warning(header("gzip") + gzip(samples + "12"), {"found 2 bytes of gzip data more"});
     const std::string member = gzip("more");
@@ -80,7 +80,7 @@ TEST_F(NrrdSurplus, PackedData) {
 }
 
 // A decompression bomb gives one byte more than are counted.
-TEST_F(NrrdSurplus, IsCountedSoFar) {
+TEST_F(NrrdSurplus, IsCountedUpToALimit) {
     const std::string bomb(most_counted_surplus + 1, '\0');
     expect_warning(header("gzip") + gzip(samples + bomb), {"found at least 6"});
 }
@@ -93,7 +93,7 @@ TEST_F(NrrdSurplus, IsCheckedAsFarAsItIsCounted) {
         {"truncated gzip data: the checksum is missing"});
 }
 
-TEST_F(NrrdSurplus, Text) {
+TEST_F(NrrdSurplus, IsReportedForText) {
     std::string text = header("ascii");
     for (const char sample : samples) text += std::to_string(sample) + " ";
     EXPECT_TRUE(warnings_of(write("a.nrrd", text + "\n\n")).empty());

@@ -158,7 +158,7 @@ TEST_F(Nrrd, PlacesSamplesBySpacingsAndMins) {
     EXPECT_EQ(grid.to_world({1, 1, 1}), glm::dvec3(13, 23, 33));  // two cells of 2 in 30..34
 }
 
-TEST_F(Nrrd, WhereNothingIsSaidSamplesAreNodesOneApartFromZero) {
+TEST_F(Nrrd, PlacesSamplesAtWholeNumbersByDefault) {
     const Grid grid = grid_of(write("a.nrrd", header("uint8", "raw") + std::string(24, 'x')));
     EXPECT_EQ(grid.bounds().min, glm::dvec3(0));
     EXPECT_EQ(grid.bounds().max, glm::dvec3(3, 2, 1));
@@ -174,7 +174,7 @@ TEST_F(Nrrd, DropsAxesOfOneSampleBeyondThree) {
     EXPECT_EQ(grid.centering[2], Centering::cell);
 }
 
-TEST_F(Nrrd, WritesWhatItReads) {
+TEST_F(Nrrd, ReadsWhatItWrites) {
     Grid grid;
     grid.size = {4, 3, 2};
     grid.centering = {Centering::node, Centering::cell, Centering::node};

@@ -46,7 +46,7 @@ class DrawnSamples : public ::testing::Test {
     std::vector<std::string>& warnings_ = heard_.texts;
 };
 
-TEST_F(DrawnSamples, OfIntegersHaveTheFirstTypeThatHoldsThem) {
+TEST_F(DrawnSamples, HaveTheFirstTypeThatHoldsAllIntegers) {
     using Values = std::vector<std::int64_t>;
     EXPECT_EQ(type_of<std::int8_t>(ValueType::int8, {-128, 127}), SampleType::int16);
     EXPECT_EQ(type_of<std::int8_t>(ValueType::int8, {0, 1}), SampleType::int16);
@@ -66,7 +66,7 @@ TEST_F(DrawnSamples, OfIntegersHaveTheFirstTypeThatHoldsThem) {
               SampleType::float32);
 }
 
-TEST_F(DrawnSamples, SayWhatFloatsCannotHold) {
+TEST_F(DrawnSamples, WarnOfIntegersThatFloatsCannotHold) {
     // 2^24 + 1 is the first whole number that float32 lacks; it becomes 2^24.
     drawn<std::int32_t>(ValueType::int32, {16777216, 16777217, -16777217, 5});
     ASSERT_EQ(warnings_.size(), 1u);

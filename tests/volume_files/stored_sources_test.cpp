@@ -58,7 +58,7 @@ class StoredSources : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(StoredSources, RawFiles) {
+TEST_F(StoredSources, ReadBoxesOfRawFiles) {
     const std::string head = "dimension: 3\nsizes: 31 17 23\nencoding: raw\n";
     expect_boxes(nrrd("a.nrrd", "type: uint8\n" + head, noise_bytes(31 * 17 * 23)));
     for (const char* const endian : {"little", "big"}) {
@@ -79,7 +79,7 @@ TEST_F(StoredSources, RawFiles) {
                            noise_bytes(2 * 31 * 17 * 23)));
 }
 
-TEST_F(StoredSources, NumPyArrays) {
+TEST_F(StoredSources, ReadBoxesOfNumPyArrays) {
     const auto npy = [&](const char* order) {
         std::string head =
             fmt::format("{{'descr': '>i2', 'fortran_order': {}, 'shape': (23, 17, 31), }}", order);
@@ -91,7 +91,7 @@ TEST_F(StoredSources, NumPyArrays) {
     expect_error([&] { open_volume(npy("True"), {}, in_files); }, {"a.npy", "first axis"});
 }
 
-TEST_F(StoredSources, OneChannelOfSeveralAndFilesOfSlices) {
+TEST_F(StoredSources, ReadBoxesOfOneChannelAndOfFilesOfSlices) {
     VolumeRequest request;
     request.channel = 2;
     expect_boxes(nrrd("a.nrrd",
@@ -106,14 +106,14 @@ TEST_F(StoredSources, OneChannelOfSeveralAndFilesOfSlices) {
                       ""));
 }
 
-TEST_F(StoredSources, ZarrArrays) {
+TEST_F(StoredSources, ReadBoxesOfZarrArrays) {
     expect_boxes(zarr(nlohmann::json::object()));
     expect_boxes(zarr({{"order", "F"}}));
     expect_boxes(zarr({{"dtype", ">u2"}}));
 }
 
 // Holes are known to be 0 without reading them, if the file system reports them.
-TEST_F(StoredSources, HolesOfSparseFiles) {
+TEST_F(StoredSources, KnowThatHolesOfSparseFilesAreZero) {
     const std::string header =
         "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1024 1024 64\nencoding: raw\n\n";
     const fs::path path = write("a.nrrd", header);
@@ -134,7 +134,7 @@ TEST_F(StoredSources, HolesOfSparseFiles) {
     EXPECT_EQ(source.known_as_zero({{0, 64, 0}, {1024, 900, 32}}), holes);
 }
 
-TEST_F(StoredSources, SayThatAFileWasChanged) {
+TEST_F(StoredSources, ReportThatAFileWasChanged) {
     const std::string head = "type: uint8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n";
     const fs::path path = nrrd("a.nrrd", head, noise_bytes(31 * 17 * 23));
     const Volume volume = open_volume(path, {}, in_files);
@@ -167,7 +167,7 @@ TEST_F(StoredSources, AChunkThatChangesIsAnError) {
         {"0.1.0", "changed"});
 }
 
-TEST_F(StoredSources, WhatHasToBeReadAsAWholeSaysSo) {
+TEST_F(StoredSources, RefuseWhatMustBeReadAsAWhole) {
     const auto open = [](const fs::path& path) { open_volume(path, {}, in_files); };
     const std::string sizes = "dimension: 3\nsizes: 2 2 2\n";
     expect_error(

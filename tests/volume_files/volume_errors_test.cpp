@@ -49,7 +49,7 @@ std::string with(std::string bytes, std::size_t offset, T value) {
     return bytes;
 }
 
-TEST_F(VolumeErrors, OfMetaImage) {
+TEST_F(VolumeErrors, NameMistakesInMetaImage) {
     const std::string local = good("metaimage/local.mha");
     EXPECT_EQ(read_volume(write("a.mha", local)).grid().size,
               (std::array<std::int64_t, 3>{4, 3, 2}));
@@ -71,7 +71,7 @@ TEST_F(VolumeErrors, OfMetaImage) {
     expect("a.mha", "ObjectType = Image\nNDims\n", {"line 2", "'NDims'", "'Key = value'"});
 }
 
-TEST_F(VolumeErrors, OfNifti) {
+TEST_F(VolumeErrors, NameMistakesInNifti) {
     const std::string one = good("nifti/one.nii");
     EXPECT_EQ(read_volume(write("a.nii", one)).grid().size, (std::array<std::int64_t, 3>{4, 3, 2}));
     expect("a.nii", one.substr(0, one.size() - 1), {"holds 47 bytes"});
@@ -100,7 +100,7 @@ TEST_F(VolumeErrors, OfNifti) {
     expect("a.nii", one, {"level: expected no such key: NIfTI files hold only one"}, request);
 }
 
-TEST_F(VolumeErrors, OfNumpy) {
+TEST_F(VolumeErrors, NameMistakesInNumpy) {
     const std::string good_one = good("npy_volume/i2.npy");
     EXPECT_EQ(read_volume(write("a.npy", good_one)).grid().size,
               (std::array<std::int64_t, 3>{4, 3, 2}));
@@ -112,7 +112,7 @@ TEST_F(VolumeErrors, OfNumpy) {
     expect("a.npy", replaced(good_one, "<i2", "=i2"), {"'descr': found '=i2'"});
 }
 
-TEST_F(VolumeErrors, OfVtkImageData) {
+TEST_F(VolumeErrors, NameMistakesInVtkImageData) {
     const std::string text = good("vti/int16_ascii_none.vti");
     read_volume(write("a.vti", text));
     expect("a.vti", good("vti/huge.vti"), {"a.vti"});
@@ -131,7 +131,7 @@ TEST_F(VolumeErrors, OfVtkImageData) {
     expect("a.vti", replaced(pieces, "Extent=\"2 4", "Extent=\"2 9"), {"Piece 2", "WholeExtent"});
 }
 
-TEST_F(VolumeErrors, OfTiff) {
+TEST_F(VolumeErrors, NameMistakesInTiff) {
     const std::string strips = good("tiff/strips.tif");
     EXPECT_EQ(read_volume(write("a.tif", strips)).grid().size,
               (std::array<std::int64_t, 3>{18, 20, 3}));
@@ -152,7 +152,7 @@ TEST_F(VolumeErrors, OfTiff) {
     expect_error([&] { read_volume(folder_ / "empty"); }, {"empty: unknown kind of volume"});
 }
 
-TEST_F(VolumeErrors, OfRawFiles) {
+TEST_F(VolumeErrors, NameMistakesInRawFiles) {
     VolumeRequest request;
     request.raw = RawLayout{{2, 2, 2}, "uint16", 1, false};
     expect("a.bin", std::string(16, 'x'),

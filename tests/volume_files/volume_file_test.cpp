@@ -31,7 +31,7 @@ TEST_F(VolumeFiles, AreKnownByTheirExtensions) {
         EXPECT_FALSE(is_volume_file(name)) << name;
 }
 
-TEST_F(VolumeFiles, OfNoFormatSayWhatIsExpected) {
+TEST_F(VolumeFiles, AreRefusedIfTheirFormatIsUnknown) {
     const std::string nothing = "P5 1 1 255\n";
     expect_error([&] { read_volume(write("a.nrrd", nothing)); }, {"a.nrrd: not a NRRD file"});
     expect_error([&] { read_volume(write("a.dat", nothing)); },
@@ -39,7 +39,7 @@ TEST_F(VolumeFiles, OfNoFormatSayWhatIsExpected) {
     expect_error([&] { read_volume(folder() / "none.raw"); }, {"none.raw", "no such file"});
 }
 
-TEST_F(VolumeFiles, AreOneOrTwo) {
+TEST_F(VolumeFiles, IncludeTheDataFileOfAHeader) {
     write("a.raw", "\x07\x09");
     const auto detached = write("a.nhdr", header + "data file: a.raw\n");
     EXPECT_EQ(files_of_volume(detached), (Paths{detached, folder() / "a.raw"}));

@@ -42,7 +42,7 @@ class ZarrErrors : public ::testing::Test {
     TemporaryFolder folder;
 };
 
-TEST_F(ZarrErrors, KeysOfTheArray) {
+TEST_F(ZarrErrors, NameBadKeysOfTheArray) {
     EXPECT_EQ(read_volume(write(good(), std::string(24, 'x'))).grid().sample_count(), 24);
     for (const char* const key :
          {"zarr_format", "shape", "chunks", "dtype", "order", "fill_value", "compressor"}) {
@@ -64,7 +64,7 @@ TEST_F(ZarrErrors, KeysOfTheArray) {
     expect_bad_key("fill_value", "x", {"fill_value", "\"x\""});
 }
 
-TEST_F(ZarrErrors, Chunks) {
+TEST_F(ZarrErrors, NameBadChunks) {
     expect_bad(good(), {"0.0.0", "found 23 bytes", "expected 24"}, std::string(23, 'x'));
     for (const char* const codec : {"zlib", "gzip", "zstd", "lz4", "blosc"}) {
         json array = good();
@@ -78,7 +78,7 @@ TEST_F(ZarrErrors, Chunks) {
 }
 
 // Takes no memory for samples that the small files cannot hold.
-TEST_F(ZarrErrors, PromisesOfSmallFiles) {
+TEST_F(ZarrErrors, RefuseLargePromisesOfSmallFiles) {
     json array = good();
     array["shape"] = {100000, 100000, 100};
     array["chunks"] = {1000, 1000, 100};
@@ -94,7 +94,7 @@ TEST_F(ZarrErrors, PromisesOfSmallFiles) {
     expect_bad(array, {"cannot hold"}, "x");
 }
 
-TEST_F(ZarrErrors, Images) {
+TEST_F(ZarrErrors, NameBadKeysOfImages) {
     write(good(), std::string(24, 'x'));
     const auto bad = [&](const json& image, std::initializer_list<std::string> parts) {
         const json attributes{{"multiscales", json::array({image})}};
