@@ -86,7 +86,7 @@ struct ShareCosts {
     };
     Pair of_parts(int axis, double place) const;
 
-    // Returns the costs inside one of these two boxes, without those of reading (`pages`).
+    // Returns the costs inside one of these two boxes.
     ShareCosts part(int axis, double place, bool above) const;
 
     // A step along a ray in a visible brick.
@@ -184,6 +184,8 @@ ShareCosts ShareCosts::part(int axis, double place, bool above) const {
     std::ranges::copy_if(
         stretches, std::back_inserter(result.stretches),
         [&](const Stretch& stretch) { return (stretch.middle[axis] >= place) == above; });
+    std::ranges::copy_if(pages, std::back_inserter(result.pages),
+                         [&](const glm::vec3& page) { return (page[axis] >= place) == above; });
     return result;
 }
 
