@@ -120,12 +120,13 @@ LAMINA_API PictureComparison compare_files(const std::filesystem::path& a,
 
 // Returns the bytes of a PNG file that shows, for each pixel, the difference a - b of the channel
 // in which it is largest, in false colour from -range (dark blue) over 0 (white) to range (dark
-// red), in 1/255, with a colour bar below.
+// red), in 1/255, with a colour bar below. Throws Error if the range is not finite and above 0, or
+// if the sizes differ.
 LAMINA_API std::string difference_png(const PreciseImage& a, const PreciseImage& b, double range);
 
 // Returns the false colours in which difference_png() shows these differences (in 1/255): codes of
-// red, green and blue for each. Throws Error if a difference is NaN or infinite, or if the range is
-// not above 0.
+// red, green and blue for each. Throws Error if a difference is NaN, or if the range is not finite
+// and above 0.
 LAMINA_API std::vector<std::uint8_t> difference_codes(std::span<const float> differences,
                                                       double range);
 

@@ -66,7 +66,7 @@ class Comparison:
 
     def save(self, file: Path, range: float | None = None) -> None:
         """Writes e in false colour as ``.png``, from -``range`` (dark blue) over 0 (white) to ``range`` (dark red), in
-        1/255. ``range`` is above 0; if it is None, it is the largest |e|."""
+        1/255. ``range`` is finite and above 0; if it is None, it is the largest |e|."""
         path = pathlib.Path(file)
         if path.suffix != ".png":
             raise ValueError(f"file: found {str(path)!r}, expected a name that ends in .png")

@@ -20,7 +20,8 @@ PictureComparison compared(const Difference& difference) {
 }
 
 void check_range(double range) {
-    if (!(range > 0)) fail("range: found {}, expected a number above 0, in 1/255", range);
+    if (!(range > 0 && std::isfinite(range)))
+        fail("range: found {}, expected a finite number above 0, in 1/255", range);
 }
 
 }  // namespace

@@ -27,7 +27,10 @@ TEST(PictureComparison, HasNormsByChannelAndTheWorstPixel) {
     EXPECT_EQ(found.column, 1);
     EXPECT_EQ(found.channel, 2u);
     EXPECT_EQ(difference_png(a, b, 3).substr(1, 3), "PNG");
-    expect_error([&] { difference_png(a, b, 0); }, {"range"});
+    for (const double range : {0., -1., HUGE_VAL, static_cast<double>(NAN)}) {
+        expect_error([&] { difference_png(a, b, range); }, {"range", "finite number above 0"});
+        expect_error([&] { difference_codes(std::vector<float>{1}, range); }, {"range", "finite"});
+    }
     expect_error([&] { compare(a, PreciseImage(1, 2)); }, {"2 x 1", "1 x 2"});
 }
 

@@ -39,10 +39,10 @@ def test_files_compare_as_the_command_line_does(program, tmp_path):
     assert found._repr_png_().startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize("value", [0, -1, float("nan")])
-def test_a_difference_is_drawn_up_to_a_number_above_0(value, tmp_path):
+@pytest.mark.parametrize("value", [0, -1, float("nan"), float("inf")])
+def test_a_difference_is_drawn_up_to_a_finite_number_above_0(value, tmp_path):
     found = lamina.compare(np.zeros((2, 2, 4)), np.full((2, 2, 4), 1 / 255))
-    with pytest.raises(lamina.Error, match="range: found .*, expected a number above 0"):
+    with pytest.raises(lamina.Error, match="range: found .*, expected a finite number above 0"):
         found.save(tmp_path / "difference.png", range=value)
     assert not list(tmp_path.iterdir())
 
