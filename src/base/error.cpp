@@ -31,6 +31,10 @@ namespace {
 
 constexpr std::size_t most_of_path = 100;  // bytes of a path that a message shows
 
+// Text before the system's reason in the std::runtime_error that oneTBB throws if it cannot start a
+// thread: there is no memory for a stack, or the system allows no more threads.
+constexpr std::string_view no_thread = "pthread_create has failed: ";
+
 template <typename... Kinds>
 bool is_one_of(const std::exception& error) {
     return ((dynamic_cast<const Kinds*>(&error) != nullptr) || ...);
@@ -93,6 +97,9 @@ std::string error_text(const std::exception& error) {
     }
     if (const auto* system = dynamic_cast<const std::system_error*>(&error))
         return fmt::format("the system refuses: {}", system->code().message());
+    const std::string_view text = error.what();
+    if (is_one_of<std::runtime_error>(error) && text.starts_with(no_thread))
+        return fmt::format("the system refuses a thread: {}", text.substr(no_thread.size()));
     return "a mistake of lamina, not of what it was given: please report this command with the "
            "files that it reads and the output of 'lamina --version'";
 }

@@ -2,11 +2,18 @@
 #include "base/error.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -55,6 +62,30 @@ TEST(ErrorText, NamesTheFileThatTheSystemRefuses) {
     }
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Prints error_text() of what oneTBB throws if a thread would get a stack of 1 GiB and the process
+// may take 256 MiB of addresses.
+[[noreturn]] void start_a_thread_without_memory() {
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 4);
+    const tbb::global_control stack(tbb::global_control::thread_stack_size, std::size_t{1} << 30);
+    const rlimit limit{rlim_t{1} << 28, rlim_t{1} << 28};
+    setrlimit(RLIMIT_AS, &limit);
+    try {
+        tbb::task_arena(4).execute([] { tbb::parallel_for(0, 1'000'000, [](int) {}); });
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error_text(error).c_str());
+    }
+    std::_Exit(0);
+}
+
+// The test runs in a process of its own, in which oneTBB has no threads yet.
+TEST(ErrorTextDeathTest, SaysThatTheSystemRefusesAThread) {
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    EXPECT_EXIT(start_a_thread_without_memory(), testing::ExitedWithCode(0),
+                "^the system refuses a thread: [^:]+\n$");
+}
+#endif
+
 TEST(ErrorText, CallsAnythingElseAMistakeOfLamina) {
     const auto expect_mistake = [](const std::function<void()>& work) {
         try {
@@ -71,6 +102,7 @@ TEST(ErrorText, CallsAnythingElseAMistakeOfLamina) {
     expect_mistake([] { (void)nlohmann::json("\xff").dump(); });
     expect_mistake([] { (void)std::vector<int>().at(0); });
     expect_mistake([] { (void)std::stoi("x"); });
+    expect_mistake([] { throw std::runtime_error("pthread_join has failed: No such process"); });
 }
 
 }  // namespace
