@@ -311,14 +311,18 @@ void Pipeline::draw_counted() {
     counted_fragments_ = static_cast<std::int64_t>(query.result());
 }
 
+void Pipeline::read_frame(Image& picture) {
+    frames_->read(picture);
+    label(picture);
+}
+
 void Pipeline::read(Image& picture) {
     if (scene_.method == Method::trace) {
         assert(traced_);
         picture = to_float(traced_->image);
         return;
     }
-    in_context([&] { frames_->read(picture); });
-    picture.space = scene_.color_space;
+    in_context([&] { read_frame(picture); });
 }
 
 void Pipeline::draw_quietly(Image& picture) {
@@ -334,8 +338,7 @@ void Pipeline::draw_quietly(Image& picture) {
         draw_counted();
         frame_ms_ = frame.end();
         Stage reading("read");
-        drawing.read(picture);
-        picture.space = scene_.color_space;
+        read_frame(picture);
         stages_ms_["read"] = reading.end();
         warn_of_scene();
         warn_of_all(drawing.warnings());
@@ -397,7 +400,7 @@ void Pipeline::check_data() {
 TracedPicture Pipeline::traced_now(const TileDone& tile_done) {
     TracedPicture made = options_.trace_plainly ? plainly_traced_picture(scene_, data_)
                                                 : trace_picture(scene_, data_, tile_done);
-    made.image.space = scene_.color_space;
+    label(made.image);
     return made;
 }
 

@@ -143,6 +143,13 @@ class Pipeline {
     template <typename Work>
     decltype(auto) in_context(const Work& work);
     void draw_counted();
+    // Gets the frame that was drawn last. The context must be current.
+    void read_frame(Image& picture);
+    // Says in a picture of the scene in which colour space its numbers are.
+    template <typename Real>
+    void label(RgbaImage<Real>& picture) const {
+        picture.space = scene_.color_space;
+    }
     const TracePlan& plan_of_trace();
     TracedPicture traced_now(const TileDone& tile_done);
     void check_data();  // as plans do

@@ -148,5 +148,25 @@ TEST(Pipeline, ThePlainTracerMatchesTheTracer) {
     EXPECT_EQ(plain.statistics().drawn_by, "plain tracer");
 }
 
+// A picture has one colour space whichever way it is drawn or read, also after the scene changed.
+TEST(Pipeline, LabelsEveryPictureWithTheSpaceOfItsNumbers) {
+    Pipeline pipeline(read_scene(minimal_scene(), "s"), {}, {.context = ContextChoice::cpu});
+    for (const auto* const word : {"display", "linear", "display"}) {
+        Scene scene = read_scene(with("/image/color_space", word), "s");
+        Image drawn, read;
+        pipeline.set_scene(scene);
+        pipeline.draw(drawn);
+        EXPECT_EQ(drawn.space, scene.color_space);
+        pipeline.draw_frame();
+        pipeline.read(read);
+        EXPECT_EQ(read.space, scene.color_space);
+        EXPECT_EQ(pipeline.trace().image.space, scene.color_space);
+        scene.method = Method::trace;
+        pipeline.set_scene(scene);
+        pipeline.draw(drawn);
+        EXPECT_EQ(drawn.space, scene.color_space);
+    }
+}
+
 }  // namespace
 }  // namespace lamina
