@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "lamina/error.h"
 #include "lamina/scene.h"
 
@@ -122,6 +124,33 @@ TEST(Document, ColoursKeepTheirLookInAnotherSpace) {
     EXPECT_TRUE(document.scene().transfer_function == document.transfer().function());
     document.undo();
     EXPECT_TRUE(document.scene().transfer_function == before);
+}
+
+Scene scene_with_open_colormap(const std::string& space) {
+    return parse_scene(R"({"version": 1, "volume": {"generate": "gaussians", "size": [8, 8, 8]},
+                           "transfer_function": {"colormap": "viridis",
+                                                 "points": [{"value": 0, "extinction": 1}]},
+                           "image": {"color_space": ")" +
+                           space + R"("}})",
+                       "scene.json");
+}
+
+// Before the first picture, the colours of a map that is stretched over the data are in no function
+// that could be converted.
+TEST(Document, ColoursOfAnOpenColormapKeepTheirLookInAnotherSpace) {
+    const Scene linear = scene_with_open_colormap("linear");
+    const Scene display = scene_with_open_colormap("display");
+    const Volume volume = load_volume(linear);
+    const TransferFunction in_linear = chosen_transfer_function(linear, volume);
+    const TransferFunction in_display = chosen_transfer_function(display, volume);
+    ASSERT_FALSE(in_linear == in_display);
+    Document document;
+    document.open(linear);
+    document.set_setting("image.color_space", "display");
+    EXPECT_TRUE(document.scene().transfer_function.is_automatic());
+    EXPECT_TRUE(chosen_transfer_function(document.scene(), volume) == in_display);
+    document.undo();
+    EXPECT_TRUE(chosen_transfer_function(document.scene(), volume) == in_linear);
 }
 
 TEST(Document, TakesTheTransferFunctionChosenFromData) {

@@ -287,6 +287,14 @@ void convert_colors(Scene& scene, ImageColorSpace from) {
         light.color = converted_color(light.color, from, to);
 }
 
+// Reads an open colour map once more after the colour space has changed: the numbers of its colours
+// are other ones there. A map is open if it has no range and will be stretched over the data.
+void read_open_colormap_again(Scene& scene) {
+    if (!scene.transfer_function.is_automatic() || !scene.given_transfer) return;
+    const Scene read = parse_scene(scene_text(scene), scene.file);
+    if (read.given_transfer) scene.given_transfer = read.given_transfer;
+}
+
 }  // namespace
 
 const SettingNode& scene_keys() {
@@ -338,7 +346,10 @@ Scene with_setting(const Scene& scene, const std::string& path, const Json& valu
     Scene changed = parse_scene(settings.dump(), scene.file);
     changed.transfer_function = scene.transfer_function;
     changed.given_transfer = scene.given_transfer;
-    if (changed.color_space != scene.color_space) convert_colors(changed, scene.color_space);
+    if (changed.color_space != scene.color_space) {
+        convert_colors(changed, scene.color_space);
+        read_open_colormap_again(changed);
+    }
     return changed;
 }
 
