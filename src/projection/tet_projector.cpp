@@ -13,28 +13,37 @@
 LAMINA_SIMD_BEGIN
 namespace {
 
-// By the number of front faces: front and back face of each pair of a front and a back face.
+// All pairs of a front face and a back face, one pair in each of four lanes (some repeat a pair):
+// front_of[n] and back_of[n] have their indices in SeenTet if n faces are front faces.
 alignas(16) constexpr std::int32_t front_of[4][4] = {
     {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 0, 1}, {0, 1, 2, 2}};
 alignas(16) constexpr std::int32_t back_of[4][4] = {
     {0, 0, 0, 0}, {1, 2, 3, 3}, {2, 2, 3, 3}, {3, 3, 3, 3}};
 
-// Margins, as a share of depths and in pixels, that exceed all rounding errors of depths and of the
-// bounds, because no pixel that the outline leaves out may be visible.
+// Safety margins of the outline, relative to depths and in pixels. They exceed all rounding errors
+// of float32, because no visible pixel may lie outside the outline.
 constexpr float rounding = 1e-6f, least_slack = 1e-3f;
 
-// Lines along rows are made a little oblique, so that they bound columns, too.
+// Smallest ratio of |c| to |r| in find_outline(). Lines nearly along rows are tilted to it, so that
+// they, too, can be given as bounds on columns.
 constexpr float oblique = 1e-4f;
 
 }  // namespace
 
-// The largest difference between back and front depth at a corner of the block that begins X
-// columns and Y rows from the area's first pixel is most + c X - r Y. Each line has a lane.
+// Bounds the blocks of pixels whose rays may meet the tet. A ray meets it only if the difference of
+// back depth and front depth is positive for each pair of a front and a back face. For the block
+// whose first pixel lies X columns and Y rows from the area's first pixel, the largest difference
+// in the block is at most  largest + c X - r Y. The block may thus be visible only if
+//
+//   X >= (-largest + r Y) / c   (c > 0: a least column),  or  X <= (-largest + r Y) / c   (c < 0)
+//
+// The lanes of a vector hold the four pairs of faces.
 PartOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
-    constexpr float middle = 0.5f * (TileGrid::block - 1);
+    constexpr float middle = 0.5f * (TileGrid::block - 1);  // from a block's first pixel centre
     const SeenTet& seen = record.seen();
     const float columns = static_cast<float>(area.last_column - area.first_column),
                 rows = static_cast<float>(area.last_row - area.first_row);
+    // The middle of the area's first block, from the record's center.
     const float column = static_cast<float>(area.first_column) + 0.5f - seen.center[0] + middle,
                 row = static_cast<float>(image_rows - area.first_row) - 0.5f - seen.center[1] -
                       middle;
@@ -52,13 +61,13 @@ PartOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, 
     const Float4 abs_c = abs(c), abs_r = abs(r);
     const Float4 at_middle = difference(depth) + c * column + r * row;
     const Float4 to_corner = abs_c * middle + abs_r * (middle + oblique * (columns + 8));
-    const Float4 most =
+    const Float4 largest =
         at_middle + to_corner + (permute(slack_of_face, back) + permute(slack_of_face, front));
     const Float4 steepness = max(max(abs_c, abs_r * oblique), 1e-30f);
     const auto is_least = c >= 0;
     const Float4 divisor = select(is_least, steepness, -steepness);
     PartOutline outline;
-    store_unaligned(-most / divisor, outline.at_first.data());
+    store_unaligned(-largest / divisor, outline.at_first.data());
     store_unaligned(r / divisor, outline.per_row.data());
     outline.least = static_cast<std::uint8_t>(bits_of(is_least));
     return outline;
@@ -69,43 +78,46 @@ LAMINA_SIMD_END
 namespace lamina {
 namespace {
 
-// Exponent that the smallest gradient gets in the unit of StoredGradients: it becomes 2^-40 to
-// 2^-39. Light depends on lengths of gradients relative to the smallest one. Its square, 2^-80,
-// still leaves float32 digits for those of gradients that are 2^20 times as short.
+// Binary exponent of the smallest gradient after StoredGradients::scale: 2^-40 to 2^-39. Its square
+// is about 2^-80; float32 then still holds the squares of gradients that are 2^20 times as short.
 constexpr int smallest_exponent = -40;
 
-// Gradients are shortened to this length, in StoredGradients' unit, to stay finite in float32.
+// Largest component of a gradient after StoredGradients::scale; larger ones, which float32 might
+// not hold, are shortened to it.
 constexpr double longest_stored = 0x1p120;
 
 using LAMINA_LEAST(finite);
 using OneTet = LAMINA_LEAST(TetView)<double>;
 
-// Angle, in radians, by which a face seen edge-on is taken as inclined, so that its depth per pixel
-// is finite. It is far below the perturbation of rays that run along faces (ray_perturbation()).
+// Smallest angle, in radians, between a face and the rays. Faces seen edge-on are tilted to it, so
+// that their change of depth per pixel is finite. It is far smaller than the angle by which
+// ray_perturbation() moves rays off faces.
 constexpr double least_inclination = 1e-16;
 
+// Returns the largest size of a component.
 double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// Width, as a share of its distance from the eye, below which a tet is a needle and is not drawn.
-// Its corners relative to the eye are rounded by about a 1000th of this width, so planes through
-// them may lie anywhere along it. A ray meets it only by a chance of about this share.
+// Smallest width, as a share of the distance from the eye, of a tet that is drawn. In eye space its
+// corners have rounding errors of about a 1000th of this width. Planes through the corners of a
+// thinner tet, a needle, could lie anywhere around it. A ray hardly ever meets one: the probability
+// is about this share.
 constexpr double least_width = 0x1p-42;
 
-bool is_too_thin(const std::array<glm::dvec3, 4>& corners) {
-    double reach = 0, longest = 0, widest = 0;  // widest: twice a face's area
-    for (const glm::dvec3& corner : corners) reach = std::max(reach, largest(corner));
+bool is_needle(const std::array<glm::dvec3, 4>& corners) {
+    double distance = 0, longest_edge = 0, double_area = 0;  // the last: twice the largest face's
+    for (const glm::dvec3& corner : corners) distance = std::max(distance, largest(corner));
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec3& from = corners[i];
         const glm::dvec3 a = corners[(i + 1) % 4] - from, b = corners[(i + 2) % 4] - from;
-        longest = std::max({longest, largest(a), largest(b)});
-        widest = std::max(widest, largest(glm::cross(a, b)));
+        longest_edge = std::max({longest_edge, largest(a), largest(b)});
+        double_area = std::max(double_area, largest(glm::cross(a, b)));
     }
-    return widest <= least_width * reach * longest;
+    return double_area <= least_width * distance * longest_edge;
 }
 
-// Returns the corners of a face in the order of their numbers, the same for both of its tets.
+// Returns the corners of a face by ascending point number: one order for both tets that share it.
 std::array<std::size_t, 3> sorted_face(const Tet& tet, std::size_t face) {
     std::array<std::size_t, 3> corners = face_corners[face];
     const auto sort = [&](std::size_t& low, std::size_t& high) {
@@ -117,6 +129,7 @@ std::array<std::size_t, 3> sorted_face(const Tet& tet, std::size_t face) {
     return corners;
 }
 
+// Stores a double as the sum of two floats.
 void set_pair(SeenTet::Pairs& pairs, std::size_t place, double value) {
     pairs.high[place] = static_cast<float>(value);
     pairs.low[place] = static_cast<float>(value - static_cast<double>(pairs.high[place]));
@@ -138,14 +151,15 @@ void set_scalars(const OneTet::Linear& linear, SeenTet& record) {
     record.scalar_per_row = finite_float(linear[3]);
 }
 
-// Returns the linear function (value - origin) * scale.
-OneTet::Linear linear(const OneTet& tet, const PartField& field, double origin, double scale) {
+// Returns (scalar - origin) * scale as a linear function of window coordinates and z.
+OneTet::Linear linear(const OneTet& tet, const TetField& field, double origin, double scale) {
     return tet.linear((field.at(tet.center()) - origin) * scale, field.gradient() * scale);
 }
 
-// Returns the plane of a face, from its corners alone, in the order of their numbers, so that both
-// of its tets compute the same numbers, and no ray leaves one before or after it enters the other.
-// `front`: the exact sign of the face; if it is edge-on, equal for both tets.
+// Returns the plane of a face. It is computed from the face's sorted corners alone, so that both
+// tets that share the face get identical numbers: no ray leaves one tet before or after it enters
+// the other. `front`: is_front(), which is exact. If the plane is edge-on or, by rounding, seen
+// from the wrong side, it is tilted.
 OneTet::DepthPlane depth_plane(const OneTet& view, const Tet& tet, std::size_t face, bool front,
                                const std::array<glm::dvec3, 4>& corners) {
     const auto sorted = sorted_face(tet, face);
@@ -154,37 +168,41 @@ OneTet::DepthPlane depth_plane(const OneTet& view, const Tet& tet, std::size_t f
     const glm::dvec3& c = corners[sorted[2]];
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double distance = glm::dot(normal, a);
-    // Right, up, forward are left-handed: determinants have the other sign than in the world.
+    // Eye space (right, up, forward) is left-handed: determinants change their sign.
     const double sign = front == turned_by_sorting(tet, face) ? -1 : 1;
-    const double reach = view.perspective() ? std::max({largest(a), largest(b), largest(c)}) : 1;
-    const double least = least_inclination * largest(normal) * reach;
-    const double rounded = view.divisor(normal, distance);
-    return view.plane(normal, distance, sign * std::max(sign * rounded, std::max(least, 1e-300)));
+    const double distance_of_corners =
+        view.perspective() ? std::max({largest(a), largest(b), largest(c)}) : 1;
+    const double least = least_inclination * largest(normal) * distance_of_corners;
+    const double divisor = view.divisor(normal, distance);
+    return view.plane(normal, distance, sign * std::max(sign * divisor, std::max(least, 1e-300)));
 }
 
-// Sets the faces' planes; returns true if float32 is good enough. `cut`: by the near plane.
+// Sets the planes of the faces. Returns true if fragments may compute depths on them in float32.
+// `cut`: the near plane cuts the tet.
 bool set_depths(const OneTet& view, const Tet& tet, FaceSigns signs, bool cut,
                 const std::array<glm::dvec3, 4>& corners, SilhouetteRecord& record) {
     SeenTet& seen = record.seen();
-    std::size_t first_back = 0, place_of_back = 3;
-    double rounding = 0;
+    std::size_t next_front = 0, next_back = 3;  // front faces come first
+    double largest_term = 0;                    // of the sums whose rounding affects depths
     for (std::size_t face = 0; face < 4; ++face) {
         const bool front = is_front(tet, face, signs);
         const OneTet::DepthPlane plane = depth_plane(view, tet, face, front, corners);
-        const std::size_t place = front ? first_back++ : place_of_back--;
+        const std::size_t place = front ? next_front++ : next_back--;
         set_pair(seen.depth, place, plane.depth);
         set_pair(seen.depth_per_column, place, plane.per_column);
         set_pair(seen.depth_per_row, place, plane.per_row);
-        rounding = std::max(rounding, view.size_of(plane));
+        largest_term = std::max(largest_term, view.size_of(plane));
     }
-    record.tet.fronts = static_cast<std::uint32_t>(first_back);
-    const bool steep =
-        rounding * std::numeric_limits<float>::epsilon() > float_tolerance * view.depth_range;
-    return !(steep || first_back == 0 || cut);
+    record.tet.fronts = static_cast<std::uint32_t>(next_front);
+    const bool inexact =
+        largest_term * std::numeric_limits<float>::epsilon() > float_tolerance * view.depth_range;
+    const bool eye_inside = next_front == 0;
+    return !(inexact || eye_inside || cut);
 }
 
-// Sets the scalars of a whole tet; returns true if float32 is good enough for them.
-bool set_whole(const OneTet& view, const PartField& field, const ValueRange& range,
+// Sets the scalars of a whole tet, normalised to `range`. Returns true if fragments may compute
+// them in float32.
+bool set_whole(const OneTet& view, const TetField& field, const ValueRange& range,
                TetRecord& record) {
     const double width = range.hi - range.lo;
     const auto normalised = [&](double value) { return (value - range.lo) / width; };
@@ -202,26 +220,28 @@ bool set_whole(const OneTet& view, const PartField& field, const ValueRange& ran
     return !runs_beyond({field.least(), field.largest()}, range, far_for_floats);
 }
 
-// Returns the plane on which the scalar is `level`; if the tet does not reach beyond it (`is_cut`
-// is false), a front plane in front of everything.
-OneTet::Level cut_at(const OneTet& view, const PartField& field, double level, bool is_cut) {
+// Returns the plane on which the scalar is `level`, where a cell fragment ends. If it does not end
+// there (`is_cut` is false), returns a front plane in front of everything, which cuts nothing.
+OneTet::Level cut_at(const OneTet& view, const TetField& field, double level, bool is_cut) {
     if (!is_cut) return {{-beyond_all, 0, 0}, true};
     return view.level(field.gradient(), level - field.at(glm::dvec3(0)));
 }
 
-void set_part(const OneTet& view, const PartField& field, const LinearPiece& piece,
-              FragmentRecord& record) {
+// Sets the scalars of a cell fragment, normalised to its own range, the two planes that bound it,
+// and the optics at their scalars.
+void set_fragment(const OneTet& view, const TetField& field, const LinearPiece& piece,
+                  FragmentRecord& record) {
     const double width = field.largest() - field.least();
     set_scalars(linear(view, field, field.least(), width > 0 ? 1 / width : 0), record.seen);
     const auto [lower, lower_front] = cut_at(view, field, field.least(), field.cut_low());
-    const auto [upper, above] = cut_at(view, field, field.largest(), field.cut_high());
+    // The planes are fronts of the larger scalars, the upper one so of those above the fragment.
+    const auto [upper, front_of_above] = cut_at(view, field, field.largest(), field.cut_high());
     record.lower_cut = {static_cast<float>(lower.depth), static_cast<float>(lower.per_column),
                         static_cast<float>(lower.per_row)};
     record.upper_cut = static_cast<float>(upper.depth);
     record.upper_cut_per_column = static_cast<float>(upper.per_column);
     record.upper_cut_per_row = static_cast<float>(upper.per_row);
-    // The fragment lies below the upper cut.
-    const bool upper_front = !field.cut_high() || !above;
+    const bool upper_front = !field.cut_high() || !front_of_above;
     if (lower_front) record.fronts |= FragmentRecord::lower_cut_is_front;
     if (upper_front) record.fronts |= FragmentRecord::upper_cut_is_front;
     const auto optics = [&](double scalar) {
@@ -233,6 +253,7 @@ void set_part(const OneTet& view, const PartField& field, const LinearPiece& pie
     record.high = optics(field.largest());
 }
 
+// Sets the gradient in a tet, component by component, shortened by StoredGradients::scale_of_tet().
 void set_gradients(const OneTet& view, const Tet& tet, std::span<const glm::vec3> gradients,
                    const std::array<glm::dvec3, 4>& corners, GradientRecord& lit) {
     double largest_of_tet = 0;
@@ -242,20 +263,20 @@ void set_gradients(const OneTet& view, const Tet& tet, std::span<const glm::vec3
     }
     const double scale = StoredGradients::scale_of_tet(largest_of_tet);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        PartField::Values values;
+        TetField::Values values;
         for (std::size_t i = 0; i < 4; ++i) {
             const glm::vec3& gradient = gradients[static_cast<std::size_t>(tet[i])];
             values[i] = static_cast<double>(gradient[static_cast<int>(axis)]);
         }
         const auto [at_center, per_z, per_column, per_row] =
-            finite_floats(linear(view, PartField(corners, values, nullptr), 0, scale));
+            finite_floats(linear(view, TetField(corners, values, nullptr), 0, scale));
         lit.components[axis] = {at_center, per_z, per_column, per_row};
     }
 }
 
 }  // namespace
 
-PartField::PartField(const Corners& corners, const Values& values, const LinearPiece* piece)
+TetField::TetField(const Corners& corners, const Values& values, const LinearPiece* piece)
     : corners_(corners), values_(values) {
     const auto [least, largest] = std::ranges::minmax(values);
     least_ = least;
@@ -272,13 +293,13 @@ PartField::PartField(const Corners& corners, const Values& values, const LinearP
     gradient_ =
         slopes.numerator(values[1] - values[0], values[2] - values[0], values[3] - values[0]) /
         slopes.determinant;
-    // A tet without volume is invisible, whatever its scalar.
+    // A tet without volume is invisible, whatever its gradient; 0 avoids infinity and NaN.
     const double extent = std::max({lamina::largest(e1), lamina::largest(e2), lamina::largest(e3)});
     if (!(lamina::largest(gradient_) * extent < 1e30 * (largest - least)))
         gradient_ = glm::dvec3(0);
 }
 
-FewPoints<glm::dvec3, 8> PartField::outline() const {
+FewPoints<glm::dvec3, 8> TetField::outline() const {
     FewPoints<glm::dvec3, 8> outline;
     for (std::size_t i = 0; i < 4; ++i) {
         if (values_[i] >= least_ && values_[i] <= largest_) outline.add(corners_[i]);
@@ -287,6 +308,7 @@ FewPoints<glm::dvec3, 8> PartField::outline() const {
                 return (values_[i] < level && values_[j] > level) ||
                        (values_[i] > level && values_[j] < level);
             };
+            // The points of the edge from corner i to corner j at which the region ends.
             for (const double level : {least_, largest_}) {
                 if (!crosses(level)) continue;
                 const double share = (level - values_[i]) / (values_[j] - values_[i]);
@@ -313,7 +335,7 @@ float StoredGradients::smallest_square(const Lighting& lighting) const {
     return static_cast<float>(smallest * smallest);
 }
 
-TetProjector::VisibleCorners TetProjector::clip_near(const PartField::Corners& corners) const {
+TetProjector::VisibleCorners TetProjector::clip_near(const TetField::Corners& corners) const {
     VisibleCorners visible;
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec3& a = corners[i];
@@ -332,16 +354,16 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, Silhouett
                                                   ScreenOutline& outline,
                                                   GradientRecord* lit) const {
     const Tet& tet = tets_.mesh.tets()[static_cast<std::size_t>(part.tet)];
-    PartField::Corners corners;
-    PartField::Values values;
+    TetField::Corners corners;
+    TetField::Values values;
     for (std::size_t i = 0; i < 4; ++i) {
         corners[i] = tets_.window.see(tets_.mesh.points()[static_cast<std::size_t>(tet[i])]);
         values[i] = tets_.scalar[static_cast<std::size_t>(tet[i])];
     }
     const VisibleCorners visible = clip_near(corners);
-    if (visible.count == 0 || is_too_thin(corners)) return std::nullopt;
+    if (visible.count == 0 || is_needle(corners)) return std::nullopt;
     const LinearPiece* const piece = tets_.piece_of(part);
-    const PartField field(corners, values, piece);
+    const TetField field(corners, values, piece);
     const View& view = tets_.view();
     OneTet seen(view);
     const auto bounds = seen.place_center(visible.points());
@@ -354,22 +376,22 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, Silhouett
         pixel_bounds(outline.points(), tets_.margin, view.width, view.height).empty())
         return std::nullopt;
     const FaceSigns signs = signer_.signs(static_cast<std::size_t>(part.tet));
-    bool plain = set_depths(seen, tet, signs, cut, corners, record);
+    bool float_suffices = set_depths(seen, tet, signs, cut, corners, record);
     if (piece != nullptr) {
-        set_part(seen, field, *piece, record.fragment);
+        set_fragment(seen, field, *piece, record.fragment);
     } else {
-        plain = set_whole(seen, field, tets_.range, record.tet) && plain;
+        float_suffices = set_whole(seen, field, tets_.range, record.tet) && float_suffices;
     }
     record.tet.number = part_number(part, tets_.mesh.tets().size());
     if (lit != nullptr) set_gradients(seen, tet, tets_.gradients, corners, *lit);
-    if (!plain) return FragmentKind::careful;
+    if (!float_suffices) return FragmentKind::careful;
     if (piece == nullptr) return FragmentKind::plain;
-    const double most = std::max(record.fragment.low[3], record.fragment.high[3]);
-    const double deepest = LAMINA_LEAST(longest_edge)<double>(corners) * most;
-    return deepest <= thin_depth ? FragmentKind::thin : FragmentKind::plain;
+    const double extinction = std::max(record.fragment.low[3], record.fragment.high[3]);
+    const double largest_depth = LAMINA_LEAST(longest_edge)<double>(corners) * extinction;
+    return largest_depth <= thin_depth ? FragmentKind::thin : FragmentKind::plain;
 }
 
-ScreenOutline TetProjector::outline_of(const VisibleCorners& visible, const PartField& field,
+ScreenOutline TetProjector::outline_of(const VisibleCorners& visible, const TetField& field,
                                        bool cut_by_near) const {
     ScreenOutline outline;
     const auto add = [&](const auto& corners) {
@@ -391,7 +413,7 @@ TetGeometry::Size SilhouetteGeometry::largest_size(bool lit) {
 
 TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place& place) const {
     ScreenOutline outline;
-    SilhouetteRecord record;  // not written in place: that memory may be slow to read
+    SilhouetteRecord record;  // copied when complete: `place` may be memory that is slow to read
     GradientRecord gradient;
     GradientRecord* const lit = place.gradient != nullptr ? &gradient : nullptr;
     const std::optional<FragmentKind> kind = projector_.project(part, record, outline, lit);
@@ -409,7 +431,7 @@ TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place&
                                       place.record_number};
         std::memcpy(place.vertices + written.vertices++ * sizeof(vertex), &vertex, sizeof(vertex));
     }
-    for (std::uint32_t i = 2; i < written.vertices; ++i) {
+    for (std::uint32_t i = 2; i < written.vertices; ++i) {  // a fan of triangles
         place.indices[written.indices++] = place.first_vertex;
         place.indices[written.indices++] = place.first_vertex + i - 1;
         place.indices[written.indices++] = place.first_vertex + i;

@@ -19,21 +19,24 @@
 
 namespace lamina {
 
-// The scalar in a tet, linear between its corners, and the region of the tet that is drawn: all of
-// it, or the cell fragment whose scalars lie in one piece of the transfer function.
-class PartField {
+// The scalar in a tet, linear in space, and the region of the tet that is drawn: the whole tet, or
+// a cell fragment, in which the scalar stays within one linear piece of the transfer function.
+class TetField {
   public:
     using Corners = std::array<glm::dvec3, 4>;
-    using Values = std::array<double, 4>;  // at the corners
+    using Values = std::array<double, 4>;  // scalars at the corners
 
-    // `piece`: ascending; null for the whole tet. The corners must outlive it.
-    PartField(const Corners& corners, const Values& values, const LinearPiece* piece);
+    // `piece`: a piece with from < to, or null to draw the whole tet. `corners` must outlive this.
+    TetField(const Corners& corners, const Values& values, const LinearPiece* piece);
 
     double least() const { return least_; }      // least scalar of the drawn region
-    double largest() const { return largest_; }  // >= least
-    bool cut_low() const { return cut_low_; }    // the tet also has smaller scalars
+    double largest() const { return largest_; }  // largest scalar of the drawn region
+    // Tell whether the tet also has scalars below least() or above largest(). The drawn region then
+    // ends at the plane on which the scalar has that value.
+    bool cut_low() const { return cut_low_; }
     bool cut_high() const { return cut_high_; }
     const glm::dvec3& gradient() const { return gradient_; }
+    // Returns the scalar at a point.
     double at(const glm::dvec3& point) const {
         return values_[0] + glm::dot(gradient_, point - corners_[0]);
     }
@@ -51,102 +54,106 @@ class PartField {
 
 inline const std::array world_axes{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
 
-// Gradients at a mesh's points, in a unit in which float32 holds them and squares of small ones.
+// Gradients at a mesh's points, scaled so that float32 holds them and the squares of small ones.
 struct StoredGradients {
-    StoredGradients() = default;  // nothing is lit
-    // `gradients`: in scalar units per world unit. `smallest`: the light's smallest gradient.
+    StoredGradients() = default;  // no gradients: nothing is lit
+    // `gradients`: scalar units per world unit. `smallest`: Lighting::smallest_gradient.
     StoredGradients(std::span<const glm::dvec3> gradients, double smallest);
 
-    // Gradients times `scale`, which depends on the smallest gradient alone. Most are then far
-    // below 1. Longer ones, around missing data, are shortened in each tet by scale_of_tet().
+    // The gradients times `scale`. Most are then far shorter than 1; the longer ones, as beside
+    // missing data, are shortened tet by tet with scale_of_tet().
     std::vector<glm::vec3> at_points;
-    double scale = 1;  // a power of two
+    double scale = 1;  // a power of two that depends on `smallest` alone
 
-    // Largest component of a tet's gradients after scaling: lengths are then below 1.
-    static constexpr double most_of_tet = 0.5;
-    // Returns the factor for all gradients of a tet whose largest component is `largest`. It keeps
-    // directions, on which light depends. Lengths matter only near the smallest gradient: in a tet
-    // that is scaled, with gradients of 2^38 times that and more, in less than 1e-11 of the tet.
+    // Largest component of the gradients in a tet after scale_of_tet(): all are shorter than 1.
+    static constexpr double largest_in_tet = 0.5;
+    // Returns the factor for all gradients of a tet; `largest`: their largest component. Light
+    // depends on directions, which a common factor keeps, and on lengths near the smallest gradient
+    // alone. A tet is shortened only if a gradient is 2^38 times the smallest or more; then lengths
+    // come near the smallest in less than 1e-11 of the tet.
     static double scale_of_tet(double largest) {
-        return largest > most_of_tet ? most_of_tet / largest : 1;
+        return largest > largest_in_tet ? largest_in_tet / largest : 1;
     }
 
-    // Returns the square of the lighting's smallest gradient in the unit of at_points. It is
-    // limited to numbers that float32 can square; beyond them, everything or nothing is lit.
+    // Returns the square of the lighting's smallest gradient times `scale`. The smallest gradient
+    // is clamped so that float32 holds the square; beyond the limits all or nothing is lit anyway.
     float smallest_square(const Lighting& lighting) const;
 };
 
-// The tets of a mesh in one view, and how they are projected. The members must outlive it.
+// The tets of a mesh and the view in which they are projected. It does not own what it refers to.
 struct TetsInView {
     const TetMesh& mesh;
-    std::span<const double> scalar;  // one value a point
-    ValueRange range;                // the scalars that become [0, 1] in whole tets
-    const TetPieces& pieces;         // TetPart::piece refers to these
+    std::span<const double> scalar;  // one value for each point
+    ValueRange range;                // normalised to [0, 1] in the records of whole tets
+    const TetPieces& pieces;         // TetPart::piece is an index into pieces.pieces()
     WindowView window;
-    double near_depth;
-    double margin;                         // see pixel_bounds()
-    std::span<const glm::vec3> gradients;  // at the points; empty if nothing is lit
+    double near_depth;                     // eye-space depth of the near plane
+    double margin;                         // pixels around an outline: pixel_bounds()
+    std::span<const glm::vec3> gradients;  // one for each point; empty if nothing is lit
 
     const View& view() const { return window.view(); }
+    // Returns the piece of the transfer function that a cell fragment shows; null for a whole tet.
     const LinearPiece* piece_of(const TetPart& part) const {
         if (part.piece == TetPart::whole) return nullptr;
         return &pieces.pieces()[static_cast<std::size_t>(part.piece)];
     }
 };
 
-// Projects tets or cell fragments in one view. Safe from many threads.
+// Projects whole tets or cell fragments in one view, in double precision. Threads may share it.
 class TetProjector {
   public:
     explicit TetProjector(const TetsInView& tets)
         : tets_(tets), signer_(tets.mesh, eye_of(tets.view())) {}
 
-    // Fills the record and the outline, and returns the kind of the fragments. The outline covers
-    // the cell fragment and may cover more of its tet. Returns nothing, and leaves the outputs
-    // undefined, if no pixel centre is covered. `lit`: gets the gradients; null if nothing is lit.
+    // Projects one cell fragment: writes its record, an outline that contains its image (or more of
+    // its tet's), and its gradients if `lit` is not null. Returns how its fragments are to be
+    // computed; nothing, with undefined output, if it covers no pixel centre.
     std::optional<FragmentKind> project(const TetPart& part, SilhouetteRecord& record,
                                         ScreenOutline& outline, GradientRecord* lit) const;
     const TetsInView& tets() const { return tets_; }
 
   private:
-    // Corners of the tet's region z >= near_depth, relative to the eye along right, up and forward.
+    // Corners of a tet's region beyond the near plane (z >= near_depth), in eye space: relative to
+    // the eye, along right, up and forward. A tet cut by one plane has at most 6.
     using VisibleCorners = FewPoints<glm::dvec3, 6>;
-    VisibleCorners clip_near(const PartField::Corners& corners) const;
-    ScreenOutline outline_of(const VisibleCorners& visible, const PartField& field,
+    VisibleCorners clip_near(const TetField::Corners& corners) const;
+    ScreenOutline outline_of(const VisibleCorners& visible, const TetField& field,
                              bool cut_by_near) const;
 
     TetsInView tets_;
     FaceSigner signer_;
 };
 
-// Turns tets or cell fragments of a view into triangles for a rasteriser. Safe from many threads.
+// Turns whole tets or cell fragments into triangles for a rasteriser. Threads may share it.
 class TetGeometry {
   public:
     virtual ~TetGeometry() = default;
 
-    // The memory that one cell fragment needs at most.
+    // The most memory that one cell fragment needs.
     struct Size {
-        std::size_t vertex_bytes;  // of one vertex
-        std::size_t vertices, indices;
-        bool has_record;
-        bool has_gradient = false;  // for a lit record
+        std::size_t vertex_bytes;       // bytes of one vertex
+        std::size_t vertices, indices;  // largest numbers of them
+        bool has_record;                // a SilhouetteRecord
+        bool has_gradient = false;      // a GradientRecord, if it is lit
 
         friend bool operator==(const Size&, const Size&) = default;
     };
 
-    // The memory to which a cell fragment is written.
+    // The memory to which one cell fragment is written.
     struct Place {
         std::byte* vertices;
-        std::uint32_t first_vertex;  // number of the vertex at `vertices`, for the indices
-        std::uint32_t* indices;      // of triangles
-        SilhouetteRecord* record;    // null without records
-        GradientRecord* gradient;    // null if nothing is lit
-        std::uint32_t record_number;
+        std::uint32_t first_vertex;   // index of the vertex at `vertices`
+        std::uint32_t* indices;       // three for each triangle
+        SilhouetteRecord* record;     // null if Size::has_record is false
+        GradientRecord* gradient;     // null if Size::has_gradient is false
+        std::uint32_t record_number;  // index of `record`, which vertices refer to
     };
-    // Numbers of written vertices and indices, 0 if nothing is covered; triangles do not overlap.
+    // The numbers of vertices and indices written; both 0 if no pixel centre is covered.
     struct Written {
         std::size_t vertices = 0, indices = 0;
         FragmentKind kind = FragmentKind::thin;
     };
+    // Writes one cell fragment. Its triangles do not overlap.
     virtual Written write(const TetPart& part, const Place& place) const = 0;
 };
 
@@ -156,7 +163,8 @@ struct SilhouetteVertex {
     std::uint32_t record;
 };
 
-// Projects each tet as one polygon; fragments find front and back from the planes of its faces.
+// Draws the silhouette of each tet as one polygon. The fragment program finds at which depths the
+// ray enters and leaves from the planes of the tet's faces in its record.
 class SilhouetteGeometry : public TetGeometry {
   public:
     explicit SilhouetteGeometry(const TetProjector& projector) : projector_(projector) {}
