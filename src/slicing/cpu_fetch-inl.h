@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fetches the samples at the corners of cells, and interpolates scalars between them.
+// Fetches the eight samples at the corners of a cell and interpolates the scalar between them. Each
+// lane of a vector has a point and a cell of its own.
 //
-//   for each cell (x, y, z):
-//       index = its lowest corner in memory, or its page and the place in that        cell_index()
-//       fetch the four pairs of neighbours along x                                    fetch_pairs()
-//       convert them to floats: the Corners unpack_pairs()
-//   scalar = trilinear mix of the corners                                             interpolate()
+//   for each point:
+//       cell, weights = the cell that holds the point, and the point's position in it     cell_at()
+//       index = where the cell's lowest corner is in memory, or in a page            cell_index()
+//       pairs = the four pairs of samples that are neighbours along x                fetch_pairs()
+//       corners = the pairs as floats                                               unpack_pairs()
+//       scalar = trilinear mix of the corners by the weights                         interpolate()
+//
+// Codes are samples as stored, integers; CpuBrick says how they become normalised scalars.
 #if defined(LAMINA_SLICING_CPU_FETCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_FETCH_INL_H_
 #undef LAMINA_SLICING_CPU_FETCH_INL_H_
@@ -20,28 +24,31 @@
 
 LAMINA_SIMD_BEGIN
 
-// Returns a cell's index in pages: the number of its page, and its place there (CpuPages).
+// Returns a cell's index if the volume is in pages: the page's number among those of the brick in
+// the high bits, the cell's x, y and z in the page in the low bits (CpuPages).
 LAMINA_INLINE Int page_index(const CpuPages& pages, Int x, Int y, Int z) {
     constexpr int bits = CpuPages::place_bits;
-    const Int within(CpuPages::places);
+    const Int mask(CpuPages::places);
     x += pages.offset[0];
     y += pages.offset[1];
     z += pages.offset[2];
     const Int page = shift_right<bits>(x) +
                      (shift_right<bits>(y) * pages.row + shift_right<bits>(z) * pages.slice);
-    const Int place =
-        (x & within) | (shift_left<bits>(y & within) | shift_left<2 * bits>(z & within));
-    return shift_left<CpuPages::page_bits>(page) | place;
+    const Int in_page = (x & mask) | (shift_left<bits>(y & mask) | shift_left<2 * bits>(z & mask));
+    return shift_left<CpuPages::page_bits>(page) | in_page;
 }
 
-// Returns the index by which a cell's samples are fetched; x, y, z: its lowest corner.
+// Returns the index by which a cell's samples are fetched. x, y, z: the cell's lowest corner, in
+// samples from the brick's first one.
 LAMINA_INLINE Int cell_index(const CpuBrick& brick, Int x, Int y, Int z) {
     if (brick.pages != nullptr) [[unlikely]]
         return page_index(*brick.pages, x, y, z);
     return x + (y * brick.row + z * brick.slice);
 }
 
-// Calls visit(i, page's first byte, place in it) for `count` cells, after reading their pages.
+// Calls visit(i, page, offset) for each of `count` cells, after reading pages that are not in
+// memory. `page`: first byte of the cell's page; `offset`: samples from there to the cell's lowest
+// corner.
 template <class Visit>
 LAMINA_INLINE void visit_pages(const CpuPages& pages, const std::int32_t* indices,
                                std::size_t count, const Visit& visit) {
@@ -54,8 +61,8 @@ LAMINA_INLINE void visit_pages(const CpuPages& pages, const std::int32_t* indice
     }
 }
 
-// Copies the four pairs of neighbours along x of the cell whose lowest corner is at `from`, to
-// pairs[0 .. 3][i]. `row` and `slice`: bytes to the next y and z.
+// Copies the four pairs of neighbours along x of one cell to pairs[0 .. 3][i]. `from`: the cell's
+// lowest corner; `row`, `slice`: bytes from a sample to the next one along y and z.
 template <class Pair, std::size_t size>
 LAMINA_INLINE void copy_pairs(const std::byte* from, std::size_t row, std::size_t slice,
                               std::size_t i, Pair (&pairs)[4][size]) {
@@ -65,7 +72,7 @@ LAMINA_INLINE void copy_pairs(const std::byte* from, std::size_t row, std::size_
     std::memcpy(&pairs[3][i], from + slice + row, sizeof(Pair));
 }
 
-// Does what fetch_pairs() does, from pages.
+// Fetches pairs as fetch_pairs() does, for a brick in pages.
 template <class Pair, std::size_t size>
 inline LAMINA_NOINLINE void fetch_paged_pairs(const CpuPages& pages, const std::int32_t* indices,
                                               std::size_t count, Pair (&pairs)[4][size]) {
@@ -73,29 +80,34 @@ inline LAMINA_NOINLINE void fetch_paged_pairs(const CpuPages& pages, const std::
     constexpr std::size_t row = bytes * static_cast<std::size_t>(BrickCache::row);
     constexpr std::size_t slice = bytes * static_cast<std::size_t>(BrickCache::slice);
     visit_pages(pages, indices, count,
-                [&](std::size_t i, const std::byte* page, std::size_t place) {
-                    copy_pairs(page + bytes * place, row, slice, i, pairs);
+                [&](std::size_t i, const std::byte* page, std::size_t offset) {
+                    copy_pairs(page + bytes * offset, row, slice, i, pairs);
                 });
 }
 
+// One point in each lane, in samples from the brick's first sample.
 struct Points {
-    Float at[3];
+    Float at[3];  // x, y, z
 };
 
-// Samples at a cell's corners, by lower and upper x: at (y, z), (y+1, z), (y, z+1), (y+1, z+1).
+// The samples at a cell's eight corners. The elements of both arrays are the corners at (y, z),
+// (y + 1, z), (y, z + 1) and (y + 1, z + 1).
 struct Corners {
-    Float lower[4], upper[4];
+    Float lower[4], upper[4];  // at x and at x + 1
 };
 
+// Returns the value of the lowest byte of each word.
 LAMINA_INLINE Float low_byte(Word v) {
     return to_float(bits_as<Int>(v & 0xffu));
 }
 
+// Converts words below 2^31.
 LAMINA_INLINE Float to_float(Word v) {
     return to_float(bits_as<Int>(v));
 }
 
-// Fetches the corners of cells by gathers; samples may have no neighbour along x.
+// Fetches the corners of the cells with gather instructions. Unlike fetch_pairs(), it works if the
+// volume has one sample along x: that sample is then both neighbours.
 template <CpuLayout layout>
 LAMINA_INLINE Corners fetch_corners(const CpuBrick& brick, Int index) {
     Corners corners;
@@ -108,8 +120,8 @@ LAMINA_INLINE Corners fetch_corners(const CpuBrick& brick, Int index) {
             corners.upper[i] = gather(from + next, index);
         }
     } else {
-        // A word of 32 bits holds a sample and the next one along x. If a word would reach beyond
-        // the end of memory, an earlier one is read and shifted.
+        // Reads 32 bits, which hold a sample and the next one along x. If they would reach beyond
+        // the end of the samples, reads the last 32 bits instead and shifts the sample down.
         constexpr int size = layout == CpuLayout::bytes ? 1 : 2;
         const auto* const words = static_cast<const std::uint32_t*>(brick.samples);
         for (int i = 0; i < 4; ++i) {
@@ -131,12 +143,13 @@ LAMINA_INLINE Corners fetch_corners(const CpuBrick& brick, Int index) {
     return corners;
 }
 
-// A sample and the next one along x.
+// An integer as large as two samples: a sample and its next neighbour along x.
 template <CpuLayout layout>
 using PairOf = std::conditional_t<
     layout == CpuLayout::bytes, std::uint16_t,
     std::conditional_t<layout == CpuLayout::words, std::uint32_t, std::uint64_t>>;
 
+// Calls body() with the layout as a compile-time constant.
 template <class Body>
 LAMINA_INLINE void with_layout(CpuLayout layout, const Body& body) {
     switch (layout) {
@@ -150,8 +163,9 @@ LAMINA_INLINE void with_layout(CpuLayout layout, const Body& body) {
     unreachable_enum();
 }
 
-// Fetches the four pairs of neighbours along x of each cell, in the order of Corners, one by one,
-// which is faster than gather instructions. The volume must have at least two samples along x.
+// Fetches the four pairs of neighbours along x of `count` cells, in the order of Corners. Scalar
+// code, one cell after the other, is faster here than gather instructions. The volume must have at
+// least two samples along x.
 template <class Pair, std::size_t size>
 inline LAMINA_NOINLINE void fetch_pairs(const CpuBrick& brick, const std::int32_t* indices,
                                         std::size_t count, Pair (&pairs)[4][size]) {
@@ -165,7 +179,7 @@ inline LAMINA_NOINLINE void fetch_pairs(const CpuBrick& brick, const std::int32_
     }
 }
 
-// Returns the corners of the cells from the i-th on, one in each lane.
+// Converts the pairs of cells i, i + 1, ... to corners, one cell in each lane.
 template <CpuLayout layout, class Pair, std::size_t size>
 LAMINA_INLINE Corners unpack_pairs(const CpuBrick& brick, const Pair (&pairs)[4][size],
                                    std::size_t i) {
@@ -189,28 +203,32 @@ LAMINA_INLINE Corners unpack_pairs(const CpuBrick& brick, const Pair (&pairs)[4]
 }
 
 // Rounds an interpolation weight to 8 bits, as texture units do (docs/numerics.md, section 2).
-LAMINA_INLINE Float hardware_weight(Float share) {
-    return round(share * 256.0f) * (1.0f / 256);
+LAMINA_INLINE Float hardware_weight(Float weight) {
+    return round(weight * 256.0f) * (1.0f / 256);
 }
 
-// Interpolates trilinearly; x, y, z in 0 .. 1.
+// Interpolates trilinearly; x, y, z: weights of the upper corners, 0 to 1.
 LAMINA_INLINE Float interpolate(const Corners& corners, Float x, Float y, Float z) {
     Float along_x[4];
     for (int i = 0; i < 4; ++i) along_x[i] = mix(corners.lower[i], corners.upper[i], x);
     return mix(mix(along_x[0], along_x[1], y), mix(along_x[2], along_x[3], y), z);
 }
 
-// How points are treated. inside: known to lie between the first and the last sample. anywhere:
-// clamped to these. exact: clamped, and codes become the values that textures return before they
-// are interpolated, so that scalars equal the shaders' bit for bit.
-enum class PointKind { inside, anywhere, exact };
-
-// The cells that hold points, and the points' places in them, 0 .. 1.
-struct Cell {
-    Int index;  // index of its lowest corner
-    Float share[3];
+// How sample_points() treats points.
+enum class PointKind {
+    inside,    // used as they are: the caller knows that they lie in the brick
+    anywhere,  // clamped to the brick, from its first to its last sample
+    exact      // clamped; and codes are scaled as textures scale them, before interpolation and not
+               // after it, so that scalars equal those of OpenGL's shaders bit for bit
 };
 
+// The cell that holds a point, and the point's position in it: the weights of interpolation.
+struct Cell {
+    Int index;        // cell_index()
+    Float weight[3];  // along x, y, z: 0 at the cell's lower face, 1 at its upper face
+};
+
+// Finds the cell of each point. At the brick's upper face it is the last cell, with weight 1.
 template <PointKind kind>
 LAMINA_INLINE Cell cell_at(const CpuBrick& brick, const Points& points) {
     Cell cell;
@@ -222,7 +240,7 @@ LAMINA_INLINE Cell cell_at(const CpuBrick& brick, const Points& points) {
             least = min(p, std::max(last - 1.0f, 0.0f));
         }
         const Int lower = to_int(least);
-        cell.share[axis] = p - to_float(lower);
+        cell.weight[axis] = p - to_float(lower);
         return lower;
     };
     const Int x = lower_along(0, points.at[0]), y = lower_along(1, points.at[1]),
@@ -231,9 +249,9 @@ LAMINA_INLINE Cell cell_at(const CpuBrick& brick, const Points& points) {
     return cell;
 }
 
-// Returns normalised scalars at the places `share` of cells.
+// Returns the normalised scalar at a point of a cell. `weight`: as in Cell.
 template <CpuLayout layout, PointKind kind>
-LAMINA_INLINE Float scalar_in(const CpuBrick& brick, Corners corners, const Float* share) {
+LAMINA_INLINE Float scalar_in(const CpuBrick& brick, Corners corners, const Float* weight) {
     float scale = brick.scale;
     if constexpr (kind == PointKind::exact && layout != CpuLayout::floats) {
         for (int i = 0; i < 4; ++i) {
@@ -242,13 +260,14 @@ LAMINA_INLINE Float scalar_in(const CpuBrick& brick, Corners corners, const Floa
         }
         scale = brick.unit_scale;
     }
-    const Float raw = interpolate(corners, share[0], share[1], share[2]);
-    if constexpr (layout == CpuLayout::floats) return raw;
-    return raw * scale + brick.offset;
+    const Float mixed = interpolate(corners, weight[0], weight[1], weight[2]);
+    if constexpr (layout == CpuLayout::floats) return mixed;
+    return mixed * scale + brick.offset;
 }
 
-// Prefetches the samples of cells for one pixel in each row and column, because those of its
-// neighbours mostly lie beside them. `samples`: of `bytes` bytes each.
+// Prefetches the samples of some lanes' cells into the cache: one pixel in each row and column of a
+// block, because the cells of its neighbours are mostly in the same cache lines. `samples`: the
+// brick's samples, or its gradients; `bytes`: size of one.
 template <std::size_t bytes>
 LAMINA_INLINE void prefetch_cells(const CpuBrick& brick, const void* samples,
                                   const std::int32_t* indices) {
@@ -262,60 +281,63 @@ LAMINA_INLINE void prefetch_cells(const CpuBrick& brick, const void* samples,
     }
 }
 
-// Does what sample_points() does in three stages, each for half a block of slabs: find cells, fetch
-// their samples, interpolate.
+// Samples as sample_points() does, for half a block of slabs at a time, in three stages: find the
+// cells of all points, fetch their samples, interpolate. Most fetches thus wait for memory
+// together.
 template <CpuLayout layout, PointKind kind, class PointAt>
 LAMINA_INLINE void sample_in_stages(const CpuBrick& brick, bool hardware, int first, int end,
                                     const PointAt& point_at, float* scalars) {
-    constexpr int stage = block_slabs / 2 + 1;  // boundaries are one more than slabs
+    constexpr int most_points =
+        block_slabs / 2 + 1;  // one more, because n slabs have n + 1 boundaries
     constexpr std::size_t lanes = Float::lanes;
-    alignas(64) std::int32_t indices[stage * most_lanes];
-    alignas(64) float shares[3][stage * most_lanes];
-    PairOf<layout> pairs[4][stage * most_lanes];
-    for (int begin = first; begin < end; begin += stage) {
-        const auto count = static_cast<std::size_t>(std::min(stage, end - begin));
+    alignas(64) std::int32_t indices[most_points * most_lanes];
+    alignas(64) float weights[3][most_points * most_lanes];
+    PairOf<layout> pairs[4][most_points * most_lanes];
+    for (int begin = first; begin < end; begin += most_points) {
+        const auto count = static_cast<std::size_t>(std::min(most_points, end - begin));
         for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t place = i * lanes;
+            const std::size_t lane = i * lanes;
             const Cell cell = cell_at<kind>(brick, point_at(begin + static_cast<int>(i)));
-            store(cell.index, indices + place);
-            prefetch_cells<bytes_of_sample(layout)>(brick, brick.samples, indices + place);
+            store(cell.index, indices + lane);
+            prefetch_cells<bytes_of_sample(layout)>(brick, brick.samples, indices + lane);
             for (std::size_t axis = 0; axis < 3; ++axis)
-                store(cell.share[axis], shares[axis] + place);
+                store(cell.weight[axis], weights[axis] + lane);
         }
         fetch_pairs(brick, indices, count * lanes, pairs);
         if (hardware) {
-            for (float* const axis : shares) {
+            for (float* const weight : weights) {
                 for (std::size_t i = 0; i < count * lanes; i += lanes)
-                    store(hardware_weight(load<Float>(axis + i)), axis + i);
+                    store(hardware_weight(load<Float>(weight + i)), weight + i);
             }
         }
         for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t place = i * lanes;
-            const Float share[3] = {load<Float>(shares[0] + place), load<Float>(shares[1] + place),
-                                    load<Float>(shares[2] + place)};
-            const Corners corners = unpack_pairs<layout>(brick, pairs, place);
-            store(scalar_in<layout, kind>(brick, corners, share),
+            const std::size_t lane = i * lanes;
+            const Float weight[3] = {load<Float>(weights[0] + lane), load<Float>(weights[1] + lane),
+                                     load<Float>(weights[2] + lane)};
+            const Corners corners = unpack_pairs<layout>(brick, pairs, lane);
+            store(scalar_in<layout, kind>(brick, corners, weight),
                   scalars + (static_cast<std::size_t>(begin) + i) * most_lanes);
         }
     }
 }
 
-// Does what sample_points() does, for a brick whose samples have no neighbour along x.
+// Samples as sample_points() does, for a brick with one sample along x.
 template <CpuLayout layout, PointKind kind, class PointAt>
 LAMINA_INLINE void sample_by_gathers(const CpuBrick& brick, bool hardware, int first, int end,
                                      const PointAt& point_at, float* scalars) {
     for (int i = first; i < end; ++i) {
         Cell cell = cell_at<kind>(brick, point_at(i));
         if (hardware) {
-            for (Float& share : cell.share) share = hardware_weight(share);
+            for (Float& weight : cell.weight) weight = hardware_weight(weight);
         }
         const Corners corners = fetch_corners<layout>(brick, cell.index);
-        store(scalar_in<layout, kind>(brick, corners, cell.share),
+        store(scalar_in<layout, kind>(brick, corners, cell.weight),
               scalars + static_cast<std::size_t>(i) * most_lanes);
     }
 }
 
-// Computes the scalars at point_at(i) for i = first .. end - 1, a vector each.
+// Writes the normalised scalars at the points point_at(i), a vector of them for each i from `first`
+// to end - 1, to scalars + i * most_lanes. `hardware`: with the rounded weights of texture units.
 template <PointKind kind, class PointAt>
 LAMINA_INLINE void sample_points(const CpuBrick& brick, bool hardware, int first, int end,
                                  const PointAt& point_at, float* scalars) {

@@ -48,17 +48,17 @@ LAMINA_INLINE void visit_light(const CpuLight& light, const CpuBrick& brick,
                                const PointAt& point_at, const Visit& visit) {
     constexpr int stage = 8;
     alignas(64) std::int32_t index[stage][most_lanes];
-    Float shares[stage][3];
+    Float weights[stage][3];
     for (int begin = first; begin < end; begin += stage) {
         const int count = std::min(stage, end - begin);
         for (int i = 0; i < count; ++i) {
             const Cell cell = cell_at<kind>(brick, point_at(begin + i));
             store(cell.index, index[i]);
             prefetch_cells<sizeof(StoredGradient)>(brick, brick.gradients, index[i]);
-            for (int axis = 0; axis < 3; ++axis) shares[i][axis] = cell.share[axis];
+            for (int axis = 0; axis < 3; ++axis) weights[i][axis] = cell.weight[axis];
         }
         for (int i = 0; i < count; ++i) {
-            const PointGradient gradient = gradient_at(brick, light, index[i], shares[i]);
+            const PointGradient gradient = gradient_at(brick, light, index[i], weights[i]);
             visit(begin + i,
                   effect_of<channels>(light, gradient.along, gradient.smallest_square, to_eye));
         }
