@@ -53,8 +53,8 @@ std::string text_of_light(const SlicePlan& slice) {
         fmt::format("{} lights, gradients of 8 bytes a sample; ", slice.lighting->lights.size());
     if (slice.integrates_cells())
         return text + fmt::format("off by up to {:.2g} / 255", slice.light_error);
-    return text + (slice.integrates_runs() ? "at both ends of a segment and linear between them"
-                                           : "in the middle of a slab");
+    return text + (slice.preintegrates() ? "at both ends of a segment and linear between them"
+                                         : "in the middle of a slab");
 }
 
 template <typename Row>

@@ -237,7 +237,7 @@ ErrorFigure Plan::error() const {
     unreachable_enum();
 }
 
-PlannedPicture of_all_views(PlannedPicture picture) {
+SlicedPicture of_all_views(SlicedPicture picture) {
     // A table of one layer does not depend on length.
     TableRequest& table = picture.table.request;
     if (!picture.uses_table() || table.length_layers == 1) table.max_length = 0;

@@ -22,46 +22,46 @@
 
 namespace lamina {
 
-// The predicted work of a frame.
+// Counts of the work that a plan predicts for a frame.
 struct Work {
-    double segments = 0;  // segments of rays in slabs that are evaluated
-    double fetches = 0;   // fetches of the volume's texels by OpenGL's fragments
-    double tets = 0;      // projected tets, or cell fragments if tets are cut
-    double ordered = 0;   // tets put in visibility order
-    double passes = 0;    // layers that are composited onto images one by one
-    double bytes = 0;     // size of the volume, tables and images that are read and written
+    double segments = 0;  // rays' segments in slabs that are evaluated
+    double fetches = 0;   // texels of the volume that OpenGL's fragments fetch
+    double tets = 0;      // tets that are projected, or cell fragments if tets are cut
+    double ordered = 0;   // tets that are sorted into visibility order
+    double passes = 0;    // layers that are composited onto an image, one after the other
+    double bytes = 0;     // bytes of the volume, tables and images that are read and written
 
-    // Returns the amounts that are not 0, with their names.
+    // Returns the counts that are not 0, with their names.
     std::vector<std::pair<const char*, double>> amounts() const;
 };
 
 Work operator-(const Work& a, const Work& b);
 
-// Returns, for example, "12.3 M segments, 4.1 kB": the amounts above 0.
+// Returns the counts above 0 as text, for example "12.3 M segments, 4.1 kB".
 std::string to_text(const Work& work);
 
-// Work that is left out because this scene does not need it.
+// A kind of work that the plan leaves out, because it would not change the picture of this scene.
 struct Omission {
     std::string name;    // as in --no-omit=NAME
-    std::string reason;  // the fact that decided
-    Work saves{};        // predicted work that it saves in a frame
+    std::string reason;  // the fact of the scene that allows it
+    Work saves{};        // predicted work that it saves in each frame
 };
 
-// The omissions that the user has switched off.
+// Says which omissions the user allows: all, unless switched off.
 struct OmissionSwitch {
-    bool none = false;           // --no-omit: leave out nothing
-    std::set<std::string> kept;  // --no-omit=NAME
+    bool none = false;           // --no-omit: no omission is allowed
+    std::set<std::string> kept;  // --no-omit=NAME: names of omissions that are not allowed
     bool allows(const std::string& name) const { return !none && !kept.contains(name); }
 };
 std::vector<std::string> omission_names();
 
-// Collects the omissions of a planner, in the order of its choices.
+// Collects the omissions of a plan while it is made.
 struct Omissions {
     const OmissionSwitch& allowed;
     std::vector<Omission> list = {};
 
-    // Returns true, and records the omission, if the scene does not need `name` and the user has
-    // not switched that off.
+    // Decides whether the work `name` is left out: if the scene does not need it (`unneeded`) and
+    // the user allows the omission. If so, adds the omission to the list.
     bool leave_out(bool unneeded, const std::string& name, const std::string& reason) {
         if (!unneeded || !allowed.allows(name)) return false;
         list.push_back({name, reason});
@@ -69,205 +69,205 @@ struct Omissions {
     }
 };
 
-// A box of the volume's samples that one texture holds: samples first .. first + size - 1.
-// Neighbouring bricks share a layer of samples.
+// A box of the volume's samples that is drawn from one texture. Neighbouring bricks share a layer
+// of samples, so that every cell lies in one brick.
 struct TextureBrick {
-    std::array<std::int64_t, 3> first{0, 0, 0};
-    std::array<std::int64_t, 3> size{1, 1, 1};
-    // True: at the volume's border the texture holds one more layer, which repeats the border
-    // sample, so that its samples reach as far as the volume's box.
+    std::array<std::int64_t, 3> first{0, 0, 0};  // x, y, z of the first sample
+    std::array<std::int64_t, 3> size{1, 1, 1};   // number of samples along x, y, z
+    // True: at the volume's border the texture has one more layer, a copy of the border samples. It
+    // covers the half voxel between the border samples and the faces of the volume's box.
     bool bordered = false;
 
     friend bool operator==(const TextureBrick&, const TextureBrick&) = default;
 };
 
-// How the ray's segment between the front and the back of a tet is integrated.
+// How the colour and opacity of a ray's segment in a tet are found.
 enum class SegmentSource {
-    constant,   // the transfer function is constant over the mesh: no scalar is needed
-    table,      // one look-up in a table with equally spaced scalars
-    parts,      // tets are cut at the transfer function's points. Opacity has a closed form; colour
-                // is one look-up in a table that does not depend on the transfer function
-                // (optics/segment_integral.h)
-    cut_table,  // up to three look-ups in a table whose scalar nodes lie on the transfer function's
-                // points
-    analytic,   // the linear pieces of the segment, each in closed form
-    mean,       // the mean of the optics at front and back: Coloring::attenuation
-    vertices    // no integration: Coloring::vertex
+    constant,   // from constants: the transfer function is constant over the mesh
+    table,      // one look-up in a pre-integration table whose scalar nodes are equally spaced
+    parts,      // tets are cut into cell fragments at the transfer function's points. Opacity has a
+                // closed form; colour takes one look-up in a table that is the same for every
+                // transfer function (optics/segment_integral.h)
+    cut_table,  // up to three look-ups in a pre-integration table whose scalar nodes lie on the
+                // transfer function's points
+    analytic,   // the segment is cut into its linear pieces; each has a closed form
+    mean,       // from the mean of the optics at both ends: Coloring::attenuation
+    vertices    // from the colours of the vertices, without integration: Coloring::vertex
 };
 
-// The part of a projection's plan that decides the picture. A renderer prepares for it once.
+// All of a projection's plan that affects the picture. A renderer prepares for it once.
 struct ProjectedPicture : CompositingPlan, LightPlan {
     SegmentSource source = SegmentSource::table;
     Interpolation interpolation = Interpolation::perspective;
     Thickness thickness = Thickness::exact;
     OrderMethod visibility = OrderMethod::exact;
-    // True: rings of tets that hide one another are ordered by pixel (visibility/ring_order.h).
+    // True: rings of tets that hide one another are sorted by pixel (visibility/ring_order.h).
     bool solve_rings = false;
     ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
     ProjectDither dither = ProjectDither::none;
-    std::uint32_t seed = 1;     // for dithering and stochastic rounding
-    std::vector<int> tree;      // bifurcation factors of fixed-point nodes; empty: none
-    bool scattered = false;     // the tets of a tree's leaf come from all over the mesh
-    bool orthographic = false;  // rays are parallel; fragments need no division
-    bool single_color = false;  // the colour is a constant of the program
-    // True: depths on faces are found in float32 for tets for which that is exact enough. False: in
-    // double precision for all.
+    std::uint32_t seed = 1;  // of the random numbers of dithering and stochastic rounding
+    std::vector<int> tree;   // bifurcation factors of a tree of fixed-point nodes; empty: no tree
+    bool scattered = false;  // each leaf of the tree gets tets from all over the mesh
+    bool orthographic = false;  // rays are parallel, so that fragments need no division
+    bool single_color = false;  // all that is visible has one colour, a constant of the program
+    // True: depths on faces are computed in float32 for the tets for which it is exact enough, and
+    // in double precision for the others. False: in double precision for all tets.
     bool plain = true;
-    bool draw_transparent = false;  // transparent tets are drawn, too
+    bool draw_transparent = false;  // tets that are invisible are drawn nevertheless
     bool nothing_visible = false;   // no tet is drawn
-    bool table_filtered = false;    // tables are read through the texture unit's filter
-    // Eye-space depth of the near plane, in the plan's units, as are lengths in tables.
-    double near_depth = 0;
-    ValueRange range;  // scalars, [0, 1] in shaders; lo < hi
-    // True: the range is the window of visible scalars. Scalars may lie outside it; there the
-    // transfer function is constant.
+    bool table_filtered = false;    // tables are read through the texture unit's linear filter
+    double near_depth = 0;          // eye-space depth of the near plane, in the plan's units
+    ValueRange range;               // scalars that are normalised to [0, 1]; lo < hi
+    // True: `range` is the window, the scalars between which something visible changes. A mesh may
+    // have scalars outside it, for which the transfer function is constant.
     bool windowed = false;
     TablePlan table;  // for SegmentSource::table (uniform) and ::cut_table (knots)
 
-    // Tells whether the program, not the blending unit, rounds opacity to codes.
+    // Tells whether the program rounds opacity to codes, and not the blending unit.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
 
     friend bool operator==(const ProjectedPicture&, const ProjectedPicture&) = default;
 };
 
-// Remarks on a projection; they change no picture.
+// Remarks on a projection for reports. They do not affect the picture.
 struct ProjectRemarks {
-    std::string target_reason;  // for "target": "auto"
-    MeshFacts::TrialError trial_error;
-    ErrorFigure error;  // of the picture
+    std::string target_reason;          // why this target was chosen, for "target": "auto"
+    MeshFacts::TrialError trial_error;  // of `source`, on some rays of the view
+    ErrorFigure error;                  // of the picture
 };
 
-// The plan of Method::project.
+// The plan for Method::project.
 struct ProjectPlan : ProjectedPicture, ProjectRemarks {
     const ProjectedPicture& picture() const { return *this; }
 };
 
 const char* name_of(SegmentSource source);
 
-// How the slicing renderer's fragments read the scalar.
+// How slicing reads the scalar at a point of the volume.
 enum class VolumeSampling {
-    none,      // the transfer function is constant over the volume: no scalar is needed
-    fetch,     // eight texel fetches and float arithmetic
-    filtered,  // linear filter of a float texture, if the filter was measured to be exact
-    hardware,  // linear filter of a texture in the file's own type, with the weights of the
-               // hardware
+    none,      // not at all: the transfer function is constant over the volume
+    fetch,     // eight texels, interpolated by the program in float32
+    filtered,  // the linear filter of a float texture, if it was measured to be exact
+    hardware,  // the linear filter of a texture of the file's type, with its rounded weights
 };
 
-// The part of a slicing plan that decides the picture in any view. Renderers prepare for it once.
-struct PlannedPicture : CompositingPlan, LightPlan {
+// All of a slicing plan that affects the picture, except what each view decides (ViewPlan). A
+// renderer prepares for it once.
+struct SlicedPicture : CompositingPlan, LightPlan {
     int slabs = 1;
     std::optional<Dither> dither;
     std::optional<TreePlan> tree;
     Classification classification = Classification::post;
     VolumeSampling sampling = VolumeSampling::fetch;
-    bool float_texture = false;  // samples normalised to their range and stored as R32F
-    // Tables are read through the texture unit's filter, not by single fetches.
-    bool table_filtered = false;
-    bool single_color = false;     // the colour is a constant of the program
-    bool precise_rays = true;      // rays and chords in double precision
-    bool nan_transparent = false;  // samples may be NaN
-    int batches = 1;  // number of draws of a frame, each waited for, for progress and Ctrl-C
-    // True: segments are integrated in closed form: colour and extinction are linear in the scalar.
+    bool float_texture = false;   // the texture has normalised samples in R32F, not the file's type
+    bool table_filtered = false;  // tables are read through the texture unit's linear filter
+    bool single_color = false;    // all that is visible has one colour, a constant of the program
+    bool precise_rays = true;     // rays and chords are computed in double precision
+    bool nan_transparent = false;  // samples may be NaN, which is transparent
+    // Draw calls for a frame. Each is waited for, so that progress is shown and Ctrl-C works.
+    int batches = 1;
+    // True: colour and extinction are linear in the scalar, so that segments have a closed form.
     bool linear = false;
-    TablePlan table;  // for Classification::preintegrated, unless `linear`
-    // Segments end at these planes, in the volume's index space.
-    std::vector<IndexPlane> clip;
-    bool constant_regions = false;  // marched rays cross constant regions in one step
+    TablePlan table;                // for Classification::preintegrated, unless `linear`
+    std::vector<IndexPlane> clip;   // planes, in index space, at which segments end
+    bool constant_regions = false;  // marched rays cross regions of constant scalar in one step
     std::vector<TextureBrick> bricks;
-    // The box of the volume, in its index space, that this renderer draws if several draw one
-    // picture together (volume_shares.h); none: not shared. Exact segments end at the box's faces.
-    // Other slabs' segments are drawn, uncut, by the renderer whose box holds their middle.
+    // The box, in index space, that this renderer draws if several renderers share a picture
+    // (volume_shares.h); none if it draws all. Exact segments end at the box's faces. The segment
+    // of a slab is not cut: the renderer whose box contains its middle draws it.
     std::optional<IndexBox> share;
-    // Error, in 1/255, of exact segments that follow curves instead of straight pieces between
-    // smooth points of the transfer function; 0 if there are no curves.
+    // Error, in 1/255, of exact segments that replace straight pieces of the transfer function by
+    // curves through its smooth points; 0 if they do not.
     double curve_error = 0;
 
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
-    // Tells whether segments are integrated from their ends and middle, not from the middle alone.
-    bool integrates_runs() const {
+    // Tells whether segments are integrated from the scalars at both ends and in the middle. Else
+    // the middle alone decides.
+    bool preintegrates() const {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }
-    // Tells whether rays are integrated cell by cell.
+    // Tells whether rays are integrated exactly, cell by cell.
     bool integrates_cells() const {
         return classification == Classification::exact && sampling != VolumeSampling::none;
     }
-    bool uses_table() const { return integrates_runs() && !linear; }
+    bool uses_table() const { return preintegrates() && !linear; }
 
-    friend bool operator==(const PlannedPicture&, const PlannedPicture&) = default;
+    friend bool operator==(const SlicedPicture&, const SlicedPicture&) = default;
 };
 
-// The part of a plan that depends on the view, and is planned again with each camera.
-struct ViewPart {
-    // Rays are parallel: all have one direction and one length per depth.
-    bool orthographic = false;
+// The choices of a slicing plan that depend on the view. They are made again for each camera.
+struct ViewPlan {
+    bool orthographic = false;     // rays are parallel
     bool nothing_visible = false;  // no slab is drawn
-    // The box that polygons cover, inside the volume's, to which segments are clipped.
-    IndexBox drawn;
-    bool occupied_only = false;  // segments that come near no occupied brick are not evaluated
-    // Optical depth at which marched rays end, because nothing behind it is visible.
+    IndexBox drawn;                // box inside the volume's to which slabs and rays are clipped
+    bool occupied_only = false;    // segments far from every visible min/max brick are skipped
+    // Optical depth at which marched rays end, because what is behind is invisible; else infinity.
     double opaque_depth = std::numeric_limits<double>::infinity();
 
     bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }
 
-    friend bool operator==(const ViewPart&, const ViewPart&) = default;
+    friend bool operator==(const ViewPlan&, const ViewPlan&) = default;
 };
 
-// Remarks on a slicing plan: reasons, and errors found, in 1/255. They change no picture.
-struct Remarks {
-    std::optional<SlabTrial> slab_trial;  // the trial that was chosen, for "samples": "auto"
+// Remarks on a slicing plan for reports: reasons for automatic choices, and errors in 1/255. They
+// do not affect the picture.
+struct SliceRemarks {
+    std::optional<SlabTrial> slab_trial;  // trial of the chosen number, for "samples": "auto"
     std::string filter_reason;  // for "filter": "auto", if the texture unit's filter is chosen
-    // Error found of the texture unit's filter: for "filter": "auto" with a given number of slabs.
-    double filter_error = 0;
+    double filter_error = 0;    // measured, for "filter": "auto" with a given number of slabs
     std::string classification_reason;  // for "classification": "auto"
     std::string target_reason;          // for "target": "auto"
-    std::optional<double> error_bound;  // for "tree": "auto"; tree_reason explains it
-    std::string tree_reason;
-    // Bound on the error that compositing adds, with a chosen or given tree; none if unknown.
+    std::optional<double> error_bound;  // of compositing, for "tree": "auto"
+    std::string tree_reason;            // for "tree": "auto"; explains error_bound
+    // Bound on the error that compositing adds, whether the tree is chosen or given; none: unknown.
     std::optional<double> rounding_bound;
-    // Largest error of exact segments, in 1/255. It grows in proportion to the brightest colour
-    // above 1, because a picture is linear in its colours.
+    // Largest error of exact segments. A picture is linear in its colours, so the error grows in
+    // proportion to the brightest colour above 1.
     double segment_error = exact_segment_error;
 
-    friend bool operator==(const Remarks&, const Remarks&) = default;
+    friend bool operator==(const SliceRemarks&, const SliceRemarks&) = default;
 };
 
-// The plan of Method::slice.
-struct SlicePlan : PlannedPicture, ViewPart, Remarks {
-    // Returns the measured error of slabs, filter and table, in 1/255; or that of exact segments.
+// The plan for Method::slice.
+struct SlicePlan : SlicedPicture, ViewPlan, SliceRemarks {
+    // Returns the error without that of compositing, in 1/255: of exact segments, or the measured
+    // one of slabs, filter and table.
     double found_error() const {
         if (integrates_cells()) return segment_error + light_error + curve_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
-    // Returns the error including the bound on roundings. It is unknown if the scene gives the
-    // number of slabs, because nothing was measured.
+    // Returns the picture's error: found_error() plus rounding_bound. It is unknown if the scene
+    // gives the number of slabs, because then nothing is measured.
     ErrorFigure error() const;
 
     friend bool operator==(const SlicePlan&, const SlicePlan&) = default;
 };
 
-// Returns the part of a plan that renderers prepare for, without what a view changes in its table,
-// and without the table's error. Two plans for which it is equal differ only in the view.
-PlannedPicture of_all_views(PlannedPicture picture);
+// Returns the picture without the two things that a view may change in it: the largest length in
+// its table, and the table's error. Two plans with equal results differ only in the view.
+SlicedPicture of_all_views(SlicedPicture picture);
 
-// Says what will run, and has the pre-integration tables that renderers look up. It is a pure
-// function of scene, facts, trials and capabilities, and can be printed.
+// Says how a picture is drawn and what is left out, and holds the pre-integration tables that are
+// looked up. It is a pure function of scene, facts, trials and capabilities; explain() prints it.
 struct Plan {
     Method method = Method::slice;
     SlicePlan slice;      // for Method::slice
     ProjectPlan project;  // for Method::project
-    Work work;            // predicted work of a frame
+    Work work;            // of a frame
     std::vector<Omission> omitted;
 
     // Returns the picture's error; unknown for Method::trace, which estimates its own.
     ErrorFigure error() const;
 };
 
-// Makes the plan. Throws Error, naming the limit, if the context cannot do what the scene asks for.
-// `trials`: measured errors, for automatic choices. `tables`: a cache with earlier plans' tables.
+// Makes the plan of a scene that draws a volume. Throws Error, naming the limit, if the context
+// cannot do what the scene asks for. `trials`: measured errors, on which automatic choices depend.
+// `tables`: a cache in which tables of earlier plans are found again.
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions, const SampleTrials& trials = {},
                const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
-// Makes a slicing plan without the work that omissions save: quicker, for frames of moving scenes.
+// Makes a slicing plan as make_plan() does, but leaves Omission::saves 0. This is quicker, for
+// frames while the user moves the camera.
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials,
                 const std::shared_ptr<TableCache>& tables);
@@ -276,24 +276,26 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
                const OmissionSwitch& omissions,
                const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
 
-// Returns a table for people: what runs, then what is left out and why (--explain).
+// Returns the plan as a table for people (--explain): how the picture is drawn, then what is left
+// out and why.
 std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities);
 std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities& capabilities);
 
-// Draws frames of one scene as its plan says: by slicing or projection, with OpenGL or by the cpu
-// engine. Its constructor prepares the data and tables that all frames share.
+// Draws frames of one scene as its plan says: by slicing or projection, with OpenGL or with the cpu
+// engine. The constructors of derived classes prepare data and tables, which all frames share.
 class FrameRenderer {
   public:
     virtual ~FrameRenderer() = default;
 
-    // Takes another plan of the same scene and size for further frames. Returns false, and changes
-    // nothing, if that plan needs other preparations: if it differs in more than the view.
+    // Draws further frames after another plan of the same scene and size. Returns false, and
+    // changes nothing, if that plan differs in more than the view and so needs other preparations.
     virtual bool take(const Plan& plan) = 0;
-    // Draws a frame, which is complete on return. Ctrl-C ends it between steps; `progress` advances
-    // by step_count() in all.
+    // Draws a frame, which is complete on return. It has step_count() steps; `progress` advances by
+    // one with each, and Ctrl-C ends the frame between two of them.
     virtual void draw(const View& view, Progress* progress = nullptr) = 0;
     virtual int step_count() const = 0;
-    // Returns the last frame: associated, linear, before the background. Reuses `image` if it fits.
+    // Copies the last frame, in associated linear colours and without the background, to `image`,
+    // whose memory is used again if it has the right size.
     virtual void read(Image& image) const = 0;
     Image read() const {
         Image image;
@@ -301,11 +303,11 @@ class FrameRenderer {
         return image;
     }
 
-    // Returns durations of the preparations and the last frame's stages, by their printed names.
+    // Returns the durations of the preparations and of the last frame's stages by printed name.
     virtual std::map<std::string, double> stages_ms() const = 0;
-    // Returns the number of fragments of the last frame; 0 with OpenGL, where queries count them.
+    // Returns the number of fragments of the last frame; 0 with OpenGL, where a query counts them.
     virtual std::int64_t fragments() const { return 0; }
-    // Returns the host memory taken beside the data; 0 with OpenGL, which has its own memory.
+    // Returns the bytes of main memory taken in addition to the data; 0 with OpenGL.
     virtual std::int64_t byte_count() const { return 0; }
 };
 

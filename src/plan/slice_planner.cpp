@@ -108,7 +108,7 @@ struct SlicePlanner {
         const bool marched = slice.has_tree(NodeArithmetic::shader);
         slice.dither = choose_dither(question.dither, marched);
 
-        static_cast<ViewPart&>(slice) = choose_view(marched);
+        static_cast<ViewPlan&>(slice) = choose_view(marched);
         if (!slice.nothing_visible && slice.sampling != VolumeSampling::none)
             slice.constant_regions = choose_constant_regions(slice.integrates_cells() || marched);
         const bool whole_rays = marched && slice.tree->factors.front() >= slice.slabs;
@@ -314,8 +314,8 @@ struct SlicePlanner {
         return {};
     }
 
-    ViewPart choose_view(bool marched) {
-        ViewPart view;
+    ViewPlan choose_view(bool marched) {
+        ViewPlan view;
         view.orthographic = omissions.leave_out(
             facts.orthographic, "perspective",
             "parallel rays: one direction and one length per depth for all fragments");

@@ -103,7 +103,7 @@ LAMINA_INLINE void light_slabs(const CpuSlabs& slabs, const CpuBrick& brick, con
     const CpuLight& light = *slabs.light;
     Float to_eye[3];
     set_eye(light, rays, to_eye);
-    const bool ends = slabs.plan->integrates_runs();
+    const bool ends = slabs.plan->preintegrates();
     for (int first = block.from; first < block.end;) {
         if (!shows(first)) {
             ++first;
@@ -497,14 +497,14 @@ std::int64_t set_run(const CpuSlabs& slabs, const CpuBrickView& view, const Pack
         const bool hardware = plan.sampling == VolumeSampling::hardware;
         sample_points<decltype(kind)::value>(brick, hardware, block.from, block.end, middle,
                                              block.scalars);
-        if (!plan.integrates_runs()) return;
+        if (!plan.preintegrates()) return;
         sample_points<decltype(kind)::value>(brick, hardware, block.from, block.end + 1, edge,
                                              block.edge_scalars);
     });
     const CpuTransfer& transfer = *slabs.transfer;
     with_lookup(transfer, [&](auto kind) LAMINA_LAMBDA {
         constexpr Lookup lookup = decltype(kind)::value;
-        if (plan.integrates_runs()) {
+        if (plan.preintegrates()) {
             integrate_runs<lookup>(transfer, colored, plan, block);
             if constexpr (precise) set_precise_depths(block.from, block.end, block);
         } else {

@@ -198,7 +198,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
         defines.set("EXACT", 1);
         if (plan.float_texture) defines.set("FLOAT_SAMPLES", 1);
     }
-    if (!plan.integrates_runs()) return defines;
+    if (!plan.preintegrates()) return defines;
     defines.set("PREINTEGRATED", 1);
     if (plan.linear) {
         defines.set("LINEAR", 1);
