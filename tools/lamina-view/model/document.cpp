@@ -14,19 +14,19 @@
 namespace lamina::view {
 
 void save_text(const std::filesystem::path& file, const std::string& text) {
-    std::filesystem::path part = file;
-    part += fmt::format(".{}.part", getpid());
+    std::filesystem::path temporary = file;
+    temporary += fmt::format(".{}.part", getpid());
     std::error_code problem;
     {
-        std::ofstream stream(part, std::ios::binary | std::ios::trunc);
+        std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
         stream << text;
         stream.close();
         if (!stream) problem = std::make_error_code(std::errc::io_error);
     }
-    if (!problem) std::filesystem::rename(part, file, problem);
+    if (!problem) std::filesystem::rename(temporary, file, problem);
     if (!problem) return;
     std::error_code ignored;
-    std::filesystem::remove(part, ignored);
+    std::filesystem::remove(temporary, ignored);
     throw Error(fmt::format("{}: cannot be written: {}", file.string(), problem.message()));
 }
 
@@ -39,7 +39,8 @@ bool same_camera(const Camera& a, const Camera& b) {
            a.fov_y == b.fov_y && a.height == b.height;
 }
 
-// Tells whether both scenes use the same data; other data need a new session.
+// Tells whether both scenes draw the same data, so that a session can be kept. `a`, `b`: as
+// returned by settings_of(). A mesh that is an object is made from the volume, with any settings.
 bool same_data(const Json& a, const Json& b) {
     for (const char* key : {"volume", "scalar", "nan"})
         if (setting_at(a, key) != setting_at(b, key)) return false;
@@ -47,7 +48,8 @@ bool same_data(const Json& a, const Json& b) {
     return mesh_a == mesh_b || (mesh_a.is_object() && mesh_b.is_object());
 }
 
-Json without_counted_parts(Json settings) {
+// Removes the settings that have counts of their own in Revisions.
+Json without_counted_settings(Json settings) {
     for (const char* key : {"camera", "clip"}) settings.erase(key);
     settings["image"].erase("width");
     settings["image"].erase("height");
@@ -59,7 +61,7 @@ Json without_counted_parts(Json settings) {
 void count_changes(const Scene& before, const Scene& after, Revisions& revisions) {
     const Json from = settings_of(before), to = settings_of(after);
     if (!same_data(from, to)) ++revisions.data;
-    if (without_counted_parts(from) != without_counted_parts(to) ||
+    if (without_counted_settings(from) != without_counted_settings(to) ||
         before.camera.is_automatic() != after.camera.is_automatic() ||
         before.transfer_function.is_automatic() != after.transfer_function.is_automatic())
         ++revisions.settings;
@@ -76,7 +78,7 @@ Document::Document() = default;
 void Document::open(Scene scene) {
     scene_ = std::move(scene);
     transfer_ = TransferEditor();
-    take_transfer_function();
+    edit_scene_transfer_function();
     undo_.clear();
     redo_.clear();
     end_step();
@@ -84,24 +86,27 @@ void Document::open(Scene scene) {
     dirty_ = false;
 }
 
-// Takes the scene's transfer function into the editor, and shows opacities for its own length.
-void Document::take_transfer_function() {
+// Gives the scene's transfer function to the editor. If its points have opacities, the editor shows
+// opacities for the length to which these refer.
+void Document::edit_scene_transfer_function() {
     if (scene_.transfer_function.is_given()) transfer_.take(*scene_.transfer_function);
     for (const DensityPoint& point : transfer_.curves().density)
         if (point.opacity_length > 0) transfer_.set_unit_length(point.opacity_length);
     curves_ = transfer_.curves();
 }
 
-void Document::record(const std::string& name, bool camera) {
+// Saves the present state as the one before a step, unless the change joins the open step.
+void Document::begin_step(const std::string& name, bool with_camera) {
     redo_.clear();
     dirty_ = true;
     if (name == open_step_ && !undo_.empty()) return;
-    undo_.push_back({name, scene_, curves_, camera});
+    undo_.push_back({name, scene_, curves_, with_camera});
     if (undo_.size() > most_steps) undo_.erase(undo_.begin());
     open_step_ = name;
 }
 
-void Document::apply(Scene next) {
+// Replaces the scene, counts its changes, and gives its transfer function to the editor.
+void Document::set_scene(Scene next) {
     if (is_open()) count_changes(scene_, next, revisions_);
     scene_ = std::move(next);
     if (scene_.transfer_function.is_given()) transfer_.take(*scene_.transfer_function);
@@ -121,16 +126,16 @@ void Document::set_transfer_function(const TransferFunction& transfer_function) 
 
 void Document::transfer_edited(const std::string& name) {
     if (transfer_.curves() == curves_ && scene_.transfer_function.is_given()) return;
-    record(name);
+    begin_step(name);
     curves_ = transfer_.curves();
-    // Points may differ although the function is the same.
+    // Different curves may be one function, for example with one more point on a line.
     if (scene_.transfer_function == transfer_.function()) return;
     scene_.transfer_function = transfer_.function();
     ++revisions_.transfer_function;
 }
 
 void Document::set_clip(const Clip& clip) {
-    record("clip");
+    begin_step("clip");
     scene_.clip = clip;
     ++revisions_.clip;
 }
@@ -149,40 +154,42 @@ void Document::edit(const std::function<void(Scene&)>& change, const std::string
 }
 
 void Document::replace(Scene scene, const std::string& name) {
-    record(name, true);
-    apply(std::move(scene));
+    begin_step(name, true);
+    set_scene(std::move(scene));
 }
 
 void Document::set_setting(const std::string& path, const nlohmann::ordered_json& value) {
     Scene next = with_setting(scene_, path, value);
-    record(path, path.starts_with("camera"));
+    begin_step(path, path.starts_with("camera"));
     if (next.color_space != scene_.color_space) {
         transfer_.convert_colors(scene_.color_space, next.color_space);
         if (next.transfer_function.is_given()) next.transfer_function = transfer_.function();
     }
     if (path == "image.width" || path == "image.height") size_follows_window = false;
-    apply(std::move(next));
+    set_scene(std::move(next));
 }
 
 void Document::choose_transfer_function() {
-    record("automatic transfer function");
+    begin_step("automatic transfer function");
     scene_.transfer_function = automatic;
     scene_.given_transfer.reset();
     ++revisions_.settings;
 }
 
 void Document::choose_camera() {
-    record("automatic camera", true);
+    begin_step("automatic camera", true);
     scene_.camera = automatic;
     ++revisions_.settings;
 }
 
-void Document::go(std::vector<Step>& from, std::vector<Step>& to) {
+// Undoes or redoes the step at the back of `from`: restores its state, and moves the step with the
+// present state to `to`.
+void Document::move_step(std::vector<Step>& from, std::vector<Step>& to) {
     if (from.empty()) return;
     Step step = std::move(from.back());
     from.pop_back();
-    to.push_back({step.name, scene_, curves_, step.camera});
-    if (!step.camera) step.scene.camera = scene_.camera;
+    to.push_back({step.name, scene_, curves_, step.with_camera});
+    if (!step.with_camera) step.scene.camera = scene_.camera;
     if (size_follows_window) {
         step.scene.width = scene_.width;
         step.scene.height = scene_.height;
@@ -196,18 +203,18 @@ void Document::go(std::vector<Step>& from, std::vector<Step>& to) {
 }
 
 void Document::undo() {
-    go(undo_, redo_);
+    move_step(undo_, redo_);
 }
 
 void Document::redo() {
-    go(redo_, undo_);
+    move_step(redo_, undo_);
 }
 
 void Document::take_chosen(const Scene& chosen) {
     if (scene_.camera.is_automatic()) scene_.camera = chosen.camera;
     if (scene_.transfer_function.is_automatic()) {
         scene_.transfer_function = chosen.transfer_function;
-        take_transfer_function();
+        edit_scene_transfer_function();
     }
 }
 
