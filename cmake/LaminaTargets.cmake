@@ -4,7 +4,9 @@
 include(CheckCXXSourceCompiles)
 
 add_library(lamina_options INTERFACE)
-target_compile_options(lamina_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+target_compile_options(lamina_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion
+    # In a joined test a local name may be that of a helper in another file.
+    $<IF:$<BOOL:$<TARGET_PROPERTY:LAMINA_SHADOW_LOCALS>>,$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow>
     -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
     -ffp-contract=off)
 # -ffp-contract=off: the same expression must round in the same way wherever it is compiled.
@@ -35,17 +37,6 @@ if(NOT LAMINA_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|Mi
     endif()
 endif()
 
-# lamina_module(NAME SOURCES ... LINK modules and libraries ...): a folder in src or, of a program's own, in that program's
-# folder. Files include what it has as "NAME/FILE.h".
-function(lamina_module name)
-    cmake_parse_arguments(MODULE "" "" "SOURCES;LINK" ${ARGN})
-    add_library(lamina_${name} STATIC ${MODULE_SOURCES})
-    target_include_directories(lamina_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
-    cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH beside)
-    target_include_directories(lamina_${name} PUBLIC ${beside})
-    target_link_libraries(lamina_${name} PUBLIC lamina_options ${MODULE_LINK})
-endfunction()
-
 # lamina_join_sources(TARGET): its sources are compiled eight at a time. Each of them alone spends most of its time on
 # headers and templates that the others use too. Helpers of two files must not share a name then,
 # although namespaces without names hide them. Debug builds compile each source alone: only so is an include missed that
@@ -56,27 +47,52 @@ function(lamina_join_sources target)
     endif()
 endfunction()
 
-# lamina_test(NAME SOURCES ... LINK ...): the program test_NAME, registered test by test with CTest.
+# lamina_cold(TARGET): its code runs once a command or a frame of a window, so that optimisation beyond -O1 costs the
+# compiler more time than it will ever save.
+function(lamina_cold target)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# lamina_module(NAME SOURCES ... VECTOR ... LINK modules and libraries ...): a folder in src or, of a program's own, in
+# that program's folder. Files include what it has as "NAME/FILE.h". VECTOR: sources that include themselves for each
+# instruction set, and are compiled each by itself.
+function(lamina_module name)
+    cmake_parse_arguments(MODULE "" "" "SOURCES;VECTOR;LINK" ${ARGN})
+    add_library(lamina_${name} STATIC ${MODULE_SOURCES} ${MODULE_VECTOR})
+    target_include_directories(lamina_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
+    cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH beside)
+    target_include_directories(lamina_${name} PUBLIC ${beside})
+    target_link_libraries(lamina_${name} PUBLIC lamina_options ${MODULE_LINK})
+    lamina_join_sources(lamina_${name})
+    if(MODULE_VECTOR)
+        set_source_files_properties(${MODULE_VECTOR} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+        lamina_vector_module(${name})
+    endif()
+endfunction()
+
+# lamina_test(NAME SOURCES ... VECTOR ... LINK ...): the program test_NAME, registered test by test with CTest. VECTOR:
+# as in lamina_module.
 function(lamina_test name)
-    cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})
-    add_executable(test_${name} ${TEST_SOURCES})
+    cmake_parse_arguments(TEST "" "" "SOURCES;VECTOR;LINK" ${ARGN})
+    add_executable(test_${name} ${TEST_SOURCES} ${TEST_VECTOR})
+    lamina_join_sources(test_${name})
+    if(TEST_VECTOR)
+        set_source_files_properties(${TEST_VECTOR} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+    set_target_properties(test_${name} PROPERTIES LAMINA_SHADOW_LOCALS ON)
     target_link_libraries(test_${name} PRIVATE ${TEST_LINK} GTest::gtest_main)
     target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_compile_definitions(test_${name} PRIVATE LAMINA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     # Tests run in the library; with -O1 they are compiled in three quarters of the time. GCC 12 then warns of
     # bounds of strings that it has itself inlined.
-    target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>
-        $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
-    list(LENGTH TEST_SOURCES count)
-    if(count GREATER 5)  # else the compiler saves less than the headers cost
-        target_precompile_headers(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests/support/precompiled.h")
-    endif()
+    lamina_cold(test_${name})
+    target_compile_options(test_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
     gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
         PROPERTIES TIMEOUT 300)
 endfunction()
 
-# Sources of this module are compiled once for each instruction set (src/simd/foreach_target.h). The least of them is
-# taken for granted, so that there is no version without vectors.
+# Code of this module computes with vectors (src/simd). The least of the instruction sets is taken for granted, so that
+# there is no version without vectors.
 function(lamina_vector_module name)
     target_link_libraries(lamina_${name} PUBLIC hwy::hwy)
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

@@ -60,7 +60,7 @@ bool is_gray(const Light& light) {
 
 // Returns a light for shaders/optics/lighting.glsl: the direction to it along `axes`, or (0, 0, 0,
 // 1) for a headlight.
-glm::vec4 direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {
+glm::vec4 shader_direction(const Light& light, const std::array<glm::dvec3, 3>& axes) {
     if (!light.direction) return {0, 0, 0, 1};
     const glm::dvec3 to_light = unit_vector(*light.direction);
     glm::dvec3 along(0);
@@ -125,7 +125,7 @@ void set_lights(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
                 gl::Program& program) {
     std::vector<glm::vec4> directions, colors;
     for (const Light& light : lighting.lights) {
-        directions.push_back(direction_of(light, axes));
+        directions.push_back(shader_direction(light, axes));
         colors.emplace_back(glm::vec3(light.color), 0);
     }
     program.set("light_terms",

@@ -181,7 +181,7 @@ double time_of(pugi::xml_node set, const std::string& what) {
 }
 
 constexpr std::size_t block_bytes = std::size_t{1} << 20;
-constexpr std::int64_t tetra = 10;
+constexpr std::int64_t tetra_type = 10;
 
 // Returns an array in the form of the appended data: header, then blocks.
 std::string compress(const void* values, std::size_t size) {
@@ -332,7 +332,7 @@ void write_vtu(AtomicFile& file, const MeshData& mesh) {
     } else {
         writer.array("Int64", "offsets", 1, offsets<std::int64_t>(mesh.tets.size()));
     }
-    writer.array("UInt8", "types", 1, std::vector<std::uint8_t>(mesh.tets.size(), tetra));
+    writer.array("UInt8", "types", 1, std::vector<std::uint8_t>(mesh.tets.size(), tetra_type));
     writer.close("Cells");
 
     file.write(fmt::format(

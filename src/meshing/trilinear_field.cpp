@@ -45,7 +45,7 @@ std::vector<float> samples_of(const Volume& volume) {
     return copy;
 }
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float float_infinity = std::numeric_limits<float>::infinity();
 
 std::array<std::int64_t, 3> half_of(const std::array<std::int64_t, 3>& count) {
     return {(count[0] + 1) / 2, (count[1] + 1) / 2, (count[2] + 1) / 2};
@@ -225,7 +225,7 @@ CellRanges::CellRanges(const TrilinearField& field) {
             to[axis] =
                 static_cast<std::int32_t>(std::min<std::int64_t>(from[axis] + reach, last[axis]));
         }
-        Range range{infinity, -infinity};
+        Range range{float_infinity, -float_infinity};
         for_each(from, to, [&](const TrilinearField::Cell& place) {
             const Range part = range_at(place);
             range = {std::min(range.lo, part.lo), std::max(range.hi, part.hi)};

@@ -17,7 +17,7 @@ namespace lamina {
 namespace {
 
 // Largest error of a colour component, in the wanted space: a sixteenth of 1/255.
-constexpr double color_tolerance = 2.5e-4;
+constexpr double preset_tolerance = 2.5e-4;
 // Limits the points between two points of a preset to 2^7.
 constexpr int most_halvings = 7;
 
@@ -89,7 +89,7 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     return rows;
 }
 
-// Adds points between two of a preset, for lines in the wanted space within color_tolerance of it.
+// Adds points between two of a preset, for lines in the wanted space within preset_tolerance of it.
 class SegmentSampler {
   public:
     SegmentSampler(ColorSpace space, ImageColorSpace wanted, const std::array<double, 4>& a,
@@ -119,7 +119,7 @@ class SegmentSampler {
         for (const double share : {0.25, 0.5, 0.75}) {
             const glm::dvec3 gap =
                 glm::abs(color(glm::mix(lo, hi, share)) - glm::mix(from, to, share));
-            if (std::max({gap.r, gap.g, gap.b}) > color_tolerance) return false;
+            if (std::max({gap.r, gap.g, gap.b}) > preset_tolerance) return false;
         }
         return true;
     }

@@ -14,18 +14,12 @@
 #include "optics/opacity.h"
 #include "optics/pieces.h"
 #include "preintegration/preintegration_table.h"
+#include "preintegration/table_neighbors.h"
 
 namespace lamina {
 namespace {
 
 constexpr std::size_t most_knots = 1022;  // two nodes an interval: textures of 2048 hold them
-constexpr std::size_t most_bytes = std::size_t{1} << 30;  // of a table
-// Transmittance below which the rest of a segment is skipped: it is far below a float's precision.
-constexpr double least_transmittance = 1e-12;
-
-float as_float(double x) {
-    return static_cast<float>(std::min<double>(x, std::numeric_limits<float>::max()));
-}
 
 // A node of the table, with the transfer function's optics there (at a step, those of the node's
 // side), and the next anchors above and below.
@@ -120,12 +114,12 @@ void check_size(const KnotTable& table) {
     const std::size_t nodes = table.nodes.size();
     const std::size_t numbers = table.request.lit ? 7 : 3;
     const std::size_t bytes = nodes * nodes * table.lengths.size() * numbers * sizeof(float);
-    if (bytes > most_bytes) {
+    if (bytes > most_table_bytes) {
         fail(
             "a pre-integration table of {} x {} scalars x {} lengths takes {} MiB, expected at "
             "most "
             "{} MiB: fewer points in the transfer function or fewer lengths",
-            nodes, nodes, table.lengths.size(), bytes >> 20, most_bytes >> 20);
+            nodes, nodes, table.lengths.size(), bytes >> 20, most_table_bytes >> 20);
     }
 }
 
@@ -322,21 +316,10 @@ std::int64_t KnotTable::byte_count() const {
 
 namespace {
 
-// The two neighbours of a coordinate on one axis of the table.
-struct Cell {
-    std::size_t first, second;
-    double weight;  // of the second
-};
-
-Cell cell_of(double position, std::size_t count) {
-    const auto first = std::min(static_cast<std::size_t>(position), count - 1);
-    return {first, std::min(first + 1, count - 1), position - static_cast<double>(first)};
-}
-
 // Interpolates in the table. `front` and `back` are node coordinates.
 LitIntegral sample(const KnotTable& table, double front, double back, double length) {
     const std::size_t count = table.nodes.size();
-    const Cell f = cell_of(front, count), b = cell_of(back, count);
+    const TableNeighbors f = neighbors_of(front, count), b = neighbors_of(back, count);
     const std::array<std::size_t, 4> entries = {
         b.first * count + f.first, b.first * count + f.second, b.second * count + f.first,
         b.second * count + f.second};
@@ -356,8 +339,8 @@ LitIntegral sample(const KnotTable& table, double front, double back, double len
     if (extinction == 0) return result;
     const double longest = table.lengths.back();
     const double share = longest > 0 ? std::clamp(length / longest, 0.0, 1.0) : 0;
-    const Cell l =
-        cell_of(share * static_cast<double>(table.lengths.size() - 1), table.lengths.size());
+    const TableNeighbors l =
+        neighbors_of(share * static_cast<double>(table.lengths.size() - 1), table.lengths.size());
     const double scale = whole.alpha / extinction;
     for (const auto& [layer, of_layer] : {std::pair(l.first, 1 - l.weight), {l.second, l.weight}}) {
         for (int i = 0; i < 4; ++i) {
@@ -388,25 +371,27 @@ double left_coordinate(const KnotTable& table, double value) {
 }
 
 // A piece of a segment, for one look-up.
-struct Part {
+struct LookUpPiece {
     double from, to;  // node coordinates, ascending
     double width;     // in scalars
 };
 
 // Splits [lo, hi] at the first and the last anchor strictly inside; unneeded pieces have width 0.
-std::array<Part, 3> split(const KnotTable& table, double lo, double hi) {
+std::array<LookUpPiece, 3> split(const KnotTable& table, double lo, double hi) {
     const auto& anchors = table.anchors;
     const double first = table.coordinate(lo);
     const double last = lo < hi ? left_coordinate(table, hi) : first;
     const auto above = std::ranges::upper_bound(anchors, lo, {}, &KnotTable::Anchor::value);
     const auto not_below = std::ranges::lower_bound(anchors, hi, {}, &KnotTable::Anchor::value);
-    if (above >= not_below) return {Part{first, last, hi - lo}, Part{}, Part{}};
+    if (above >= not_below)
+        return {LookUpPiece{first, last, hi - lo}, LookUpPiece{}, LookUpPiece{}};
     const auto below = not_below - 1;
     const double inner = below->value - above->value;
     // If the inner piece ends at a step, it takes the node on its own side.
-    return {Part{first, double(above->node), above->value - lo},
-            Part{table.coordinate(above->value), left_coordinate(table, below->value), inner},
-            Part{double(below->node), last, hi - below->value}};
+    return {
+        LookUpPiece{first, double(above->node), above->value - lo},
+        LookUpPiece{table.coordinate(above->value), left_coordinate(table, below->value), inner},
+        LookUpPiece{double(below->node), last, hi - below->value}};
 }
 
 }  // namespace
@@ -419,16 +404,16 @@ double KnotTable::coordinate(double value) const {
 }
 
 LitIntegral KnotTable::lookup_lit(double front, double back, double length) const {
-    std::array<Part, 3> parts = split(*this, std::min(front, back), std::max(front, back));
+    std::array<LookUpPiece, 3> parts = split(*this, std::min(front, back), std::max(front, back));
     if (front > back) {
         std::ranges::reverse(parts);
-        for (Part& part : parts) std::swap(part.from, part.to);
+        for (LookUpPiece& part : parts) std::swap(part.from, part.to);
     }
     if (front == back) return sample(*this, parts[0].from, parts[0].to, length);
     LitIntegral result;
     SegmentIntegral& whole = result.whole;
     double left = 1;  // share of the segment's length that is behind the piece
-    for (const Part& part : parts) {
+    for (const LookUpPiece& part : parts) {
         if (part.width == 0) continue;
         const double share = part.width / std::abs(back - front);
         left = std::max(left - share, 0.0);

@@ -15,12 +15,12 @@
 #include "optics/opacity.h"
 #include "optics/pieces.h"
 #include "preintegration/preintegration_table.h"
+#include "preintegration/table_neighbors.h"
 
 namespace lamina {
 namespace {
 
-constexpr std::int64_t most_bytes = std::int64_t{1} << 30;  // of a table
-constexpr double largest_depth = 1e30;                      // optical depth
+constexpr double largest_depth = 1e30;  // optical depth
 
 TransferFunction with_finite_depths(const TransferFunction& transfer_function, double max_length) {
     const double largest = largest_depth / std::max(1.0, max_length);
@@ -73,9 +73,6 @@ std::vector<double> nodes_of(const TableRequest& request) {
     return nodes;
 }
 
-// Transmittance below which the rest of a segment is skipped: it is far below a float's precision.
-constexpr double least_transmittance = 1e-12;
-
 // Integrals over the scalars.
 struct Sums {
     double extinction = 0;
@@ -117,10 +114,6 @@ glm::dvec3 associated_color(const Run& run, double length) {
         if (transmittance < least_transmittance) break;
     }
     return sum;
-}
-
-float as_float(double x) {
-    return static_cast<float>(std::min<double>(x, std::numeric_limits<float>::max()));
 }
 
 // Computes layers by integrating every pair of nodes.
@@ -203,7 +196,7 @@ struct ExactLayers {
 
 // One of two pieces of a segment, from interpolated texels. Without colour, color and emission are
 // unused; with TableStore::opacity, extinction and emission are.
-struct Part {
+struct HalfSegment {
     std::array<double, 3> color{}, emission{};
     double alpha = 0, extinction = 0;
 };
@@ -225,10 +218,10 @@ struct IncrementalLayers {
                 static_cast<double>(front) * (1 - share) + static_cast<double>(back) * share;
             const std::size_t below = std::min(static_cast<std::size_t>(middle), nodes - 2);
             const double weight = std::clamp(middle - static_cast<double>(below), 0.0, 1.0);
-            const Part first =
+            const HalfSegment first =
                 mix(texel(front_layer, below, front), texel(front_layer, below + 1, front), weight,
                     table.length_of(front_layer));
-            const Part second =
+            const HalfSegment second =
                 mix(texel(layer - 1, back, below), texel(layer - 1, back, below + 1), weight,
                     table.length_of(layer - 1));
             if (table.request.store == TableStore::opacity) {
@@ -244,10 +237,10 @@ struct IncrementalLayers {
         return &table.texels[((layer * nodes + back) * nodes + front) * table.channels];
     }
 
-    Part mix(const float* a, const float* b, double weight, double length) const {
+    HalfSegment mix(const float* a, const float* b, double weight, double length) const {
         const auto channel = [&](int c) { return a[c] * (1 - weight) + b[c] * weight; };
         const int last = table.channels - 1;
-        Part part;
+        HalfSegment part;
         if (table.request.store == TableStore::opacity) {
             part.alpha = channel(last);
             for (int c = 0; c < last; ++c) part.color[c] = channel(c);
@@ -262,7 +255,7 @@ struct IncrementalLayers {
         return part;
     }
 
-    void store_opacity(const Part& first, const Part& second, float* texel) const {
+    void store_opacity(const HalfSegment& first, const HalfSegment& second, float* texel) const {
         for (int c = 0; c < table.channels - 1; ++c) {
             texel[c] = static_cast<float>(first.color[c] + (1 - first.alpha) * second.color[c]);
         }
@@ -271,8 +264,8 @@ struct IncrementalLayers {
     }
 
     // `share`: the first piece's share of `length`.
-    void store_emission(const Part& first, const Part& second, double share, double length,
-                        float* texel) const {
+    void store_emission(const HalfSegment& first, const HalfSegment& second, double share,
+                        double length, float* texel) const {
         const auto mean = [&](double a, double b) { return a * share + b * (1 - share); };
         const double extinction = mean(first.extinction, second.extinction);
         const double alpha = opacity_from_depth(extinction * length);
@@ -296,11 +289,11 @@ UniformTable::UniformTable(const TransferFunction& transfer_function, const Tabl
     layers = has_length ? request.length_layers : 1;
     const std::int64_t nodes = request.scalar_nodes;
     const std::int64_t count = nodes * nodes * layers * channels;
-    if (count * static_cast<std::int64_t>(sizeof(float)) > most_bytes) {
+    if (count * sizeof(float) > most_table_bytes) {
         fail(
             "a pre-integration table of {} x {} scalars x {} lengths takes {} MiB of memory, "
             "expected at most {} MiB: fewer scalars or fewer lengths",
-            nodes, nodes, layers, (count * sizeof(float)) >> 20, most_bytes >> 20);
+            nodes, nodes, layers, (count * sizeof(float)) >> 20, most_table_bytes >> 20);
     }
     texels.resize(static_cast<std::size_t>(count));
     const TransferFunction finite = with_finite_depths(transfer_function, request.max_length);
@@ -360,18 +353,6 @@ double UniformTable::layer_of(double length) const {
 
 namespace {
 
-// The two neighbours of a coordinate on one axis of the table.
-struct Cell {
-    std::size_t first, second;
-    double weight;  // of the second
-};
-
-Cell cell_of(double coordinate, int count) {
-    const auto first = static_cast<std::size_t>(coordinate);
-    return {first, std::min(first + 1, static_cast<std::size_t>(count) - 1),
-            coordinate - static_cast<double>(first)};
-}
-
 double node_of(const TableRequest& request, double value) {
     const double width = request.hi - request.lo;
     const double share = width > 0 ? std::clamp((value - request.lo) / width, 0.0, 1.0) : 0;
@@ -382,9 +363,9 @@ double node_of(const TableRequest& request, double value) {
 std::array<double, 4> interpolate_texels(const UniformTable& table, double front, double back,
                                          double length) {
     const int nodes = table.request.scalar_nodes;
-    const Cell f = cell_of(node_of(table.request, front), nodes);
-    const Cell b = cell_of(node_of(table.request, back), nodes);
-    const Cell l = cell_of(table.layer_of(length), table.layers);
+    const TableNeighbors f = neighbors_of(node_of(table.request, front), nodes);
+    const TableNeighbors b = neighbors_of(node_of(table.request, back), nodes);
+    const TableNeighbors l = neighbors_of(table.layer_of(length), table.layers);
     std::array<double, 4> sum{};
     for (int corner = 0; corner < 8; ++corner) {
         const bool second_front = corner & 1, second_back = corner & 2, second_layer = corner & 4;

@@ -15,17 +15,17 @@ namespace {
 constexpr std::size_t most_points = 8;  // of surround()
 
 // Polygons are cut off this far from the picture, so that rasterisers keep sub-pixel digits.
-constexpr double guard = 2;  // pixels
+constexpr double picture_margin = 2;  // pixels
 
 // Distance below which two corners count as one.
-constexpr double same = 1e-9;  // pixels
+constexpr double coincident = 1e-9;  // pixels
 
 // Cosine of the sharpest corner c that is kept; sharper ones are cut off square. So corners of the
 // enlarged polygon stick out by at most 1 / sqrt((1 + c) / 2) margins.
 constexpr double sharpest = -0.96;
 
 bool are_same(const glm::dvec2& a, const glm::dvec2& b) {
-    return glm::dot(a - b, a - b) < same * same;
+    return glm::dot(a - b, a - b) < coincident * coincident;
 }
 
 using Hull = FewPoints<glm::dvec2, most_points + 5>;
@@ -153,7 +153,7 @@ ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int wi
     const Bounds bounds = bounds_of(points, margin);
     if (pixel_bounds(points, margin, width, height).empty()) return {};
     Hull hull = convex_hull(points);
-    const glm::dvec2 lo(-guard), hi(width + guard, height + guard);
+    const glm::dvec2 lo(-picture_margin), hi(width + picture_margin, height + picture_margin);
     for (const int axis : {0, 1}) {
         if (bounds.min[axis] < lo[axis]) hull = cut(hull, axis, lo[axis], -1);
         if (bounds.max[axis] > hi[axis]) hull = cut(hull, axis, hi[axis], 1);

@@ -11,7 +11,7 @@ namespace lamina {
 namespace {
 
 // Values as in a CT scan: a peak of air, and tissue above it.
-std::vector<WeightedValue> scan() {
+std::vector<WeightedValue> ct_values() {
     std::vector<WeightedValue> values;
     for (int i = -1024; i <= 3000; i += 8) {
         values.push_back({1. * i, 50 * std::exp(-std::pow((i + 1000) / 15., 2)) +
@@ -27,7 +27,7 @@ ValueDistribution with(std::vector<WeightedValue> values, double value, double w
 
 TEST(Padding, IsFarFromAllOtherValues) {
     for (const double value : {-2000., -3024., -9999., -32768., 32767., 1e20, 9.96921e36}) {
-        const ValueDistribution all = with(scan(), value, 40);
+        const ValueDistribution all = with(ct_values(), value, 40);
         const Padding found = find_padding(all, true);
         ASSERT_EQ(found.values, std::vector{value}) << value;
         EXPECT_NEAR(found.share, all.share(value, value), 1e-15) << value;
@@ -42,7 +42,7 @@ TEST(Padding, IsFarFromAllOtherValues) {
 }
 
 TEST(Padding, MayLieBothBelowAndAboveTheData) {
-    auto values = scan();
+    auto values = ct_values();
     values.push_back({-9999, 5});
     const Padding found = find_padding(with(values, 1e30, 5), false);
     EXPECT_EQ(found.values.size(), 2u);
@@ -53,15 +53,15 @@ TEST(Padding, MayLieBothBelowAndAboveTheData) {
 // be rare.
 TEST(Padding, MayBeRareIfItIsFarAway) {
     for (const double value : {-9999., -32768., 32767., 1e20}) {
-        const ValueDistribution all = with(scan(), value, 1e-6);
+        const ValueDistribution all = with(ct_values(), value, 1e-6);
         EXPECT_TRUE(find_padding(all, false).values.empty()) << value;
         EXPECT_EQ(find_padding(all, false, 0).values, std::vector{value}) << value;
         EXPECT_EQ(find_markers(all), std::vector{value}) << value;
     }
     // Only a quarter of the range below the rest.
-    const ValueDistribution near = with(scan(), -2000, 1e-6);
+    const ValueDistribution near = with(ct_values(), -2000, 1e-6);
     EXPECT_TRUE(find_padding(near, false, 0).values.empty());
-    EXPECT_TRUE(find_markers(ValueDistribution(scan())).empty());
+    EXPECT_TRUE(find_markers(ValueDistribution(ct_values())).empty());
     EXPECT_TRUE(find_markers(ValueDistribution()).empty());
 }
 
@@ -69,9 +69,9 @@ TEST(Padding, DoesNotIncludeImplantsSpecksOrBackground) {
     const auto none = [](const ValueDistribution& all) {
         return find_padding(all, true).values.empty();
     };
-    EXPECT_TRUE(none(ValueDistribution(scan())));
-    EXPECT_TRUE(none(with(scan(), -3024, 1e-6)));  // a speck
-    EXPECT_TRUE(none(with(scan(), 5000, 2)));      // an implant
+    EXPECT_TRUE(none(ValueDistribution(ct_values())));
+    EXPECT_TRUE(none(with(ct_values(), -3024, 1e-6)));  // a speck
+    EXPECT_TRUE(none(with(ct_values(), 5000, 2)));      // an implant
     EXPECT_TRUE(none(with({{0, 5}, {1, 5}}, 10, 5)));
     EXPECT_TRUE(none(ValueDistribution({{0, 1}})));
     EXPECT_TRUE(none(ValueDistribution()));
@@ -83,7 +83,7 @@ TEST(Padding, DoesNotIncludeImplantsSpecksOrBackground) {
 
 // Cells that lie across the border of padding and data show nothing of the padding.
 TEST(Padding, IsTransparent) {
-    const ValueDistribution below = with(scan(), -3024, 40);
+    const ValueDistribution below = with(ct_values(), -3024, 40);
     const auto chosen = choose_transfer_function(below, true);
     const TransferFunction& function = chosen.transfer_function;
     EXPECT_TRUE(function.transparent(-3024, -990));  // the air, too

@@ -18,7 +18,7 @@ namespace lamina {
 namespace {
 
 // Extent of points along a direction.
-struct Reach {
+struct Spread {
     double lo = INFINITY, hi = -INFINITY;
     void add(double value) {
         lo = std::min(lo, value);
@@ -26,8 +26,8 @@ struct Reach {
     }
 };
 
-Reach reach_of(const std::vector<glm::dvec3>& points, const glm::dvec3& along) {
-    Reach reach;
+Spread reach_of(const std::vector<glm::dvec3>& points, const glm::dvec3& along) {
+    Spread reach;
     for (const glm::dvec3& point : points) reach.add(glm::dot(point, along));
     return reach;
 }
@@ -96,7 +96,7 @@ TEST(ShownCells, HaveTheHullOfAnExhaustiveSearch) {
                 ASSERT_EQ(found.empty(), expected.empty());
                 for (int direction = 0; direction < 20; ++direction) {
                     const glm::dvec3 along(normal(random), normal(random), normal(random));
-                    const Reach f = reach_of(found, along), e = reach_of(expected, along);
+                    const Spread f = reach_of(found, along), e = reach_of(expected, along);
                     EXPECT_EQ(f.lo, e.lo) << "seed " << seed;
                     EXPECT_EQ(f.hi, e.hi) << "seed " << seed;
                 }
@@ -110,8 +110,10 @@ TEST(ShownCells, ReachHalfAVoxelFromASheetAndOmitNaN) {
         return x == 2 ? 200. : x > 5 ? double(NAN) : 0.;
     };
     const Volume volume = test::volume_of<float>(test::grid_of({9, 1, 4}, Centering::cell), value);
-    const Reach x = reach_of(hull_of_shown_cells(volume, measure_bricks(volume), shows), {1, 0, 0});
-    const Reach y = reach_of(hull_of_shown_cells(volume, measure_bricks(volume), shows), {0, 1, 0});
+    const Spread x =
+        reach_of(hull_of_shown_cells(volume, measure_bricks(volume), shows), {1, 0, 0});
+    const Spread y =
+        reach_of(hull_of_shown_cells(volume, measure_bricks(volume), shows), {0, 1, 0});
     const Grid& grid = volume.grid();
     EXPECT_EQ(x.lo, grid.to_world({1, 0, 0}).x);
     EXPECT_EQ(x.hi, grid.to_world({3, 0, 0}).x);
@@ -160,7 +162,7 @@ TEST(ShownCells, AreWholeBricksInLargeVolumes) {
     show(200, 255, 64);  // the last brick along y and z, which have 1023 and 257 cells
     const auto points = hull_of_shown_cells(volume, bricks, shows);
     const auto expect_reach = [&](const glm::dvec3& axis, double lo, double hi) {
-        const Reach reach = reach_of(points, axis);
+        const Spread reach = reach_of(points, axis);
         EXPECT_EQ(reach.lo, lo);
         EXPECT_EQ(reach.hi, hi);
     };

@@ -14,7 +14,7 @@ namespace {
 
 // Tells whether every line that may be the field ElementDataFile names only files in the scratch
 // folder. After LIST all lines are names of files.
-bool data_file_stays_in_folder(std::string_view header) {
+bool element_file_stays_in_folder(std::string_view header) {
     constexpr std::string_view field = "ElementDataFile";
     for (std::size_t at = header.find(field); at != header.npos; at = header.find(field, at + 1)) {
         const std::size_t end = std::min(header.find('\n', at), header.size());
@@ -36,7 +36,7 @@ void run_reader(std::string_view input, const char* name,
 
 void run_metaimage(std::string_view input) {
     const InputParts parts = parts_of(input);
-    if (!data_file_stays_in_folder(parts.first)) return;
+    if (!element_file_stays_in_folder(parts.first)) return;
     scratch_file("data", parts.second);
     run_reader(parts.first, "volume.mhd", open_metaimage);
 }

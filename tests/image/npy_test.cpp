@@ -25,7 +25,7 @@ PreciseImage precise_image(int width, int height) {
 }
 
 template <typename Real>
-void write(const std::filesystem::path& path, const RgbaImage<Real>& image) {
+void save_npy(const std::filesystem::path& path, const RgbaImage<Real>& image) {
     AtomicFile file(path);
     write_npy(file, image);
     file.commit();
@@ -51,7 +51,7 @@ bool numpy_is_there() {
 TEST(Npy, KeepsEveryBit) {
     const TemporaryFolder folder;
     const PreciseImage image = precise_image(7, 5);
-    write(folder / "a.npy", image);
+    save_npy(folder / "a.npy", image);
     const PreciseImage back = read_npy(folder / "a.npy");
     ASSERT_EQ(back.width, 7);
     ASSERT_EQ(back.height, 5);
@@ -61,7 +61,7 @@ TEST(Npy, KeepsEveryBit) {
 TEST(Npy, SinglePrecisionStaysSingle) {
     const TemporaryFolder folder;
     const Image image = random_image(7, 5);
-    write(folder / "a.npy", image);
+    save_npy(folder / "a.npy", image);
     EXPECT_EQ((read_bytes_of(folder / "a.npy").size() - 7 * 5 * 4 * sizeof(float)) % 64, 0u);
     const PreciseImage back = read_npy(folder / "a.npy");
     ASSERT_EQ(back.width, 7);
@@ -77,7 +77,7 @@ TEST(Npy, IsReadByNumpy) {
     for (std::size_t i = 0; i < image.rgba.size(); ++i) {
         image.rgba[i] = 1.0 / (static_cast<double>(i) + 3);
     }
-    write(folder / "a.npy", image);
+    save_npy(folder / "a.npy", image);
     const ProgramResult result =
         run_program({"/usr/bin/python3", "-c",
                      "import numpy, sys\n"
@@ -120,7 +120,7 @@ TEST(Npy, ReadsFilesOfNumpy) {
 
 TEST(Npy, DamagedFilesAreErrors) {
     const TemporaryFolder folder;
-    write(folder / "a.npy", precise_image(2, 2));
+    save_npy(folder / "a.npy", precise_image(2, 2));
     const std::string bytes = read_bytes_of(folder / "a.npy");
     // Damage is noticed at least in the magic number (6 bytes), the version, the length, and the
     // digits of the shape.
@@ -161,7 +161,7 @@ TEST(Npy, RefusesToWriteWhatIsNotFinite) {
     const TemporaryFolder folder;
     PreciseImage image(2, 2);
     image.pixel(1, 0)[2] = 1e300;  // beyond float32, so it cannot come from a renderer
-    expect_error([&] { write(folder / "a.npy", image); },
+    expect_error([&] { save_npy(folder / "a.npy", image); },
                  {"a.npy", "(1, 0)", "channel B", "1e+300"});
     EXPECT_TRUE(folder.empty());
 }
@@ -170,7 +170,7 @@ TEST(Npy, FullDiskIsAnErrorAndLeavesNothing) {
     const TemporaryFolder folder;
     {
         const FileSizeLimit limit(20000);
-        expect_error([&] { write(folder / "a.npy", PreciseImage(50, 50)); },
+        expect_error([&] { save_npy(folder / "a.npy", PreciseImage(50, 50)); },
                      {"a.npy", "cannot write"});
     }
     EXPECT_TRUE(folder.empty());

@@ -16,15 +16,15 @@
 namespace lamina {
 namespace {
 
-std::size_t write(const std::filesystem::path& path, const Image& image,
-                  const glm::dvec3& background = glm::dvec3(0)) {
+std::size_t save_png(const std::filesystem::path& path, const Image& image,
+                     const glm::dvec3& background = glm::dvec3(0)) {
     AtomicFile file(path);
     const std::size_t clamped = write_png(file, image, background);
     file.commit();
     return clamped;
 }
 
-void write(const std::filesystem::path& path, const CodedImage& image) {
+void save_png(const std::filesystem::path& path, const CodedImage& image) {
     AtomicFile file(path);
     write_png(file, image);
     file.commit();
@@ -94,7 +94,7 @@ TEST(Srgb, HasTheValuesOfTheStandard) {
 TEST(Png, AppliesTheBackgroundThenTheCurveThenRounds) {
     const TemporaryFolder folder;
     const Image image = row_of({{0.5f, 0.18f, 0.001f, 1}, {0.25f, 0, 0, 0.5f}, {0, 0, 0, 0}});
-    EXPECT_EQ(write(folder / "a.png", image, {0.5, 0.36, 1}), 0u);
+    EXPECT_EQ(save_png(folder / "a.png", image, {0.5, 0.36, 1}), 0u);
     const CodedImage back = read_png(folder / "a.png");
     ASSERT_EQ(back.width, 3);
     ASSERT_EQ(back.height, 1);
@@ -125,7 +125,7 @@ TEST(Png, EveryCodeComesBack) {
         for (int channel = 0; channel < 3; ++channel) image.pixel(code, 0)[channel] = linear;
         image.pixel(code, 0)[3] = 1;
     }
-    EXPECT_EQ(write(folder / "a.png", image), 0u);
+    EXPECT_EQ(save_png(folder / "a.png", image), 0u);
     const CodedImage back = read_png(folder / "a.png");
     for (std::size_t i = 0; i < back.codes.size(); ++i) EXPECT_EQ(back.codes[i], i / 3);
 }
@@ -135,15 +135,15 @@ TEST(Png, CountsPixelsThatWereClamped) {
     // Two pixels count as clamped: that with 1.5 and -.5, which counts once, and that with 1.01.
     // Excesses below 1/510 = .00196 are not counted.
     const Image image = row_of({{1.5f, -0.5f, 0, 1}, {0, 0, 1.01f, 1}, {1.001f, -0.001f, 0, 1}});
-    EXPECT_EQ(write(folder / "a.png", image), 2u);
+    EXPECT_EQ(save_png(folder / "a.png", image), 2u);
     EXPECT_EQ(read_png(folder / "a.png").codes, (Codes{255, 0, 0, 0, 0, 255, 255, 0, 0}));
 }
 
 TEST(Png, SaysThatItIsSrgbAndHasNoTime) {
     const TemporaryFolder folder;
     const Image image = row_of({{0.1f, 0.2f, 0.3f, 1}});
-    write(folder / "a.png", image);
-    write(folder / "b.png", image);
+    save_png(folder / "a.png", image);
+    save_png(folder / "b.png", image);
     const std::string bytes = read_bytes_of(folder / "a.png");
     EXPECT_EQ(bytes, read_bytes_of(folder / "b.png"));
     EXPECT_NE(bytes.find("sRGB"), std::string::npos);
@@ -159,7 +159,7 @@ TEST(Png, CodesOfEveryKindComeBack) {
                 image.codes[i] =
                     static_cast<std::uint16_t>(i * 40503 % (depth == 16 ? 65536 : 256));
             }
-            write(folder / "a.png", image);
+            save_png(folder / "a.png", image);
             const CodedImage back = read_png(folder / "a.png");
             EXPECT_EQ(back.channels, channels);
             EXPECT_EQ(back.bit_depth, depth);
@@ -195,7 +195,7 @@ TEST(Png, ExpandsPalettesSmallDepthsAndTransparency) {
 
 TEST(Png, DamagedFilesAreErrors) {
     const TemporaryFolder folder;
-    write(folder / "a.png", random_image(3, 2));
+    save_png(folder / "a.png", random_image(3, 2));
     const std::string bytes = read_bytes_of(folder / "a.png");
     // Every chunk has a checksum, so all damage is refused, except perhaps in the ancillary sRGB
     // chunk (13 bytes), which does not change codes.
@@ -227,7 +227,8 @@ TEST(Png, RefusesToWriteWhatIsNotFinite) {
     const TemporaryFolder folder;
     Image image(5, 4);
     image.pixel(0, 3)[3] = -std::numeric_limits<float>::infinity();
-    expect_error([&] { write(folder / "a.png", image); }, {"a.png", "(0, 3)", "channel A", "-inf"});
+    expect_error([&] { save_png(folder / "a.png", image); },
+                 {"a.png", "(0, 3)", "channel A", "-inf"});
     EXPECT_TRUE(folder.empty());
 }
 
@@ -238,7 +239,7 @@ TEST(Png, FullDiskIsAnErrorAndLeavesNothing) {
     for (std::uint16_t& code : image.codes) code = static_cast<std::uint16_t>(random());
     {
         const FileSizeLimit limit(20000);
-        expect_error([&] { write(folder / "a.png", image); }, {"a.png", "cannot write"});
+        expect_error([&] { save_png(folder / "a.png", image); }, {"a.png", "cannot write"});
     }
     EXPECT_TRUE(folder.empty());
 }

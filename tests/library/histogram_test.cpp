@@ -12,7 +12,7 @@
 namespace lamina {
 namespace {
 
-const SessionOptions native{ContextChoice::cpu, 0};
+const SessionOptions on_cpu{ContextChoice::cpu, 0};
 
 Scene automatic_scene() {
     Scene scene;
@@ -25,7 +25,7 @@ TEST(Histogram, CountsTheSamplesOfAVolume) {
     const Volume volume = test::volume_of<std::uint8_t>(
         test::grid_of({4, 4, 4}, Centering::node),
         [](double i, double j, double) { return j == 0 ? 40 : 10 * i; });
-    Session session(automatic_scene(), volume, native);
+    Session session(automatic_scene(), volume, on_cpu);
     // The samples are whole numbers from 0 to 40: 5 intervals of 9 numbers each.
     const ValueHistogram histogram = session.histogram(5);
     EXPECT_EQ(histogram.lo, -.5);
@@ -46,7 +46,7 @@ TEST(Histogram, LeavesOutNonFiniteSamples) {
                                     [](double i, double, double) {
                                         return i == 0 ? none : static_cast<float>(i);
                                     }),
-                    native);
+                    on_cpu);
     const ValueHistogram histogram = session.histogram(2);
     EXPECT_EQ(histogram.lo, 1);
     EXPECT_EQ(histogram.hi, 3);
@@ -62,7 +62,7 @@ TEST(Histogram, WeighsTheTetsOfAMeshByVolume) {
     Scene scene = automatic_scene();
     scene.method = Method::project;
     Session session(scene, test::kuhn_box({4, 2, 2}, [](const glm::dvec3& at) { return at.x; }),
-                    native);
+                    on_cpu);
     const ValueHistogram histogram = session.histogram(4);
     ASSERT_EQ(histogram.shares.size(), 4u);
     // Each share is a sum of 4 x 96 weights of equal volume, each rounded once.

@@ -39,11 +39,11 @@ Scene scene_for(const Grid::Bounds& box) {
     return scene;
 }
 
-const SessionOptions native{ContextChoice::cpu, 0};
+const SessionOptions cpu_session{ContextChoice::cpu, 0};
 
 TEST(Session, DrawsAVolumeInMemoryWithoutACopy) {
     const Volume volume = waves(12);
-    Session session(scene_for(volume.grid().bounds()), volume, native);
+    Session session(scene_for(volume.grid().bounds()), volume, cpu_session);
     const Image picture = session.draw();
     ASSERT_EQ(picture.width, 50);
     // Exact segments claim an error of .05 / 255, and trace() one of 1e-5, which is .003 / 255.
@@ -66,7 +66,7 @@ TEST(Session, PredictsABoundOfTheErrorIfOneIsKnown) {
     scene.target = Target::fixed8;
     scene.slice.samples = 64;
     const auto expected = [&] {
-        Session session(scene, volume, native);
+        Session session(scene, volume, cpu_session);
         const PlanSummary plan = session.plan();
         const std::optional<double> error = plan.error.known();
         if (error) {
@@ -98,7 +98,7 @@ TEST(Session, DrawsAMeshInMemory) {
     });
     Scene scene = scene_for({glm::dvec3(0), glm::dvec3(1)});
     scene.method = Method::project;
-    Session session(scene, std::move(box), native);
+    Session session(scene, std::move(box), cpu_session);
     const Image picture = session.draw();
     // Opacity is in closed form, and colour weights are good to 1 / 255.
     EXPECT_LE(error_of(picture, session.trace()).linf, 1);
@@ -116,7 +116,7 @@ TEST(Session, DrawsAMeshInMemory) {
 
 TEST(Session, ClipsAreSetAndTakenBack) {
     const Volume volume = waves(12);
-    Session session(scene_for(volume.grid().bounds()), volume, native);
+    Session session(scene_for(volume.grid().bounds()), volume, cpu_session);
     const Image whole = session.draw();
     Clip clip;
     clip.planes = {{{5, 6, 4}, {.2, -1, 3}}};
@@ -135,7 +135,7 @@ TEST(Session, SwitchesMethodsForOneVolume) {
     const Volume volume = waves(8);
     Scene scene = scene_for(volume.grid().bounds());
     scene.mesh = MeshSettings{.kuhn = true};
-    Session session(scene, volume, native);
+    Session session(scene, volume, cpu_session);
     const Image sliced = session.draw();
     scene.method = Method::project;
     session.set_scene(scene);
@@ -165,7 +165,7 @@ TEST(Session, UsesAsManyThreadsAsGiven) {
 
 TEST(Session, ReusesThePictureMemoryForEqualSizes) {
     const Volume volume = waves(8);
-    Session session(scene_for(volume.grid().bounds()), volume, native);
+    Session session(scene_for(volume.grid().bounds()), volume, cpu_session);
     const float* const first = session.draw().rgba.data();
     session.set_camera(orbit(volume.grid().bounds(), 40, -10));
     EXPECT_EQ(session.draw().rgba.data(), first);
@@ -196,18 +196,18 @@ TEST(Session, SessionsOfSeveralThreadsDoNotDisturbEachOther) {
 
 TEST(Session, StopsWhenAskedAndGoesOn) {
     const Volume volume = waves(10);
-    Session session(scene_for(volume.grid().bounds()), volume, native);
+    Session session(scene_for(volume.grid().bounds()), volume, cpu_session);
     std::stop_source source;
     source.request_stop();
     EXPECT_THROW(session.draw(source.get_token()), Interrupted);
     EXPECT_THROW(session.trace(source.get_token()), Interrupted);
-    Session fresh(scene_for(volume.grid().bounds()), volume, native);
+    Session fresh(scene_for(volume.grid().bounds()), volume, cpu_session);
     EXPECT_EQ(session.draw().rgba, fresh.draw().rgba);
 }
 
 TEST(Session, ReportsHowFarItIs) {
     const Volume volume = waves(10);
-    Session session(scene_for(volume.grid().bounds()), volume, native);
+    Session session(scene_for(volume.grid().bounds()), volume, cpu_session);
     session.draw();
     std::vector<double> shares;
     session.draw({}, [&](const std::string& activity, double share) {
@@ -220,7 +220,7 @@ TEST(Session, ReportsHowFarItIs) {
 
 TEST(Session, TracesTileByTile) {
     const Volume volume = waves(10);
-    Session session(scene_for(volume.grid().bounds()), volume, native);
+    Session session(scene_for(volume.grid().bounds()), volume, cpu_session);
     int pixels = 0;
     const PreciseImage truth =
         session.trace({}, {}, [&](const PictureTile& tile, const PreciseImage& picture) {
@@ -240,7 +240,7 @@ TEST(Session, FindsThePointThatIsSeen) {
     scene.camera = Camera{.eye = {-2, 1.2, .7}, .center = {0, 1.2, .7}};
     scene.method = Method::project;
     scene.width = scene.height = 5;
-    Session session(scene, test::kuhn_box({3, 2, 2}, ramp), native);
+    Session session(scene, test::kuhn_box({3, 2, 2}, ramp), cpu_session);
     EXPECT_EQ(session.bounds().max, glm::dvec3(3, 2, 2));
     const PointProbe probe = session.probe();
     session.set_camera(orbit(session.bounds(), 0, 0));  // the probe keeps its own camera
@@ -252,7 +252,7 @@ TEST(Session, FindsThePointThatIsSeen) {
     EXPECT_FALSE(probe.seen(-1e5, 2));
 
     const Volume volume = waves(12);
-    Session other(scene_for(volume.grid().bounds()), volume, native);
+    Session other(scene_for(volume.grid().bounds()), volume, cpu_session);
     EXPECT_EQ(other.bounds().max, volume.grid().bounds().max);
     EXPECT_TRUE(other.probe().seen(25, 20));
 }
@@ -261,7 +261,7 @@ TEST(Session, RefusesWhatCannotBeDrawn) {
     const Volume volume = waves(4);
     Scene scene = scene_for(volume.grid().bounds());
     scene.width = 0;
-    expect_error([&] { Session(scene, volume, native); },
+    expect_error([&] { Session(scene, volume, cpu_session); },
                  {"image: found 0 x 40 pixels, expected 1 x 1 or more"});
     scene.width = 50;
     expect_error(
@@ -269,9 +269,9 @@ TEST(Session, RefusesWhatCannotBeDrawn) {
             Session(scene, volume, {ContextChoice::cpu, -1});
         },
         {"threads: found -1, expected 0 (all) or more"});
-    expect_error([&] { Session(scene, native); },
+    expect_error([&] { Session(scene, cpu_session); },
                  {"no volume was given, and the scene names none"});
-    Session session(scene, volume, native);
+    Session session(scene, volume, cpu_session);
     const TemporaryFolder folder;
     expect_error([&] { session.save_resolved_scene(folder / "a.json"); },
                  {"the scene names no data"});
@@ -285,9 +285,9 @@ TEST(Session, TracesALitSceneAndChoosesItsSmallestGradient) {
     const Volume volume = waves(12);
     Scene scene = scene_for(volume.grid().bounds());
     scene.method = Method::trace;
-    Session unlit(scene, volume, native);
+    Session unlit(scene, volume, cpu_session);
     scene.lighting = Lighting{};
-    Session session(scene, volume, native);
+    Session session(scene, volume, cpu_session);
     EXPECT_TRUE(session.scene().lighting->smallest_gradient.is_automatic());
     EXPECT_NEAR(*session.resolved_scene().lighting->smallest_gradient, .01, 1e-5);
     const auto plain = unlit.trace(), lit = session.trace();
@@ -295,7 +295,7 @@ TEST(Session, TracesALitSceneAndChoosesItsSmallestGradient) {
     for (std::size_t i = 3; i < plain.rgba.size(); i += 4) EXPECT_EQ(lit.rgba[i], plain.rgba[i]);
     scene.lighting->power = NAN;
     expect_error([&] { session.set_scene(scene); }, {"lighting.power: found nan"});
-    expect_error([&] { Session(scene, volume, native); }, {"lighting.power: found nan"});
+    expect_error([&] { Session(scene, volume, cpu_session); }, {"lighting.power: found nan"});
 }
 
 TEST(Session, ChoosesWhatASceneLeavesOpen) {
@@ -305,12 +305,12 @@ TEST(Session, ChoosesWhatASceneLeavesOpen) {
     open.height = 40;
     open.transfer_function = automatic;
     open.camera = automatic;
-    Session session(open, volume, native);
+    Session session(open, volume, cpu_session);
     const Image picture = session.draw();
     EXPECT_TRUE(session.scene().camera.is_automatic());  // the scene as given
     const Scene resolved = session.resolved_scene();
     EXPECT_FALSE(resolved.transfer_function.is_automatic() || resolved.camera.is_automatic());
-    EXPECT_EQ(Session(resolved, volume, native).draw().rgba, picture.rgba);
+    EXPECT_EQ(Session(resolved, volume, cpu_session).draw().rgba, picture.rgba);
     EXPECT_EQ(session.explanation().find("chosen\n  transfer function: "), 0u);
     // Automatic values are chosen once, and again on request.
     session.set_camera(orbit(volume.grid().bounds(), 40, -10));
@@ -327,14 +327,14 @@ TEST(Session, ChoosesWhatASceneLeavesOpen) {
     EXPECT_EQ(session.resolved_scene().transfer_function, resolved.transfer_function);
     open.mesh = {};
     Session mesh(open, test::kuhn_box({3, 2, 4}, [](const glm::dvec3& p) { return p.x * p.y; }),
-                 native);
+                 cpu_session);
     mesh.draw();
     EXPECT_GT(mesh.resolved_scene().transfer_function->max_extinction(0, 6), 0);
 }
 
 TEST(Session, WarnsOnceOfAPictureThatShowsNothing) {
     const Volume volume = waves(12);
-    Session session(scene_for(volume.grid().bounds()), volume, native);
+    Session session(scene_for(volume.grid().bounds()), volume, cpu_session);
     session.set_transfer_function(
         TransferFunction::linear({knot(7, {1, 1, 1}, 0), knot(8, {1, 1, 1}, 1)}));
     for (int i = 0; i < 3; ++i) session.draw();

@@ -12,7 +12,7 @@
 namespace lamina {
 namespace {
 
-glm::dvec3 color_at(const Colormap& colormap, double value) {
+glm::dvec3 mapped_color(const Colormap& colormap, double value) {
     return TransferFunction::linear(combine(colormap, {{0, 1}})).at(value).color;
 }
 
@@ -90,7 +90,7 @@ TEST(ShippedColormaps, AreWithinHalfACodeOfTheirOriginals) {
         EXPECT_TRUE(map.opacities.empty());
         EXPECT_EQ(map.colors.size(), 33u);  // display values are straight between points of RGB
         for (std::size_t i = 0; i < original.entries.size(); ++i) {
-            const glm::dvec3 found = color_at(map, static_cast<double>(i) * 15 / 255);
+            const glm::dvec3 found = mapped_color(map, static_cast<double>(i) * 15 / 255);
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(255 * found[c], 255 * original.entries[i][c], .42)
                     << original.name << " " << 15 * i;
@@ -102,21 +102,21 @@ TEST(ShippedColormaps, AreInLinearLightByDefault) {
     const Colormap linear = load_colormap("viridis");
     const Colormap display = load_colormap("viridis", ImageColorSpace::display);
     for (double x = 0; x <= 1; x += 1 / 64.0) {
-        const glm::dvec3 expected = linear_from_srgb(color_at(display, x));
+        const glm::dvec3 expected = linear_from_srgb(mapped_color(display, x));
         // 5e-4 is twice the tolerance of SegmentSampler, which tests only three places of each
         // segment.
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(color_at(linear, x)[c], expected[c], 5e-4) << x;
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(mapped_color(linear, x)[c], expected[c], 5e-4) << x;
     }
 }
 
 TEST(ShippedColormaps, GreysAndCoolWarmHaveTheirPublishedColors) {
-    EXPECT_EQ(color_at(load_colormap("greys", ImageColorSpace::display), .25), glm::dvec3(.25));
+    EXPECT_EQ(mapped_color(load_colormap("greys", ImageColorSpace::display), .25), glm::dvec3(.25));
     // Moreland 2009, table: the middle is (221, 221, 221), the ends (59, 76, 192) and (180, 4, 38).
     const Colormap map = load_colormap("cool-warm", ImageColorSpace::display);
     const glm::dvec3 rows[] = {{59, 76, 192}, {221, 221, 221}, {180, 4, 38}};
     for (int row = 0; row < 3; ++row) {
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(255 * color_at(map, row / 2.)[c], rows[row][c], 1) << row;
+            EXPECT_NEAR(255 * mapped_color(map, row / 2.)[c], rows[row][c], 1) << row;
     }
 }
 
@@ -147,7 +147,7 @@ TEST(ShippedColormaps, APathLoadsAPresetFile) {
     std::ofstream(folder / "two.json") << R"({"RGBPoints": [5, 0, 0, 0, 7, 1, 1, 1]})";
     const Colormap map = load_colormap(folder / "two.json", ImageColorSpace::display);
     EXPECT_TRUE(map.own_range);
-    EXPECT_EQ(color_at(map, 6), glm::dvec3(.5));
+    EXPECT_EQ(mapped_color(map, 6), glm::dvec3(.5));
 }
 
 }  // namespace

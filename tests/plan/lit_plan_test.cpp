@@ -26,7 +26,7 @@ nlohmann::json lit(const nlohmann::json& target, const nlohmann::json& tree) {
     return document;
 }
 
-Plan planned(const nlohmann::json& document) {
+Plan planned_lit(const nlohmann::json& document) {
     const Scene scene = read_scene(document, "scene.json");
     const Volume volume = load_volume(scene);
     return make_plan(scene, measure(scene, volume, measure_bricks(volume)), native(), {});
@@ -36,23 +36,23 @@ Plan planned(const nlohmann::json& document) {
 TEST(LitPlan, AutomaticTargetsHoldWhatLightAdds) {
     for (const nlohmann::json& tree : {nlohmann::json(), nlohmann::json("auto")}) {
         nlohmann::json document = lit("auto", tree);
-        EXPECT_FALSE(is_fixed_point(planned(document).slice.target));
+        EXPECT_FALSE(is_fixed_point(planned_lit(document).slice.target));
         document["lighting"]["specular"] = 0;
-        EXPECT_TRUE(is_fixed_point(planned(document).slice.target));
+        EXPECT_TRUE(is_fixed_point(planned_lit(document).slice.target));
     }
 }
 
 TEST(LitPlan, AutomaticTreesSayWhatTheTargetClamps) {
     nlohmann::json document = lit("fixed16", "auto");
-    expect_error([&] { planned(document); }, {"clamps colours", "float16"});
+    expect_error([&] { planned_lit(document); }, {"clamps colours", "float16"});
     document["lighting"]["specular"] = 0;
-    EXPECT_NO_THROW(planned(document));
+    EXPECT_NO_THROW(planned_lit(document));
 }
 
 // A scene of one colour is refused, too: even a headlight makes many colours of it.
 TEST(LitPlan, FixedNodesAreRefusedBecauseOfLight) {
     const nlohmann::json document = lit("fixed8", {{"factors", {8, 5}}, {"nodes", "fixed"}});
-    expect_error([&] { planned(document); },
+    expect_error([&] { planned_lit(document); },
                  {"render.slice.tree.nodes", "\"fixed\"", "expected no lighting", "\"shader\""});
 }
 

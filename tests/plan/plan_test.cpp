@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-Capabilities usual() {
+Capabilities usual_opengl() {
     Capabilities capabilities;
     capabilities.renderer = "test";
     capabilities.max_texture_size = 16384;
@@ -26,13 +26,13 @@ Plan plan_of(const nlohmann::json& document, const Capabilities& capabilities) {
 TEST(Plan, TakesTwoSlabsAVoxelWithoutTrials) {
     nlohmann::json document = with("/render/slice/classification", "post");
     document["camera"] = {{"eye", {0.5, 0.5, 3}}, {"center", {0.5, 0.5, 0.5}}};
-    EXPECT_EQ(plan_of(document, usual()).slice.slabs, 30);  // 15 cells
+    EXPECT_EQ(plan_of(document, usual_opengl()).slice.slabs, 30);  // 15 cells
     document["render"]["slice"]["samples"] = 7;
-    EXPECT_EQ(plan_of(document, usual()).slice.slabs, 7);
+    EXPECT_EQ(plan_of(document, usual_opengl()).slice.slabs, 7);
 }
 
 TEST(Plan, FloatTexturesAreFilteredOnlyWhereThatWasMeasuredExact) {
-    Capabilities capabilities = usual();
+    Capabilities capabilities = usual_opengl();
     const nlohmann::json post = with("/render/slice/classification", "post");
     EXPECT_EQ(plan_of(post, capabilities).slice.sampling, VolumeSampling::fetch);
     capabilities.exact_float_filter = true;
@@ -50,7 +50,7 @@ TEST(Plan, TheHardwareFilterSavesFetchesIfItKeepsTheError) {
     const Volume volume = load_volume(scene);
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     SampleTrials trials{{{60, .8, 100, 1}}, {{60, 1.1, 100, 1}, {80, .9, 100, 1}}};
-    Capabilities gpu = usual();
+    Capabilities gpu = usual_opengl();
     const auto plan_for = [&] { return make_plan(scene, facts, gpu, {}, trials); };
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);
     EXPECT_EQ(plan_for().slice.slabs, 60);
@@ -84,7 +84,7 @@ TEST(Plan, EmptyBricksAreLeaptOverWhereEnoughIsEmpty) {
     Facts facts = measure(scene, volume, measure_bricks(volume));
     facts.occupied_share = .5;
     facts.ray_shares.box = .6;
-    Capabilities native = usual();
+    Capabilities native = usual_opengl();
     native.cpu = true;
     const auto leaps = [&](double empty, const Capabilities& capabilities) {
         facts.ray_shares.occupied = (1 - empty) * facts.ray_shares.box;
@@ -92,26 +92,26 @@ TEST(Plan, EmptyBricksAreLeaptOverWhereEnoughIsEmpty) {
     };
     EXPECT_FALSE(leaps(.005, native));
     EXPECT_TRUE(leaps(.015, native));
-    EXPECT_FALSE(leaps(.015, usual()));
-    EXPECT_FALSE(leaps(.19, usual()));
-    EXPECT_TRUE(leaps(.21, usual()));
+    EXPECT_FALSE(leaps(.015, usual_opengl()));
+    EXPECT_FALSE(leaps(.19, usual_opengl()));
+    EXPECT_TRUE(leaps(.21, usual_opengl()));
 }
 
 TEST(Plan, ExceededLimitsOfTheContextAreNamed) {
-    Capabilities capabilities = usual();
+    Capabilities capabilities = usual_opengl();
     capabilities.max_texture_size = 16;
     expect_error([&] { plan_of(minimal_scene(), capabilities); },
                  {"32 x 24", "at most 16", "test"});
-    capabilities = usual();
+    capabilities = usual_opengl();
     capabilities.max_texture_bytes = 16 * 100;
     expect_error([&] { plan_of(minimal_scene(), capabilities); },
                  {"32 x 24", "at most 100", "test"});
 }
 
 TEST(Plan, RaysAreDoubleInSoftwareAndForThinBoxes) {
-    Capabilities gpu = usual();
+    Capabilities gpu = usual_opengl();
     gpu.software = false;
-    EXPECT_TRUE(plan_of(minimal_scene(), usual()).slice.precise_rays);
+    EXPECT_TRUE(plan_of(minimal_scene(), usual_opengl()).slice.precise_rays);
     EXPECT_FALSE(plan_of(minimal_scene(), gpu).slice.precise_rays);
     const nlohmann::json ramp = with("/volume", {{"generate", "ramp"}});  // 256 : 4 : 1
     EXPECT_TRUE(plan_of(ramp, gpu).slice.precise_rays);
@@ -125,14 +125,14 @@ TEST(Plan, SoftwareFragmentsMarchNoMoreSlabsThanLoopsAllow) {
     const auto factors = [&](const Capabilities& capabilities) {
         return plan_of(document, capabilities).slice.tree.value().factors;
     };
-    const std::vector<int> levels = factors(usual());
+    const std::vector<int> levels = factors(usual_opengl());
     ASSERT_EQ(levels.size(), 2u);
     EXPECT_GE(levels[0] * levels[1], 65536);
     EXPECT_LE(levels[1] * 10, 65535);
-    Capabilities gpu = usual();
+    Capabilities gpu = usual_opengl();
     gpu.software = false;
     EXPECT_EQ(factors(gpu), std::vector{65536});
-    Capabilities native = usual();
+    Capabilities native = usual_opengl();
     native.cpu = true;
     EXPECT_EQ(factors(native), std::vector{65536});
 
@@ -140,10 +140,10 @@ TEST(Plan, SoftwareFragmentsMarchNoMoreSlabsThanLoopsAllow) {
     for (int i = 0; i < 100; ++i)
         points.push_back({{"value", 1e-6 * i}, {"color", {1, 1, 1}}, {"extinction", i % 2}});
     document["transfer_function"]["points"] = points;
-    EXPECT_LE(factors(usual())[1] * 4 * 100, 65535);
+    EXPECT_LE(factors(usual_opengl())[1] * 4 * 100, 65535);
 
     document["render"]["slice"]["tree"] = {{"factors", "2x32768"}};
-    expect_error([&] { plan_of(document, usual()); },
+    expect_error([&] { plan_of(document, usual_opengl()); },
                  {"render.slice.tree.factors", "32768", "--context cpu"});
     EXPECT_EQ(factors(native), (std::vector{2, 32768}));
 }
@@ -159,7 +159,7 @@ TEST(Plan, EveryOmissionCanBeSwitchedOffByItsName) {
     const Volume volume = load_volume(scene);
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     const auto names = omission_names();
-    const Plan plan = make_plan(scene, facts, usual(), {});
+    const Plan plan = make_plan(scene, facts, usual_opengl(), {});
     ASSERT_FALSE(plan.omitted.empty());
     for (const Omission& omission : plan.omitted) {
         EXPECT_NE(std::find(names.begin(), names.end(), omission.name), names.end())
@@ -167,13 +167,13 @@ TEST(Plan, EveryOmissionCanBeSwitchedOffByItsName) {
         EXPECT_FALSE(omission.reason.empty());
         OmissionSwitch without;
         without.kept = {omission.name};
-        for (const Omission& other : make_plan(scene, facts, usual(), without).omitted) {
+        for (const Omission& other : make_plan(scene, facts, usual_opengl(), without).omitted) {
             EXPECT_NE(other.name, omission.name);
         }
     }
     OmissionSwitch none;
     none.none = true;
-    EXPECT_TRUE(make_plan(scene, facts, usual(), none).omitted.empty());
+    EXPECT_TRUE(make_plan(scene, facts, usual_opengl(), none).omitted.empty());
 }
 
 }  // namespace

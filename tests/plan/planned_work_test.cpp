@@ -6,7 +6,7 @@
 namespace lamina {
 namespace {
 
-Capabilities tiles() {
+Capabilities cpu_engine() {
     Capabilities capabilities;
     capabilities.cpu = true;
     capabilities.max_texture_size = capabilities.max_3d_texture_size = 16384;
@@ -17,7 +17,7 @@ struct Case {
     explicit Case(nlohmann::json document) : scene(read_scene(document, "s")) {
         const Volume volume = load_volume(scene);
         facts = measure(scene, volume, measure_bricks(volume));
-        plan = make_plan(scene, facts, tiles(), {});
+        plan = make_plan(scene, facts, cpu_engine(), {});
     }
     Scene scene;
     Facts facts;
@@ -93,7 +93,7 @@ TEST(PlannedWork, SavingsAreDifferencesOfPlans) {
     for (const Omission& omission : sparse.plan.omitted) {
         OmissionSwitch keeping;
         keeping.kept = {omission.name};
-        const Plan other = make_plan(sparse.scene, sparse.facts, tiles(), keeping);
+        const Plan other = make_plan(sparse.scene, sparse.facts, cpu_engine(), keeping);
         EXPECT_EQ((other.work - sparse.plan.work).amounts(), omission.saves.amounts())
             << omission.name;
     }

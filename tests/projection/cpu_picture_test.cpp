@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-double field(const glm::dvec3& p) {
+double picture_field(const glm::dvec3& p) {
     return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
 }
 
@@ -47,7 +47,7 @@ Difference difference(const Image& a, const Image& b) {
 
 class CpuPicture : public gl::GlTest {
   protected:
-    CpuPicture() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, field))) {}
+    CpuPicture() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, picture_field))) {}
 
     Scene scene(const TransferFunction& transfer_function) const {
         Scene scene = projection_scene(transfer_function, 101, 83);

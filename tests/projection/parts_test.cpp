@@ -9,19 +9,19 @@ namespace {
 
 constexpr int cells = 13;  // along each edge of the unit box: 13,182 tets
 
-double field(const glm::dvec3& p) {
+double parts_field(const glm::dvec3& p) {
     return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
 }
 
 SceneMesh box() {
-    const auto of_cells = [](const glm::dvec3& p) { return field(p / double(cells)); };
+    const auto of_cells = [](const glm::dvec3& p) { return parts_field(p / double(cells)); };
     MeshData data = test::kuhn_box({cells, cells, cells}, of_cells);
     for (glm::dvec3& point : data.points) point /= double(cells);
     return scene_mesh(std::move(data));
 }
 
 // Returns a ramp, a gap, a peak and a step. Tets are opaque in a peak of a `height` of some 1000.
-TransferFunction crooked(double height) {
+TransferFunction with_peak(double height) {
     return TransferFunction::linear({knot(0, {0, .2, 1}, .2), knot(.3, {0, 1, .3}, 1),
                                      knot(.4, {1, 1, 0}, 0), knot(.45, {1, 1, 0}, 0),
                                      knot(.47, {1, .2, 1}, height), knot(.49, {1, 0, 0}, .1),
@@ -53,7 +53,7 @@ TEST_P(Parts, AreExact) {
     for (const double height : {3.0, 1000.0}) {
         for (const glm::dvec3& eye : eyes) {
             for (const auto projection : {Projection::perspective, Projection::orthographic}) {
-                Scene wanted = scene(crooked(height), eye);
+                Scene wanted = scene(with_peak(height), eye);
                 wanted.camera->projection = projection;
                 const Plan plan = plan_of(mesh_, wanted, capabilities());
                 ASSERT_EQ(plan.project.source, SegmentSource::parts);

@@ -7,7 +7,7 @@
 namespace lamina {
 namespace {
 
-double field(const glm::dvec3& p) {
+double variant_field(const glm::dvec3& p) {
     return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
 }
 
@@ -18,7 +18,7 @@ TransferFunction smooth() {
 
 class Variants : public ProjectionTest {
   protected:
-    Variants() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, field))) {}
+    Variants() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, variant_field))) {}
 
     Scene scene(const TransferFunction& transfer_function = smooth()) const {
         Scene scene = projection_scene(transfer_function, 96, 96);

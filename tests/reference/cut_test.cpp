@@ -17,7 +17,7 @@ namespace {
 
 using reference_test::Random;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 
 // Makes a function with these knots, none on a line with its neighbours; every fifth interval shows
 // nothing.
@@ -142,7 +142,7 @@ void test_pieces(std::size_t shift, Random& random) {
             append_pieces(segments, intervals, 0, pieces);
             made += pieces.count;
             // Rounding: sums of four numbers up to 10 times the largest value.
-            const double rounding = 40 * epsilon * (std::abs(knots.front()) + 2 * width);
+            const double rounding = 40 * machine_epsilon * (std::abs(knots.front()) + 2 * width);
             for (std::size_t i = 0; i < cubics.size(); ++i) {
                 expect_pieces(cubics[i], function, intervals, pieces,
                               pieces_of(pieces, static_cast<std::int64_t>(i)), rounding);
@@ -189,7 +189,7 @@ TEST(SegmentPieces, DepthEqualsTheClosedForm) {
         const SegmentIntegral expected = integrate_segment(function, front, back, 1);
         // Roots have errors of some epsilons of the scalars divided by their difference. Depth is
         // off by as much, times the largest extinction.
-        const double moved = 16 * epsilon / std::abs(back - front) * 2e3;
+        const double moved = 16 * machine_epsilon / std::abs(back - front) * 2e3;
         if (integrator.opaque()) continue;  // the rest is not added
         EXPECT_NEAR(integrator.optical_depth(), expected.optical_depth,
                     1e-13 * expected.optical_depth + moved);

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 using namespace reference_test;
 
-constexpr double tolerance = 1e-11;
+constexpr double case_tolerance = 1e-11;
 
 json cases(const char* kind) {
     return load_json(LAMINA_SOURCE_DIR "/tests/reference/lit_cases.json")[kind];
@@ -49,7 +49,7 @@ Scene scene_of(const json& one) {
 constexpr double rounding = 1e-11;
 
 void expect_rgba(const PreciseImage& image, double estimate, const json& one, std::size_t number) {
-    EXPECT_LE(estimate, 2 * tolerance) << number;
+    EXPECT_LE(estimate, 2 * case_tolerance) << number;
     for (std::size_t c = 0; c < 4; ++c) {
         EXPECT_NEAR(image.rgba[c], one["rgba"][c].get<double>(), estimate + rounding)
             << number << ", channel " << c;
@@ -70,7 +70,7 @@ TEST(LitCases, VolumesMatchTheHighPrecisionResults) {
             grid.step[axis] = vector_of(all[i]["step"][axis]);
         const TraceResult result =
             trace_volume(make_volume<float>(grid, all[i]["samples"]), *scene.transfer_function,
-                         View(*scene.camera, 1, 1), {tolerance, scene.lighting});
+                         View(*scene.camera, 1, 1), {case_tolerance, scene.lighting});
         expect_rgba(result.image, result.error_estimate, all[i], i);
     }
 }
@@ -88,7 +88,7 @@ TEST(LitCases, MeshesMatchTheHighPrecisionResults) {
         const FaceTree tree(mesh, mesh.open_faces());
         const TraceResult result =
             trace_mesh(mesh, tree, mesh.point_scalars()[0].values, *scene.transfer_function,
-                       View(*scene.camera, 1, 1), {tolerance, scene.lighting});
+                       View(*scene.camera, 1, 1), {case_tolerance, scene.lighting});
         expect_rgba(result.image, result.error_estimate, all[i], i);
     }
 }

@@ -15,7 +15,7 @@ namespace {
 
 using namespace reference_test;
 
-constexpr double tolerance = 1e-11;
+constexpr double mesh_tolerance = 1e-11;
 
 const Grid unit_box = make_grid({2, 2, 2}, Centering::node);
 
@@ -48,8 +48,8 @@ TEST(LitMesh, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     const MeshData data = test::split_box(
         5, 3000, .01, [&](const glm::dvec3& p) { return .2 + glm::dot(gradient, p); });
     const View view = view_of_box(Projection::orthographic);
-    const PreciseImage unlit = trace(data, peaks(6), view, {tolerance, {}}).image;
-    const PreciseImage lit = trace(data, peaks(6), view, {tolerance, directional()}).image;
+    const PreciseImage unlit = trace(data, peaks(6), view, {mesh_tolerance, {}}).image;
+    const PreciseImage lit = trace(data, peaks(6), view, {mesh_tolerance, directional()}).image;
     EXPECT_GT(largest_alpha(lit), .5);
     for (int row = 0; row < view.height; ++row) {
         for (int column = 0; column < view.width; ++column) {
@@ -58,7 +58,7 @@ TEST(LitMesh, ALinearFieldIsTheUnlitPictureTimesAConstant) {
             const glm::dvec3 expected = lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient,
                                                             directional(), view.forward);
             ASSERT_EQ(b[3], a[3]);
-            for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * tolerance + 1e-11);
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * mesh_tolerance + 1e-11);
         }
     }
 }
@@ -103,11 +103,11 @@ TEST(LitMesh, TurningAndScalingEverythingChangesNothing) {
         other.height *= scale;
         const auto picture = [](const MeshData& mesh, double extinction, const Camera& from,
                                 const Lighting& by) {
-            return trace(mesh, peaks(extinction), View(from, 25, 20), {tolerance, by}).image;
+            return trace(mesh, peaks(extinction), View(from, 25, 20), {mesh_tolerance, by}).image;
         };
         EXPECT_LE(largest_difference(picture(data, 5, camera, directional()),
                                      picture(turned, 5 / scale, other, lighting)),
-                  2 * tolerance + 1e-11);
+                  2 * mesh_tolerance + 1e-11);
     }
 }
 

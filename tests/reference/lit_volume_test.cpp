@@ -13,7 +13,7 @@ namespace {
 
 using namespace reference_test;
 
-constexpr double tolerance = 1e-11;  // of each picture; both err by that at most
+constexpr double volume_tolerance = 1e-11;  // of each picture; both err by that at most
 
 struct Lit {
     Grid grid;
@@ -22,7 +22,7 @@ struct Lit {
 
     TraceResult trace(const Camera& camera, const std::optional<Lighting>& lighting) const {
         return trace_volume(make_volume<float>(grid, samples), function, View(camera, 25, 20),
-                            {tolerance, lighting});
+                            {volume_tolerance, lighting});
     }
 };
 
@@ -69,7 +69,8 @@ TEST(LitVolume, ALinearFieldIsTheUnlitPictureTimesAConstant) {
                     {a[0], a[1], a[2]}, a[3], gradient, directional(), camera.center - camera.eye);
                 ASSERT_EQ(b[3], a[3]);
                 // Errors: the unlit one times at most 2, the lit one, and rounding.
-                for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 3 * tolerance + 1e-13);
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(b[c], expected[c], 3 * volume_tolerance + 1e-13);
             }
         }
     }
@@ -140,7 +141,7 @@ TEST(LitVolume, TurningEverythingChangesNothing) {
                 other.up = turn * camera.up;
                 EXPECT_LE(largest_difference(scene.trace(camera, directional()).image,
                                              turned.trace(other, lighting).image),
-                          2 * tolerance + 1e-11);
+                          2 * volume_tolerance + 1e-11);
             }
         }
     }

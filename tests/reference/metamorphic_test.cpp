@@ -12,9 +12,9 @@ namespace {
 
 using namespace reference_test;
 
-constexpr double tolerance =
+constexpr double traced_to =
     1e-12;  // of each picture; both err by that at most, and round at some 1e-13
-constexpr double allowed = 2 * tolerance + 3e-13;
+constexpr double allowed = 2 * traced_to + 3e-13;
 constexpr int width = 31, height = 25;
 
 struct Scene {
@@ -24,7 +24,7 @@ struct Scene {
 
     TraceResult trace(const Camera& camera) const {
         return trace_volume(make_volume<float>(grid, samples), function,
-                            View(camera, width, height), {tolerance});
+                            View(camera, width, height), {traced_to});
     }
 };
 
@@ -35,7 +35,7 @@ Scene make_scene(Centering centering) {
     return {grid, std::move(samples), random_function(random, 3, 2, 3)};
 }
 
-std::vector<Camera> cameras(const Grid& grid) {
+std::vector<Camera> seen_from(const Grid& grid) {
     return {camera_at(grid, Projection::perspective, {1, 2, 3}, 1.2),
             camera_at(grid, Projection::perspective, {1, -2, 0.5}, 0.1),
             camera_at(grid, Projection::orthographic, {-3, 1, 1}, 1.2)};
@@ -84,7 +84,7 @@ TEST(Metamorphic, PermutingAndReversingAxesChangesNothing) {
             stored_differently(scene, {0, 1, 2}, {true, false, false}),
             stored_differently(scene, {1, 0, 2}, {false, true, true}),
         };
-        for (const Camera& camera : cameras(scene.grid)) {
+        for (const Camera& camera : seen_from(scene.grid)) {
             const TraceResult expected = scene.trace(camera);
             EXPECT_GT(largest_alpha(expected.image), 0.1);
             for (const Scene& other : others) {
@@ -101,7 +101,7 @@ TEST(Metamorphic, MirroringTheWorldMirrorsThePicture) {
     Scene mirrored = scene;
     mirrored.grid.origin = mirror(scene.grid.origin);
     for (glm::dvec3& step : mirrored.grid.step) step = mirror(step);
-    for (const Camera& camera : cameras(scene.grid)) {
+    for (const Camera& camera : seen_from(scene.grid)) {
         Camera other = camera;
         other.eye = mirror(camera.eye);
         other.center = mirror(camera.center);
@@ -128,7 +128,7 @@ TEST(Metamorphic, ScalingWorldAndExtinctionChangesNothing) {
                                         scene.function.knots().end());
         for (TransferKnot& knot : knots) knot.optics.extinction /= s;
         scaled.function = TransferFunction::linear(knots);
-        for (const Camera& camera : cameras(scene.grid)) {
+        for (const Camera& camera : seen_from(scene.grid)) {
             Camera other = camera;
             other.eye *= s;
             other.center *= s;
@@ -164,7 +164,7 @@ TEST(Metamorphic, RefiningTheGridChangesNothing) {
             }
         }
     }
-    for (const Camera& camera : cameras(scene.grid)) {
+    for (const Camera& camera : seen_from(scene.grid)) {
         const TraceResult a = scene.trace(camera), b = fine.trace(camera);
         EXPECT_LE(largest_difference(a.image, b.image), allowed);
         EXPECT_GT(b.segments, a.segments);
@@ -193,7 +193,7 @@ TEST(Metamorphic, SampleTypesAgree) {
 
 TEST(Metamorphic, NumberOfThreadsDoesNotMatter) {
     const Scene scene = make_scene(Centering::cell);
-    const Camera camera = cameras(scene.grid).front();
+    const Camera camera = seen_from(scene.grid).front();
     const TraceResult many = scene.trace(camera);
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     const TraceResult one = scene.trace(camera);
@@ -244,7 +244,7 @@ TEST(Metamorphic, CellsThatShowNothingChangeNothing) {
         }
         samples.front() = samples.back() = 1;
         const Volume volume = make_volume<float>(grid, samples);
-        std::vector<Camera> views = cameras(grid);
+        std::vector<Camera> views = seen_from(grid);
         for (const glm::dvec3& along : {glm::dvec3(1, 0, 0), {0, -1, 0}, {0, 0, 1}}) {
             views.push_back(camera_at(grid, Projection::orthographic, along, 1));
             views.back().up = {along.y, along.z, along.x};
@@ -252,9 +252,9 @@ TEST(Metamorphic, CellsThatShowNothingChangeNothing) {
         // Rays that meet edges of cells up to rounding.
         for (const glm::dvec3& along : {glm::dvec3(1, 0, 1.25), {1, .75, 0}, {-1, .75, 1.25}})
             views.push_back(camera_at(grid, Projection::orthographic, along, 1));
-        const TraceOptions plain{tolerance};
+        const TraceOptions plain{traced_to};
         const TraceOptions lit{
-            tolerance,
+            traced_to,
             directional(),
             {{middle_of(grid), {1, .3, -.2}}, {grid.to_world({2, 2, 2}), {.1, 1, .4}}}};
         double most = 0;

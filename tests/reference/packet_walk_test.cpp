@@ -26,25 +26,25 @@ struct TestLine {
     glm::dvec3 origin, direction;
 };
 
-struct Passed {
+struct PassedTet {
     std::int32_t tet;
     double from, to, front, back, least, most;
     std::array<std::int32_t, 3> corners;  // of the face by which the line leaves
     std::array<double, 3> weights;
-    bool operator==(const Passed&) const = default;
+    bool operator==(const PassedTet&) const = default;
 };
-using Passage = std::vector<Passed>;
+using Passage = std::vector<PassedTet>;
 
-Passed passed(const TetSegment& segment, const TetMesh& mesh, std::span<const double> values) {
-    Passed result{segment.tet,
-                  segment.in.at,
-                  segment.out.at,
-                  segment.in.interpolate(values),
-                  segment.out.interpolate(values),
-                  INFINITY,
-                  -INFINITY,
-                  segment.out.corners,
-                  segment.out.weights};
+PassedTet passed(const TetSegment& segment, const TetMesh& mesh, std::span<const double> values) {
+    PassedTet result{segment.tet,
+                     segment.in.at,
+                     segment.out.at,
+                     segment.in.interpolate(values),
+                     segment.out.interpolate(values),
+                     INFINITY,
+                     -INFINITY,
+                     segment.out.corners,
+                     segment.out.weights};
     for (const std::int32_t corner : mesh.tets()[static_cast<std::size_t>(segment.tet)]) {
         const double value = values[static_cast<std::size_t>(corner)];
         result.least = std::min(result.least, value);

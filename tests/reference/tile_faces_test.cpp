@@ -20,7 +20,7 @@ namespace {
 using reference_test::make_grid;
 using reference_test::Random;
 
-double value_at(const glm::dvec3& p) {
+double place_along_x(const glm::dvec3& p) {
     return p.x;
 }
 
@@ -80,7 +80,7 @@ void expect_faces_listed(const TetMesh& mesh, const Camera& camera, std::size_t&
 // A box of 8^3 cells has 768 open faces, many smaller than a pixel.
 TEST(TileFaces, ListThoseThatLinesMeet) {
     Random random(3);
-    MeshData regular = test::kuhn_box({8, 8, 8}, value_at), irregular = regular;
+    MeshData regular = test::kuhn_box({8, 8, 8}, place_along_x), irregular = regular;
     for (glm::dvec3& point : irregular.points) point += random.point(-.2, .2);
     std::size_t entries = 0, listed = 0, pixels = 0;
     for (const MeshData& data : {regular, irregular}) {

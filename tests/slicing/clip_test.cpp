@@ -12,21 +12,17 @@
 namespace lamina {
 namespace {
 
-double linf(const Image& a, const Image& b) {
-    return image_error(a, b).all.linf;
-}
-
-struct Pose {
+struct ClipPose {
     Projection projection;
     glm::dvec3 eye;
 };
 
 // The eye of the last pose is in a part of the box that some clips cut away.
-const Pose poses[] = {{Projection::orthographic, {1.7, -1.2, 1.4}},
-                      {Projection::perspective, {1.21, -.17, 1.19}},
-                      {Projection::perspective, {.31, .42, .63}}};
+const ClipPose clip_poses[] = {{Projection::orthographic, {1.7, -1.2, 1.4}},
+                               {Projection::perspective, {1.21, -.17, 1.19}},
+                               {Projection::perspective, {.31, .42, .63}}};
 
-Scene posed(const Pose& pose, const TransferFunction& transfer_function) {
+Scene posed(const ClipPose& pose, const TransferFunction& transfer_function) {
     Scene scene = unit_box_scene(transfer_function, pose.projection, 61, 47);
     scene.camera->eye = pose.eye;
     scene.camera->center = {.52, .47, .51};
@@ -46,9 +42,9 @@ double chord_bound(double depth) {
 
 using Draw = std::function<Image(const Volume&, const Scene&, const OmissionSwitch&)>;
 
-void expect_exact_chords(const Draw& draw) {
+void expect_clipped_chords(const Draw& draw) {
     const Volume volume = constant();
-    for (const Pose& pose : poses) {
+    for (const ClipPose& pose : clip_poses) {
         for (const test::NamedClip& named : test::clips_of_unit_box()) {
             for (const double depth : {1e-4, 3.}) {
                 const double extinction = depth / std::sqrt(3.0);
@@ -81,14 +77,14 @@ void expect_exact_chords(const Draw& draw) {
 }
 
 TEST(ClippedCpuPictures, HomogeneousBoxHasTheExactChordsOpacity) {
-    expect_exact_chords(
+    expect_clipped_chords(
         [](const Volume& volume, const Scene& scene, const OmissionSwitch& omissions) {
             return render_tiles(volume, scene, omissions);
         });
 }
 
 TEST_F(SlicingTest, ClippedHomogeneousBoxHasTheExactChordsOpacity) {
-    expect_exact_chords(
+    expect_clipped_chords(
         [&](const Volume& volume, const Scene& scene, const OmissionSwitch& omissions) {
             return render(volume, scene, capabilities(), omissions);
         });
@@ -113,7 +109,7 @@ TEST_F(SlicingTest, FloatRaysEndAtClipPlanes) {
     const Volume volume = constant();
     Capabilities gpu = capabilities();
     gpu.software = false;
-    for (const Pose& pose : poses) {
+    for (const ClipPose& pose : clip_poses) {
         for (const test::NamedClip& named : test::clips_of_unit_box()) {
             Scene scene = posed(pose, TransferFunction::linear({knot(0, {1, 1, 1}, 2)}));
             scene.clip = named.clip;
@@ -236,9 +232,9 @@ TEST_F(SlicingTest, ClippedExactSegmentsMeetTheTracer) {
 // at most 24 (extinction is 12 per unit of the scalar, whose slope changes by 2), so a segment
 // there is off by 24 h^2 / 8 of optical depth. For 33 cells that is 4.5e-4, or .11 / 255; errors
 // within cells and at the transfer function's points are smaller.
-void expect_many_slabs_to_converge(const Draw& draw, std::span<const Pose> from) {
+void expect_many_slabs_to_converge(const Draw& draw, std::span<const ClipPose> from) {
     const Volume volume = gaussians(12);
-    for (const Pose& pose : from) {
+    for (const ClipPose& pose : from) {
         Scene scene = posed(pose, smooth_transfer_function());
         for (const test::NamedClip& named : test::clips_of_unit_box()) {
             scene.clip = named.clip;
@@ -259,7 +255,7 @@ TEST(ClippedCpuPictures, ManySlabsMeetTheTracer) {
         [](const Volume& volume, const Scene& scene, const OmissionSwitch& omissions) {
             return render_tiles(volume, scene, omissions);
         },
-        poses);
+        clip_poses);
 }
 
 TEST_F(SlicingTest, ManyClippedSlabsMeetTheTracer) {
@@ -267,7 +263,7 @@ TEST_F(SlicingTest, ManyClippedSlabsMeetTheTracer) {
         [&](const Volume& volume, const Scene& scene, const OmissionSwitch& omissions) {
             return render(volume, scene, capabilities(), omissions);
         },
-        std::span(poses).subspan(1, 1));
+        std::span(clip_poses).subspan(1, 1));
 }
 
 // A wall hides the volume behind it, and a clip plane cuts the wall away: rays must end early only
@@ -310,7 +306,7 @@ TEST(ClippedCpuPictures, BricksBehindPlanesAreLeftOut) {
 }
 
 TEST(ClippedCpuPictures, PlanesThatCutNothingAreLeftOut) {
-    Scene scene = posed(poses[1], smooth_transfer_function());
+    Scene scene = posed(clip_poses[1], smooth_transfer_function());
     const Volume volume = gaussians(12);
     scene.clip = test::clips_of_unit_box()[8].clip;  // keeps all of the box
     const Facts facts = measure(scene, volume, measure_bricks(volume));
@@ -324,7 +320,7 @@ TEST(ClippedCpuPictures, PlanesThatCutNothingAreLeftOut) {
 }
 
 TEST(ClippedCpuPictures, NothingIsDrawnWhereNothingIsLeft) {
-    Scene scene = posed(poses[1], smooth_transfer_function());
+    Scene scene = posed(clip_poses[1], smooth_transfer_function());
     const Volume volume = gaussians(12);
     scene.clip.planes = {{{1.5, .5, .5}, {1, 0, 0}}};
     const Facts facts = measure(scene, volume, measure_bricks(volume));

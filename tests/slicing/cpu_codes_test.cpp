@@ -21,10 +21,6 @@ int differing(const Image& a, const Image& b) {
     return count;
 }
 
-double linf(const Image& a, const Image& b) {
-    return image_error(a, b).all.linf;
-}
-
 const std::vector<std::vector<int>> trees{{}, {64}, {4, 16}, {5, 3}, {1, 4, 4}, {2, 2, 2, 2, 2, 2}};
 
 class CpuCodesTest : public SlicingTest {

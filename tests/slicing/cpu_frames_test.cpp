@@ -14,17 +14,17 @@
 namespace lamina {
 namespace {
 
-struct Case {
+struct FrameCase {
     const char* name;
     Scene scene;
     OmissionSwitch omissions;
 };
 
-std::vector<Case> cases(const TransferFunction& colored = smooth_transfer_function(),
-                        double seen_from = 0) {
+std::vector<FrameCase> cases(const TransferFunction& colored = smooth_transfer_function(),
+                             double seen_from = 0) {
     Scene scene = unit_box_scene(colored, Projection::perspective, 75, 53);
     scene.slice.samples = 100;
-    std::vector<Case> all{{"post", scene, {}}, {"blended", scene, leave_nothing_out()}};
+    std::vector<FrameCase> all{{"post", scene, {}}, {"blended", scene, leave_nothing_out()}};
     scene.slice.classification = Classification::preintegrated;
     all.push_back({"preintegrated", scene, {}});
     for (const Classification each : {Classification::post, Classification::preintegrated}) {
@@ -67,7 +67,7 @@ std::vector<Case> cases(const TransferFunction& colored = smooth_transfer_functi
 TEST(CpuFramesTest, EveryInstructionSetGivesTheSameBits) {
     const Volume volume = gaussians(30);
     const std::vector<std::string> names = instruction_sets();
-    for (const Case& each : cases()) {
+    for (const FrameCase& each : cases()) {
         const Image best = render_tiles(volume, each.scene, each.omissions);
         for (const std::string& name : names) {
             restrict_instructions(name);
@@ -80,7 +80,7 @@ TEST(CpuFramesTest, EveryInstructionSetGivesTheSameBits) {
 
 TEST(CpuFramesTest, ThreadsDoNotChangeThePicture) {
     const Volume volume = gaussians(30);
-    for (const Case& each : cases()) {
+    for (const FrameCase& each : cases()) {
         const Image many = render_tiles(volume, each.scene, each.omissions);
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
         EXPECT_EQ(render_tiles(volume, each.scene, each.omissions).rgba, many.rgba) << each.name;
@@ -89,7 +89,7 @@ TEST(CpuFramesTest, ThreadsDoNotChangeThePicture) {
 
 TEST(CpuFramesTest, FramesAfterTheFirstTakeNoMemory) {
     const Volume volume = gaussians(30);
-    for (const Case& each : cases()) {
+    for (const FrameCase& each : cases()) {
         const auto renderer = cpu_renderer(volume, each.scene, each.omissions);
         const View view(*each.scene.camera, each.scene.width, each.scene.height);
         renderer->draw(view);
@@ -110,7 +110,7 @@ Capabilities small_bricks() {
 
 TEST(CpuFramesTest, FramesOfSeveralBricksTakeNoMemory) {
     const Volume volume = gaussians(30);
-    for (const Case& each : cases()) {
+    for (const FrameCase& each : cases()) {
         const auto renderer = cpu_renderer(volume, each.scene, each.omissions, small_bricks());
         renderer->draw(View(*each.scene.camera, 75, 53));
         const View turned_by_70(turned(*each.scene.camera, 70), 75, 53);
@@ -141,7 +141,7 @@ TEST(CpuFramesTest, EmptySpaceIsSkippedBitForBit) {
         {knot(.2, {.1, .5, .9}, 0), knot(.5, {.9, .5, .1}, 20), knot(1, {1, 1, 1}, 30)});
     OmissionSwitch keep_space;
     keep_space.kept = {"empty_space"};
-    for (const Case& each : cases(top, .2)) {
+    for (const FrameCase& each : cases(top, .2)) {
         if (each.omissions.none) continue;
         for (const Capabilities& capabilities : {cpu_capabilities(), small_bricks()}) {
             const auto drawn = [&](const OmissionSwitch& omissions, std::int64_t& samples) {

@@ -8,10 +8,6 @@
 namespace lamina {
 namespace {
 
-double linf(const Image& a, const Image& b) {
-    return image_error(a, b).all.linf;
-}
-
 Volume lobes(SampleType type) {
     return generate({"marschner-lobb", std::array<std::int64_t, 3>{37, 29, 33}, type});
 }
@@ -76,7 +72,7 @@ TEST_F(SlicingTest, CpuShowsWhatOpenGlShowsFromEverywhere) {
 }
 
 // Returns the bound of homogeneous_test.cpp, whose poses are used here.
-double chord_bound(double depth) {
+double promised_error(double depth) {
     return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));
 }
 
@@ -109,7 +105,7 @@ TEST(CpuPictureTest, HomogeneousBoxHasTheExactChordsOpacity) {
                                                              std::expm1(-extinction * chord)));
                         }
                     }
-                    EXPECT_LE(worst, chord_bound(depth)) << depth << " " << samples;
+                    EXPECT_LE(worst, promised_error(depth)) << depth << " " << samples;
                 }
             }
         }
@@ -132,7 +128,7 @@ TEST(CpuPictureTest, ThinBoxesHaveTheExactChordsOpacity) {
         for (int column = 0; column < view.width; ++column) {
             EXPECT_NEAR(image.pixel(column, row)[3],
                         -std::expm1(-.3 * chord_length(volume.grid(), view, column, row)),
-                        chord_bound(.3));
+                        promised_error(.3));
         }
     }
 }

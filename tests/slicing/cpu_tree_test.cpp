@@ -7,10 +7,6 @@
 namespace lamina {
 namespace {
 
-double linf(const Image& a, const Image& b) {
-    return image_error(a, b).all.linf;
-}
-
 class CpuTreeTest : public SlicingTest {
   protected:
     Volume volume_ =

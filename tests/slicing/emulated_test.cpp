@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-struct Case {
+struct EmulatedCase {
     Emulation emulation;
     Order order = Order::back_to_front;
     std::optional<Dither> dither;
@@ -21,7 +21,7 @@ class EmulatedTest : public SlicingTest {
   protected:
     Volume volume_ = generate({"ramp", {}, SampleType::uint8});
 
-    void compare(const Case& wanted, int samples) {
+    void compare(const EmulatedCase& wanted, int samples) {
         Scene scene = ramp_scene(glm::dvec3(wanted.color));
         scene.slice.samples = samples;
         scene.slice.order = wanted.order;
@@ -48,7 +48,7 @@ class EmulatedTest : public SlicingTest {
     }
 
   private:
-    static FixedPixel composite(const Case& wanted, int samples, int x, int y) {
+    static FixedPixel composite(const EmulatedCase& wanted, int samples, int x, int y) {
         const double opacity = x / 255.0;
         const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
         const auto count = static_cast<std::size_t>(samples);
@@ -84,7 +84,7 @@ TEST_F(EmulatedTest, StraightCompositingMatchesTheFixedPointSimulation) {
 TEST_F(EmulatedTest, DitheringMatchesTheFixedPointSimulation) {
     for (const bool color : {false, true}) {
         for (const int increment : {1, 4, 8}) {
-            Case wanted;
+            EmulatedCase wanted;
             wanted.dither = Dither{11, 5, color, increment};
             wanted.color = .3;
             compare(wanted, 64);

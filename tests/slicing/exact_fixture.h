@@ -17,10 +17,6 @@ inline constexpr double float_error = .01;
 // Largest error, in 1/255, that exact segments promise (docs/precision.md).
 inline constexpr double promised = .05;
 
-inline double linf(const Image& a, const Image& b) {
-    return image_error(a, b).all.linf;
-}
-
 inline Scene exact_scene(const TransferFunction& transfer_function, Projection projection) {
     Scene scene = unit_box_scene(transfer_function, projection, 60, 45);
     scene.slice.classification = Classification::exact;

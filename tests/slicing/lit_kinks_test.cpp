@@ -16,10 +16,6 @@ namespace {
 using LitKinks = EngineTest;
 INSTANTIATE_TEST_SUITE_P(Engines, LitKinks, every_engine, engine_name);
 
-double linf(const Image& a, const Image& b) {
-    return image_error(a, b).all.linf;
-}
-
 // Returns a lit scene. `depth`: about the optical depth along the volume's diagonal.
 Scene scene_of(const Volume& volume, double depth) {
     const ValueRange range = measure_bricks(volume).whole;

@@ -22,14 +22,10 @@ constexpr Classification both[] = {Classification::post, Classification::preinte
 
 // Error, in 1/255, of sums of a few hundred roundings of float32 at full scale, of 16-bit gradients
 // (3e-5), and of rays in float32 with OpenGL.
-constexpr double float_error = .05;
+constexpr double slab_float_error = .05;
 
 using LitSlabsOf = EngineTest;
 INSTANTIATE_TEST_SUITE_P(Engines, LitSlabsOf, every_engine, engine_name);
-
-double linf(const Image& a, const Image& b) {
-    return image_error(a, b).all.linf;
-}
 
 // Returns the root mean square of the differences, in which single pixels with a kink at the end of
 // a slab count little.
@@ -42,7 +38,7 @@ double mean_square(const Image& a, const Image& b) {
     return std::sqrt(sum / static_cast<double>(a.rgba.size()));
 }
 
-Grid unit_grid(std::int64_t edge) {
+Grid unit_cube(std::int64_t edge) {
     Grid grid = test::grid_of({edge, edge, edge}, Centering::node);
     for (int axis = 0; axis < 3; ++axis) {
         grid.step[static_cast<std::size_t>(axis)] = glm::dvec3(0);
@@ -54,7 +50,7 @@ Grid unit_grid(std::int64_t edge) {
 // Returns a volume over [0, 1] with gradients of every size.
 Volume waves(std::int64_t edge) {
     const auto last = static_cast<double>(edge - 1);
-    return test::volume_of<float>(unit_grid(edge), [&](double x, double y, double z) {
+    return test::volume_of<float>(unit_cube(edge), [&](double x, double y, double z) {
         const double u = x / last, v = y / last, w = z / last;
         return .5 + .5 * std::sin(5 * u + 3 * v * std::sin(4 * w));
     });
@@ -86,7 +82,7 @@ TEST_P(LitSlabsOf, ManySlabsMeetTheTracer) {
                 const double few = linf(draw(volume, scene), traced);
                 scene.slice.samples = 640;
                 const double many = linf(draw(volume, scene), traced);
-                EXPECT_LE(many, few / 100 + float_error) << name_of(each) << few;
+                EXPECT_LE(many, few / 100 + slab_float_error) << name_of(each) << few;
             }
         }
     }
@@ -96,7 +92,7 @@ TEST_P(LitSlabsOf, ManySlabsMeetTheTracer) {
 // where they are one-sided (clipped away). All lights lie on one side of all gradients, so light
 // has no kinks.
 TEST(LitSlabs, ErrorFallsWithTheSquareOfTheThickness) {
-    const Volume volume = test::volume_of<float>(unit_grid(33), [](double x, double y, double z) {
+    const Volume volume = test::volume_of<float>(unit_cube(33), [](double x, double y, double z) {
         const glm::dvec3 from(x / 32 + 1.5, y / 32 + 1.2, z / 32 + .9);
         return glm::dot(from, from) / 15;
     });
@@ -126,7 +122,7 @@ TEST(LitSlabs, ErrorFallsWithTheSquareOfTheThickness) {
 // Samples are exact in binary, and so are their differences. Rays are parallel, so light is the
 // same everywhere.
 TEST_P(LitSlabsOf, ALinearFieldIsTheUnlitPictureTimesAConstant) {
-    const Grid grid = unit_grid(9);
+    const Grid grid = unit_cube(9);
     const glm::dvec3 gradient(.25, -.125, .5);
     const Volume volume = test::volume_of<float>(grid, [&](double x, double y, double z) {
         return .125 + glm::dot(gradient, grid.to_world({x, y, z}));
@@ -145,7 +141,8 @@ TEST_P(LitSlabsOf, ALinearFieldIsTheUnlitPictureTimesAConstant) {
                     lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, *scene.lighting,
                                         scene.camera->center - scene.camera->eye);
                 ASSERT_EQ(b[3], a[3]);
-                for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * float_error / 255);
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(b[c], expected[c], 2 * slab_float_error / 255);
             }
         }
     }
@@ -158,7 +155,7 @@ TEST_P(LitSlabsOf, AmbientAloneIsTheUnlitPicture) {
         scene.slice.samples = 50;
         const Image lit = draw(volume, scene);
         scene.lighting.reset();
-        EXPECT_LE(linf(lit, draw(volume, scene)), float_error) << name_of(each);
+        EXPECT_LE(linf(lit, draw(volume, scene)), slab_float_error) << name_of(each);
     }
 }
 
@@ -215,7 +212,7 @@ TEST(LitSlabs, AutomaticSamplesKeepMaxErrorAgainstTheLitTracer) {
 
 // Gradients beside NaN samples are one-sided differences.
 TEST_P(LitSlabsOf, NanSamplesAreTransparent) {
-    const Grid grid = unit_grid(10);
+    const Grid grid = unit_cube(10);
     const Volume volume = test::volume_of<float>(grid, [&](double x, double y, double z) {
         return x > 4 && y > 3 && z < 5 ? NAN : .1 + .05 * x + .02 * y + .01 * z * z;
     });
@@ -250,13 +247,13 @@ TEST_P(LitSlabsOf, TreesAndClippedVolumesAreLit) {
         const Image straight = draw(volume, scene);
         // 600 slabs over 11 voxels are about 1 / 50 of a voxel thick; the error is at most the
         // square of that, 1 / 2500 of full scale.
-        EXPECT_LE(linf(straight, trace(volume, scene, 1e-6)), 255. / 2500 + float_error);
+        EXPECT_LE(linf(straight, trace(volume, scene, 1e-6)), 255. / 2500 + slab_float_error);
         // Nodes in float32 give straight compositing, except for roundings.
         scene.slice.tree = TreeSettings{.factors = {20, 30}};
-        EXPECT_LE(linf(draw(volume, scene), straight), float_error) << name_of(each);
+        EXPECT_LE(linf(draw(volume, scene), straight), slab_float_error) << name_of(each);
         // 20 children and the root, each rounded by half a code in colour and opacity.
         scene.target = Target::fixed16;
-        EXPECT_LE(linf(draw(volume, scene), straight), 21 * 255. / 65535 + float_error)
+        EXPECT_LE(linf(draw(volume, scene), straight), 21 * 255. / 65535 + slab_float_error)
             << name_of(each);
     }
 }
@@ -272,7 +269,7 @@ TEST_P(LitSlabsOf, EmulatedTargetsAreLit) {
         scene.target = Target::emulated;
         scene.emulate = {16, AlphaRounding::nearest, OverRounding::fused, 3};
         EXPECT_LE(linf(draw(volume, scene), in_float),
-                  (3 * 60 + 1) * .5 * 255 / 65535 + float_error)
+                  (3 * 60 + 1) * .5 * 255 / 65535 + slab_float_error)
             << name_of(each);
     }
 }
@@ -285,7 +282,7 @@ TEST_P(LitSlabsOf, BricksKnowTheGradientsOfTheirNeighbours) {
         Scene scene = lit_scene(each, directional());
         scene.slice.samples = 300;
         // A segment that a face of a brick cuts becomes two, with another rounding.
-        EXPECT_LE(linf(draw(volume, scene, {}, small), draw(volume, scene)), 2 * float_error)
+        EXPECT_LE(linf(draw(volume, scene, {}, small), draw(volume, scene)), 2 * slab_float_error)
             << name_of(each);
     }
 }
@@ -298,7 +295,7 @@ bool leaves_out(const Plan& plan, const std::string& name) {
 // lit, because gradients differ.
 TEST(LitSlabs, ThePlanLeavesOutNothingThatLightNeeds) {
     const Volume volume = test::volume_of<float>(
-        unit_grid(20), [](double x, double, double) { return x < 10 ? 0 : 1; });
+        unit_cube(20), [](double x, double, double) { return x < 10 ? 0 : 1; });
     for (const Classification each : both) {
         Scene scene = lit_scene(each, Lighting{});
         scene.transfer_function =

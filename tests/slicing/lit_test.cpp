@@ -21,11 +21,7 @@ using reference_test::lit_by_one_gradient;
 
 // Error, in 1/255, of sums of a few hundred roundings of float32 at full scale, and of the rounding
 // of gradients: 2^-15 of each corner's, which changes light by less than half of that.
-constexpr double float_error = .02;
-
-double linf(const Image& a, const Image& b) {
-    return image_error(a, b).all.linf;
-}
+constexpr double lit_float_error = .02;
 
 template <typename Sample>
 Volume noise(const Grid& grid, double largest) {
@@ -155,8 +151,8 @@ TEST_P(LitTest, ALinearFieldIsTheUnlitPictureTimesAConstant) {
                 lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, *scene.lighting,
                                     scene.camera->center - scene.camera->eye);
             // Lit rays are walked in double precision, and unlit ones in floats.
-            ASSERT_NEAR(b[3], a[3], float_error / 255);
-            for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * float_error / 255);
+            ASSERT_NEAR(b[3], a[3], lit_float_error / 255);
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * lit_float_error / 255);
         }
     }
 }
@@ -167,7 +163,7 @@ TEST_P(LitTest, AmbientAloneIsTheUnlitPicture) {
     look_from(volume, {.4, -.7, .9}, .6, scene);
     const Image lit = draw(volume, scene);
     scene.lighting.reset();
-    EXPECT_LE(linf(lit, draw(volume, scene)), float_error);
+    EXPECT_LE(linf(lit, draw(volume, scene)), lit_float_error);
 }
 
 // Gradients beside NaN samples are one-sided differences; cells without a NaN corner are visible.

@@ -22,11 +22,11 @@ namespace {
 
 using reference_test::Random;
 
-constexpr int edge = 128;
+constexpr int lit_edge = 128;
 
 // Returns the pixels that a program draws, row 0 at the bottom.
-std::vector<float> run(gl::Program& program) {
-    gl::Framebuffer target(gl::Texture::make_2d(gl::TextureFormat::rgba32f, edge, edge));
+std::vector<float> drawn_pixels(gl::Program& program) {
+    gl::Framebuffer target(gl::Texture::make_2d(gl::TextureFormat::rgba32f, lit_edge, lit_edge));
     target.bind();
     gl::draw_full_screen(program);
     return target.color().read_rgba();
@@ -68,7 +68,7 @@ void compare_light(const Lighting& lighting, const glm::dvec3& eye, Random& rand
     const std::array<glm::dvec3, 3> axes{glm::dvec3(2, 1, 2), glm::dvec3(-2, 2, 1) * .1,
                                          glm::dvec3(1, 2, -2)};
     std::vector<float> gradients;
-    for (int i = 0; i < edge * edge; ++i) {
+    for (int i = 0; i < lit_edge * lit_edge; ++i) {
         const double length = *lighting.smallest_gradient * std::exp(random.uniform(-7, 12));
         const glm::dvec3 gradient = length * random.point(-1, 1);
         for (int axis = 0; axis < 3; ++axis)
@@ -76,8 +76,8 @@ void compare_light(const Lighting& lighting, const glm::dvec3& eye, Random& rand
         gradients.push_back(0);
     }
     for (std::size_t i = 0; i < 3; ++i) gradients[i] = 0;
-    gl::Texture texture = gl::Texture::make_2d(gl::TextureFormat::rgba32f, edge, edge);
-    texture.upload({0, 0, 0, edge, edge, 1}, std::span<const float>(gradients));
+    gl::Texture texture = gl::Texture::make_2d(gl::TextureFormat::rgba32f, lit_edge, lit_edge);
+    texture.upload({0, 0, 0, lit_edge, lit_edge, 1}, std::span<const float>(gradients));
     texture.bind(0);
     gl::Defines defines;
     set_light_defines(lighting, defines);
@@ -103,7 +103,7 @@ void compare_light(const Lighting& lighting, const glm::dvec3& eye, Random& rand
     program.set("to_eye", glm::vec3(along_axes(eye)));
     const double smallest = *lighting.smallest_gradient;
     program.set("smallest_square", static_cast<float>(smallest * smallest));
-    const std::vector<float> pixels = run(program);
+    const std::vector<float> pixels = drawn_pixels(program);
     const RayLights lights(lighting, eye);
     // A cosine is a sum of three products, with some five roundings of 2^-24. That with the halfway
     // vector has half as many more, as |l + v| is at least 1. pow() is off by 2^-21 in the
@@ -171,9 +171,9 @@ void compare_brick(const Volume& volume, const TextureBrick& brick, gl::Program&
     program.set("cells", cells);
     program.set("last_sample",
                 glm::vec3(glm::dvec3(brick.size[0], brick.size[1], brick.size[2]) - 1.0));
-    const std::vector<float> pixels = run(program);
+    const std::vector<float> pixels = drawn_pixels(program);
     const GradientSamples samples(grid, static_cast<const Sample*>(volume.data()));
-    for (int i = 0; i < edge * edge; ++i) {
+    for (int i = 0; i < lit_edge * lit_edge; ++i) {
         const CellIndex cell{first.x + i % cells.x, first.y + i / cells.x % cells.y,
                              first.z + i / (cells.x * cells.y) % cells.z};
         const auto at = [&](const glm::dvec3& place) {

@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-constexpr int width = 64, height = 48;
+constexpr int picture_width = 64, picture_height = 48;
 
 // Tells whether the ray through a pixel's centre meets the box in front of the eye.
 bool meets(const IndexBox& box, const Grid& grid, const View& view, int column, int row) {
@@ -43,13 +43,13 @@ TEST(PixelBox, HoldsAllPixelsWhoseRaysMeetTheBox) {
         camera.eye = grid.to_world(point(-20, 60));
         camera.center = grid.to_world(point(0, 20));
         camera.height = 2 * uniform(random) + .1;
-        const View view(camera, width, height);
+        const View view(camera, picture_width, picture_height);
         const glm::dvec3 one = point(0, 20), other = point(0, 20);
         const IndexBox box{glm::min(one, other), glm::max(one, other)};
         const PixelBox found = pixels_of(box, grid, view);
-        smaller += found.first_column > 0 || found.end_column < width;
-        for (int row = 0; row < height; ++row) {
-            for (int column = 0; column < width; ++column) {
+        smaller += found.first_column > 0 || found.end_column < picture_width;
+        for (int row = 0; row < picture_height; ++row) {
+            for (int column = 0; column < picture_width; ++column) {
                 if (!meets(box, grid, view, column, row)) continue;
                 EXPECT_TRUE(column >= found.first_column && column < found.end_column &&
                             row >= found.first_row && row < found.end_row);

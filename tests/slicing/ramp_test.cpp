@@ -13,7 +13,7 @@ namespace {
 
 constexpr int width = ramp_width, height = ramp_height, largest = 255;
 
-struct Case {
+struct RampCase {
     int samples;
     AlphaRounding alpha;
     OverRounding over;
@@ -39,7 +39,7 @@ std::vector<int> permutation(int period, std::uint64_t seed) {
 // Computes the code of a pixel whose value is 0 .. 255.
 class Simulation {
   public:
-    explicit Simulation(const Case& wanted)
+    explicit Simulation(const RampCase& wanted)
         : case_(wanted), perm_(permutation(std::max(wanted.period, 1), 1)) {}
 
     int pixel(int value) {
@@ -91,7 +91,7 @@ class Simulation {
         return background;
     }
 
-    const Case& case_;
+    const RampCase& case_;
     std::vector<int> perm_;
     double unit_opacity_ = 0;
 };
@@ -100,7 +100,7 @@ class RampTest : public SlicingTest {
   protected:
     Volume volume_ = generate({"ramp", {}, SampleType::uint8});
 
-    void compare(const Case& wanted, Capabilities capabilities) {
+    void compare(const RampCase& wanted, Capabilities capabilities) {
         Scene scene = ramp_scene({1, 1, 1});
         scene.slice.samples = wanted.samples;
         scene.emulate.alpha = wanted.alpha;
@@ -126,7 +126,7 @@ class RampTest : public SlicingTest {
     }
 };
 
-const std::vector<std::vector<int>> trees{
+const std::vector<std::vector<int>> ramp_trees{
     {}, {256}, {64, 4}, {4, 64}, {16, 16}, {4, 4, 4, 4}, {2, 2, 2, 2, 2, 2, 2, 2}};
 
 TEST_F(RampTest, EveryCombinationMatchesTheIntegerSimulation) {
@@ -134,7 +134,7 @@ TEST_F(RampTest, EveryCombinationMatchesTheIntegerSimulation) {
         for (const AlphaRounding alpha : {AlphaRounding::truncate, AlphaRounding::nearest}) {
             for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
                 for (const int period : {0, 4, 11, 64, 256}) {
-                    for (const std::vector<int>& factors : trees) {
+                    for (const std::vector<int>& factors : ramp_trees) {
                         compare({samples, alpha, over, period, factors}, capabilities());
                         if (HasFatalFailure()) return;
                     }

@@ -49,6 +49,11 @@ inline Image trace(const Volume& volume, const Scene& scene, double tolerance) {
                         .image);
 }
 
+// Returns the largest difference, in 1/255.
+inline double linf(const Image& a, const Image& b) {
+    return image_error(a, b).all.linf;
+}
+
 inline Volume gaussians(std::int64_t edge) {
     return generate({"gaussians", std::array{edge, edge, edge}, SampleType::float32});
 }

@@ -8,19 +8,19 @@
 namespace lamina {
 namespace {
 
-constexpr std::int64_t edge = 40;
+constexpr std::int64_t volume_edge = 40;
 
 Volume generated(const std::string& name) {
-    return generate({name, std::array{edge, edge, edge}, SampleType::uint8});
+    return generate({name, std::array{volume_edge, volume_edge, volume_edge}, SampleType::uint8});
 }
 
 Volume white_noise() {
     std::mt19937 random(3);
-    std::vector<float> samples(edge * edge * edge);
+    std::vector<float> samples(volume_edge * volume_edge * volume_edge);
     for (float& sample : samples) sample = static_cast<float>(random() % 256);
     return reference_test::make_volume(
-        reference_test::make_grid({edge, edge, edge}, Centering::node,
-                                  glm::dvec3(1.0 / (edge - 1))),
+        reference_test::make_grid({volume_edge, volume_edge, volume_edge}, Centering::node,
+                                  glm::dvec3(1.0 / (volume_edge - 1))),
         std::move(samples));
 }
 
@@ -62,10 +62,6 @@ Scene scene_of(const Example& example, int samples, Target target,
     scene.target = target;
     if (!factors.empty()) scene.slice.tree = TreeSettings{.factors = factors};
     return scene;
-}
-
-double linf(const Image& a, const Image& b) {
-    return image_error(a, b).all.linf;
 }
 
 using TreeTest = SlicingTest;

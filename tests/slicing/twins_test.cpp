@@ -11,7 +11,7 @@ namespace {
 
 constexpr int edge = 128;
 
-Image run(gl::Program& program) {
+Image drawn_image(gl::Program& program) {
     gl::Framebuffer target(gl::Texture::make_2d(gl::TextureFormat::rgba32f, edge, edge));
     target.bind();
     gl::draw_full_screen(program);
@@ -28,7 +28,7 @@ TEST_F(SlicingTest, OpacityFromDepthInShadersMatchesCppToFloat32) {
         "    float depth = exp2((pixel.x + 128.0 * pixel.y) * (33.0 / 16384.0) - 27.0);\n"
         "    result = vec4(depth, opacity_from_depth(depth), 0.0, 1.0);\n"
         "}\n");
-    const Image image = run(program);
+    const Image image = drawn_image(program);
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {  // depths from 7e-9 to 64
         const double expected = opacity_from_depth(image.rgba[i]);
         // The relative error is at most 3e-7 (shaders/optics/opacity.glsl), and a rounding of the
@@ -73,7 +73,7 @@ void compare_runs(bool colored, int layers, bool filtered, bool lit = false) {
         segment_defines(plan, tables.intervals(), tables.nodes()));
     tables.bind(program);
     program.set("world_length", .35f);
-    const Image image = run(program);
+    const Image image = drawn_image(program);
     for (int row = 0; row < edge; ++row) {
         for (int column = 0; column < edge; ++column) {
             const double front = (column + .5) / edge, back = (edge - row - .5) / edge;

@@ -12,23 +12,24 @@ namespace {
 using Arithmetic = EveryInstructionSet;
 INSTANTIATE_TEST_SUITE_P(All, Arithmetic, every_instruction_set, instruction_set_name);
 
-constexpr std::size_t count = 1 << 18;
+constexpr std::size_t argument_count = 1 << 18;
 
 // Returns numbers from first to last, equally spaced.
 std::vector<float> spaced(double first, double last) {
-    std::vector<float> numbers(count);
-    for (std::size_t i = 0; i < count; ++i)
-        numbers[i] = static_cast<float>(first + (last - first) * static_cast<double>(i) / count);
+    std::vector<float> numbers(argument_count);
+    for (std::size_t i = 0; i < argument_count; ++i)
+        numbers[i] =
+            static_cast<float>(first + (last - first) * static_cast<double>(i) / argument_count);
     return numbers;
 }
 
 // Returns numbers from 2^first to 2^last, equally spaced in the exponent.
 template <class T = float>
 std::vector<T> octaves(double first, double last) {
-    std::vector<T> numbers(count);
-    for (std::size_t i = 0; i < count; ++i)
-        numbers[i] =
-            static_cast<T>(std::exp2(first + (last - first) * static_cast<double>(i) / count));
+    std::vector<T> numbers(argument_count);
+    for (std::size_t i = 0; i < argument_count; ++i)
+        numbers[i] = static_cast<T>(
+            std::exp2(first + (last - first) * static_cast<double>(i) / argument_count));
     return numbers;
 }
 
@@ -36,9 +37,9 @@ constexpr double ulp = 0x1p-24;  // the error of one rounding to float, relative
 
 TEST_P(Arithmetic, ExponentialIsPreciseToFloat32) {
     const std::vector<float> x = spaced(-87, 88);
-    std::vector<float> result(count);
+    std::vector<float> result(argument_count);
     vector_exp(x, result);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < argument_count; ++i) {
         const double expected = std::exp(static_cast<double>(x[i]));
         // With |f| < .35, e^f is 1 + f p(f). The last sum rounds once. The product, and the last
         // sum in p, count at most half a rounding each, because |f| < e^f / 2. Earlier roundings,
@@ -62,9 +63,9 @@ TEST_P(Arithmetic, ExponentialIsSafeAtExtremes) {
 
 TEST_P(Arithmetic, LogarithmIsPreciseToFloat32) {
     const std::vector<float> x = octaves(-120, 127);
-    std::vector<float> result(count);
+    std::vector<float> result(argument_count);
     vector_log(x, result);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < argument_count; ++i) {
         const double expected = std::log(static_cast<double>(x[i]));
         // log(m) is at most ln(2) / 2 = .347 and has 4.1 roundings: m + 1, the quotient, the
         // polynomial's last sum and the product with it; earlier ones count a hundredth. Of the two
@@ -78,9 +79,9 @@ TEST_P(Arithmetic, LogarithmIsPreciseToFloat32) {
 // Near 1, where n is 0, the result is log(m) alone, so the error is relative.
 TEST_P(Arithmetic, LogarithmNearOneHasASmallRelativeError) {
     const std::vector<float> x = spaced(.75, 1.375);
-    std::vector<float> result(count);
+    std::vector<float> result(argument_count);
     vector_log(x, result);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < argument_count; ++i) {
         const double expected = std::log(static_cast<double>(x[i]));
         ASSERT_NEAR(result[i], expected, std::abs(expected) * (4.1 * ulp + 2e-9)) << x[i];
     }
@@ -88,9 +89,9 @@ TEST_P(Arithmetic, LogarithmNearOneHasASmallRelativeError) {
 
 TEST_P(Arithmetic, OpacityFromDepthIsPreciseToFloat32) {
     const std::vector<float> depth = octaves(-60, 8);
-    std::vector<float> result(count);
+    std::vector<float> result(argument_count);
     vector_opacity(depth, result);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < argument_count; ++i) {
         const double expected = -std::expm1(-static_cast<double>(depth[i]));
         ASSERT_NEAR(result[i], expected, expected * 3e-7) << depth[i];
         ASSERT_LE(result[i], 1);
@@ -99,9 +100,9 @@ TEST_P(Arithmetic, OpacityFromDepthIsPreciseToFloat32) {
 
 TEST_P(Arithmetic, OpacityFromDepthIsPreciseToDouble) {
     const std::vector<double> depth = octaves<double>(-80, 8);
-    std::vector<double> result(count);
+    std::vector<double> result(argument_count);
     vector_opacity(depth, result);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < argument_count; ++i) {
         const double expected = -std::expm1(-depth[i]);
         ASSERT_NEAR(result[i], expected, expected * 1e-13) << depth[i];
     }

@@ -15,7 +15,7 @@ namespace {
 using Codes = EveryInstructionSet;
 INSTANTIATE_TEST_SUITE_P(All, Codes, every_instruction_set, instruction_set_name);
 
-constexpr std::uint32_t count = 1 << 16;
+constexpr std::uint32_t code_count = 1 << 16;
 
 struct Operands {
     std::vector<double> color, alpha, below, above_alpha;
@@ -27,9 +27,9 @@ Operands operands_of(F operand) {
     Operands operands;
     for (std::vector<double>* values :
          {&operands.color, &operands.alpha, &operands.below, &operands.above_alpha}) {
-        values->resize(count);
+        values->resize(code_count);
     }
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < code_count; ++i) {
         operands.color[i] = operand(i, 0);
         operands.alpha[i] = operand(i, 1);
         operands.below[i] = operand(i, 2);
@@ -43,16 +43,16 @@ std::uint32_t code(double value) {
 }
 
 void expect_over_and_under(const Operands& operands, std::uint32_t largest) {
-    std::vector<double> result(count);
+    std::vector<double> result(code_count);
     for (const OverRounding rounding : {OverRounding::separate, OverRounding::fused}) {
         vector_over(rounding, largest, operands.view(), result);
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t i = 0; i < code_count; ++i) {
             ASSERT_EQ(result[i], over(rounding, code(operands.color[i]), code(operands.alpha[i]),
                                       code(operands.below[i]), largest))
                 << i;
         }
         vector_under(rounding, largest, operands.view(), result);
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t i = 0; i < code_count; ++i) {
             ASSERT_EQ(result[i],
                       under(rounding, code(operands.color[i]), code(operands.alpha[i]),
                             code(operands.below[i]), code(operands.above_alpha[i]), largest))
@@ -105,19 +105,20 @@ std::uint32_t chosen_number(std::uint32_t index, double scaled, double size) {
 }
 
 TEST_P(Codes, RoundingOfAlphaMatchesScalars) {
-    std::vector<double> scaled(count), result(count);
-    std::vector<std::uint32_t> random(count);
+    std::vector<double> scaled(code_count), result(code_count);
+    std::vector<std::uint32_t> random(code_count);
     for (const int bits : {1, 2, 4, 6, 8, 10, 12, 16}) {
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t i = 0; i < code_count; ++i) {
             scaled[i] = scaled_value(i, largest_code(bits));
             random[i] = chosen_number(i, scaled[i], 0x1p32);
         }
         vector_code_nearest(scaled, result);
-        for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(result[i], code_nearest(scaled[i]));
+        for (std::uint32_t i = 0; i < code_count; ++i)
+            ASSERT_EQ(result[i], code_nearest(scaled[i]));
         for (const AlphaRounding rounding :
              {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
             vector_round_alpha(rounding, scaled, random, result);
-            for (std::uint32_t i = 0; i < count; ++i) {
+            for (std::uint32_t i = 0; i < code_count; ++i) {
                 ASSERT_EQ(result[i], round_alpha(rounding, split_scaled(scaled[i]), random[i]))
                     << std::hexfloat << scaled[i];
             }
@@ -129,17 +130,17 @@ TEST_P(Codes, DitheringMatchesScalars) {
     struct Pattern {
         int period, increment;
     };
-    std::vector<double> scaled(count), result(count);
-    std::vector<std::uint32_t> rank(count);
+    std::vector<double> scaled(code_count), result(code_count);
+    std::vector<std::uint32_t> rank(code_count);
     for (const int bits : {1, 2, 4, 6, 8, 10, 12, 16}) {
         const std::uint32_t largest = largest_code(bits);
         for (const auto& [period, increment] : {Pattern{11, 1}, {256, 1}, {64, 3}, {65536, 7}}) {
-            for (std::uint32_t i = 0; i < count; ++i) {
+            for (std::uint32_t i = 0; i < code_count; ++i) {
                 scaled[i] = i % 1024 == 0 ? largest : scaled_value(i, largest);
                 rank[i] = chosen_number(i, scaled[i], period);
             }
             vector_dither(largest, period, increment, scaled, rank, result);
-            for (std::uint32_t i = 0; i < count; ++i) {
+            for (std::uint32_t i = 0; i < code_count; ++i) {
                 ASSERT_EQ(result[i], dither_code(scaled[i], rank[i], period, increment, largest))
                     << std::hexfloat << scaled[i] << " period " << period;
             }
@@ -148,18 +149,19 @@ TEST_P(Codes, DitheringMatchesScalars) {
 }
 
 TEST_P(Codes, StochasticOverMatchesScalars) {
-    std::vector<double> source(count), alpha(count), below(count), result(count);
-    std::vector<std::uint32_t> random(count);
+    std::vector<double> source(code_count), alpha(code_count), below(code_count),
+        result(code_count);
+    std::vector<std::uint32_t> random(code_count);
     for (const int bits : {1, 4, 8, 16}) {
         const std::uint32_t largest = largest_code(bits);
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t i = 0; i < code_count; ++i) {
             alpha[i] = i % 64 == 0 ? 1 : random_bits(i, 2, 0, 3) * 0x1p-32;
             source[i] = alpha[i] * (i % 16 == 1 ? 1 : random_bits(i, 3, 0, 3) * 0x1p-32);
             below[i] = i % 16 == 1 ? largest : random_bits(i, 4, 0, 3) & largest;
             random[i] = chosen_number(i, largest * source[i] + below[i] * (1 - alpha[i]), 0x1p32);
         }
         vector_over_stochastic(largest, source, alpha, below, random, result);
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t i = 0; i < code_count; ++i) {
             ASSERT_EQ(result[i],
                       over_stochastic(source[i], alpha[i], code(below[i]), random[i], largest))
                 << i;
@@ -168,15 +170,16 @@ TEST_P(Codes, StochasticOverMatchesScalars) {
 }
 
 TEST_P(Codes, RandomBitsMatchScalars) {
-    std::vector<std::uint32_t> column(count), row(count), sample(count), result(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
+    std::vector<std::uint32_t> column(code_count), row(code_count), sample(code_count),
+        result(code_count);
+    for (std::uint32_t i = 0; i < code_count; ++i) {
         column[i] = i % 256;
         row[i] = i / 256;
         sample[i] = i % 3 == 0 ? i : 0x9e3779b9u * i;
     }
     for (const std::uint32_t seed : {0u, 1u, 77u, 0xffffffffu}) {
         vector_random_bits(column, row, sample, seed, result);
-        for (std::uint32_t i = 0; i < count; ++i)
+        for (std::uint32_t i = 0; i < code_count; ++i)
             ASSERT_EQ(result[i], random_bits(column[i], row[i], sample[i], seed));
     }
 }

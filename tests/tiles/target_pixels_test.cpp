@@ -15,7 +15,7 @@ namespace {
 using TargetPixels = EveryInstructionSet;
 INSTANTIATE_TEST_SUITE_P(All, TargetPixels, every_instruction_set, instruction_set_name);
 
-constexpr std::uint32_t count = 1 << 14;
+constexpr std::uint32_t pixel_count = 1 << 14;
 
 using Planes = std::array<std::vector<float>, 4>;
 
@@ -23,8 +23,8 @@ using Planes = std::array<std::vector<float>, 4>;
 Planes random_codes(std::uint32_t largest, std::uint32_t seed) {
     Planes planes;
     for (std::uint32_t channel = 0; channel < 4; ++channel) {
-        planes[channel].resize(count);
-        for (std::uint32_t i = 0; i < count; ++i) {
+        planes[channel].resize(pixel_count);
+        for (std::uint32_t i = 0; i < pixel_count; ++i) {
             const std::uint32_t random = random_bits(i, channel, 0, seed), choice = random >> 29;
             planes[channel][i] = static_cast<float>(choice == 0   ? 0
                                                     : choice == 1 ? largest
@@ -56,7 +56,7 @@ TargetBlend emulated(int bits) {
     return target;
 }
 
-std::uint32_t code(float value) {
+std::uint32_t whole_code(float value) {
     return static_cast<std::uint32_t>(value);
 }
 
@@ -71,21 +71,21 @@ TEST_P(TargetPixels, CompositesCodesOfEveryLength) {
                 target.over_rounding = rounding;
                 const auto expected = [&](std::uint32_t color, std::size_t channel, std::size_t i,
                                           std::size_t alpha_channel) {
-                    const std::uint32_t alpha = code(sources[3][i]);
-                    const std::uint32_t there = code(before[channel][i]);
+                    const std::uint32_t alpha = whole_code(sources[3][i]);
+                    const std::uint32_t there = whole_code(before[channel][i]);
                     return order == Order::back_to_front
                                ? over(rounding, color, alpha, there, largest)
                                : under(rounding, color, alpha, there,
-                                       code(before[alpha_channel][i]), largest);
+                                       whole_code(before[alpha_channel][i]), largest);
                 };
                 Planes after = before;
                 vector_composite_codes(target, view_const(sources), view(after));
                 std::vector<float> opacity = before[0];
                 vector_composite_opacity(target, sources[3], opacity);
-                for (std::size_t i = 0; i < count; ++i) {
+                for (std::size_t i = 0; i < pixel_count; ++i) {
                     for (std::size_t channel = 0; channel < 4; ++channel) {
                         const std::uint32_t color =
-                            channel == 3 ? largest : code(sources[channel][i]);
+                            channel == 3 ? largest : whole_code(sources[channel][i]);
                         ASSERT_EQ(after[channel][i], expected(color, channel, i, 3)) << bits;
                     }
                     ASSERT_EQ(opacity[i], expected(largest, 0, i, 0)) << bits;
@@ -97,9 +97,9 @@ TEST_P(TargetPixels, CompositesCodesOfEveryLength) {
 
 TEST_P(TargetPixels, RoundsOpacitiesAndColors) {
     const std::vector<float> values = random_values(3)[0];
-    std::vector<float> result(count);
-    std::vector<std::uint32_t> random(count);
-    for (std::uint32_t i = 0; i < count; ++i) random[i] = random_bits(i, 0, 0, 4);
+    std::vector<float> result(pixel_count);
+    std::vector<std::uint32_t> random(pixel_count);
+    for (std::uint32_t i = 0; i < pixel_count; ++i) random[i] = random_bits(i, 0, 0, 4);
     for (const int bits : {1, 4, 8, 12, 16}) {
         TargetBlend target = emulated(bits);
         const std::uint32_t largest = largest_code(bits);
@@ -107,17 +107,17 @@ TEST_P(TargetPixels, RoundsOpacitiesAndColors) {
              {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
             target.alpha_rounding = rounding;
             vector_alpha_code(target, values, random, result);
-            for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t i = 0; i < pixel_count; ++i) {
                 const ScaledValue scaled = split_scaled(static_cast<double>(largest) * values[i]);
                 ASSERT_EQ(result[i], round_alpha(rounding, scaled, random[i])) << values[i];
             }
         }
         vector_color_code(target, values, result);
-        for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t i = 0; i < pixel_count; ++i)
             ASSERT_EQ(result[i], code_nearest(static_cast<double>(largest) * values[i]));
         const Dither dither{64, 1, false, 3};
         vector_dithered_code(target, dither, 21, values, result);
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < pixel_count; ++i) {
             ASSERT_EQ(result[i],
                       dither_code(static_cast<double>(largest) * values[i], 21, 64, 3, largest));
         }
@@ -125,19 +125,19 @@ TEST_P(TargetPixels, RoundsOpacitiesAndColors) {
 }
 
 TEST_P(TargetPixels, CompositesStochastically) {
-    std::vector<std::uint32_t> random(count);
-    for (std::uint32_t i = 0; i < count; ++i) random[i] = random_bits(i, 0, 0, 5);
+    std::vector<std::uint32_t> random(pixel_count);
+    for (std::uint32_t i = 0; i < pixel_count; ++i) random[i] = random_bits(i, 0, 0, 5);
     const Planes sources = random_values(6);
     for (const int bits : {8, 16}) {
         const std::uint32_t largest = largest_code(bits);
         const Planes before = random_codes(largest, 7);
         Planes after = before;
         vector_composite_stochastic(emulated(bits), view_const(sources), random, view(after));
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < pixel_count; ++i) {
             for (std::size_t channel = 0; channel < 4; ++channel) {
                 ASSERT_EQ(after[channel][i],
                           over_stochastic(sources[channel][i], sources[3][i],
-                                          code(before[channel][i]), random[i], largest));
+                                          whole_code(before[channel][i]), random[i], largest));
             }
         }
     }

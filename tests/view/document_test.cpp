@@ -13,9 +13,9 @@ namespace {
 
 using Curve = TransferHandle::Curve;
 
-const SymlogAxis axis(0, 10, .01);
+const SymlogAxis editor_axis(0, 10, .01);
 
-Scene small_scene() {
+Scene document_scene() {
     return parse_scene(
         R"({"version": 1, "volume": {"generate": "gaussians"},
             "transfer_function": {"points": [{"value": 10, "extinction": 0},
@@ -26,7 +26,7 @@ Scene small_scene() {
 
 Document opened() {
     Document document;
-    document.open(small_scene());
+    document.open(document_scene());
     return document;
 }
 
@@ -36,7 +36,7 @@ TEST(Document, OneDragIsOneStep) {
     document.transfer().select_only({Curve::density, 1});
     document.transfer().begin_move();
     for (int i = 1; i <= 20; ++i) {
-        document.transfer().move({-5. * i, 0}, axis);
+        document.transfer().move({-5. * i, 0}, editor_axis);
         document.transfer_edited("drag");
     }
     document.transfer().end_move();
@@ -184,7 +184,7 @@ TEST(Document, ShowsOpacitiesOfAnOpenColormapForTheirUnitLength) {
 TEST(Document, AnotherSceneCannotBeUndone) {
     Document document = opened();
     document.set_setting("render.target", "float16");
-    document.open(small_scene());
+    document.open(document_scene());
     EXPECT_FALSE(document.can_undo());
     EXPECT_FALSE(document.dirty());
 }

@@ -16,9 +16,9 @@
 namespace lamina::view {
 namespace {
 
-const SessionOptions native{.context = ContextChoice::cpu, .threads = 2};
+const SessionOptions two_threads{.context = ContextChoice::cpu, .threads = 2};
 
-Scene small_scene() {
+Scene pinned_scene() {
     return parse_scene(
         R"({"version": 1, "volume": {"generate": "gaussians", "size": [16, 16, 16]},
             "transfer_function": {"points": [{"value": 0, "color": "red", "extinction": 0},
@@ -32,9 +32,9 @@ Scene small_scene() {
 // A document drawn in steps by SessionSteps, as the viewer's worker does it.
 class DrawnDocument {
   public:
-    DrawnDocument() : steps_(native, [this](const Shown& shown) { take(shown); }) {
+    DrawnDocument() : steps_(two_threads, [this](const Shown& shown) { take(shown); }) {
         document.size_follows_window = false;
-        document.open(small_scene());
+        document.open(pinned_scene());
     }
 
     void draw(bool trace = false) {
@@ -59,7 +59,7 @@ class DrawnDocument {
 };
 
 Image drawn_alone(const Scene& scene) {
-    Session session(scene, native);
+    Session session(scene, two_threads);
     return session.draw();
 }
 
@@ -94,7 +94,7 @@ TEST(PinnedPicture, IsDrawnAgainInTheNewView) {
     turn(drawn.document);
     drawn.draw(true);
     EXPECT_EQ(drawn.shown().share_traced, 1);
-    Session alone(drawn.document.scene(), native);
+    Session alone(drawn.document.scene(), two_threads);
     EXPECT_EQ(drawn.shown().truth->rgba, alone.trace().rgba);
     Clip clip;
     clip.planes.push_back({.point = glm::dvec3(.5), .normal = {1, 0, 0}});
@@ -112,7 +112,7 @@ TEST(PinnedPicture, IsNotDrawnWhileTheOtherMoves) {
     drawn.draw();  // draws B, then A
     turn(drawn.document);
     Shown last;
-    SessionSteps steps(native, [&](const Shown& shown) { last = shown; });
+    SessionSteps steps(two_threads, [&](const Shown& shown) { last = shown; });
     DrawRequest request{.scene = drawn.document.scene(),
                         .revisions = drawn.document.revisions(),
                         .trace = false,
@@ -143,7 +143,7 @@ TEST(PinnedPicture, ReportsThatItCannotBeDrawnAndKeepsTheOther) {
     impossible.scene.slice.tree = TreeSettings{.factors = {8, 8}, .nodes = NodeArithmetic::fixed};
     turn(drawn.document);
     Shown last;
-    SessionSteps steps(native, [&](const Shown& shown) { last = shown; });
+    SessionSteps steps(two_threads, [&](const Shown& shown) { last = shown; });
     steps.begin({.scene = drawn.document.scene(),
                  .revisions = drawn.document.revisions(),
                  .pinned = std::make_shared<const PinnedPicture>(impossible)});
@@ -184,7 +184,7 @@ TEST(SessionSteps, ShowWarningsOnceAndAsLongAsTheyHold) {
         << "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\n"
         << std::string(64, 'a') << "behind";
     DrawnDocument drawn;
-    Scene scene = small_scene();
+    Scene scene = pinned_scene();
     scene.volume = VolumeFile{folder / "surplus.nrrd"};
     drawn.document.open(scene);
     const auto expect_one_of_the_file = [&](const std::string& picture) {
@@ -207,7 +207,7 @@ TEST(SessionSteps, ShowWarningsOnceAndAsLongAsTheyHold) {
     drawn.document.edit([](Scene& changed) { changed.method = Method::trace; });
     drawn.draw();
     expect_one_of_the_file("one of the method trace");
-    scene = small_scene();
+    scene = pinned_scene();
     scene.method = Method::trace;
     drawn.document.open(scene);
     drawn.draw();

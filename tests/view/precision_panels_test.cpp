@@ -12,7 +12,7 @@
 namespace lamina::view {
 namespace {
 
-Scene small_scene() {
+Scene panel_scene() {
     return parse_scene(R"({"version": 1, "volume": {"generate": "gaussians"},
                            "transfer_function": {"points": [{"value": 0, "extinction": 1}]},
                            "camera": {"eye": [3, 1, 2], "center": [0.5, 0.5, 0.5]},
@@ -51,7 +51,7 @@ TEST(PrecisionPanels, AreDrawnAndChangeNothing) {
         for (Panel* const panel : panels) imgui.frame([&] { panel->draw(context); });
     };
     draw(&precision);  // no document is open
-    document.open(small_scene());
+    document.open(panel_scene());
     document.size_follows_window = false;
     draw(nullptr);
     shown = shown_of(document);
@@ -81,7 +81,7 @@ TEST(PrecisionPanels, AClickOnARowRestoresItsScene) {
     test::HeadlessImGui imgui;
     AttemptsPanel panel;
     Document document;
-    document.open(small_scene());
+    document.open(panel_scene());
     document.size_follows_window = false;
     PrecisionInSight precision;
     Shown shown = shown_of(document);

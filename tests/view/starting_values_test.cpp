@@ -9,7 +9,7 @@
 namespace lamina::view {
 namespace {
 
-Scene scene_with(const std::string& more = "") {
+Scene started_scene(const std::string& more = "") {
     return parse_scene(R"({"version": 1, "volume": {"generate": "gaussians"}, "mesh": {}, "camera":
                            {"eye": [3, 1, 2], "center": [0.5, 0.5, 0.5]})" +
                            more + "}",
@@ -18,7 +18,7 @@ Scene scene_with(const std::string& more = "") {
 
 TEST(StartingValues, AreValidInAScene) {
     const Grid::Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
-    const Scene scene = scene_with();
+    const Scene scene = started_scene();
     const auto look = [&](const auto& again, const SettingNode& node) -> void {
         for (const SettingNode& part : node.parts) {
             if (may_be_absent(part)) {
@@ -39,7 +39,7 @@ TEST(StartingValues, AreValidInAScene) {
 }
 
 TEST(StartingValues, AreWhatWasChosenForAutomaticKeys) {
-    const Scene scene = scene_with();
+    const Scene scene = started_scene();
     Scene resolved = scene;
     resolved.slice.samples = 321;
     const SettingNode& samples = scene_key("render.slice.samples");

@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-double nothing(const glm::dvec3&) {
+double no_field(const glm::dvec3&) {
     return 0;
 }
 
@@ -53,7 +53,7 @@ TEST(FaceSigns, SayFromWhichSideFacesAreSeen) {
 }
 
 TEST(FaceSigns, AreExactDespiteRounding) {
-    const TetMesh needles(test::split_box(3, 1000, 1e-9, nothing), "needles");
+    const TetMesh needles(test::split_box(3, 1000, 1e-9, no_field), "needles");
     const TetMesh delaunay(test::DelaunayMesh::make(400, 5), "delaunay");
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(-1, 2);

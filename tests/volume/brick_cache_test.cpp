@@ -15,19 +15,19 @@
 namespace lamina {
 namespace {
 
-constexpr std::array<std::int64_t, 3> size{300, 130, 70};
+constexpr std::array<std::int64_t, 3> cached_size{300, 130, 70};
 
 double number_at(double x, double y, double z) {
     return static_cast<double>(static_cast<int>(x + 300 * y + 7 * z) % 65536);
 }
 
 Volume numbers() {
-    return test::volume_of<std::uint16_t>(test::grid_of(size, Centering::node), number_at);
+    return test::volume_of<std::uint16_t>(test::grid_of(cached_size, Centering::node), number_at);
 }
 
 // Returns a cache whose bricks are filled with their own numbers; counts the filled bricks.
 BrickCache numbered(std::atomic<int>& filled) {
-    return BrickCache(size, 4096, [&](std::span<const BrickCache::Wanted> wanted) {
+    return BrickCache(cached_size, 4096, [&](std::span<const BrickCache::Wanted> wanted) {
         for (const BrickCache::Wanted& each : wanted) {
             std::fill_n(reinterpret_cast<std::uint32_t*>(each.to), 1024, each.brick);
             ++filled;
@@ -128,7 +128,7 @@ TEST(BrickCache, ReadsExpectedNeighboursTogether) {
 
 TEST(BrickCache, PassesAnErrorOnAndTriesAgain) {
     bool fails = true;
-    BrickCache cache(size, 4096, [&](std::span<const BrickCache::Wanted>) {
+    BrickCache cache(cached_size, 4096, [&](std::span<const BrickCache::Wanted>) {
         if (fails) fail("volume.raw: truncated");
     });
     constexpr std::uint32_t used = 3;

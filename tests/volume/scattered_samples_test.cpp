@@ -13,7 +13,7 @@ namespace {
 
 using Triple = std::array<std::int64_t, 3>;
 
-constexpr Triple size{90, 40, 1};
+constexpr Triple flat_size{90, 40, 1};
 
 // The value at a place. Some min/max bricks along x have a single value.
 double step_at(double x, double y, double /*z*/) {
@@ -22,15 +22,15 @@ double step_at(double x, double y, double /*z*/) {
 
 TEST(ScatteredSamples, MatchTheSamplesOfTheVolume) {
     const Volume volume =
-        test::volume_of<std::uint8_t>(test::grid_of(size, Centering::node), step_at);
+        test::volume_of<std::uint8_t>(test::grid_of(flat_size, Centering::node), step_at);
     const Volume stored = test::stored(volume);
     const MinMaxBricks bricks = measure_bricks(volume);
     std::mt19937 random(3);
     for (int trial = 0; trial < 2000; ++trial) {
         Triple lower{}, upper{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            lower[axis] = static_cast<std::int64_t>(random()) % size[axis];
-            upper[axis] = std::min(lower[axis] + trial % 2, size[axis] - 1);
+            lower[axis] = static_cast<std::int64_t>(random()) % flat_size[axis];
+            upper[axis] = std::min(lower[axis] + trial % 2, flat_size[axis] - 1);
         }
         std::array<double, 8> expected{};
         for (std::size_t i = 0; i < 8; ++i) {

@@ -12,15 +12,15 @@ namespace {
 
 using GenerateFiles = testing::NrrdFiles;
 
-GeneratorRequest request(const std::string& name, std::array<std::int64_t, 3> size,
-                         SampleType type) {
+GeneratorRequest generator_request(const std::string& name, std::array<std::int64_t, 3> size,
+                                   SampleType type) {
     return {name, size, type};
 }
 
 TEST_F(GenerateFiles, StreamedFileHoldsTheSameVolume) {
     for (const std::string& name : generator_names()) {
         for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32}) {
-            const GeneratorRequest wanted = request(name, {33, 20, 11}, type);
+            const GeneratorRequest wanted = generator_request(name, {33, 20, 11}, type);
             AtomicFile file(folder() / "a.nrrd");
             generate_nrrd(file, wanted);
             file.commit();
@@ -38,7 +38,7 @@ TEST_F(GenerateFiles, StreamedFileHoldsTheSameVolume) {
 
 TEST_F(GenerateFiles, ManySlabsMakeTheSameVolumeAsOne) {
     const GeneratorRequest wanted =
-        request("gaussians", {1100, 1000, 10}, SampleType::float32);  // 44 MB: 2 slabs
+        generator_request("gaussians", {1100, 1000, 10}, SampleType::float32);  // 44 MB: 2 slabs
     AtomicFile file(folder() / "a.nrrd");
     generate_nrrd(file, wanted);
     file.commit();

@@ -17,7 +17,7 @@ using testing::samples_of;
 
 const std::string samples = "abcdefghijklmnopqrstuvwx";
 
-std::string header(const std::string& encoding, const std::string& more = "") {
+std::string surplus_header(const std::string& encoding, const std::string& more = "") {
     return "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 3 2\nencoding: " + encoding + "\n" +
            more + "\n";
 }
@@ -45,56 +45,63 @@ class NrrdSurplus : public testing::NrrdFiles {
 };
 
 TEST_F(NrrdSurplus, IsNotReportedIfThereIsNone) {
-    EXPECT_TRUE(warnings_of(write("a.nrrd", header("raw") + samples)).empty());
-    EXPECT_TRUE(warnings_of(write("a.nrrd", header("gzip") + gzip(samples))).empty());
-    EXPECT_TRUE(warnings_of(write("a.nrrd", header("bzip2") + bzip2(samples))).empty());
-    EXPECT_TRUE(warnings_of(write("a.nrrd", header("gzip") + gzip(samples.substr(0, 5)) +
+    EXPECT_TRUE(warnings_of(write("a.nrrd", surplus_header("raw") + samples)).empty());
+    EXPECT_TRUE(warnings_of(write("a.nrrd", surplus_header("gzip") + gzip(samples))).empty());
+    EXPECT_TRUE(warnings_of(write("a.nrrd", surplus_header("bzip2") + bzip2(samples))).empty());
+    EXPECT_TRUE(warnings_of(write("a.nrrd", surplus_header("gzip") + gzip(samples.substr(0, 5)) +
                                                 gzip(samples.substr(5))))
                     .empty());
-    EXPECT_TRUE(warnings_of(write("a.nrrd", header("bzip2") + bzip2(samples.substr(0, 5)) +
+    EXPECT_TRUE(warnings_of(write("a.nrrd", surplus_header("bzip2") + bzip2(samples.substr(0, 5)) +
                                                 bzip2(samples.substr(5))))
                     .empty());
     // A negative byte skip says that bytes follow the data, so these are no surplus.
     EXPECT_TRUE(
-        warnings_of(write("a.nrrd", header("raw", "byte skip: -4\n") + samples + "xyz")).empty());
+        warnings_of(write("a.nrrd", surplus_header("raw", "byte skip: -4\n") + samples + "xyz"))
+            .empty());
 }
 
 TEST_F(NrrdSurplus, IsReportedForRawData) {
-    expect_warning(header("raw") + samples + "xyz",
+    expect_warning(surplus_header("raw") + samples + "xyz",
                    {"3 bytes more than the 4 x 3 x 2 uint8 samples"});
-    expect_warning(header("raw", "byte skip: 2\n") + "12" + samples + "\n", {"1 bytes more"});
+    expect_warning(surplus_header("raw", "byte skip: 2\n") + "12" + samples + "\n",
+                   {"1 bytes more"});
     write("data.raw", samples + "xy");
-    const auto warnings = warnings_of(write("a.nhdr", header("raw", "data file: data.raw\n")));
+    const auto warnings =
+        warnings_of(write("a.nhdr", surplus_header("raw", "data file: data.raw\n")));
     ASSERT_EQ(warnings.size(), 1u);
     expect_says(warnings[0], {"data.raw: found 2 bytes more"});
 }
 
 TEST_F(NrrdSurplus, IsReportedForPackedData) {
-    expect_warning(header("gzip") + gzip(samples) + "junk!", {"5 bytes behind its gzip data"});
-    expect_warning(header("gzip") + gzip(samples + "12"), {"found 2 bytes of gzip data more"});
+    expect_warning(surplus_header("gzip") + gzip(samples) + "junk!",
+                   {"5 bytes behind its gzip data"});
+    expect_warning(surplus_header("gzip") + gzip(samples + "12"),
+                   {"found 2 bytes of gzip data more"});
     const std::string member = gzip("more");
-    expect_warning(header("gzip") + gzip(samples) + member,
+    expect_warning(surplus_header("gzip") + gzip(samples) + member,
                    {fmt::format("{} bytes behind its gzip data", member.size())});
-    expect_warning(header("bzip2") + bzip2(samples) + "junk!", {"5 bytes behind its bzip2 data"});
-    expect_warning(header("bzip2") + bzip2(samples + "12"), {"found 2 bytes of bzip2 data more"});
+    expect_warning(surplus_header("bzip2") + bzip2(samples) + "junk!",
+                   {"5 bytes behind its bzip2 data"});
+    expect_warning(surplus_header("bzip2") + bzip2(samples + "12"),
+                   {"found 2 bytes of bzip2 data more"});
 }
 
 // A decompression bomb gives one byte more than are counted.
 TEST_F(NrrdSurplus, IsCountedUpToALimit) {
     const std::string bomb(most_counted_surplus + 1, '\0');
-    expect_warning(header("gzip") + gzip(samples + bomb), {"found at least 6"});
+    expect_warning(surplus_header("gzip") + gzip(samples + bomb), {"found at least 6"});
 }
 
 // Surplus bytes are decompressed up to their checksum, which is missing here.
 TEST_F(NrrdSurplus, IsCheckedAsFarAsItIsCounted) {
     const std::string packed = gzip(samples + "12");
-    expect_says(
-        testing::error_of(write("a.nrrd", header("gzip") + packed.substr(0, packed.size() - 1))),
-        {"truncated gzip data: the checksum is missing"});
+    expect_says(testing::error_of(
+                    write("a.nrrd", surplus_header("gzip") + packed.substr(0, packed.size() - 1))),
+                {"truncated gzip data: the checksum is missing"});
 }
 
 TEST_F(NrrdSurplus, IsReportedForText) {
-    std::string text = header("ascii");
+    std::string text = surplus_header("ascii");
     for (const char sample : samples) text += std::to_string(sample) + " ";
     EXPECT_TRUE(warnings_of(write("a.nrrd", text + "\n\n")).empty());
     expect_warning(text + "7 8 end\n", {"found 3 numbers or other words more"});

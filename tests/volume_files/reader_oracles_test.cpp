@@ -23,7 +23,7 @@ glm::dvec3 vector_of(const Json& json) {
     return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
 }
 
-VolumeRequest request_of(const Json& json) {
+VolumeRequest oracle_request(const Json& json) {
     VolumeRequest request;
     if (json.contains("array")) request.array = json["array"];
     if (json.contains("channel")) request.channel = json["channel"];
@@ -109,8 +109,8 @@ TEST_P(ReaderOracles, AgreeWithWhatIsRead) {
         SCOPED_TRACE(one["file"].get<std::string>() + " " + one["request"].dump());
         warnings_.clear();
         try {
-            const Volume volume =
-                read_volume(folder / one["file"].get<std::string>(), request_of(one["request"]));
+            const Volume volume = read_volume(folder / one["file"].get<std::string>(),
+                                              oracle_request(one["request"]));
             EXPECT_EQ(name_of(volume.type()), one["type"].get<std::string>());
             expect_grid(one, volume.grid());
             expect_values(values_of(folder / one["values"].get<std::string>()), volume);

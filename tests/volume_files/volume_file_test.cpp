@@ -14,13 +14,14 @@ namespace {
 using VolumeFiles = testing::NrrdFiles;
 using Paths = std::vector<std::filesystem::path>;
 
-const std::string header = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n";
-const std::vector<std::uint8_t> samples = {7, 9};
+const std::string small_header =
+    "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n";
+const std::vector<std::uint8_t> two_samples = {7, 9};
 
 TEST_F(VolumeFiles, AreNrrdFilesOfAnyName) {
     for (const char* name : {"a.nrrd", "a.NRRD", "a.nhdr", "a.dat", "a"}) {
-        const Volume volume = read_volume(write(name, header + "\n\x07\x09"));
-        EXPECT_EQ(testing::samples_of<std::uint8_t>(volume), samples) << name;
+        const Volume volume = read_volume(write(name, small_header + "\n\x07\x09"));
+        EXPECT_EQ(testing::samples_of<std::uint8_t>(volume), two_samples) << name;
     }
 }
 
@@ -41,7 +42,7 @@ TEST_F(VolumeFiles, AreRefusedIfTheirFormatIsUnknown) {
 
 TEST_F(VolumeFiles, IncludeTheDataFileOfAHeader) {
     write("a.raw", "\x07\x09");
-    const auto detached = write("a.nhdr", header + "data file: a.raw\n");
+    const auto detached = write("a.nhdr", small_header + "data file: a.raw\n");
     EXPECT_EQ(files_of_volume(detached), (Paths{detached, folder() / "a.raw"}));
     const auto bad = write("b.nrrd", "nothing");
     EXPECT_EQ(files_of_volume(bad), Paths{bad});
