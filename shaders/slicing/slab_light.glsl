@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds light to segments of slabs: at the sample in the middle, or at both ends and linear between
 // them (docs/numerics.md, section 10). The engine `cpu` does this in
-// slicing/cpu_slab_segments-inl.h.
+// slicing/cpu_slab_segments.cpp.
 #include "optics/lighting.glsl"
 #include "volume/gradient.glsl"
 

@@ -8,7 +8,7 @@
 
 #include "base/client.h"
 #include "slicing/cpu_cells-inl.h"
-#include "slicing/cpu_slab_segments-inl.h"
+#include "slicing/cpu_slab_block-inl.h"
 #include "tiles/target_pixels-inl.h"
 
 LAMINA_SIMD_BEGIN
@@ -72,8 +72,7 @@ class SlabBlender {
                 cells_);
             if (as_codes_) set_precise_depths(block_);
         } else {
-            segments_ += as_codes_ ? set_segments<true>(slabs_, brick, rays, colored_, block_)
-                                   : set_segments<false>(slabs_, brick, rays, colored_, block_);
+            segments_ += set_segments(slabs_, brick, rays, colored_, as_codes_, block_);
         }
         composite_block(pixel);
     }

@@ -26,7 +26,7 @@
 #include <variant>
 
 #include "slicing/cpu_cut-inl.h"
-#include "slicing/cpu_slab_segments-inl.h"
+#include "slicing/cpu_slab_block-inl.h"
 
 LAMINA_SIMD_BEGIN
 
@@ -48,7 +48,8 @@ LAMINA_INLINE void put_behind(const RaySum& next, RaySum& sum) {
     sum.depth += next.depth;
 }
 
-// Integrates up to most_packets packets side by side: begin(), then next() until done().
+// Integrates up to most_packets packets side by side: begin(), then next() until done(). Both are
+// compiled once for all callers, in cpu_cells.cpp.
 template <bool lit>
 class CellIntegrator {
   public:
@@ -58,14 +59,7 @@ class CellIntegrator {
     CellIntegrator(const CpuSlabs& slabs, bool colored) : slabs_(slabs), colored_(colored) {}
 
     // Begins packets of rays at the front of a slab, or where they enter the drawn box behind it.
-    void begin(const CpuBrickView& view, const PacketRays* packets, std::size_t count, int slab) {
-        view_ = &view;
-        packets_ = count;
-        for (std::size_t i = 0; i < count; ++i) {
-            spans_[i] = span_from(packets[i], slab);
-            walks_[i].begin(*slabs_.cells, view, packets[i], spans_[i], slabs_.light);
-        }
-    }
+    void begin(const CpuBrickView& view, const PacketRays* packets, std::size_t count, int slab);
     // Ends rays at the front of slab `slab`, which must not lie in front of what was integrated.
     void set_end(int slab) {
         for (std::size_t i = 0; i < packets_; ++i)
@@ -83,25 +77,7 @@ class CellIntegrator {
     }
 
     // Returns the sums over the next few cells of each ray, for each packet.
-    void next(RaySum* sums) {
-        walk();
-        count_ += static_cast<std::int64_t>(segments_.count);
-        if (segments_.count > 0) {
-            set_cubics();
-            with_lookup(*slabs_.transfer, [&](auto kind) LAMINA_LAMBDA {
-                if (slabs_.transfer->bend[0].empty()) {
-                    integrate<decltype(kind)::value, false>(*slabs_.transfer);
-                } else {
-                    integrate<decltype(kind)::value, true>(*slabs_.transfer);
-                }
-            });
-        }
-        if (colored_) {
-            sum_segments<true>(sums);
-        } else {
-            sum_segments<false>(sums);
-        }
-    }
+    void next(RaySum* sums);
 
     std::int64_t segments() const { return count_; }
 

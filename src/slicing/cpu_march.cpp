@@ -7,7 +7,7 @@
 
 #include "base/client.h"
 #include "slicing/cpu_cells-inl.h"
-#include "slicing/cpu_slab_segments-inl.h"
+#include "slicing/cpu_slab_block-inl.h"
 #include "tiles/node_code-inl.h"
 #include "tiles/target_pixels-inl.h"
 
@@ -182,7 +182,7 @@ class Marcher {
         const PacketRays& rays = rays_.packets[packet];
         const BlockMask constant = rays_.constant(slabs_, number, block_.wanted);
         block_.wanted ^= constant;
-        segments_ += set_segments<false>(slabs_, brick, rays, !single_color_, block_);
+        segments_ += set_segments(slabs_, brick, rays, !single_color_, false, block_);
         block_.wanted ^= constant;
         for_each_run(constant, [&](int first, int end) {
             const OpticalProperties& optics =

@@ -1,45 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes colour and optical depth of the segments of a block of slabs along the rays of a vector
-// of pixels, as shaders/slicing/segment.glsl does. Each stage is done for all slabs, so that many
-// are computed at a time. Targets with codes of n bits need optical depths in double precision
-// (SlabBlock::precise_depths), in the order of the shaders' operations, so that codes are the same.
-#if defined(LAMINA_SLICING_CPU_SLAB_SEGMENTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LAMINA_SLICING_CPU_SLAB_SEGMENTS_INL_H_
-#undef LAMINA_SLICING_CPU_SLAB_SEGMENTS_INL_H_
-#else
-#define LAMINA_SLICING_CPU_SLAB_SEGMENTS_INL_H_
-#endif
+#include "slicing/cpu_slabs.h"
+
+#undef LAMINA_TARGET_FILE
+#define LAMINA_TARGET_FILE "slicing/cpu_slab_segments.cpp"
+#include "simd/foreach_target.h"
 
 #include "executors/cpu_transfer-inl.h"
 #include "slicing/cpu_fetch-inl.h"
 #include "slicing/cpu_light-inl.h"
+#include "slicing/cpu_slab_block-inl.h"
 
+// Colour and optical depth of the segments of a block of slabs, as shaders/slicing/segment.glsl
+// computes them. Each stage is done for all slabs, so that many are computed at a time. Targets
+// with codes of n bits need optical depths in double precision (SlabBlock::precise_depths), in the
+// order of the shaders' operations, so that codes are the same.
 LAMINA_SIMD_BEGIN
-
-// The values of a block, a vector for each slab. Slab i is slab first_slab + i of the view. Only
-// `wanted` slabs are computed, run by run; from .. end - 1 is the present run of consecutive ones.
-struct SlabBlock {
-    static constexpr std::size_t size = block_slabs * most_lanes;
-    alignas(64) float edge_scalars[size + most_lanes];  // at the boundaries of slabs
-    alignas(64) float scalars[size];                    // in the middles of slabs
-    alignas(64) float lengths[size];                    // world units
-    alignas(64) float depths[size];                     // optical depths
-    alignas(64) float colors[3][size];                  // not used if the plan has a single colour
-    // Front parts (optics/segment_integral.h) of a segment's colour and opacity, divided by its
-    // opacity, with which the light at the segment's front counts.
-    alignas(64) float front_colors[3][size];
-    alignas(64) float front_shares[size];
-    alignas(64) float edges[size + most_lanes];  // depths of boundaries, from the block's front on
-    alignas(64) float middles[size];             // depths of the slabs' middles
-    // Optical depths for codes; before the extinction is known, lengths.
-    alignas(64) double precise_depths[size];
-    int first_slab, from, end;
-    BlockMask wanted;
-};
-
-constexpr std::size_t at(int slab) {
-    return static_cast<std::size_t>(slab) * most_lanes;
-}
 
 // Calls visit(i, effect of light at point_at(i)) for i = first .. end - 1, a few points at a time.
 template <std::size_t channels, PointKind kind, class PointAt, class Visit>
@@ -418,16 +393,6 @@ LAMINA_INLINE void set_depth(const Float64& extinction, int slab, SlabBlock& blo
     store(extinction * load_float64(depth), depth);
 }
 
-// Copy optical depths that were computed in float to precise_depths.
-LAMINA_INLINE void set_precise_depths(int first, int end, SlabBlock& block) {
-    for (int i = first; i < end; ++i)
-        store(Float64(load<Float>(block.depths + at(i))), block.precise_depths + at(i));
-}
-inline void set_precise_depths(SlabBlock& block) {
-    for_each_run(block.wanted,
-                 [&](int first, int end) LAMINA_LAMBDA { set_precise_depths(first, end, block); });
-}
-
 // Sets optical depths and colours from the scalars in the middles of slabs: post-classification.
 template <bool precise, Lookup kind>
 LAMINA_INLINE void classify(const CpuTransfer& transfer, bool colored, bool nan_transparent,
@@ -524,11 +489,9 @@ std::int64_t set_run(const CpuSlabs& slabs, const CpuBrickView& view, const Pack
     return segments;
 }
 
-// Handles slabs first .. end - 1, which lie in a region of one colour and extinction: the first
-// slab gets the optical depth of all, and the others are no longer wanted.
-LAMINA_INLINE void set_constant_run(const CpuSlabs& slabs, const OpticalProperties& optics,
-                                    const PacketRays& packet, bool colored, int first, int end,
-                                    SlabBlock& block) {
+void set_constant_run(const CpuSlabs& slabs, const OpticalProperties& optics,
+                      const PacketRays& packet, bool colored, int first, int end,
+                      SlabBlock& block) {
     const BlockRays rays = block_rays(slabs.rays, packet, block.first_slab);
     const Float length =
         (boundary(slabs.rays, rays, end) - boundary(slabs.rays, rays, first)) * packet.length_float;
@@ -538,19 +501,16 @@ LAMINA_INLINE void set_constant_run(const CpuSlabs& slabs, const OpticalProperti
         store(Float(static_cast<float>(optics.color[channel])), block.colors[channel] + at(first));
 }
 
-// Sets optical depths and colours of wanted slabs. Returns the number of segments with a length.
-template <bool precise>
 std::int64_t set_segments(const CpuSlabs& slabs, const CpuBrickView& brick,
-                          const PacketRays& packet, bool colored, SlabBlock& block) {
+                          const PacketRays& packet, bool colored, bool precise, SlabBlock& block) {
     std::int64_t segments = 0;
     for_each_run(block.wanted, [&](int first, int end) {
         block.from = first;
         block.end = end;
-        segments += set_run<precise>(slabs, brick, packet, colored, block);
+        segments += precise ? set_run<true>(slabs, brick, packet, colored, block)
+                            : set_run<false>(slabs, brick, packet, colored, block);
     });
     return segments;
 }
 
 LAMINA_SIMD_END
-
-#endif
