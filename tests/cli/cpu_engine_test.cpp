@@ -69,7 +69,7 @@ TEST_F(CpuEngine, LoadsNoOpenGL) {
     }
 }
 
-TEST_F(CpuEngine, SaysWhatItTookInTheStatistics) {
+TEST_F(CpuEngine, ReportsTimesMemoryAndInstructionsInStatistics) {
     for (const char* method : methods) {
         const json stats = stats_of("cpu", method);
         for (const char* key :

@@ -322,7 +322,7 @@ TEST_F(Crosschecks, HelpSaysHowListsAreWritten) {
     EXPECT_EQ(budget["ladder"]["projection"].size(), 4u);  // three, and the scene's own
 }
 
-TEST_F(Crosschecks, BadArgumentsAreOneLineAndWriteNothing) {
+TEST_F(Crosschecks, BadArgumentsGiveOneLineAndWriteNothing) {
     const auto expect_refused = [&](int code, const std::vector<std::string>& options,
                                     const std::string& part) {
         const ProgramResult result = run(options);

@@ -106,7 +106,7 @@ TEST_F(FaultsOfDisks, AStudyStopsAndGoesOnWhenThereIsRoom) {
     }
 }
 
-TEST_F(FaultsOfDisks, FoldersThatCannotBeWrittenAreOneLine) {
+TEST_F(FaultsOfDisks, FoldersThatCannotBeWrittenAreReportedInOneLine) {
     const auto expect_failure = [&](std::vector<std::string> arguments) {
         arguments.insert(arguments.end(), {"-o", out / "made", "--quiet"});
         expect_one_line(lamina_run(arguments, fill_the_disk), 1, {"made", "cannot write"});

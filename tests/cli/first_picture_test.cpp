@@ -335,7 +335,7 @@ TEST_F(FirstPicture, APictureThatShowsNothingSaysWhy) {
     expect(bad, "the largest opacity is");
 }
 
-TEST_F(FirstPicture, ASaturatedPictureIsSaid) {
+TEST_F(FirstPicture, ASaturatedPictureGivesAWarning) {
     auto scene = gaussians_scene(16, 40, 30, 32);
     scene["transfer_function"]["points"] = {{{"value", 0}, {"extinction", 1000}}};
     write_bytes_to(folder / "s.json", scene.dump());
@@ -347,7 +347,7 @@ TEST_F(FirstPicture, ASaturatedPictureIsSaid) {
     }
 }
 
-TEST_F(FirstPicture, ColorsBesideTheDataAreSaid) {
+TEST_F(FirstPicture, ColorsBesideTheDataGiveAWarning) {
     auto scene = gaussians_scene(16, 40, 30, 32);
     scene["transfer_function"] = {
         {"colormap", "viridis"},

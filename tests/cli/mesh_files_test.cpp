@@ -151,7 +151,7 @@ TEST_F(MeshFiles, AreReportedInOneLineIfBadAndLeaveNothing) {
 }
 
 // Mid-edge points of a quadratic tet are not drawn; the program warns and counts them.
-TEST_F(MeshFiles, CountWhatIsLeftOut) {
+TEST_F(MeshFiles, QuadraticCellsAreCountedAndDrawnStraight) {
     std::string nodes = "10 3 1 0\n1 0 0 0 0\n2 1 0 0 0\n3 0 1 0 0\n4 0 0 1 0\n";
     for (int i = 5; i <= 10; ++i) nodes += fmt("%d %g .5 .5 0\n", i, i / 20.0);
     write("q.node", nodes);

@@ -108,7 +108,7 @@ TEST_F(Messages, NamesInFilesAreEscaped) {
     EXPECT_TRUE(json::accept(order.out)) << order.out << order.err;
 }
 
-TEST_F(Messages, DataThatAreNotUsedAreSaidOnce) {
+TEST_F(Messages, DataThatAreNotUsedAreReportedOnce) {
     const std::string scene = scene_with("xyz");
     const std::vector<std::string> render = {"render",         scene,       "-o",
                                              folder / "a.exr", "--context", "cpu"};
@@ -167,7 +167,7 @@ TEST_F(Messages, AMeshMadeFromAVolumeIsNamedByItsScene) {
 }
 
 // Exact segments keep .05 / 255 for colours up to 1; here colours go up to 900.
-TEST_F(Messages, BrightColorsWhoseErrorIsTooLargeAreSaid) {
+TEST_F(Messages, BrightColorsWhoseErrorIsTooLargeAreReported) {
     json scene = gaussians_scene(12, 40, 30, 4);
     write_bytes_to(folder / "scene.json", scene.dump());
     const std::vector<std::string> render = {"render",         folder / "scene.json", "-o",

@@ -92,7 +92,7 @@ TEST_F(Render, GivesIdenticalFilesTwice) {
     EXPECT_EQ(read_bytes_of(folder / "a.exr"), read_bytes_of(folder / "b.exr"));
 }
 
-TEST_F(Render, StatsHaveTheKeysOfTheDesign) {
+TEST_F(Render, StatsHaveAllKeysAndConsistentTimes) {
     ASSERT_EQ(render({"-o", folder / "a.png", "--stats", folder / "s.json", "--frames", "3",
                       "--context", "osmesa"})
                   .exit_code,

@@ -14,7 +14,7 @@ namespace {
 // The Python script prints what it compares. The mean must be within 1.5 codes: VTK samples a ray
 // every .05 voxels, looks values up in tables of some thousand entries, ends a ray at an opacity of
 // .996 (1 code), and, like lamina, rounds to 8 bits.
-TEST(VtkPictures, AgreeWithOursWithinCodes) {
+TEST(VtkPictures, AgreeWithLaminaWithinCodes) {
     const TemporaryFolder folder;
     const ProgramResult result =
         run_program({"/usr/bin/python3", LAMINA_SOURCE_DIR "/tests/cli/vtk_pictures.py",

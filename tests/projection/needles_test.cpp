@@ -30,7 +30,7 @@ class Needles : public ProjectionTest {};
 
 // Draws few tets, and so many that depths on faces are float32 if possible. A ray meets a needle of
 // width 1e-14 with a chance of some 1e-14 : 1 / 64.
-TEST_P(Needles, OfNoWidthShowNothing) {
+TEST_P(Needles, ShowNothingIfTheyHaveNoWidth) {
     for (const std::size_t tets : {500u, 12000u}) {
         for (const double width : {0., 1e-16, 1e-14}) {
             const SceneMesh mesh = needles(tets, width);

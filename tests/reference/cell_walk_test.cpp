@@ -154,7 +154,7 @@ void test_walks(const std::array<std::int64_t, 3>& size, Centering centering, in
 }
 
 // Lanes pass those cells of CellWalk that may be visible, with the same parameters.
-TEST(CellLanes, PassTheCellsOfAWalkAlone) {
+TEST(CellLanes, PassTheCellsOfASingleWalk) {
     test_walks({40, 33, 25}, Centering::cell, 30);
     test_walks({40, 33, 25}, Centering::node, 400);
     test_walks({1, 30, 9}, Centering::cell, 30);

@@ -31,7 +31,7 @@ std::vector<Judged> scenes() {
 
 // The estimate is within the tolerance, and the true error (against a picture with tolerance 1e-12)
 // is within the estimate.
-TEST(ErrorEstimate, KeepsTheToleranceAndIsHonest) {
+TEST(ErrorEstimate, KeepsTheToleranceAndCoversTheError) {
     for (const Judged& scene : scenes()) {
         const TraceResult exact = trace_volume(scene.volume, scene.function, scene.view, {1e-12});
         for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {

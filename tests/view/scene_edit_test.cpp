@@ -47,7 +47,7 @@ TEST(SceneEdit, ReachesListsAndCreatesMissingGroups) {
     EXPECT_TRUE(setting_at(settings_of(edited), "lighting.ambient").is_null());
 }
 
-TEST(SceneEdit, SaysWhatIsWrong) {
+TEST(SceneEdit, NamesMistakes) {
     const Scene before = scene();
     const auto message = [&](const std::string& path, const nlohmann::ordered_json& value) {
         try {

@@ -42,7 +42,7 @@ TEST(SymlogAxis, NeverFalls) {
     }
 }
 
-TEST(SymlogAxis, IsItsOwnInverseWithinWhatItsHeaderSays) {
+TEST(SymlogAxis, IsItsOwnInverseWithinItsTolerance) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(0, 1);
     constexpr double e = 0x1p-53;

@@ -28,7 +28,7 @@ std::filesystem::path data_folder() {
 
 class DataSets : public ::testing::TestWithParam<DataSet> {};
 
-TEST_P(DataSets, HaveTheSizesTypesAndRangesTheyShould) {
+TEST_P(DataSets, HaveTheExpectedSizesTypesAndRanges) {
     const DataSet& expected = GetParam();
     const auto path = data_folder() / (std::string(expected.name) + ".nrrd");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
