@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int32_t faces_per_leaf = 4;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void FaceTree::build(std::span<const Box> boxes, std::int32_t first, std::int32_
 // The error: a cross product of rounded differences is off by at most 3 epsilon |u| |v| (1-norms),
 // its product with p by as much again and 3 epsilon of itself: together < 16 epsilon |u| |v| |p|.
 RoundedPlane::RoundedPlane(const glm::dvec3& u, const glm::dvec3& v)
-    : normal(glm::cross(u, v)), error(16 * epsilon * norm1(u) * norm1(v)) {}
+    : normal(glm::cross(u, v)), error(16 * machine_epsilon * norm1(u) * norm1(v)) {}
 
 int RoundedPlane::sign(const glm::dvec3& from_origin) const {
     const double value = glm::dot(normal, from_origin), bound = error * norm1(from_origin);
@@ -73,7 +73,7 @@ PlaneSide::PlaneSide(const RoundedPlane& plane, const glm::dvec3& origin,
     const double extent = norm1(bounds.max - bounds.min);
     const double coordinate = std::max(norm1(bounds.min), norm1(bounds.max));
     limit_ = glm::dot(normal_, origin) - plane.error * extent -
-             8 * epsilon * norm1(normal_) * coordinate;
+             8 * machine_epsilon * norm1(normal_) * coordinate;
 }
 
 }  // namespace lamina

@@ -55,16 +55,19 @@ const CellType* find_type(std::int64_t number) {
     return found == std::end(types) ? nullptr : found;
 }
 
-// Corners of a face, counter-clockwise seen from outside; a triangle has 3, then `none`.
-constexpr std::size_t none = 8;
+// Corners of a face, counter-clockwise seen from outside; a triangle has 3, then `no_corner`.
+constexpr std::size_t no_corner = 8;
 using Face = std::array<std::size_t, 4>;
 
 constexpr Face hexahedron_faces[] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
                                      {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 constexpr Face wedge_faces[] = {
-    {0, 1, 2, none}, {3, 5, 4, none}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
-constexpr Face pyramid_faces[] = {
-    {0, 3, 2, 1}, {0, 1, 4, none}, {1, 2, 4, none}, {2, 3, 4, none}, {3, 0, 4, none}};
+    {0, 1, 2, no_corner}, {3, 5, 4, no_corner}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
+constexpr Face pyramid_faces[] = {{0, 3, 2, 1},
+                                  {0, 1, 4, no_corner},
+                                  {1, 2, 4, no_corner},
+                                  {2, 3, 4, no_corner},
+                                  {3, 0, 4, no_corner}};
 
 std::span<const Face> faces_of(std::int64_t type) {
     if (type == wedge) return wedge_faces;
@@ -83,7 +86,7 @@ SplitCell join_least_point(std::span<const Face> faces, std::span<const std::int
     };
     for (const Face& face : faces) {
         if (std::find(face.begin(), face.end(), apex) != face.end()) continue;
-        if (face[3] == none) {
+        if (face[3] == no_corner) {
             add(face[0], face[1], face[2]);
             continue;
         }

@@ -33,7 +33,7 @@ class VtkIndex {
     // `type`: that of its VTKFile element, and the name of the one element in that. Throws Error.
     VtkIndex(const std::filesystem::path& path, const char* type) : name_(path.string()) {
         expect_allowed(path);
-        constexpr std::size_t most_bytes = std::size_t{64} << 20, most_marks = 1'000'000;
+        constexpr std::size_t most_bytes = std::size_t{64} << 20, most_tags = 1'000'000;
         const std::uintmax_t size =
             std::filesystem::is_regular_file(path) ? std::filesystem::file_size(path) : 0;
         if (size > most_bytes) {
@@ -43,8 +43,8 @@ class VtkIndex {
         const std::string text = read_file_bytes(path);
         const auto marks = static_cast<std::size_t>(
             std::ranges::count_if(text, [](char c) { return c == '<' || c == '='; }));
-        if (marks > most_marks)
-            fail("{}: found {} tags and attributes, expected at most {}", name_, marks, most_marks);
+        if (marks > most_tags)
+            fail("{}: found {} tags and attributes, expected at most {}", name_, marks, most_tags);
         const pugi::xml_parse_result result = document_.load_buffer(
             text.data(), text.size(), pugi::parse_escapes, pugi::encoding_utf8);
         if (!result) {
