@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "lamina/error.h"
 #include "lamina/scene.h"
@@ -101,6 +103,29 @@ TEST(Document, CountsWhatChanges) {
     EXPECT_TRUE(document.size_follows_window);
     document.set_setting("image.width", 99);
     EXPECT_FALSE(document.size_follows_window);
+}
+
+// A session keeps a mesh that it has read, and makes one again if its settings change.
+TEST(Document, CountsAnotherMeshFileOrStepAsOtherData) {
+    Document document;
+    document.open(parse_scene(R"({"version": 1, "mesh": {"path": "a.pvd", "time": 1},
+                                  "render": {"method": "project"}})",
+                              "scene.json"));
+    for (const auto& [path, value] : {std::pair<std::string, nlohmann::ordered_json>("time", 2),
+                                      {"time", 0},
+                                      {"", {{"path", "a.pvd"}, {"time", 1}}},
+                                      {"path", "b.pvd"}}) {
+        const Revisions before = document.revisions();
+        document.set_setting(path.empty() ? "mesh" : "mesh." + path, value);
+        EXPECT_EQ(document.revisions().data, before.data + 1) << path << " " << value;
+    }
+    document.open(parse_scene(R"({"version": 1, "volume": {"generate": "gaussians"},
+                                  "mesh": {"tolerance": 0.1}, "render": {"method": "project"}})",
+                              "scene.json"));
+    const Revisions before = document.revisions();
+    document.set_setting("mesh.tolerance", .2);
+    EXPECT_EQ(document.revisions().data, before.data);
+    EXPECT_EQ(document.revisions().settings, before.settings + 1);
 }
 
 TEST(Document, UndoKeepsTheView) {

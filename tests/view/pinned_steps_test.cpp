@@ -5,8 +5,11 @@
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <string>
+#include <variant>
 
 #include "lamina/image.h"
+#include "lamina/mesh.h"
 #include "lamina/scene.h"
 #include "lamina/session.h"
 #include "model/frame_history.h"
@@ -175,6 +178,44 @@ TEST(PrecisionInSight, RowsFollowTheTracer) {
     EXPECT_EQ(rows.size(), 2u);
     drawn.document.undo();
     EXPECT_EQ(drawn.document.scene().target, Target::float32);
+}
+
+// Writes a .pvd of three steps: the same tet with the values 60, 120 and 240.
+std::filesystem::path mesh_in_steps(const std::filesystem::path& folder) {
+    std::ofstream pvd(folder / "steps.pvd");
+    pvd << "<VTKFile type=\"Collection\"><Collection>";
+    for (int step = 0; step < 3; ++step) {
+        MeshData mesh;
+        mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        mesh.tets = {{0, 1, 2, 3}};
+        mesh.point_scalars = {{"s", std::vector<double>(4, 60 << step)}};
+        const std::string name = "step" + std::to_string(step) + ".vtu";
+        save_mesh(mesh, folder / name);
+        pvd << "<DataSet timestep=\"" << step << "\" file=\"" << name << "\"/>";
+    }
+    pvd << "</Collection></VTKFile>";
+    return folder / "steps.pvd";
+}
+
+TEST(SessionSteps, DrawTheStepOfAMeshThatIsSet) {
+    const TemporaryFolder folder;
+    DrawnDocument drawn;
+    Scene scene = pinned_scene();
+    scene.volume = std::monostate();
+    scene.mesh = MeshFile{mesh_in_steps(folder.path()), 1};
+    scene.trace_of = TraceOf::mesh;
+    scene.method = Method::project;
+    scene.target = Target::float32;
+    drawn.document.open(scene);
+    drawn.draw();
+    for (const int time : {2, 1, 0}) {
+        const Image before = *drawn.shown().full;
+        drawn.document.set_setting("mesh.time", time);
+        drawn.draw();
+        EXPECT_EQ(drawn.shown().failure, "");
+        EXPECT_EQ(drawn.shown().full->rgba, drawn_alone(drawn.document.scene()).rgba) << time;
+        EXPECT_NE(drawn.shown().full->rgba, before.rgba) << time;
+    }
 }
 
 // A file is read once for several pictures; a warning about it is shown with each of them.

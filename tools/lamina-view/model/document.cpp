@@ -39,13 +39,18 @@ bool same_camera(const Camera& a, const Camera& b) {
            a.fov_y == b.fov_y && a.height == b.height;
 }
 
+// Tells whether a mesh is made from the volume: then its keys name no file.
+bool is_made(const Json& mesh) {
+    return mesh.is_object() && !mesh.contains("path");
+}
+
 // Tells whether both scenes draw the same data, so that a session can be kept. `a`, `b`: as
-// returned by settings_of(). A mesh that is an object is made from the volume, with any settings.
+// returned by settings_of(). A session itself makes a mesh again if its settings change.
 bool same_data(const Json& a, const Json& b) {
     for (const char* key : {"volume", "scalar", "nan"})
         if (setting_at(a, key) != setting_at(b, key)) return false;
     const Json mesh_a = setting_at(a, "mesh"), mesh_b = setting_at(b, "mesh");
-    return mesh_a == mesh_b || (mesh_a.is_object() && mesh_b.is_object());
+    return mesh_a == mesh_b || (is_made(mesh_a) && is_made(mesh_b));
 }
 
 // Removes the settings that have counts of their own in Revisions.
