@@ -132,6 +132,39 @@ std::string words(std::initializer_list<std::uint32_t> values) {
     return testing::bytes_of_array("UInt32", doubles, false);
 }
 
+// Returns a block of LZ4 that copies 15 to 269 bytes as they are: a token (its upper half 15: more
+// bytes of length follow), one byte of length, the bytes (LZ4 Block Format Description).
+std::string lz4_of(const std::string& bytes) {
+    return std::string{static_cast<char>(0xf0), static_cast<char>(bytes.size() - 15)} + bytes;
+}
+
+// Returns mixed_grid() as text, but its pressure (24 floats) as two blocks of LZ4 that decode to
+// `first` and `second`, under a header that promises 56 and 40 bytes.
+std::string with_lz4_pressure(const std::string& first, const std::string& second) {
+    const std::string one = lz4_of(first), other = lz4_of(second);
+    const std::string header = words({2, 56, 40, static_cast<std::uint32_t>(one.size()),
+                                      static_cast<std::uint32_t>(other.size())});
+    std::string file = with(make_vtu(mixed_grid()), "byte_order",
+                            "compressor=\"vtkLZ4DataCompressor\" byte_order");
+    file = with(file, "Name=\"pressure\" format=\"ascii\"", "Name=\"pressure\" format=\"binary\"");
+    const auto begin = file.find('>', file.find("Name=\"pressure\"")) + 1;
+    const auto end = file.find("</DataArray>", begin);
+    return file.replace(begin, end - begin, testing::base64(header) + testing::base64(one + other));
+}
+
+TEST_F(VtuErrors, NameLz4BlocksOfAnotherLength) {
+    const std::vector<double> values = mixed_grid().point_arrays[0].values;
+    const std::string bytes = testing::bytes_of_array("Float32", values, false);
+    const std::string first = bytes.substr(0, 56), second = bytes.substr(56);
+    EXPECT_EQ(read("a.vtu", with_lz4_pressure(first, second)).point_scalars[0].values, values);
+    expect_bad("a.vtu", with_lz4_pressure(first.substr(4), second),
+               {"pressure", "damaged LZ4 data in block 1 of 2"});
+    expect_bad("a.vtu", with_lz4_pressure(first, second.substr(1)),
+               {"pressure", "damaged LZ4 data in block 2 of 2"});
+    expect_bad("a.vtu", with_lz4_pressure(first, second + "1234"),
+               {"pressure", "damaged LZ4 data in block 2 of 2"});
+}
+
 TEST_F(VtuErrors, NameTheArrayOfABadZlibHeader) {
     const TestGrid grid = mixed_grid();
     const std::string good = make_vtu(grid, {"raw", true});
