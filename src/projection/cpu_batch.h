@@ -15,19 +15,20 @@ void for_each_member(std::size_t first, std::uint64_t word, const Visit& visit) 
         visit(first + static_cast<std::size_t>(std::countr_zero(left)));
 }
 
-// Projected cell fragments (TetPart) in visibility order, and for each tile of the picture those
-// that it draws. Each thread fills a chunk of its own. The memory does not depend on the view.
+// Projected cell fragments (CellFragment) in visibility order, and for each tile of the picture
+// those that it draws. Each thread fills a chunk of its own. The memory does not depend on the
+// view.
 class TileBatch {
   public:
-    // The cell fragments (or triangles) of chunk i have numbers from i * chunk_parts on.
-    static constexpr std::size_t chunk_parts = 512, most_chunks = 12;
+    // The cell fragments (or triangles) of chunk i have numbers from i * chunk_size on.
+    static constexpr std::size_t chunk_size = 512, most_chunks = 12;
 
     // `triangles`: holds triangles instead of cell fragments. `lit`: these have gradients.
     TileBatch(std::size_t chunks, int tiles, bool triangles, bool lit)
-        : records_(triangles ? 0 : chunks * chunk_parts),
-          gradients_(lit ? chunks * chunk_parts : 0),
-          triangles_(triangles ? chunks * chunk_parts : 0),
-          areas_(chunks * chunk_parts),
+        : records_(triangles ? 0 : chunks * chunk_size),
+          gradients_(lit ? chunks * chunk_size : 0),
+          triangles_(triangles ? chunks * chunk_size : 0),
+          areas_(chunks * chunk_size),
           sets_(static_cast<std::size_t>(tiles) * chunks) {
         chunks_.reserve(chunks);
         for (std::size_t i = 0; i < chunks; ++i)
@@ -37,10 +38,10 @@ class TileBatch {
     TileBatch& operator=(const TileBatch&) = delete;
 
   private:
-    // A set of numbers below chunk_parts. It fills a cache line of its own, because threads write
+    // A set of numbers below chunk_size. It fills a cache line of its own, because threads write
     // the sets that one tile has in different chunks at the same time.
     struct alignas(64) Set {
-        std::array<std::uint64_t, chunk_parts / 64> words{};
+        std::array<std::uint64_t, chunk_size / 64> words{};
 
         void add(std::size_t number) { words[number / 64] |= std::uint64_t{1} << number % 64; }
         bool has(std::size_t number) const { return (words[number / 64] >> number % 64 & 1) != 0; }
@@ -51,12 +52,12 @@ class TileBatch {
     class alignas(64) Chunk {
       public:
         Chunk(TileBatch& batch, std::size_t number, std::size_t tiles)
-            : batch_(&batch), number_(number), tiles_((tiles + chunk_parts - 1) / chunk_parts) {}
+            : batch_(&batch), number_(number), tiles_((tiles + chunk_size - 1) / chunk_size) {}
 
         void clear() {
             for (std::size_t i = 0; i < tiles_.size(); ++i) {
                 for (std::size_t word = 0; word < tiles_[i].words.size(); ++word) {
-                    for_each_member(chunk_parts * i + 64 * word, tiles_[i].words[word],
+                    for_each_member(chunk_size * i + 64 * word, tiles_[i].words[word],
                                     [&](std::size_t tile) { set_of(tile) = {}; });
                 }
                 tiles_[i] = {};
@@ -71,7 +72,7 @@ class TileBatch {
             return batch_->is_lit() ? &batch_->gradients_[end()] : nullptr;
         }
         TriangleRecord& next_triangle() { return batch_->triangles_[end()]; }
-        void add(const PartArea& area, std::int32_t tet) {
+        void add(const CoveredArea& area, std::int32_t tet) {
             batch_->areas_[end()] = area;
             ++count_;
             if (tet != last_tet_) ++tets_;
@@ -80,7 +81,7 @@ class TileBatch {
         }
         // Makes the tile draw the cell fragment that was added last.
         void touch(std::size_t tile) {
-            tiles_[tile / chunk_parts].add(tile % chunk_parts);
+            tiles_[tile / chunk_size].add(tile % chunk_size);
             set_of(tile).add(count_ - 1);
         }
 
@@ -89,12 +90,12 @@ class TileBatch {
         std::int32_t first_tet() const { return first_tet_; }
         std::int32_t last_tet() const { return last_tet_; }
         bool is_drawn_by(std::size_t tile) const {
-            return tiles_[tile / chunk_parts].has(tile % chunk_parts);
+            return tiles_[tile / chunk_size].has(tile % chunk_size);
         }
         std::size_t byte_count() const { return sizeof(*this) + tiles_.size() * sizeof(Set); }
 
       private:
-        std::size_t end() const { return number_ * chunk_parts + count_; }
+        std::size_t end() const { return number_ * chunk_size + count_; }
         Set& set_of(std::size_t tile) {
             return batch_->sets_[tile * batch_->chunks_.size() + number_];
         }
@@ -103,7 +104,7 @@ class TileBatch {
         std::size_t number_, count_ = 0;
         std::int64_t tets_ = 0;
         std::int32_t first_tet_ = -1, last_tet_ = -1;
-        std::vector<Set> tiles_;  // tiles that draw the chunk, chunk_parts a set
+        std::vector<Set> tiles_;  // tiles that draw the chunk, chunk_size a set
     };
 
     std::size_t chunk_count() const { return chunks_.size(); }
@@ -112,20 +113,20 @@ class TileBatch {
 
     bool has_triangles() const { return !triangles_.empty(); }
     bool is_lit() const { return !gradients_.empty(); }
-    const SilhouetteRecord& record(std::size_t part) const { return records_[part]; }
-    const GradientRecord& gradient(std::size_t part) const { return gradients_[part]; }
-    const TriangleRecord& triangle(std::size_t part) const { return triangles_[part]; }
-    const PartArea& area(std::size_t part) const { return areas_[part]; }
+    const SilhouetteRecord& record(std::size_t number) const { return records_[number]; }
+    const GradientRecord& gradient(std::size_t number) const { return gradients_[number]; }
+    const TriangleRecord& triangle(std::size_t number) const { return triangles_[number]; }
+    const CoveredArea& area(std::size_t number) const { return areas_[number]; }
 
-    // Calls visit(first, parts) for the cell fragments that a tile draws, in order: bit i of
-    // `parts` stands for number first + i.
+    // Calls visit(first, word) for the cell fragments that a tile draws, in visibility order: bit i
+    // of `word` is set if the tile draws number first + i.
     template <typename Visit>
     void for_each_word(std::size_t tile, const Visit& visit) const {
         for (std::size_t i = 0; i < chunks_.size(); ++i) {
             if (!chunks_[i].is_drawn_by(tile)) continue;
             const auto& words = sets_[tile * chunks_.size() + i].words;
             for (std::size_t word = 0; word < words.size(); ++word) {
-                if (words[word] != 0) visit(i * chunk_parts + 64 * word, words[word]);
+                if (words[word] != 0) visit(i * chunk_size + 64 * word, words[word]);
             }
         }
     }
@@ -137,7 +138,7 @@ class TileBatch {
         std::size_t bytes = sizeof(*this) + records_.size() * sizeof(SilhouetteRecord) +
                             gradients_.size() * sizeof(GradientRecord) +
                             triangles_.size() * sizeof(TriangleRecord) +
-                            areas_.size() * sizeof(PartArea) + sets_.size() * sizeof(Set);
+                            areas_.size() * sizeof(CoveredArea) + sets_.size() * sizeof(Set);
         for (const Chunk& chunk : chunks_) bytes += chunk.byte_count();
         return static_cast<std::int64_t>(bytes);
     }
@@ -146,7 +147,7 @@ class TileBatch {
     std::vector<SilhouetteRecord> records_;
     std::vector<GradientRecord> gradients_;  // of the records; empty if nothing is lit
     std::vector<TriangleRecord> triangles_;
-    std::vector<PartArea> areas_;
+    std::vector<CoveredArea> areas_;
     std::vector<Set> sets_;  // by tile and chunk, so that those of a tile follow each other
     std::vector<Chunk> chunks_;
 };

@@ -11,13 +11,13 @@ LAMINA_SIMD_BEGIN
 
 // A Shader (tet_drawing-inl.h) for the most frequent plans: coloured cell fragments in perspective,
 // over a float32 target.
-struct PartShader {
+struct CellFragmentShader {
     static constexpr bool lit = false, cut = true, scalars = true, perspective = true,
                           opacity_only = false;
 
     LAMINA_INLINE Fragment color(const TetFragments& fragments, const SilhouetteRecord& record,
-                                 const PartArea& area, const TetRun& run) const {
-        return part_color(true, area.depth, fragments, record.fragment, run);
+                                 const CoveredArea& area, const TetSegment& segment) const {
+        return cell_fragment_color(true, area.depth, fragments, record.fragment, segment);
     }
     LAMINA_INLINE void put(const TetFragments&, std::uint32_t, const Fragment& fragment,
                            const TetTile& tile, std::size_t place) const {
@@ -28,10 +28,10 @@ struct PartShader {
 };
 
 // draw_tets() for these plans.
-std::int64_t draw_colored_parts(const TetFragments& fragments, const TileBatch& batch,
-                                const TetTile& tile) {
+std::int64_t draw_colored_cell_fragments(const TetFragments& fragments, const TileBatch& batch,
+                                         const TetTile& tile) {
     TetDrawing drawing(fragments, batch, tile);
-    drawing.draw(PartShader());
+    drawing.draw(CellFragmentShader());
     return drawing.fragments();
 }
 
@@ -40,7 +40,7 @@ LAMINA_SIMD_END
 #if LAMINA_ONCE
 namespace lamina {
 
-LAMINA_EXPORT(draw_colored_parts);
+LAMINA_EXPORT(draw_colored_cell_fragments);
 
 std::int64_t draw_tets(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
     if (batch.is_lit()) return draw_lit_tets(fragments, batch, tile);
@@ -49,7 +49,7 @@ std::int64_t draw_tets(const TetFragments& fragments, const TileBatch& batch, co
                        fragments.blend.target == Target::float32 && !fragments.opacity_only &&
                        !batch.has_triangles();
     if (!known) return draw_general_tets(fragments, batch, tile);
-    return LAMINA_DISPATCH(draw_colored_parts)(fragments, batch, tile);
+    return LAMINA_DISPATCH(draw_colored_cell_fragments)(fragments, batch, tile);
 }
 
 }  // namespace lamina

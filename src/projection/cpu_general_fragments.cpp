@@ -53,7 +53,7 @@ class TriangleDrawing {
         lane_columns_ = number - lane_rows_ * width;
     }
 
-    void draw(const TriangleRecord& triangle, const PartArea& area) {
+    void draw(const TriangleRecord& triangle, const CoveredArea& area) {
         const int rows_a_vector = static_cast<int>(Float::lanes) / TileGrid::block;
         const auto center = [](int pixel) { return static_cast<float>(pixel) + 0.5f; };
         const Centers pixels{center(area.first_column), center(area.last_column),
@@ -141,9 +141,9 @@ class TriangleDrawing {
 
 std::int64_t draw_fans(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
     TriangleDrawing drawing(fragments, tile);
-    batch.for_each_word(tile.number, [&](std::size_t first, std::uint64_t parts) LAMINA_LAMBDA {
-        for_each_member(first, parts, [&](std::size_t part) LAMINA_LAMBDA {
-            drawing.draw(batch.triangle(part), batch.area(part));
+    batch.for_each_word(tile.number, [&](std::size_t first, std::uint64_t word) LAMINA_LAMBDA {
+        for_each_member(first, word, [&](std::size_t number) LAMINA_LAMBDA {
+            drawing.draw(batch.triangle(number), batch.area(number));
         });
     });
     return drawing.fragments();

@@ -13,7 +13,7 @@
 LAMINA_SIMD_BEGIN
 
 // A segment, or the piece of one on which the transfer function is linear.
-struct LitRun {
+struct LitSegment {
     Float front_depth, back_depth;  // extinction at both ends, times the length
     Float gradient[3], turn[3];     // at the front, and from there to the back
     Float to_eye[3];
@@ -39,11 +39,11 @@ struct LightSums {
 template <std::size_t channels>
 class LightAlong {
   public:
-    LightAlong(const CpuLight& light, float smallest_square, const LitRun& run)
-        : light_(light), smallest_square_(smallest_square), run_(run) {
+    LightAlong(const CpuLight& light, float smallest_square, const LitSegment& segment)
+        : light_(light), smallest_square_(smallest_square), segment_(segment) {
         // Limited depths have finite products.
-        run_.front_depth = min(run.front_depth, deepest);
-        change_ = min(run.back_depth, deepest) - run_.front_depth;
+        segment_.front_depth = min(segment.front_depth, deepest);
+        change_ = min(segment.back_depth, deepest) - segment_.front_depth;
         find_kinks();
     }
 
@@ -54,7 +54,7 @@ class LightAlong {
         at_ = Float(0);
         longest_ = Float(1);
         in_front_ = in_front;
-        FloatMask left = wanted & (run_.front_depth + change_ + run_.front_depth > 0);
+        FloatMask left = wanted & (segment_.front_depth + change_ + segment_.front_depth > 0);
         while (true) {
             left = left & (at_ < 1);
             left = left & (in_front_ > least_transmittance);
@@ -78,9 +78,9 @@ class LightAlong {
             Float from(0), change(0);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const Float to_light =
-                    direction.to_eye ? run_.to_eye[axis] : Float(direction.to_light[axis]);
-                from += run_.gradient[axis] * to_light;
-                change += run_.turn[axis] * to_light;
+                    direction.to_eye ? segment_.to_eye[axis] : Float(direction.to_light[axis]);
+                from += segment_.gradient[axis] * to_light;
+                change += segment_.turn[axis] * to_light;
             }
             const FloatMask within = (from * (from + change) < 0) & (abs(change) > 0);
             kinks_[i] = select(within, (0 - from) / change, 2);
@@ -97,7 +97,7 @@ class LightAlong {
     LAMINA_INLINE Piece next_piece() const {
         Piece piece;
         const Float rest = 1 - at_;
-        piece.front = max(run_.front_depth + change_ * at_, 0);
+        piece.front = max(segment_.front_depth + change_ * at_, 0);
         piece.extent = min(longest_, rest);
         for (std::size_t i = 0; i < light_.directions.size(); ++i) {
             const Float to_kink = kinks_[i] - at_;
@@ -152,10 +152,10 @@ class LightAlong {
     }
 
     LAMINA_INLINE EffectLanes<channels> effect_at(Float place) const {
-        const Float there[3] = {run_.gradient[0] + place * run_.turn[0],
-                                run_.gradient[1] + place * run_.turn[1],
-                                run_.gradient[2] + place * run_.turn[2]};
-        return effect_of<channels>(light_, there, smallest_square_, run_.to_eye);
+        const Float there[3] = {segment_.gradient[0] + place * segment_.turn[0],
+                                segment_.gradient[1] + place * segment_.turn[1],
+                                segment_.gradient[2] + place * segment_.turn[2]};
+        return effect_of<channels>(light_, there, smallest_square_, segment_.to_eye);
     }
 
     // Returns a bound on the bend of light within the next piece that its three nodes may not show.
@@ -163,8 +163,8 @@ class LightAlong {
         const Float half = 0.5f * extent, middle = at_ + half;
         Float square(0), reach(0);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Float center = run_.gradient[axis] + middle * run_.turn[axis];
-            const Float most = half * run_.turn[axis];
+            const Float center = segment_.gradient[axis] + middle * segment_.turn[axis];
+            const Float most = half * segment_.turn[axis];
             square += center * center;
             reach += most * most;
         }
@@ -173,7 +173,7 @@ class LightAlong {
 
     const CpuLight& light_;
     Float smallest_square_;
-    LitRun run_;
+    LitSegment segment_;
     Float change_;  // change of extinction from front to back, times the length
     LightSums<channels> sums_;
     Float at_, longest_, in_front_;
@@ -181,21 +181,22 @@ class LightAlong {
 };
 
 // Gradients, and the direction to the eye, along a segment from front to back.
-struct GradientRun {
+struct SegmentGradients {
     Float front[3], back[3], to_eye[3];
 
     // Returns the segment between two of its places, 0 to 1.
-    LAMINA_INLINE LitRun between(Float from, Float to, Float front_depth, Float back_depth) const {
-        LitRun run;
-        run.front_depth = front_depth;
-        run.back_depth = back_depth;
+    LAMINA_INLINE LitSegment between(Float from, Float to, Float front_depth,
+                                     Float back_depth) const {
+        LitSegment segment;
+        segment.front_depth = front_depth;
+        segment.back_depth = back_depth;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Float turn = back[axis] - front[axis];
-            run.gradient[axis] = front[axis] + from * turn;
-            run.turn[axis] = (to - from) * turn;
-            run.to_eye[axis] = to_eye[axis];
+            segment.gradient[axis] = front[axis] + from * turn;
+            segment.turn[axis] = (to - from) * turn;
+            segment.to_eye[axis] = to_eye[axis];
         }
-        return run;
+        return segment;
     }
 };
 
@@ -207,10 +208,11 @@ struct LitEnds {
 };
 
 template <std::size_t channels>
-LAMINA_INLINE void add_channels(const TetFragments& fragments, const LitRun& run, Float in_front,
-                                FloatMask wanted, const LitEnds& piece, Float (&color)[3]) {
+LAMINA_INLINE void add_channels(const TetFragments& fragments, const LitSegment& segment,
+                                Float in_front, FloatMask wanted, const LitEnds& piece,
+                                Float (&color)[3]) {
     const LightSums<channels> sums =
-        LightAlong<channels>(*fragments.light, fragments.smallest_square, run)
+        LightAlong<channels>(*fragments.light, fragments.smallest_square, segment)
             .sum(in_front, wanted);
     for (std::size_t c = 0; c < 3; ++c) {
         const Float sum = piece.unlit[c] + sums.added(c, piece.near[c], piece.far[c]);
@@ -219,12 +221,12 @@ LAMINA_INLINE void add_channels(const TetFragments& fragments, const LitRun& run
     }
 }
 
-LAMINA_INLINE void add_lit(const TetFragments& fragments, const LitRun& run, Float in_front,
+LAMINA_INLINE void add_lit(const TetFragments& fragments, const LitSegment& segment, Float in_front,
                            FloatMask wanted, const LitEnds& piece, Float (&color)[3]) {
     if (fragments.light->gray) {
-        add_channels<1>(fragments, run, in_front, wanted, piece, color);
+        add_channels<1>(fragments, segment, in_front, wanted, piece, color);
     } else {
-        add_channels<3>(fragments, run, in_front, wanted, piece, color);
+        add_channels<3>(fragments, segment, in_front, wanted, piece, color);
     }
 }
 
@@ -237,22 +239,24 @@ struct LitShader {
     explicit LitShader(const TetFragments& of)
         : fragments(of), cut(of.source == SegmentSource::parts), perspective(of.perspective) {}
 
-    LAMINA_NOINLINE Fragment lit_color(const TileBatch& batch, std::size_t part,
+    LAMINA_NOINLINE Fragment lit_color(const TileBatch& batch, std::size_t number,
                                        const PlacedRay& found) const {
-        const SilhouetteRecord& record = batch.record(part);
+        const SilhouetteRecord& record = batch.record(number);
         const SeenTet& seen = record.seen();
         const Float column = found.column, row = found.row;
-        GradientRun gradient;
+        SegmentGradients gradient;
         const Float slant = find_eye(seen, column, row, gradient);
         const bool by_depth = fragments.slanted;
         const TetSpan ends =
             find_ends(*this, fragments, record, found.span, by_depth ? slant : Float(1));
         const Float aside = column * seen.scalar_per_column + row * seen.scalar_per_row;
-        const TetRun run = has_exact_runs(fragments, batch.area(part))
-                               ? find_exact_run(*this, fragments, record, found, by_depth)
-                               : run_between(*this, record, ends, aside);
-        find_gradients(batch.gradient(part), column, row, ends, gradient);
-        return cut ? part_lit(batch, part, run, gradient) : analytic_lit(run, gradient);
+        const TetSegment segment =
+            has_exact_segments(fragments, batch.area(number))
+                ? find_exact_segment(*this, fragments, record, found, by_depth)
+                : segment_between(*this, record, ends, aside);
+        find_gradients(batch.gradient(number), column, row, ends, gradient);
+        return cut ? cell_fragment_lit(batch, number, segment, gradient)
+                   : analytic_lit(segment, gradient);
     }
     LAMINA_INLINE void put(const TetFragments&, std::uint32_t number, const Fragment& fragment,
                            const TetTile& tile, std::size_t place) const {
@@ -262,7 +266,7 @@ struct LitShader {
   private:
     // Sets the direction to the eye; returns the length of the ray per unit of z.
     LAMINA_INLINE Float find_eye(const SeenTet& record, Float column, Float row,
-                                 GradientRun& gradient) const {
+                                 SegmentGradients& gradient) const {
         const auto& [right, up, forward] = fragments.axes;
         if (!perspective) {
             for (int axis = 0; axis < 3; ++axis) gradient.to_eye[axis] = Float(-forward[axis]);
@@ -280,7 +284,7 @@ struct LitShader {
     }
 
     LAMINA_INLINE static void find_gradients(const GradientRecord& record, Float column, Float row,
-                                             const TetSpan& ends, GradientRun& gradient) {
+                                             const TetSpan& ends, SegmentGradients& gradient) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const GradientRecord::Component& of = record.components[axis];
             const Float aside = column * of.per_column + row * of.per_row;
@@ -295,29 +299,33 @@ struct LitShader {
         }
     }
 
-    LAMINA_INLINE Fragment part_lit(const TileBatch& batch, std::size_t part, const TetRun& run,
-                                    const GradientRun& gradient) const {
-        const FragmentRecord& record = batch.record(part).fragment;
-        const Fragment unlit = part_color(
-            true, GeneralShader::depth_of(fragments, batch.area(part)), fragments, record, run);
+    LAMINA_INLINE Fragment cell_fragment_lit(const TileBatch& batch, std::size_t number,
+                                             const TetSegment& segment,
+                                             const SegmentGradients& gradient) const {
+        const FragmentRecord& record = batch.record(number).fragment;
+        const Fragment unlit =
+            cell_fragment_color(true, GeneralShader::depth_of(fragments, batch.area(number)),
+                                fragments, record, segment);
         const auto optics = [&](std::size_t i, Float place) LAMINA_LAMBDA {
             return mix(Float(record.low[i]), Float(record.high[i]), place);
         };
         LitEnds piece{{}, {}, {unlit.red, unlit.green, unlit.blue}};
         for (std::size_t c = 0; c < 3; ++c) {
-            piece.near[c] = optics(c, run.front);
-            piece.far[c] = optics(c, run.back);
+            piece.near[c] = optics(c, segment.front);
+            piece.far[c] = optics(c, segment.back);
         }
-        const LitRun light_run = gradient.between(0, 1, optics(3, run.front) * run.world_length,
-                                                  optics(3, run.back) * run.world_length);
+        const LitSegment lit_segment =
+            gradient.between(0, 1, optics(3, segment.front) * segment.world_length,
+                             optics(3, segment.back) * segment.world_length);
         Float color[3] = {0, 0, 0};
-        add_lit(fragments, light_run, 1, unlit.alpha > 0, piece, color);
+        add_lit(fragments, lit_segment, 1, unlit.alpha > 0, piece, color);
         return {color[0], color[1], color[2], unlit.alpha};
     }
 
-    LAMINA_INLINE Fragment analytic_lit(const TetRun& run, const GradientRun& gradient) const {
+    LAMINA_INLINE Fragment analytic_lit(const TetSegment& segment,
+                                        const SegmentGradients& gradient) const {
         Float color[3] = {0, 0, 0};
-        const Float front = run.front, back = run.back;
+        const Float front = segment.front, back = segment.back;
         const Float per_scalar = 1 / abs(back - front);
         const auto place = [&](Float scalar)
                                LAMINA_LAMBDA { return abs(scalar - front) * per_scalar; };
@@ -340,7 +348,7 @@ struct LitShader {
             transmittance *= 1 - opacity;
             from = to;
         };
-        for_each_analytic_piece(*fragments.transfer, front, back, run.world_length, add);
+        for_each_analytic_piece(*fragments.transfer, front, back, segment.world_length, add);
         return {color[0], color[1], color[2], opacity_from_depth(depth)};
     }
 };

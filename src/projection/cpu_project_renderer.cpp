@@ -57,7 +57,7 @@ CpuProjectRenderer::CpuProjectRenderer(const SceneMesh& mesh,
         fragments_.smallest_square = gradients_.smallest_square(*plan_.lighting);
         fragments_.slanted = fragments_.perspective && plan_.thickness == Thickness::exact;
     }
-    find_visible_parts();
+    find_visible_cell_fragments();
     if (!plan_.tree.empty() && visible_->count() > 0) {
         const glm::vec3& color = fragments_.single_color;
         fragments_.opacity_only = true;
@@ -68,8 +68,8 @@ CpuProjectRenderer::CpuProjectRenderer(const SceneMesh& mesh,
     // fits the caches (2 MB with 800 x 600 pixels). Two batches also take less memory than a fourth
     // of the mesh's cell fragments, beside 64 bytes for each tile and chunk.
     const std::size_t chunks =
-        std::clamp<std::size_t>(static_cast<std::size_t>(visible_->count()) / (8 * parts_a_chunk()),
-                                1, TileBatch::most_chunks);
+        std::clamp<std::size_t>(static_cast<std::size_t>(visible_->count()) / (8 * chunk_size()), 1,
+                                TileBatch::most_chunks);
     for (auto& batch : batches_) {
         batch = std::make_unique<TileBatch>(chunks, image_.grid().count(), is_fan(),
                                             light_.has_value());
@@ -77,13 +77,13 @@ CpuProjectRenderer::CpuProjectRenderer(const SceneMesh& mesh,
 }
 
 // Returns the number of cell fragments that fit into a chunk in every view.
-std::size_t CpuProjectRenderer::parts_a_chunk() const {
-    constexpr std::size_t most = TileBatch::chunk_parts;
+std::size_t CpuProjectRenderer::chunk_size() const {
+    constexpr std::size_t most = TileBatch::chunk_size;
     return is_fan() ? 3 * most / FanGeometry::most_indices : most;
 }
 
-std::size_t CpuProjectRenderer::batch_count(std::size_t parts) const {
-    return (parts + parts_a_batch() - 1) / parts_a_batch();
+std::size_t CpuProjectRenderer::batch_count(std::size_t cell_fragments) const {
+    return (cell_fragments + batch_size() - 1) / batch_size();
 }
 
 int CpuProjectRenderer::step_count() const {
@@ -116,9 +116,9 @@ void CpuProjectRenderer::draw(const View& view, Progress* progress) {
     std::ranges::fill(fragment_counts_, 0);
     if (!visible_) return;
     Stage ordering("order");
-    const DrawOrder<TetPart> parts =
+    const DrawOrder<CellFragment> cell_fragments =
         visible_->sorted(*order_, view, plan_.scattered, plan_.solve_rings);
-    ordering.count("parts", static_cast<double>(parts.items.size()));
+    ordering.count("parts", static_cast<double>(cell_fragments.items.size()));
     order_ms_ = ordering.end();
     Stage drawing("draw");
     set_view(view);
@@ -127,23 +127,24 @@ void CpuProjectRenderer::draw(const View& view, Progress* progress) {
                           WindowView(seen), plan_.near_depth,    margin,      gradients_.at_points};
     const Projectors projectors{tets, TetProjector(tets), {mesh_, transfer_function_, plan_, seen}};
     if (tree_) {
-        draw_tree(projectors, parts, progress);
+        draw_tree(projectors, cell_fragments, progress);
     } else {
-        draw_parts(projectors, parts, nullptr, progress);
+        draw_cell_fragments(projectors, cell_fragments, nullptr, progress);
     }
     drawing.count("tets", static_cast<double>(tets_drawn_));
     drawing.count("fragments", static_cast<double>(fragments()));
     draw_ms_ = drawing.end();
 }
 
-void CpuProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrder<TetPart>& parts,
-                                    CpuTetTree::Node* leaf, Progress* progress) {
-    const std::size_t count = parts.items.size();
+void CpuProjectRenderer::draw_cell_fragments(const Projectors& projectors,
+                                             const DrawOrder<CellFragment>& cell_fragments,
+                                             CpuTetTree::Node* leaf, Progress* progress) {
+    const std::size_t count = cell_fragments.items.size();
     const auto project_batch = [&](std::size_t batch) {
-        const std::size_t first = batch * parts_a_batch();
+        const std::size_t first = batch * batch_size();
         if (first >= count) return;
         const Stage setting_up("set-up");
-        project(projectors, parts.part(first, std::min(parts_a_batch(), count - first)),
+        project(projectors, cell_fragments.subrange(first, std::min(batch_size(), count - first)),
                 *batches_[batch % 2]);
     };
     project_batch(0);
@@ -162,11 +163,14 @@ void CpuProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrde
 }
 
 // The tree's samples are the cell fragments of the mesh, the last one the farthest.
-void CpuProjectRenderer::draw_tree(const Projectors& projectors, const DrawOrder<TetPart>& parts,
+void CpuProjectRenderer::draw_tree(const Projectors& projectors,
+                                   const DrawOrder<CellFragment>& cell_fragments,
                                    Progress* progress) {
     const auto draw_leaf = [&](const SampleSpan& span, double depth_scale, CpuTetTree::Node& leaf) {
         fragments_.depth_scale = static_cast<float>(depth_scale);
-        draw_parts(projectors, parts_of_leaf(parts, span, visible_->count()), &leaf, nullptr);
+        draw_cell_fragments(projectors,
+                            cell_fragments_of_leaf(cell_fragments, span, visible_->count()), &leaf,
+                            nullptr);
     };
     tree_->draw(std::ref(draw_leaf), image_, progress);
 }
@@ -239,41 +243,43 @@ void CpuProjectRenderer::set_view(const View& view) {
     });
 }
 
-void CpuProjectRenderer::project(const Projectors& projectors, const DrawOrder<TetPart>& parts,
+void CpuProjectRenderer::project(const Projectors& projectors,
+                                 const DrawOrder<CellFragment>& cell_fragments,
                                  TileBatch& batch) const {
-    const std::size_t count = parts.items.size();
+    const std::size_t count = cell_fragments.items.size();
     parallel_for(static_cast<std::int64_t>(batch.chunk_count()), 1, [&](std::int64_t number) {
-        const std::size_t first =
-            std::min(static_cast<std::size_t>(number) * parts_a_chunk(), count);
-        project_chunk(projectors, parts.part(first, std::min(parts_a_chunk(), count - first)),
+        const std::size_t first = std::min(static_cast<std::size_t>(number) * chunk_size(), count);
+        project_chunk(projectors,
+                      cell_fragments.subrange(first, std::min(chunk_size(), count - first)),
                       batch.chunk(static_cast<std::size_t>(number)));
     });
 }
 
 void CpuProjectRenderer::project_chunk(const Projectors& projectors,
-                                       const DrawOrder<TetPart>& order,
+                                       const DrawOrder<CellFragment>& order,
                                        TileBatch::Chunk& chunk) const {
     chunk.clear();
-    const std::span<const TetPart> parts = order.items;
+    const std::span<const CellFragment> cell_fragments = order.items;
     if (is_fan() || !plan_.plain) {
-        for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (std::size_t i = 0; i < cell_fragments.size(); ++i) {
             if (is_fan()) {
-                project_fan(projectors.fans, parts[i], order.pixels(i), chunk);
+                project_fan(projectors.fans, cell_fragments[i], order.pixels(i), chunk);
             } else {
-                project_doubtful(projectors.careful, parts[i], order.pixels(i), chunk);
+                project_doubtful(projectors.careful, cell_fragments[i], order.pixels(i), chunk);
             }
         }
         return;
     }
-    for (std::size_t first = 0; first < parts.size(); first += TetSetup::most_parts) {
-        const auto group =
-            parts.subspan(first, std::min(TetSetup::most_parts, parts.size() - first));
+    for (std::size_t first = 0; first < cell_fragments.size();
+         first += TetSetup::most_cell_fragments) {
+        const auto group = cell_fragments.subspan(
+            first, std::min(TetSetup::most_cell_fragments, cell_fragments.size() - first));
         TetSetup done;
         // Records are written in the chunk, and moved up if one before them is not drawn.
         SilhouetteRecord* const records = &chunk.next();
         GradientRecord* const lit = chunk.next_gradient();
-        set_up_tets(projectors.tets, group, parts.subspan(first + group.size()), records, lit,
-                    done);
+        set_up_tets(projectors.tets, group, cell_fragments.subspan(first + group.size()), records,
+                    lit, done);
         for (std::size_t i = 0; i < group.size(); ++i) {
             const PixelArea* const limit = order.pixels(first + i);
             if (done.outcomes[i] == TetSetup::Outcome::done) {
@@ -289,29 +295,31 @@ void CpuProjectRenderer::project_chunk(const Projectors& projectors,
     }
 }
 
-void CpuProjectRenderer::project_doubtful(const TetProjector& projector, const TetPart& part,
-                                          const PixelArea* limit, TileBatch::Chunk& chunk) const {
+void CpuProjectRenderer::project_doubtful(const TetProjector& projector,
+                                          const CellFragment& cell_fragment, const PixelArea* limit,
+                                          TileBatch::Chunk& chunk) const {
     const TileGrid& grid = image_.grid();
     ScreenOutline outline;
-    const auto kind = projector.project(part, chunk.next(), outline, chunk.next_gradient());
+    const auto kind =
+        projector.project(cell_fragment, chunk.next(), outline, chunk.next_gradient());
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
     // Doubtful cell fragments are drawn as careful ones, which is right for every kind. They are
-    // few, unless the plan draws all so (not `plain`). Then PartDepth::any is passed, so that
+    // few, unless the plan draws all so (not `plain`). Then DepthBound::any is passed, so that
     // weights come from FrontWeightTable.
     add({{bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
           grid.height() - 1 - bounds.first_row},
          true,
-         plan_.plain && *kind == FragmentKind::thin ? PartDepth::thin : PartDepth::any},
-        part.tet, limit, chunk);
+         plan_.plain && *kind == FragmentKind::thin ? DepthBound::thin : DepthBound::any},
+        cell_fragment.tet, limit, chunk);
 }
 
-void CpuProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& part,
+void CpuProjectRenderer::project_fan(const FanGeometry& fans, const CellFragment& cell_fragment,
                                      const PixelArea* limit, TileBatch::Chunk& chunk) const {
     std::array<FanVertex, FanGeometry::most_vertices> vertices;
     std::array<std::uint32_t, FanGeometry::most_indices> indices;
     const TetGeometry::Written written = fans.write(
-        part,
+        cell_fragment,
         {reinterpret_cast<std::byte*>(vertices.data()), 0, indices.data(), nullptr, nullptr, 0});
     const TileGrid& grid = image_.grid();
     for (std::size_t i = 0; i < written.indices; i += 3) {
@@ -326,16 +334,16 @@ void CpuProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& par
         add({{bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
               grid.height() - 1 - bounds.first_row},
              false,
-             PartDepth::any},
-            part.tet, limit, chunk);
+             DepthBound::any},
+            cell_fragment.tet, limit, chunk);
     }
 }
 
-void CpuProjectRenderer::add(const PartArea& area, std::int32_t tet, const PixelArea* limit,
+void CpuProjectRenderer::add(const CoveredArea& area, std::int32_t tet, const PixelArea* limit,
                              TileBatch::Chunk& chunk) const {
     constexpr int edge = TileGrid::edge;
     if (limit != nullptr) {
-        PartArea limited = area;
+        CoveredArea limited = area;
         static_cast<PixelArea&>(limited) = common_pixels(area, *limit);
         if (limited.empty()) return;
         limited.bounded = true;

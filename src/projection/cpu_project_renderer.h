@@ -61,7 +61,7 @@ class CpuProjectRenderer : public ProjectRenderer {
     using FrameRenderer::read;
     void read(Image& image) const override;
     std::map<std::string, double> stages_ms() const override;
-    ProjectParts parts() const override { return {order_, nullptr}; }
+    ProjectReuse reusable() const override { return {order_, nullptr}; }
     std::int64_t fragments() const override;
     // Returns the host memory that the renderer takes, without order and tables.
     std::int64_t byte_count() const override;
@@ -74,25 +74,26 @@ class CpuProjectRenderer : public ProjectRenderer {
         FanGeometry fans;
     };
 
-    std::size_t parts_a_chunk() const;
-    std::size_t parts_a_batch() const { return batches_[0]->chunk_count() * parts_a_chunk(); }
-    std::size_t batch_count(std::size_t parts) const;
+    std::size_t chunk_size() const;
+    std::size_t batch_size() const { return batches_[0]->chunk_count() * chunk_size(); }
+    std::size_t batch_count(std::size_t cell_fragments) const;
     void set_tables();
     void set_view(const View& view);
-    void draw_parts(const Projectors& projectors, const DrawOrder<TetPart>& parts,
-                    CpuTetTree::Node* leaf, Progress* progress);
-    void draw_tree(const Projectors& projectors, const DrawOrder<TetPart>& parts,
+    void draw_cell_fragments(const Projectors& projectors,
+                             const DrawOrder<CellFragment>& cell_fragments, CpuTetTree::Node* leaf,
+                             Progress* progress);
+    void draw_tree(const Projectors& projectors, const DrawOrder<CellFragment>& cell_fragments,
                    Progress* progress);
-    void project(const Projectors& projectors, const DrawOrder<TetPart>& parts,
+    void project(const Projectors& projectors, const DrawOrder<CellFragment>& cell_fragments,
                  TileBatch& batch) const;
-    void project_chunk(const Projectors& projectors, const DrawOrder<TetPart>& parts,
+    void project_chunk(const Projectors& projectors, const DrawOrder<CellFragment>& cell_fragments,
                        TileBatch::Chunk& chunk) const;
     // `limit`: the pixels in which the cell fragment is drawn; null for all.
-    void project_doubtful(const TetProjector& projector, const TetPart& part,
+    void project_doubtful(const TetProjector& projector, const CellFragment& cell_fragment,
                           const PixelArea* limit, TileBatch::Chunk& chunk) const;
-    void project_fan(const FanGeometry& fans, const TetPart& part, const PixelArea* limit,
-                     TileBatch::Chunk& chunk) const;
-    void add(const PartArea& area, std::int32_t tet, const PixelArea* limit,
+    void project_fan(const FanGeometry& fans, const CellFragment& cell_fragment,
+                     const PixelArea* limit, TileBatch::Chunk& chunk) const;
+    void add(const CoveredArea& area, std::int32_t tet, const PixelArea* limit,
              TileBatch::Chunk& chunk) const;
     void draw_batch(const TileBatch& batch, CpuTetTree::Node* leaf);
 

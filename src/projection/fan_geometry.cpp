@@ -91,12 +91,12 @@ glm::dvec3 FacePairs::ray_at(const glm::dvec2& place) const {
 
 // Returns the polygon's region on which the function is not negative (Sutherland and Hodgman 1974).
 FacePairs::Polygon FacePairs::cut(const Polygon& polygon, const Linear& function) const {
-    Polygon part;
+    Polygon clipped;
     const auto add = [&](const glm::dvec2& corner) {
         const auto near = [&](const glm::dvec2& other) {
             return glm::distance(corner, other) < same;
         };
-        if (part.count == 0 || !near(part.corners[part.count - 1])) part.add(corner);
+        if (clipped.count == 0 || !near(clipped.corners[clipped.count - 1])) clipped.add(corner);
     };
     for (std::size_t i = 0; i < polygon.count; ++i) {
         const glm::dvec2 &a = polygon.corners[i], &b = polygon.corners[(i + 1) % polygon.count];
@@ -104,19 +104,20 @@ FacePairs::Polygon FacePairs::cut(const Polygon& polygon, const Linear& function
         if (at_a >= 0) add(a);
         if ((at_a < 0) != (at_b < 0)) add(a + at_a / (at_a - at_b) * (b - a));
     }
-    if (part.count > 1 && glm::distance(part.corners[0], part.corners[part.count - 1]) < same)
-        --part.count;
-    if (part.count < 3) part.count = 0;
-    return part;
+    if (clipped.count > 1 &&
+        glm::distance(clipped.corners[0], clipped.corners[clipped.count - 1]) < same)
+        --clipped.count;
+    if (clipped.count < 3) clipped.count = 0;
+    return clipped;
 }
 
 // Returns the polygon's region whose rays meet the face.
-FacePairs::Polygon FacePairs::part_of(std::size_t face, const Polygon& polygon) const {
-    Polygon part = polygon;
+FacePairs::Polygon FacePairs::seen_region(std::size_t face, const Polygon& polygon) const {
+    Polygon clipped = polygon;
     for (const Linear& share : shares_[face]) {
-        if (part.count > 0) part = cut(part, share);
+        if (clipped.count > 0) clipped = cut(clipped, share);
     }
-    return part;
+    return clipped;
 }
 
 // Returns the depth of a face's plane: 1/z, or z if rays are parallel.
@@ -364,8 +365,9 @@ void FanGeometry::append(const Fan& fan, const Owner& owner, const Place& place,
     }
 }
 
-TetGeometry::Written FanGeometry::write(const TetPart& part, const Place& place) const {
-    const std::int32_t index = part.tet;
+TetGeometry::Written FanGeometry::write(const CellFragment& cell_fragment,
+                                        const Place& place) const {
+    const std::int32_t index = cell_fragment.tet;
     const Tet& tet = mesh_.mesh.tets()[static_cast<std::size_t>(index)];
     Corners corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = corner_of(tet[i]);

@@ -42,16 +42,16 @@ class FacePairs {
     void for_each(const Visit& visit) const {
         for (std::size_t back = 0; back < 4; ++back) {
             if (fronts_[back]) continue;
-            const Polygon behind = limited(part_of(back, picture_), back, true);
+            const Polygon behind = limited(seen_region(back, picture_), back, true);
             if (behind.count == 0) continue;
             for (std::size_t front = 0; front < 4; ++front) {
                 if (!fronts_[front]) continue;
-                const Polygon both = part_of(front, behind);
-                if (const Polygon part = limited(both, front, true); part.count > 0)
-                    visit(part, front, back);
+                const Polygon both = seen_region(front, behind);
+                if (const Polygon clipped = limited(both, front, true); clipped.count > 0)
+                    visit(clipped, front, back);
                 if (!cut_) continue;
-                if (const Polygon part = limited(both, front, false); part.count > 0)
-                    visit(part, near_plane, back);
+                if (const Polygon clipped = limited(both, front, false); clipped.count > 0)
+                    visit(clipped, near_plane, back);
             }
             if (cut_ && !any_front_) visit(behind, near_plane, back);
         }
@@ -70,7 +70,7 @@ class FacePairs {
 
     glm::dvec3 ray_at(const glm::dvec2& place) const;
     Polygon cut(const Polygon& polygon, const Linear& function) const;
-    Polygon part_of(std::size_t face, const Polygon& polygon) const;
+    Polygon seen_region(std::size_t face, const Polygon& polygon) const;
     Polygon limited(const Polygon& polygon, std::size_t face, bool behind_near) const;
     Linear depth_of(std::size_t face) const;
 
@@ -117,8 +117,8 @@ class FanGeometry : public TetGeometry {
     FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
                 const ProjectPlan& plan, const View& view);
     static Size largest_size();
-    // Projects the tet uncut, whatever the part's piece.
-    Written write(const TetPart& part, const Place& place) const override;
+    // Projects the tet uncut, whatever its piece.
+    Written write(const CellFragment& cell_fragment, const Place& place) const override;
 
     // A corner of a tet.
     struct Corner {

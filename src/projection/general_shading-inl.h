@@ -200,37 +200,37 @@ LAMINA_INLINE AnalyticSum integrate_analytic(const CpuTransfer& transfer, bool c
     return sum;
 }
 
-LAMINA_INLINE Fragment table_color(const TetFragments& fragments, const TetRun& run) {
+LAMINA_INLINE Fragment table_color(const TetFragments& fragments, const TetSegment& segment) {
     const SegmentEntry entry =
         integrate_segment(*fragments.table, fragments.inverse_first_length, fragments.single_color,
-                          run.front, run.back, run.world_length);
+                          segment.front, segment.back, segment.world_length);
     // A table of opacities may have an opacity above 0 at length 0.
-    const FloatMask met = run.world_length > 0;
+    const FloatMask met = segment.world_length > 0;
     return {zero_unless(met, entry.color[0]), zero_unless(met, entry.color[1]),
             zero_unless(met, entry.color[2]), zero_unless(met, entry.value)};
 }
 
-LAMINA_INLINE Fragment analytic_color(const TetFragments& fragments, const TetRun& run) {
-    const AnalyticSum sum = integrate_analytic(*fragments.transfer, fragments.colored, run.front,
-                                               run.back, run.world_length);
+LAMINA_INLINE Fragment analytic_color(const TetFragments& fragments, const TetSegment& segment) {
+    const AnalyticSum sum = integrate_analytic(*fragments.transfer, fragments.colored,
+                                               segment.front, segment.back, segment.world_length);
     const Float opacity = opacity_from_depth(sum.depth);
     if (!fragments.colored) return with_color(fragments.single_color, opacity);
     return {sum.color[0], sum.color[1], sum.color[2], opacity};
 }
 
-LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments, const TetRun& run) {
+LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments, const TetSegment& segment) {
     constexpr Lookup kind = Lookup::gather;
     const CpuTransfer& transfer = *fragments.transfer;
-    const Float front = clamp01(run.front), back = clamp01(run.back);
+    const Float front = clamp01(segment.front), back = clamp01(segment.back);
     const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
     const auto node = [&](Float scalar)
                           LAMINA_LAMBDA { return table_place<kind>(transfer, scalar).node; };
     const TableCell extremes = table_cell(nodes, node(min(front, back)), node(max(front, back)));
     const FloatMask seen =
-        (table_extinction(*transfer.table, extremes) != 0) & (run.world_length > 0);
+        (table_extinction(*transfer.table, extremes) != 0) & (segment.world_length > 0);
     if (none_of(seen)) return {0, 0, 0, 0};
     const RunSum sum =
-        integrate_run<kind>(transfer, fragments.colored, front, back, run.world_length, seen);
+        integrate_run<kind>(transfer, fragments.colored, front, back, segment.world_length, seen);
     const Float opacity = opacity_from_depth(sum.depth);
     if (!fragments.colored) return with_color(fragments.single_color, opacity);
     return {sum.color[0] * opacity, sum.color[1] * opacity, sum.color[2] * opacity, opacity};
@@ -240,41 +240,42 @@ LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments, const TetR
 // transfer function is constant: the colour of the pieces before the window, within it and behind
 // it, composited. `color`: the function that returns the colour of segments within [0, 1].
 template <class Color>
-LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const TetRun& run,
+LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const TetSegment& segment,
                                       const Color& color) {
-    if (!fragments.windowed) return color(fragments, run);
-    const Float in = clamp01(run.front), out = clamp01(run.back);
+    if (!fragments.windowed) return color(fragments, segment);
+    const Float in = clamp01(segment.front), out = clamp01(segment.back);
     const FloatMask changes = in != out;
-    const FloatMask leaves = changes & ((in != run.front) | (out != run.back));
-    if (none_of(leaves)) return color(fragments, {in, out, run.world_length});
-    const Float per_scalar = run.world_length / abs(run.back - run.front);
+    const FloatMask leaves = changes & ((in != segment.front) | (out != segment.back));
+    if (none_of(leaves)) return color(fragments, {in, out, segment.world_length});
+    const Float per_scalar = segment.world_length / abs(segment.back - segment.front);
     const auto length = [&](Float from, Float to) LAMINA_LAMBDA {
         return zero_unless(changes, per_scalar * abs(to - from));
     };
     // Segments that stay within the window keep their lengths, independent of their neighbours.
-    const Float within = select(leaves, length(in, out), run.world_length);
-    Fragment sum = color(fragments, {in, in, length(run.front, in)});
+    const Float within = select(leaves, length(in, out), segment.world_length);
+    Fragment sum = color(fragments, {in, in, length(segment.front, in)});
     const auto put_behind = [&](const Fragment& next) LAMINA_LAMBDA {
         const Float left = 1 - sum.alpha;
         sum = {left * next.red + sum.red, left * next.green + sum.green,
                left * next.blue + sum.blue, left * next.alpha + sum.alpha};
     };
     put_behind(color(fragments, {in, out, within}));
-    put_behind(color(fragments, {out, out, length(out, run.back)}));
+    put_behind(color(fragments, {out, out, length(out, segment.back)}));
     return sum;
 }
 
 // Returns the colour of segments whose ends are given by their scalars.
-LAMINA_NOINLINE inline Fragment segment_color(const TetFragments& fragments, const TetRun& run) {
+LAMINA_NOINLINE inline Fragment segment_color(const TetFragments& fragments,
+                                              const TetSegment& segment) {
     switch (fragments.source) {
         case SegmentSource::constant:
-            return constant_color(fragments, run);
+            return constant_color(fragments, segment);
         case SegmentSource::table:
-            return windowed_color(fragments, run, table_color);
+            return windowed_color(fragments, segment, table_color);
         case SegmentSource::analytic:
-            return analytic_color(fragments, run);
+            return analytic_color(fragments, segment);
         case SegmentSource::cut_table:
-            return windowed_color(fragments, run, cut_table_color);
+            return windowed_color(fragments, segment, cut_table_color);
         case SegmentSource::parts:
         case SegmentSource::mean:
         case SegmentSource::vertices:
@@ -312,17 +313,17 @@ struct GeneralShader {
     // Returns the bound by which a cell fragment's colour is computed. For targets with codes it is
     // that of OpenGL's programs, so that codes are equal: they have no case for depths below
     // faint_depth, and none at all if depths on faces are found in double precision.
-    static PartDepth depth_of(const TetFragments& fragments, const PartArea& area) {
+    static DepthBound depth_of(const TetFragments& fragments, const CoveredArea& area) {
         if (!is_fixed_point(fragments.blend.target)) return area.depth;
-        if (area.careful) return PartDepth::any;
-        return area.depth == PartDepth::faint ? PartDepth::thin : area.depth;
+        if (area.careful) return DepthBound::any;
+        return area.depth == DepthBound::faint ? DepthBound::thin : area.depth;
     }
 
     LAMINA_NOINLINE Fragment color(const TetFragments& fragments, const SilhouetteRecord& record,
-                                   const PartArea& area, const TetRun& run) const {
-        if (!cut) return segment_color(fragments, run);
-        return part_color(fragments.colored, depth_of(fragments, area), fragments, record.fragment,
-                          run);
+                                   const CoveredArea& area, const TetSegment& segment) const {
+        if (!cut) return segment_color(fragments, segment);
+        return cell_fragment_color(fragments.colored, depth_of(fragments, area), fragments,
+                                   record.fragment, segment);
     }
     LAMINA_INLINE void put(const TetFragments& fragments, std::uint32_t number,
                            const Fragment& fragment, const TetTile& tile, std::size_t place) const {

@@ -232,7 +232,7 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
         programs_[i].emplace(is_fan() ? "projection/fan.vert" : "projection/silhouette.vert",
                              "projection/tet.frag", defines);
     }
-    find_visible_parts();
+    find_visible_cell_fragments();
     if (visible_->count() == 0) return;
     make_stream(std::move(stream));
     if (plan_.tree.empty()) return;
@@ -244,15 +244,15 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
 }
 
 void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
-    const auto parts = static_cast<std::size_t>(visible_->count());
+    const auto cell_fragments = static_cast<std::size_t>(visible_->count());
     const bool fan = is_fan();
     const TetGeometry::Size size =
         fan ? FanGeometry::largest_size()
             : SilhouetteGeometry::largest_size(plan_.lighting.has_value());
     stream_ = std::move(ready);
-    if (!stream_ || !stream_->serves(size, parts)) {
-        stream_ = fan ? std::make_shared<GlTetStream>(size, fan_attributes, parts)
-                      : std::make_shared<GlTetStream>(size, silhouette_attributes, parts);
+    if (!stream_ || !stream_->serves(size, cell_fragments)) {
+        stream_ = fan ? std::make_shared<GlTetStream>(size, fan_attributes, cell_fragments)
+                      : std::make_shared<GlTetStream>(size, silhouette_attributes, cell_fragments);
     }
     stream_->set_barriers(plan_.blending == Blending::barrier);
 }
@@ -271,14 +271,14 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     tets_drawn_ = 0;
     if (!stream_) return;
     Stage ordering("order");
-    const DrawOrder<TetPart> parts =
+    const DrawOrder<CellFragment> cell_fragments =
         visible_->sorted(*order_, view, plan_.scattered, plan_.solve_rings);
     order_ms_ = ordering.end();
     Stage drawing("draw");
     for (auto& program : programs_) {
         if (program) set_view(*program, view);
     }
-    draw_parts(parts, seeing_in_units(view, plan_.unit), progress);
+    draw_cell_fragments(cell_fragments, seeing_in_units(view, plan_.unit), progress);
     Stage finishing("finish");
     gl::api().Finish();
     finishing.end();
@@ -314,8 +314,8 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
                 glm::vec2(gradients_.smallest_square(*plan_.lighting), plan_.most_bend));
 }
 
-void GlProjectRenderer::draw_parts(const DrawOrder<TetPart>& parts, const View& view,
-                                   Progress* progress) {
+void GlProjectRenderer::draw_cell_fragments(const DrawOrder<CellFragment>& cell_fragments,
+                                            const View& view, Progress* progress) {
     std::optional<FanGeometry> fans;
     std::optional<SilhouetteGeometry> silhouettes;
     if (is_fan()) {
@@ -341,15 +341,16 @@ void GlProjectRenderer::draw_parts(const DrawOrder<TetPart>& parts, const View& 
             for (gl::Program* program : programs)
                 program->set("depth_scale", static_cast<float>(depth_scale));
             const CompositingState state(plan_, true, target);
-            tets_drawn_ += stream_->draw(geometry, parts_of_leaf(parts, span, visible_->count()),
-                                         target.height(), programs, [] {});
+            tets_drawn_ += stream_->draw(
+                geometry, cell_fragments_of_leaf(cell_fragments, span, visible_->count()),
+                target.height(), programs, [] {});
         };
         TetLeaves leaves(draw_leaf);
         tree_->draw(leaves, target_, progress);
         return;
     }
     const CompositingState state(plan_, false, target_);
-    tets_drawn_ = stream_->draw(geometry, parts, target_.height(), programs, [&] {
+    tets_drawn_ = stream_->draw(geometry, cell_fragments, target_.height(), programs, [&] {
         if (progress != nullptr) progress->advance();
     });
 }

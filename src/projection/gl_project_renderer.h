@@ -53,12 +53,13 @@ class GlProjectRenderer : public ProjectRenderer {
     using FrameRenderer::read;
     void read(Image& image) const override;
     std::map<std::string, double> stages_ms() const override;
-    ProjectParts parts() const override { return {order_, stream_}; }
+    ProjectReuse reusable() const override { return {order_, stream_}; }
 
   private:
     void make_stream(std::shared_ptr<GlTetStream> ready);
     void set_view(gl::Program& program, const View& view) const;
-    void draw_parts(const DrawOrder<TetPart>& parts, const View& view, Progress* progress);
+    void draw_cell_fragments(const DrawOrder<CellFragment>& cell_fragments, const View& view,
+                             Progress* progress);
 
     double margin_;
     gl::Framebuffer target_;

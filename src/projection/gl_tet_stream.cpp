@@ -15,15 +15,15 @@ namespace {
 
 // Cell fragments in a batch and in a chunk. Batches are small enough that drawing starts soon, and
 // large enough that a draw call costs little.
-constexpr std::size_t most_batch_parts = 32768;
-constexpr std::size_t chunk_parts = 64;
+constexpr std::size_t most_in_batch = 32768;
+constexpr std::size_t chunk_size = 64;
 
-std::size_t chunks_of(std::size_t parts) {
-    return (parts + chunk_parts - 1) / chunk_parts;
+std::size_t chunks_of(std::size_t cell_fragments) {
+    return (cell_fragments + chunk_size - 1) / chunk_size;
 }
 
-std::size_t batch_parts_of(std::size_t parts) {
-    return std::min(most_batch_parts, chunks_of(parts) * chunk_parts);
+std::size_t batch_size_of(std::size_t cell_fragments) {
+    return std::min(most_in_batch, chunks_of(cell_fragments) * chunk_size);
 }
 
 const void* offset_of(std::size_t index) {
@@ -46,19 +46,18 @@ void set_scissor(const PixelArea* pixels, int rows) {
 }  // namespace
 
 GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
-                         std::size_t parts)
-    : size_(size), batch_parts_(batch_parts_of(parts)), chunks_(chunks_of(batch_parts_)) {
+                         std::size_t cell_fragments)
+    : size_(size), batch_size_(batch_size_of(cell_fragments)), chunks_(chunks_of(batch_size_)) {
     counts_.reserve(chunks_.size());
     offsets_.reserve(chunks_.size());
     for (Batch& batch : batches_) {
-        batch.vertices =
-            gl::Buffer::make_mapped(batch_parts_ * size_.vertices * size_.vertex_bytes);
+        batch.vertices = gl::Buffer::make_mapped(batch_size_ * size_.vertices * size_.vertex_bytes);
         batch.indices =
-            gl::Buffer::make_mapped(batch_parts_ * size_.indices * sizeof(std::uint32_t));
+            gl::Buffer::make_mapped(batch_size_ * size_.indices * sizeof(std::uint32_t));
         if (size_.has_record)
-            batch.records = gl::Buffer::make_mapped(batch_parts_ * sizeof(SilhouetteRecord));
+            batch.records = gl::Buffer::make_mapped(batch_size_ * sizeof(SilhouetteRecord));
         if (size_.has_gradient)
-            batch.gradients = gl::Buffer::make_mapped(batch_parts_ * sizeof(GradientRecord));
+            batch.gradients = gl::Buffer::make_mapped(batch_size_ * sizeof(GradientRecord));
         batch.vertex_array.set_indices(batch.indices);
         unsigned location = 0;
         for (const auto& [components, offset, integer] : attributes) {
@@ -74,43 +73,43 @@ GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribut
     }
 }
 
-bool GlTetStream::serves(const TetGeometry::Size& size, std::size_t parts) const {
-    return size == size_ && batch_parts_of(parts) == batch_parts_;
+bool GlTetStream::serves(const TetGeometry::Size& size, std::size_t cell_fragments) const {
+    return size == size_ && batch_size_of(cell_fragments) == batch_size_;
 }
 
 void GlTetStream::set_barriers(bool barriers) {
     barriers_ = barriers;
-    if (barriers) part_indices_.reserve(batch_parts_);
+    if (barriers) index_counts_.reserve(batch_size_);
 }
 
-std::size_t GlTetStream::batch_count(std::size_t parts) const {
-    return (parts + batch_parts_ - 1) / batch_parts_;
+std::size_t GlTetStream::batch_count(std::size_t cell_fragments) const {
+    return (cell_fragments + batch_size_ - 1) / batch_size_;
 }
 
-std::int64_t GlTetStream::draw(const TetGeometry& geometry, const DrawOrder<TetPart>& parts,
-                               int rows, const Programs& programs,
-                               const std::function<void()>& batch_done) {
-    const std::size_t count = parts.items.size();
+std::int64_t GlTetStream::draw(const TetGeometry& geometry,
+                               const DrawOrder<CellFragment>& cell_fragments, int rows,
+                               const Programs& programs, const std::function<void()>& batch_done) {
+    const std::size_t count = cell_fragments.items.size();
     std::int64_t drawn = 0;
     std::int32_t last_tet = none;
-    for (std::size_t first = 0; first < count; first += batch_parts_) {
-        const DrawOrder<TetPart> batch_order =
-            parts.part(first, std::min(batch_parts_, count - first));
-        const std::span<const TetPart> batch_parts = batch_order.items;
+    for (std::size_t first = 0; first < count; first += batch_size_) {
+        const DrawOrder<CellFragment> batch_order =
+            cell_fragments.subrange(first, std::min(batch_size_, count - first));
+        const std::span<const CellFragment> in_batch = batch_order.items;
         const bool one_by_one = barriers_ || !batch_order.limited.empty();
         Batch& batch = batches_[next_batch_++ % batches_.size()];
         Stage waiting("wait for buffer");
         batch.drawn.wait();
         waiting.end();
         Stage writing("geometry");
-        writing.count("parts", static_cast<double>(batch_parts.size()));
-        part_indices_.assign(one_by_one ? batch_parts.size() : 0, 0);
-        parallel_for(static_cast<std::int64_t>(chunks_of(batch_parts.size())), 4,
+        writing.count("parts", static_cast<double>(in_batch.size()));
+        index_counts_.assign(one_by_one ? in_batch.size() : 0, 0);
+        parallel_for(static_cast<std::int64_t>(chunks_of(in_batch.size())), 4,
                      [&](std::int64_t chunk) {
-                         write_chunk(geometry, batch_parts, static_cast<std::size_t>(chunk), batch);
+                         write_chunk(geometry, in_batch, static_cast<std::size_t>(chunk), batch);
                      });
         write_ms_ += writing.end();
-        for (std::size_t i = 0; i < chunks_of(batch_parts.size()); ++i) {
+        for (std::size_t i = 0; i < chunks_of(in_batch.size()); ++i) {
             const Chunk& chunk = chunks_[i];
             if (chunk.tets == 0) continue;
             drawn += chunk.tets - (chunk.first_tet == last_tet);  // one tet on both sides
@@ -124,7 +123,7 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, const DrawOrder<TetP
         if (one_by_one) {
             submit_one_by_one(batch_order, rows, programs);
         } else {
-            submit(chunks_of(batch_parts.size()), programs);
+            submit(chunks_of(in_batch.size()), programs);
         }
         timeline_.end();
         batch.drawn.set();
@@ -135,10 +134,11 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, const DrawOrder<TetP
     return drawn;
 }
 
-void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPart> parts,
-                              std::size_t number, const Batch& batch) {
-    const std::size_t first = number * chunk_parts;
-    const std::size_t end = std::min(first + chunk_parts, parts.size());
+void GlTetStream::write_chunk(const TetGeometry& geometry,
+                              std::span<const CellFragment> cell_fragments, std::size_t number,
+                              const Batch& batch) {
+    const std::size_t first = number * chunk_size;
+    const std::size_t end = std::min(first + chunk_size, cell_fragments.size());
     std::size_t vertex = first * size_.vertices, index = first * size_.indices;
     auto* const indices = reinterpret_cast<std::uint32_t*>(batch.indices.mapped());
     auto* const records = reinterpret_cast<SilhouetteRecord*>(batch.records.mapped());
@@ -146,21 +146,21 @@ void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPa
     Chunk& chunk = chunks_[number];
     chunk = {};
     for (std::size_t i = first; i < end; ++i) {
-        const TetGeometry::Written written =
-            geometry.write(parts[i], {batch.vertices.mapped() + vertex * size_.vertex_bytes,
-                                      static_cast<std::uint32_t>(vertex), indices + index,
-                                      size_.has_record ? records + i : nullptr,
-                                      size_.has_gradient ? gradients + i : nullptr,
-                                      static_cast<std::uint32_t>(i)});
+        const TetGeometry::Written written = geometry.write(
+            cell_fragments[i],
+            {batch.vertices.mapped() + vertex * size_.vertex_bytes,
+             static_cast<std::uint32_t>(vertex), indices + index,
+             size_.has_record ? records + i : nullptr, size_.has_gradient ? gradients + i : nullptr,
+             static_cast<std::uint32_t>(i)});
         vertex += written.vertices;
         index += written.indices;
-        if (written.indices > 0 && parts[i].tet != chunk.last_tet) {
+        if (written.indices > 0 && cell_fragments[i].tet != chunk.last_tet) {
             ++chunk.tets;
-            chunk.last_tet = parts[i].tet;
-            if (chunk.first_tet == none) chunk.first_tet = parts[i].tet;
+            chunk.last_tet = cell_fragments[i].tet;
+            if (chunk.first_tet == none) chunk.first_tet = cell_fragments[i].tet;
         }
         chunk.kind = std::max(chunk.kind, written.kind);
-        if (!part_indices_.empty()) part_indices_[i] = static_cast<int>(written.indices);
+        if (!index_counts_.empty()) index_counts_[i] = static_cast<int>(written.indices);
     }
     chunk.indices = static_cast<int>(index - first * size_.indices);
 }
@@ -178,7 +178,7 @@ void GlTetStream::submit(std::size_t chunks, const Programs& programs) {
         for (; chunk < chunks && program_of(chunk) == program; ++chunk) {
             if (chunks_[chunk].indices == 0) continue;
             counts_.push_back(chunks_[chunk].indices);
-            offsets_.push_back(offset_of(chunk * chunk_parts * size_.indices));
+            offsets_.push_back(offset_of(chunk * chunk_size * size_.indices));
         }
         program->use();
         gl::api().MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
@@ -186,19 +186,19 @@ void GlTetStream::submit(std::size_t chunks, const Programs& programs) {
     }
 }
 
-void GlTetStream::submit_one_by_one(const DrawOrder<TetPart>& parts, int rows,
+void GlTetStream::submit_one_by_one(const DrawOrder<CellFragment>& cell_fragments, int rows,
                                     const Programs& programs) const {
     const auto& api = gl::api();
     const PixelArea* limit = nullptr;
     std::size_t index = 0;
-    for (std::size_t i = 0; i < parts.items.size(); ++i) {
-        if (i % chunk_parts == 0) {
+    for (std::size_t i = 0; i < cell_fragments.items.size(); ++i) {
+        if (i % chunk_size == 0) {
             index = i * size_.indices;
-            programs[static_cast<std::size_t>(chunks_[i / chunk_parts].kind)]->use();
+            programs[static_cast<std::size_t>(chunks_[i / chunk_size].kind)]->use();
         }
-        const int count = part_indices_[i];
+        const int count = index_counts_[i];
         if (count == 0) continue;
-        if (const PixelArea* const pixels = parts.pixels(i); pixels != limit) {
+        if (const PixelArea* const pixels = cell_fragments.pixels(i); pixels != limit) {
             limit = pixels;
             set_scissor(limit, rows);
         }

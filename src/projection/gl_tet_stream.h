@@ -12,8 +12,8 @@
 
 namespace lamina {
 
-// Streams cell fragments (TetPart) to OpenGL through mapped buffers, in batches. While the context
-// draws one batch, all cores write the next. It takes its memory once.
+// Streams cell fragments (CellFragment) to OpenGL through mapped buffers, in batches. While the
+// context draws one batch, all cores write the next. It takes its memory once.
 class GlTetStream {
   public:
     // An attribute of a vertex; attributes have the locations 0, 1, ...
@@ -22,12 +22,12 @@ class GlTetStream {
         std::size_t byte_offset;
         bool integer;
     };
-    // `parts`: the largest number that one call of draw() gets.
+    // `cell_fragments`: the largest number that one call of draw() gets.
     GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
-                std::size_t parts);
+                std::size_t cell_fragments);
 
     // Tells whether the constructor would make an equal stream, given equal kinds of geometry.
-    bool serves(const TetGeometry::Size& size, std::size_t parts) const;
+    bool serves(const TetGeometry::Size& size, std::size_t cell_fragments) const;
 
     // Sets whether draw() waits between cell fragments, for programs that read the target as a
     // texture.
@@ -38,10 +38,10 @@ class GlTetStream {
     // Draws cell fragments in order with the bound state; the viewport is the picture. Ctrl-C ends
     // it between batches, and `batch_done` is called after each. Returns the number of tets drawn,
     // that is, that cover a pixel centre. `rows`: of the picture.
-    std::int64_t draw(const TetGeometry& geometry, const DrawOrder<TetPart>& parts, int rows,
-                      const Programs& programs, const std::function<void()>& batch_done);
+    std::int64_t draw(const TetGeometry& geometry, const DrawOrder<CellFragment>& cell_fragments,
+                      int rows, const Programs& programs, const std::function<void()>& batch_done);
 
-    std::size_t batch_count(std::size_t parts) const;
+    std::size_t batch_count(std::size_t cell_fragments) const;
     void start_frame() { write_ms_ = 0; }
     void end_frame() { timeline_.collect(); }
     double write_ms() const { return write_ms_; }  // sum over the draws of the frame
@@ -62,15 +62,15 @@ class GlTetStream {
         // The latest kind that one of its cell fragments needs.
         FragmentKind kind = FragmentKind::thin;
     };
-    void write_chunk(const TetGeometry& geometry, std::span<const TetPart> parts,
+    void write_chunk(const TetGeometry& geometry, std::span<const CellFragment> cell_fragments,
                      std::size_t number, const Batch& batch);
     void submit(std::size_t chunks, const Programs& programs);
-    void submit_one_by_one(const DrawOrder<TetPart>& parts, int rows,
+    void submit_one_by_one(const DrawOrder<CellFragment>& cell_fragments, int rows,
                            const Programs& programs) const;
 
     TetGeometry::Size size_;
     bool barriers_ = false;
-    std::size_t batch_parts_;
+    std::size_t batch_size_;
     std::array<Batch, 3> batches_;
     // The batch that is written next. It goes on from draw to draw, so that a draw of few tets does
     // not wait for the one before.
@@ -78,7 +78,7 @@ class GlTetStream {
     std::vector<Chunk> chunks_;
     // Number of indices of each cell fragment of the batch; empty unless these are submitted one by
     // one: with barriers between them, or if some are limited to some pixels.
-    std::vector<int> part_indices_;
+    std::vector<int> index_counts_;
     std::vector<int> counts_;  // number of indices of each chunk of one draw
     std::vector<const void*> offsets_;
     gl::Timeline timeline_;

@@ -20,7 +20,7 @@ ProjectRenderer::ProjectRenderer(const SceneMesh& mesh, const TransferFunction& 
         order_ = std::make_shared<VisibilityOrder>(mesh.mesh, method);
 }
 
-void ProjectRenderer::find_visible_parts() {
+void ProjectRenderer::find_visible_cell_fragments() {
     const Stage cutting("visible parts");
     visible_.emplace(mesh_.mesh, mesh_.scalar.values, pieces_, plan_.source == SegmentSource::parts,
                      plan_.draw_transparent);
@@ -30,7 +30,7 @@ std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const TransferFunction& transfer_function,
                                                        const ProjectPlan& plan,
                                                        const Capabilities& capabilities, int width,
-                                                       int height, const ProjectParts& ready) {
+                                                       int height, const ProjectReuse& ready) {
     if (capabilities.cpu) {
         return std::make_unique<CpuProjectRenderer>(mesh, transfer_function, plan, width, height,
                                                     ready.order);

@@ -15,8 +15,8 @@ namespace lamina {
 
 class GlTetStream;
 
-// Parts of a renderer that the next renderer of the same mesh can take over.
-struct ProjectParts {
+// Objects of a renderer that the next renderer of the same mesh can use again.
+struct ProjectReuse {
     std::shared_ptr<VisibilityOrder> order;
     std::shared_ptr<GlTetStream> stream;  // buffers of OpenGL
 };
@@ -25,7 +25,7 @@ struct ProjectParts {
 class ProjectRenderer : public FrameRenderer {
   public:
     bool take(const Plan& plan) override { return plan.project.picture() == plan_.picture(); }
-    virtual ProjectParts parts() const = 0;
+    virtual ProjectReuse reusable() const = 0;
     // These two describe the last frame.
     const OrderReport& order_report() const { return order_->report(); }
     std::int64_t tets_drawn() const { return tets_drawn_; }  // tets that cover a pixel centre
@@ -43,7 +43,7 @@ class ProjectRenderer : public FrameRenderer {
     // Takes the order `ready` (or null) if it is of the plan's method, and otherwise makes one.
     ProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                     const ProjectPlan& plan, std::shared_ptr<VisibilityOrder> ready);
-    void find_visible_parts();
+    void find_visible_cell_fragments();
     bool is_fan() const { return plan_.geometry == ProjectGeometry::triangles; }
 
     const SceneMesh& mesh_;
@@ -51,19 +51,19 @@ class ProjectRenderer : public FrameRenderer {
     ProjectPlan plan_;
     TetPieces pieces_;
     std::shared_ptr<VisibilityOrder> order_;
-    std::optional<VisibleParts> visible_;  // none if nothing is visible
+    std::optional<VisibleCellFragments> visible_;  // none if nothing is visible
     std::int64_t tets_drawn_ = 0;
     double table_ms_ = 0;                // of building tables
     double order_ms_ = 0, draw_ms_ = 0;  // of the last frame
 };
 
 // Makes a renderer that draws a mesh as the plan says: by the cpu engine or in the current OpenGL
-// context, as the capabilities say. The mesh and the context must outlive it. `ready`: parts of a
+// context, as the capabilities say. The mesh and the context must outlive it. `ready`: objects of a
 // renderer of the same mesh and capabilities that draws no more; may be empty.
 std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const TransferFunction& transfer_function,
                                                        const ProjectPlan& plan,
                                                        const Capabilities& capabilities, int width,
-                                                       int height, const ProjectParts& ready = {});
+                                                       int height, const ProjectReuse& ready = {});
 
 }  // namespace lamina

@@ -67,15 +67,15 @@ Hull convex_hull(std::span<const glm::dvec2> points) {
 // Returns the hull's region with a coordinate `axis` of at most `limit` or, if `sign` is -1, at
 // least `limit` (Sutherland and Hodgman 1974).
 Hull cut(const Hull& hull, int axis, double limit, double sign) {
-    Hull part;
+    Hull clipped;
     for (std::size_t i = 0; i < hull.count; ++i) {
         const glm::dvec2& a = hull.corners[i];
         const glm::dvec2& b = hull.corners[(i + 1) % hull.count];
         const double inside_a = sign * (limit - a[axis]), inside_b = sign * (limit - b[axis]);
-        if (inside_a >= 0) part.add(a);
-        if (inside_a * inside_b < 0) part.add(a + inside_a / (inside_a - inside_b) * (b - a));
+        if (inside_a >= 0) clipped.add(a);
+        if (inside_a * inside_b < 0) clipped.add(a + inside_a / (inside_a - inside_b) * (b - a));
     }
-    return part;
+    return clipped;
 }
 
 struct Bounds {

@@ -1,7 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws cell fragments (TetPart) over a tile's pixels. A `Shader` says how fragments are coloured
-// and written: GeneralShader, LitShader or PartShader. It has the constant `lit`; `cut`, `scalars`,
-// `perspective`, `opacity_only` (constants or members); and color() (lit_color() if lit) and put().
+// Draws the cell fragments of a batch over the pixels of one tile, back to front. Fragment, without
+// "cell", is the word of rasterisers: one pixel of one cell fragment.
+//
+//   for each cell fragment of the tile:
+//       blocks = the blocks of pixels inside its silhouette                TetCoverage::blocks()
+//       for each vector of pixels in these blocks:
+//           enter, leave = depths of the rays on its front and back faces  TetCoverage::find_in()
+//           put the pixels whose rays meet it into the queue                        FragmentQueue
+//       if the queue is full:                                            TetDrawing::draw_queue()
+//           for each vector of fragments: the ray's segment, its length and the scalars at its ends
+//           for each vector of fragments: colour and opacity                      Shader::color()
+//           for each vector of pixels: composite onto the tile                      Shader::put()
+//
+// A Shader is GeneralShader, LitShader or CellFragmentShader. It has the constant `lit`; `cut`,
+// `scalars`, `perspective` and `opacity_only`, as constants or members; color(), or lit_color() if
+// it is lit; and put().
 #if defined(LAMINA_PROJECTION_TET_DRAWING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_DRAWING_INL_H_
 #undef LAMINA_PROJECTION_TET_DRAWING_INL_H_
@@ -19,30 +32,30 @@
 
 LAMINA_SIMD_BEGIN
 
-// A queue of fragments, that is, of pixels that cell fragments cover. They are added as vectors of
-// 4 x 1, 4 x 2 or 4 x 4 pixels, about half of which a cell fragment covers. With AVX-512 the queue
-// packs the covered pixels of one cell fragment, so that few colours are computed in vain. Each
-// step of shading is done for all fragments of the queue before the next step, because vectors
-// within a step do not depend on each other.
+// Fragments that wait to be shaded. They are added as vectors of 4 x 1, 4 x 2 or 4 x 4 pixels,
+// about half of which a cell fragment covers. With AVX-512 the queue packs the covered pixels of
+// one cell fragment into full vectors, so that few colours are computed in vain. Each step of
+// shading is done for the whole queue before the next step begins: its vectors do not depend on
+// each other, so the processor works on several at a time.
 class FragmentQueue {
   public:
     static constexpr std::size_t lanes = Float::lanes;
 
-    // A vector of pixels: the TileGrid::place() of the first one, and the number in the TileBatch
-    // of the cell fragment that covers some of them.
+    // A vector of pixels that a cell fragment covers, at least in part.
     struct Place {
-        std::uint16_t place, part;
+        std::uint16_t place;   // TileGrid::place() of the first pixel
+        std::uint16_t number;  // of the cell fragment in the TileBatch
     };
 
-    bool is_full() const { return end_ >= enough; }  // another cell fragment may not fit
+    bool is_full() const { return end_ >= enough; }  // there may be no room for one that covers all
     void clear() { end_ = place_count_ = 0; }
 
-    // Adds the vectors of one cell fragment.
+    // Adds the fragments of one cell fragment to the queue.
     class Writer {
       public:
-        LAMINA_INLINE Writer(FragmentQueue& queue, std::size_t part)
+        LAMINA_INLINE Writer(FragmentQueue& queue, std::size_t number)
             : queue_(queue),
-              part_(static_cast<std::uint16_t>(part)),
+              number_(static_cast<std::uint16_t>(number)),
               to_(queue.values_ + position(0, queue.end_)),
               place_(queue.places_ + queue.place_count_) {}
 
@@ -52,7 +65,7 @@ class FragmentQueue {
         LAMINA_INLINE void add(std::size_t place, const PlacedRay& found, FloatMask inside) {
             add(place, found.span, found.column, found.row, inside);
         }
-        // Ends the cell fragment, and returns the number of its fragments.
+        // Call this after the last add(). Returns how many fragments were added.
         LAMINA_INLINE std::size_t finish() {
             if constexpr (packs) {
                 for (std::size_t i = 0; i < values; ++i) put(i, 0);
@@ -60,23 +73,26 @@ class FragmentQueue {
             const auto written = static_cast<std::size_t>(to_ - queue_.values_);
             const std::size_t end =
                 packs ? (written + lanes - 1) / lanes * lanes : written / values;
-            // The first fill is mostly enough; its fixed length needs no unpredictable branch.
-            std::uint16_t* const parts = queue_.parts_ + queue_.end_ / lanes;
+            // Sets the number of all new vectors. A fill of fixed length, mostly enough, needs no
+            // branch, which could not be predicted.
+            std::uint16_t* const numbers = queue_.numbers_ + queue_.end_ / lanes;
             const std::size_t vectors = (end - queue_.end_) / lanes;
-            std::fill_n(parts, some_parts, part_);
-            if (vectors > some_parts) std::fill_n(parts + some_parts, vectors - some_parts, part_);
+            std::fill_n(numbers, first_fill, number_);
+            if (vectors > first_fill)
+                std::fill_n(numbers + first_fill, vectors - first_fill, number_);
             queue_.end_ = end;
             queue_.place_count_ = static_cast<std::size_t>(place_ - queue_.places_);
             return count_;
         }
 
       private:
-        // Keeps the vector if a pixel is `inside`, without a branch, which could not be predicted.
-        // Pixels not inside get span 0; their `third` and `fourth` make no difference.
+        // Writes the vector behind the end, and moves the end if a pixel is `inside`. There is no
+        // branch, because it could not be predicted. Pixels that are not inside get an empty span,
+        // so that their `third` and `fourth` value do not matter.
         LAMINA_INLINE void add(std::size_t place, const InsideSpan<Float>& span, Float third,
                                Float fourth, FloatMask inside) {
             const std::size_t count = count_of(inside), some = count > 0 ? 1 : 0;
-            *place_ = {static_cast<std::uint16_t>(place), part_};
+            *place_ = {static_cast<std::uint16_t>(place), number_};
             if constexpr (packs) {
                 put(0, members_first(span.enter, inside));
                 put(1, members_first(span.leave, inside));
@@ -101,18 +117,19 @@ class FragmentQueue {
         }
 
         FragmentQueue& queue_;
-        std::uint16_t part_;
+        std::uint16_t number_;
         float* to_;
         Place* place_;
         std::size_t count_ = 0;
     };
 
-    // Calls visit(part, i) for each vector of fragments; `i` is the number of its first fragment.
+    // Calls visit(number, i) for each vector of fragments. `number`: that of their cell fragment;
+    // `i`: index of the first fragment in the queue.
     template <class Visit>
     LAMINA_INLINE void for_each_vector(const Visit& visit) const {
-        for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{parts_[i / lanes]}, i);
+        for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{numbers_[i / lanes]}, i);
     }
-    // Calls visit(Place, color) for each vector; pixels that are not covered have colour 0.
+    // Calls visit(Place, color) for each vector of pixels; those that are not covered have colour 0.
     template <class Visit>
     LAMINA_INLINE void for_each_place(const Visit& visit) const {
         for (std::size_t i = 0; i < place_count_; ++i) {
@@ -121,20 +138,21 @@ class FragmentQueue {
         }
     }
 
-    // A fragment has four numbers, which change from step to step: first a SlantedRay or PlacedRay,
-    // then a TetRun unless it is lit, at last a colour.
+    // The queue has four values for each fragment. Each step of shading replaces them by its
+    // result: a SlantedRay or PlacedRay becomes a TetSegment (unless it is lit), which becomes a
+    // colour.
     LAMINA_INLINE SlantedRay slanted(std::size_t i) const {
         return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
     }
     LAMINA_INLINE PlacedRay placed(std::size_t i) const {
         return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
     }
-    LAMINA_INLINE void set_run(std::size_t i, const TetRun& run) {
-        put(0, i, run.front);
-        put(1, i, run.back);
-        put(2, i, run.world_length);
+    LAMINA_INLINE void set_segment(std::size_t i, const TetSegment& segment) {
+        put(0, i, segment.front);
+        put(1, i, segment.back);
+        put(2, i, segment.world_length);
     }
-    LAMINA_INLINE TetRun run(std::size_t i) const {
+    LAMINA_INLINE TetSegment segment(std::size_t i) const {
         return {value(0, i), value(1, i), value(2, i)};
     }
     LAMINA_INLINE void set_color(std::size_t i, const Fragment& color) {
@@ -145,19 +163,20 @@ class FragmentQueue {
     }
 
   private:
-    static_assert(TileBatch::most_chunks * TileBatch::chunk_parts <= 1 << 16,
+    static_assert(TileBatch::most_chunks * TileBatch::chunk_size <= 1 << 16,
                   "numbers of cell fragments are kept in 16 bits");
     static constexpr bool packs = packs_quickly;
     static constexpr std::size_t values = 4, enough = 256, most = enough + TileGrid::pixels + lanes,
-                                 some_parts = 16;
-    // The position of a place's packed fragments.
+                                 first_fill = 16;
+    // The packed fragments of a vector of pixels.
     struct Packed {
-        std::uint16_t first;
-        std::uint16_t inside;  // one bit a pixel
+        std::uint16_t first;   // index of the first fragment in the queue
+        std::uint16_t inside;  // a bit for each pixel: 1 if it has a fragment
     };
 
-    // Returns the index in values_. Packed fragments begin anywhere, so each of the four values has
-    // an array of its own. Without packing, the four values of a vector follow each other.
+    // Returns the index in values_ of a value (0 to 3) of fragment i. With packing, a vector of
+    // pixels begins at any fragment, so each of the four values has an array of its own. Without
+    // packing, the four values of a vector follow each other.
     static constexpr std::size_t position(std::size_t value, std::size_t i) {
         return packs ? value * most + i : value * lanes + i * values;
     }
@@ -174,14 +193,16 @@ class FragmentQueue {
     }
 
     std::size_t end_ = 0, place_count_ = 0;
-    std::uint16_t parts_[most / lanes + some_parts];  // of vectors
+    // For each vector of fragments, the number of the cell fragment.
+    std::uint16_t numbers_[most / lanes + first_fill];
     Place places_[enough + TileGrid::pixels / lanes + 1];
     Packed packed_[packs ? enough + TileGrid::pixels / lanes + 1 : 1];
     alignas(64) float values_[values * most];
 };
 
-// Returns the blocks of a tile that an area of the picture touches: one bit a block, row by row.
-inline std::uint64_t blocks_of(const PartArea& area, const TileGrid::Tile& tile) {
+// Returns the blocks of a tile that the area's rectangle of pixels touches. Here and below a set of
+// blocks has one bit for each block of the tile, row by row from the top left one.
+inline std::uint64_t blocks_of(const CoveredArea& area, const TileGrid::Tile& tile) {
     constexpr int a_row = TileGrid::edge / TileGrid::block;
     const auto in_tile = [](int pixel, int first) {
         return std::clamp(pixel - first, 0, TileGrid::edge - 1) / TileGrid::block;
@@ -207,26 +228,27 @@ LAMINA_INLINE void for_each_block(std::uint64_t blocks, const Visit& visit) {
     }
 }
 
-// Finds the pixels of a tile that cell fragments cover.
+// Finds the pixels of a tile that cell fragments cover, and counts them.
 class TetCoverage {
   public:
     TetCoverage(const TetFragments& fragments, const TetTile& tile)
         : fragments_(fragments), tile_(tile), area_(tile.area) {}
 
-    // Returns the blocks of the tile that a cell fragment may cover: one bit a block, row by row.
-    LAMINA_INLINE std::uint64_t blocks(const PartArea& area) const {
+    // Returns a set of blocks that contains all blocks that the cell fragment covers.
+    LAMINA_INLINE std::uint64_t blocks(const CoveredArea& area) const {
         return blocks_of(area, area_) & blocks_within(area);
     }
 
-    // Adds the pixels of `blocks` that cell fragment `part` covers to the queue. `cut`: it ends at
-    // planes of constant scalar. `lit`: its fragments are lit.
+    // Adds the pixels of `blocks` that a cell fragment covers to the queue. `number`: that of the
+    // cell fragment in the batch; `cut`: it may end at planes of constant scalar (FragmentCuts);
+    // `lit`: its fragments are lit.
     template <bool lit>
-    LAMINA_INLINE void find(bool cut, const SilhouetteRecord& record, const PartArea& area,
-                            std::uint64_t blocks, std::size_t part, FragmentQueue& found) {
-        // Blocks at the picture's right and lower edge may stick out of it.
+    LAMINA_INLINE void find(bool cut, const SilhouetteRecord& record, const CoveredArea& area,
+                            std::uint64_t blocks, std::size_t number, FragmentQueue& found) {
+        // Blocks at the picture's right and lower edge may reach beyond it.
         const bool whole_blocks = area_.width % block == 0 && area_.height % block == 0;
-        FragmentQueue::Writer writer(found, part);
-        if (has_exact_runs(fragments_, area)) {
+        FragmentQueue::Writer writer(found, number);
+        if (has_exact_segments(fragments_, area)) {
             find_in<true, true, CarefulDepths>(cut, record, area, blocks, writer);
         } else if (area.careful) {
             find_in<lit, true, CarefulDepths>(cut, record, area, blocks, writer);
@@ -249,13 +271,14 @@ class TetCoverage {
         return static_cast<float>(fragments_.image_rows - area_.row) - 0.5f - record.center[1];
     }
 
-    // Returns the tile's blocks within the outline of a cell fragment, one bit a block.
-    LAMINA_INLINE std::uint64_t blocks_within(const PartArea& area) const {
+    // Returns the set of the tile's blocks within the outline of a cell fragment (TetOutline).
+    LAMINA_INLINE std::uint64_t blocks_within(const CoveredArea& area) const {
         constexpr float a_block = 1.0f / block;
         const auto pixels = [](std::int32_t from, std::int32_t to) {
             return static_cast<float>(to - from);
         };
-        // Bounds in blocks from the tile's first, plus 1/2, to be rounded to the next whole number.
+        // The bound of each line on the columns of blocks in the tile's first row of blocks. 1/2 is
+        // added, because whole() below rounds to the nearest number.
         const Float4 per_row = load_unaligned<Float4>(area.outline.per_row.data());
         const Float4 bound = (load_unaligned<Float4>(area.outline.at_first.data()) +
                               per_row * pixels(area.first_row, area_.row) -
@@ -269,8 +292,10 @@ class TetCoverage {
         store(zero_unless(is_least, per_row), least_per_row);
         store(select(is_least, beyond, bound), greatest);
         store(zero_if(is_least, per_row), greatest_per_row);
-        // The bits of a float of at least 2^23 count whole numbers.
+        // Floats from 2^23 on are whole numbers: adding 2^23 rounds, and leaves the number in the
+        // low bits.
         const auto whole = [](Float8 v) LAMINA_LAMBDA { return bits_as<Word8>(v + 0x1p23f); };
+        // Returns 2^v, by making v the exponent of a float.
         const auto power = [&](Float8 v) LAMINA_LAMBDA {
             return bits_as<Float8>(shift_left<23>(whole(v) + 127u));
         };
@@ -284,7 +309,7 @@ class TetCoverage {
             }
             first = min(first, beyond);
             end = max(end, 0);
-            // 2^end - 2^first has the bits from `first` up to `end`.
+            // 2^end - 2^first has the bits `first` to `end` - 1, one for each block.
             const Float8 some = max(power(end) - power(first), 0);
             store_low_bytes(whole(some), bits + row);
         }
@@ -293,7 +318,7 @@ class TetCoverage {
         return within;
     }
 
-    // Prefetches the pixels of a block into the cache before its fragments are put there.
+    // Prefetches the pixels of a block, onto which its fragments will be composited.
     LAMINA_INLINE void prefetch_pixels(std::size_t first) const {
         if (tile_.pixels == nullptr) return;
         __builtin_prefetch(tile_.pixels->red.data() + first);
@@ -302,9 +327,11 @@ class TetCoverage {
         __builtin_prefetch(tile_.pixels->alpha.data() + first);
     }
 
-    // `placed`: the queue gets PlacedRays, otherwise SlantedRays.
+    // Finds the fragments in `blocks` and writes them to the queue, as PlacedRays (`placed`) or as
+    // SlantedRays. `bounded`: pixels are limited to the rectangle of `area`, and segments end at
+    // area.farthest. `Depths`: PlainDepths or CarefulDepths.
     template <bool placed, bool bounded, class Depths>
-    LAMINA_INLINE void find_in(bool cut, const SilhouetteRecord& record, const PartArea& area,
+    LAMINA_INLINE void find_in(bool cut, const SilhouetteRecord& record, const CoveredArea& area,
                                std::uint64_t blocks, FragmentQueue::Writer& writer) const {
         constexpr int rows_a_vector = static_cast<int>(FragmentQueue::lanes) / block;
         const float first_column = from_column(record.seen()), first_row = from_row(record.seen());
@@ -316,12 +343,13 @@ class TetCoverage {
         };
         const float first_in = column_of(area.first_column), last_in = column_of(area.last_column);
         const float highest = row_of(area.first_row), lowest = row_of(area.last_row);
-        // Read before the loop: for all the compiler knows, its writes could overwrite the record.
+        // Read before the loop. In it they would be read again each time, because the compiler
+        // cannot exclude that writing to the queue changes the record.
         const Float scalar_per_column(record.seen().scalar_per_column),
             scalar_per_row(record.seen().scalar_per_row);
         const float* const slants = tile_.slants;
         const Depths depths(fragments_, record);
-        const PartCuts cuts(cut, record.fragment);
+        const FragmentCuts cuts(cut, record.fragment);
         for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
             const auto number = static_cast<std::size_t>(std::countr_zero(left));
             prefetch_pixels(number * block * block);
@@ -353,7 +381,8 @@ class TetCoverage {
         }
     }
 
-    // For each pixel of a row or column of blocks: its column or row from the tile's first pixel.
+    // For the pixels of the tile's first row of blocks, their columns; for those of its first
+    // column of blocks, their rows. Both count from the tile's first pixel, block after block.
     struct alignas(64) PixelRow : std::array<float, TileGrid::edge * TileGrid::block> {};
     static constexpr PixelRow block_columns = [] {
         PixelRow columns{};
@@ -395,69 +424,71 @@ class TetDrawing {
 
     template <class Shader>
     LAMINA_INLINE void draw(const Shader& shader) {
-        batch_.for_each_word(tile_.number, [&](std::size_t first, std::uint64_t parts)
-                                               LAMINA_LAMBDA { draw_parts(shader, first, parts); });
+        batch_.for_each_word(tile_.number, [&](std::size_t first, std::uint64_t word)
+                                               LAMINA_LAMBDA { draw_word(shader, first, word); });
         draw_queue(shader);
     }
     std::int64_t fragments() const { return coverage_.fragments(); }
 
   private:
-    // A cell fragment, and the tile's blocks that it may cover: one bit a block.
+    // A cell fragment and the set of the tile's blocks that it may cover.
     struct Blocks {
         std::uint64_t blocks;
-        std::size_t part;
+        std::size_t number;  // of the cell fragment in the batch
     };
 
-    // `parts`: as in TileBatch::for_each_word().
+    // Draws up to 64 cell fragments. `first`, `word`: as in TileBatch::for_each_word().
     template <class Shader>
-    LAMINA_INLINE void draw_parts(const Shader& shader, std::size_t first, std::uint64_t parts) {
+    LAMINA_INLINE void draw_word(const Shader& shader, std::size_t first, std::uint64_t word) {
         std::size_t count = 0;
-        for_each_member(first, parts, [&](std::size_t part) { blocks_[count++].part = part; });
+        for_each_member(first, word, [&](std::size_t number) { blocks_[count++].number = number; });
         for (std::size_t i = 0; i < count; ++i)
-            blocks_[i].blocks = coverage_.blocks(batch_.area(blocks_[i].part));
+            blocks_[i].blocks = coverage_.blocks(batch_.area(blocks_[i].number));
         for (std::size_t i = 0; i < count; ++i) {
-            const auto [blocks, part] = blocks_[i];
-            coverage_.find<Shader::lit>(shader.cut, batch_.record(part), batch_.area(part), blocks,
-                                        part, queue_);
+            const auto [blocks, number] = blocks_[i];
+            coverage_.find<Shader::lit>(shader.cut, batch_.record(number), batch_.area(number),
+                                        blocks, number, queue_);
             if (queue_.is_full()) draw_queue(shader);
         }
     }
 
-    // Shades and writes the queue's fragments. It is not inlined, because only then does GCC inline
-    // the Shader's functions into it.
+    // Shades the fragments in the queue, composites them onto the tile, and clears the queue. This
+    // is not inlined, because only then does GCC inline the Shader's functions into it.
     template <class Shader>
     LAMINA_NOINLINE void draw_queue(const Shader& shader) {
         if constexpr (Shader::lit) {
-            queue_.for_each_vector([&](std::size_t part, std::size_t i) LAMINA_LAMBDA {
-                queue_.set_color(i, shader.lit_color(batch_, part, queue_.placed(i)));
+            queue_.for_each_vector([&](std::size_t number, std::size_t i) LAMINA_LAMBDA {
+                queue_.set_color(i, shader.lit_color(batch_, number, queue_.placed(i)));
             });
         } else {
             find_colors(shader);
         }
-        queue_.for_each_place([&](const FragmentQueue::Place& pixels,
-                                  const Fragment& color) LAMINA_LAMBDA {
-            shader.put(fragments_, batch_.record(pixels.part).number(), color, tile_, pixels.place);
-        });
+        queue_.for_each_place([&](const FragmentQueue::Place& pixels, const Fragment& color)
+                                  LAMINA_LAMBDA {
+                                      shader.put(fragments_, batch_.record(pixels.number).number(),
+                                                 color, tile_, pixels.place);
+                                  });
         queue_.clear();
     }
 
+    // Computes the segments of all fragments in the queue, then their colours.
     template <class Shader>
     LAMINA_INLINE void find_colors(const Shader& shader) {
-        queue_.for_each_vector([&](std::size_t part, std::size_t i) LAMINA_LAMBDA {
-            const SilhouetteRecord& record = batch_.record(part);
-            if (has_exact_runs(fragments_, batch_.area(part))) {
+        queue_.for_each_vector([&](std::size_t number, std::size_t i) LAMINA_LAMBDA {
+            const SilhouetteRecord& record = batch_.record(number);
+            if (has_exact_segments(fragments_, batch_.area(number))) {
                 const bool slanted = tile_.slants != nullptr;
-                queue_.set_run(
-                    i, find_exact_run(shader, fragments_, record, queue_.placed(i), slanted));
+                queue_.set_segment(
+                    i, find_exact_segment(shader, fragments_, record, queue_.placed(i), slanted));
             } else {
                 const SlantedRay ray = queue_.slanted(i);
                 const TetSpan ends = find_ends(shader, fragments_, record, ray.span, ray.slant);
-                queue_.set_run(i, run_between(shader, record, ends, ray.aside));
+                queue_.set_segment(i, segment_between(shader, record, ends, ray.aside));
             }
         });
-        queue_.for_each_vector([&](std::size_t part, std::size_t i) LAMINA_LAMBDA {
-            queue_.set_color(
-                i, shader.color(fragments_, batch_.record(part), batch_.area(part), queue_.run(i)));
+        queue_.for_each_vector([&](std::size_t number, std::size_t i) LAMINA_LAMBDA {
+            queue_.set_color(i, shader.color(fragments_, batch_.record(number), batch_.area(number),
+                                             queue_.segment(i)));
         });
     }
 
@@ -465,7 +496,7 @@ class TetDrawing {
     const TileBatch& batch_;
     const TetTile& tile_;
     TetCoverage coverage_;
-    Blocks blocks_[64];  // of the cell fragments of a word
+    Blocks blocks_[64];  // of the cell fragments that draw_word() draws
     FragmentQueue queue_;
 };
 

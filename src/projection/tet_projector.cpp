@@ -38,7 +38,7 @@ constexpr float oblique = 1e-4f;
 //   X >= (-largest + r Y) / c   (c > 0: a least column),  or  X <= (-largest + r Y) / c   (c < 0)
 //
 // The lanes of a vector hold the four pairs of faces.
-PartOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
+TetOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
     constexpr float middle = 0.5f * (TileGrid::block - 1);  // from a block's first pixel centre
     const SeenTet& seen = record.seen();
     const float columns = static_cast<float>(area.last_column - area.first_column),
@@ -66,7 +66,7 @@ PartOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, 
     const Float4 steepness = max(max(abs_c, abs_r * oblique), 1e-30f);
     const auto is_least = c >= 0;
     const Float4 divisor = select(is_least, steepness, -steepness);
-    PartOutline outline;
+    TetOutline outline;
     store_unaligned(-largest / divisor, outline.at_first.data());
     store_unaligned(r / divisor, outline.per_row.data());
     outline.least = static_cast<std::uint8_t>(bits_of(is_least));
@@ -350,10 +350,10 @@ TetProjector::VisibleCorners TetProjector::clip_near(const TetField::Corners& co
     return visible;
 }
 
-std::optional<FragmentKind> TetProjector::project(const TetPart& part, SilhouetteRecord& record,
-                                                  ScreenOutline& outline,
+std::optional<FragmentKind> TetProjector::project(const CellFragment& cell_fragment,
+                                                  SilhouetteRecord& record, ScreenOutline& outline,
                                                   GradientRecord* lit) const {
-    const Tet& tet = tets_.mesh.tets()[static_cast<std::size_t>(part.tet)];
+    const Tet& tet = tets_.mesh.tets()[static_cast<std::size_t>(cell_fragment.tet)];
     TetField::Corners corners;
     TetField::Values values;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -362,7 +362,7 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, Silhouett
     }
     const VisibleCorners visible = clip_near(corners);
     if (visible.count == 0 || is_needle(corners)) return std::nullopt;
-    const LinearPiece* const piece = tets_.piece_of(part);
+    const LinearPiece* const piece = tets_.piece_of(cell_fragment);
     const TetField field(corners, values, piece);
     const View& view = tets_.view();
     OneTet seen(view);
@@ -375,14 +375,14 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, Silhouett
     if (outline.count == 0 ||
         pixel_bounds(outline.points(), tets_.margin, view.width, view.height).empty())
         return std::nullopt;
-    const FaceSigns signs = signer_.signs(static_cast<std::size_t>(part.tet));
+    const FaceSigns signs = signer_.signs(static_cast<std::size_t>(cell_fragment.tet));
     bool float_suffices = set_depths(seen, tet, signs, cut, corners, record);
     if (piece != nullptr) {
         set_fragment(seen, field, *piece, record.fragment);
     } else {
         float_suffices = set_whole(seen, field, tets_.range, record.tet) && float_suffices;
     }
-    record.tet.number = part_number(part, tets_.mesh.tets().size());
+    record.tet.number = cell_fragment_number(cell_fragment, tets_.mesh.tets().size());
     if (lit != nullptr) set_gradients(seen, tet, tets_.gradients, corners, *lit);
     if (!float_suffices) return FragmentKind::careful;
     if (piece == nullptr) return FragmentKind::plain;
@@ -411,12 +411,14 @@ TetGeometry::Size SilhouetteGeometry::largest_size(bool lit) {
     return {sizeof(SilhouetteVertex), corners, 3 * (corners - 2), true, lit};
 }
 
-TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place& place) const {
+TetGeometry::Written SilhouetteGeometry::write(const CellFragment& cell_fragment,
+                                               const Place& place) const {
     ScreenOutline outline;
     SilhouetteRecord record;  // copied when complete: `place` may be memory that is slow to read
     GradientRecord gradient;
     GradientRecord* const lit = place.gradient != nullptr ? &gradient : nullptr;
-    const std::optional<FragmentKind> kind = projector_.project(part, record, outline, lit);
+    const std::optional<FragmentKind> kind =
+        projector_.project(cell_fragment, record, outline, lit);
     if (!kind) return {};
     const ScreenPolygon polygon =
         surround(outline.points(), projector_.tets().margin, projector_.tets().view().width,
@@ -439,7 +441,7 @@ TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place&
     return written;
 }
 
-PartOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
+TetOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
     return LAMINA_LEAST(find_outline)(record, area, image_rows);
 }
 

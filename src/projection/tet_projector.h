@@ -85,7 +85,7 @@ struct TetsInView {
     const TetMesh& mesh;
     std::span<const double> scalar;  // one value for each point
     ValueRange range;                // normalised to [0, 1] in the records of whole tets
-    const TetPieces& pieces;         // TetPart::piece is an index into pieces.pieces()
+    const TetPieces& pieces;         // CellFragment::piece is an index into pieces.pieces()
     WindowView window;
     double near_depth;                     // eye-space depth of the near plane
     double margin;                         // pixels around an outline: pixel_bounds()
@@ -93,9 +93,9 @@ struct TetsInView {
 
     const View& view() const { return window.view(); }
     // Returns the piece of the transfer function that a cell fragment shows; null for a whole tet.
-    const LinearPiece* piece_of(const TetPart& part) const {
-        if (part.piece == TetPart::whole) return nullptr;
-        return &pieces.pieces()[static_cast<std::size_t>(part.piece)];
+    const LinearPiece* piece_of(const CellFragment& cell_fragment) const {
+        if (cell_fragment.piece == CellFragment::whole) return nullptr;
+        return &pieces.pieces()[static_cast<std::size_t>(cell_fragment.piece)];
     }
 };
 
@@ -108,7 +108,7 @@ class TetProjector {
     // Projects one cell fragment: writes its record, an outline that contains its image (or more of
     // its tet's), and its gradients if `lit` is not null. Returns how its fragments are to be
     // computed; nothing, with undefined output, if it covers no pixel centre.
-    std::optional<FragmentKind> project(const TetPart& part, SilhouetteRecord& record,
+    std::optional<FragmentKind> project(const CellFragment& cell_fragment, SilhouetteRecord& record,
                                         ScreenOutline& outline, GradientRecord* lit) const;
     const TetsInView& tets() const { return tets_; }
 
@@ -154,7 +154,7 @@ class TetGeometry {
         FragmentKind kind = FragmentKind::thin;
     };
     // Writes one cell fragment. Its triangles do not overlap.
-    virtual Written write(const TetPart& part, const Place& place) const = 0;
+    virtual Written write(const CellFragment& cell_fragment, const Place& place) const = 0;
 };
 
 // A corner of the polygon around a tet (shaders/projection/silhouette.vert).
@@ -169,7 +169,7 @@ class SilhouetteGeometry : public TetGeometry {
   public:
     explicit SilhouetteGeometry(const TetProjector& projector) : projector_(projector) {}
     static Size largest_size(bool lit);
-    Written write(const TetPart& part, const Place& place) const override;
+    Written write(const CellFragment& cell_fragment, const Place& place) const override;
 
   private:
     TetProjector projector_;

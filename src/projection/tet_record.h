@@ -18,7 +18,7 @@ namespace lamina {
 
 // A cell fragment: the region of a tet on which the transfer function is linear, or the whole tet.
 // Cell fragments are projected one by one.
-struct TetPart {
+struct CellFragment {
     static constexpr std::int32_t whole = -1;
 
     std::int32_t tet;
@@ -26,13 +26,13 @@ struct TetPart {
 };
 
 // Returns a number of its own for each cell fragment of a mesh of `tets` tets, for dithering.
-inline std::uint32_t part_number(const TetPart& part, std::size_t tets) {
-    return static_cast<std::uint32_t>(part.tet) +
-           static_cast<std::uint32_t>(part.piece + 1) * static_cast<std::uint32_t>(tets);
+inline std::uint32_t cell_fragment_number(const CellFragment& cell_fragment, std::size_t tets) {
+    return static_cast<std::uint32_t>(cell_fragment.tet) +
+           static_cast<std::uint32_t>(cell_fragment.piece + 1) * static_cast<std::uint32_t>(tets);
 }
 
-// How the fragments of a cell fragment (TetPart) are computed. A later kind is also right for the
-// fragments of an earlier one, but slower.
+// How the fragments of a cell fragment (CellFragment) are computed. A later kind is also right for
+// the fragments of an earlier one, but slower.
 enum class FragmentKind {
     thin,    // optical depth at most thin_depth (optics/segment_integral.h); depths on faces in
              // float32
@@ -140,7 +140,7 @@ inline constexpr double beyond_all = -double{FragmentRecord::in_front_of_all};
 // lines, the silhouette, on which a front and a back depth are equal. Each line bounds the columns
 // of the first pixels of blocks: to `at_first`, in pixels from the area's first column, for blocks
 // that begin in the area's first row, and to `per_row` more for each row below.
-struct PartOutline {
+struct TetOutline {
     static constexpr float none = std::numeric_limits<float>::infinity();
 
     std::array<float, 4> at_first{none, none, none, none}, per_row{};
@@ -150,21 +150,21 @@ struct PartOutline {
 
 // A bound on the optical depth of any segment through a cell fragment, on which the cost of its
 // colour depends. thin: at most thin_depth; faint: at most faint_depth (optics/segment_integral.h).
-enum class PartDepth : std::uint8_t { any, thin, faint };
+enum class DepthBound : std::uint8_t { any, thin, faint };
 
 // The pixels that a cell fragment may cover: columns from the left, rows from the picture's top.
-struct alignas(64) PartArea : PixelArea {
-    bool careful;     // depths on its faces are found in double precision (FragmentKind::careful)
-    PartDepth depth;  // bound for any segment through it
+struct alignas(64) CoveredArea : PixelArea {
+    bool careful;      // depths on its faces are found in double precision (FragmentKind::careful)
+    DepthBound depth;  // bound for any segment through it
     // True: pixels outside these columns and rows are not drawn, and no segment ends beyond
     // `farthest`, a depth relative to the record's center. Outside a tet the planes of its faces
     // meet at any depth, where rounding alone may make segments of length above 0.
     bool bounded = true;
     float farthest = std::numeric_limits<float>::infinity();
-    PartOutline outline = {};
+    TetOutline outline = {};
 };
 
 // Returns the outline of a tet with 1 to 3 front faces whose depths are found in float32.
-PartOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows);
+TetOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows);
 
 }  // namespace lamina

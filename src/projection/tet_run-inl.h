@@ -36,7 +36,7 @@ struct PlacedRay {
 
 // The segment of a ray through a cell fragment. Scalars are normalised as the record says. A ray
 // that misses the cell fragment has equal scalars and length 0.
-struct TetRun {
+struct TetSegment {
     Float front, back, world_length;
 };
 
@@ -178,10 +178,10 @@ class CarefulDepths {
 
 // The cuts of a cell fragment, planes on which the scalar is its least or its largest, without
 // those in front of everything, which no ray meets.
-class PartCuts {
+class FragmentCuts {
   public:
     // `cut`: false if the record is that of a whole tet, without cuts.
-    PartCuts(bool cut, const FragmentRecord& record)
+    FragmentCuts(bool cut, const FragmentRecord& record)
         : lower_(cut && record.has_lower_cut()),
           upper_(cut && record.has_upper_cut()),
           lower_is_front_((record.fronts & FragmentRecord::lower_cut_is_front) != 0),
@@ -254,10 +254,10 @@ LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragme
 
 // Returns the segments with the scalars at their ends. `aside`: as in SlantedRay.
 template <class Shader>
-LAMINA_INLINE TetRun run_between(const Shader& shader, const SilhouetteRecord& record,
-                                 const TetSpan& ends, Float aside) {
-    TetRun run{0, 0, ends.world_length};
-    if (!shader.scalars) return run;
+LAMINA_INLINE TetSegment segment_between(const Shader& shader, const SilhouetteRecord& record,
+                                         const TetSpan& ends, Float aside) {
+    TetSegment segment{0, 0, ends.world_length};
+    if (!shader.scalars) return segment;
     const float least = shader.cut ? 0.0f : record.tet.least;
     const float largest = shader.cut ? 1.0f : record.tet.largest;
     const SeenTet& seen = record.seen();
@@ -265,13 +265,13 @@ LAMINA_INLINE TetRun run_between(const Shader& shader, const SilhouetteRecord& r
         const Float sum = seen.scalar + end.from_center * seen.scalar_per_z + end.z * aside;
         return clamp(sum, least, largest);
     };
-    run.front = scalar(ends.front);
-    run.back = scalar(ends.back);
-    return run;
+    segment.front = scalar(ends.front);
+    segment.back = scalar(ends.back);
+    return segment;
 }
 
 // Tells whether segments of a tet are computed in double precision: if it is careful and not cut.
-LAMINA_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea& area) {
+LAMINA_INLINE bool has_exact_segments(const TetFragments& fragments, const CoveredArea& area) {
     return area.careful && fragments.source != SegmentSource::parts;
 }
 
@@ -280,9 +280,9 @@ LAMINA_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea&
 // scalar within the window in a tet whose scalars reach far outside it (facts/drawn_range.h).
 // `slanted`: lengths along rays are longer than differences of z.
 template <class Shader>
-LAMINA_INLINE TetRun find_exact_run(const Shader& shader, const TetFragments& fragments,
-                                    const SilhouetteRecord& record, const PlacedRay& ray,
-                                    bool slanted) {
+LAMINA_INLINE TetSegment find_exact_segment(const Shader& shader, const TetFragments& fragments,
+                                            const SilhouetteRecord& record, const PlacedRay& ray,
+                                            bool slanted) {
     const auto [exact_length, front, back] =
         CarefulDepths(fragments, record).exact_at(shader.perspective, ray.column, ray.row);
     Float length = to_float(exact_length);
@@ -305,39 +305,41 @@ LAMINA_INLINE Fragment with_color(const glm::vec3& color, Float opacity) {
     return {color.r * opacity, color.g * opacity, color.b * opacity, opacity};
 }
 
-LAMINA_INLINE Fragment constant_color(const TetFragments& fragments, const TetRun& run) {
+LAMINA_INLINE Fragment constant_color(const TetFragments& fragments, const TetSegment& segment) {
     const glm::vec4& optics = fragments.constant_optics;
-    return with_color(glm::vec3(optics), opacity_from_depth(optics.a * run.world_length));
+    return with_color(glm::vec3(optics), opacity_from_depth(optics.a * segment.world_length));
 }
 
 // Returns the colour of segments through a cell fragment, with linear optics; if not `colored`, it
 // is fragments.single_color. `most_depth`: a bound on the segments' optical depth.
-LAMINA_INLINE Fragment part_color(bool colored, PartDepth most_depth, const TetFragments& fragments,
-                                  const FragmentRecord& record, const TetRun& run) {
+LAMINA_INLINE Fragment cell_fragment_color(bool colored, DepthBound most_depth,
+                                           const TetFragments& fragments,
+                                           const FragmentRecord& record,
+                                           const TetSegment& segment) {
     const auto optics = [&](std::size_t i, Float place) LAMINA_LAMBDA {
         return mix(Float(record.low[i]), Float(record.high[i]), place);
     };
-    const Float front = optics(3, run.front), back = optics(3, run.back);
+    const Float front = optics(3, segment.front), back = optics(3, segment.back);
     if (!colored) {
         const Float mean = 0.5f * front + 0.5f * back;
-        return with_color(fragments.single_color, opacity_from_depth(mean * run.world_length));
+        return with_color(fragments.single_color, opacity_from_depth(mean * segment.world_length));
     }
-    const Float p = front * run.world_length, q = back * run.world_length;
+    const Float p = front * segment.world_length, q = back * segment.world_length;
     const Float depth = 0.5f * p + 0.5f * q;
     Float opacity, most;
-    if (most_depth == PartDepth::faint) {
+    if (most_depth == DepthBound::faint) {
         opacity = faint_opacity(depth);
         most = faint_front_weight(p, q);
     } else {
         opacity = opacity_from_depth(depth);
-        most = most_depth == PartDepth::thin
+        most = most_depth == DepthBound::thin
                    ? thin_front_weight(p, q)
                    : front_weight(fragments.front_weights, FrontWeightTable::nodes, p, q);
     }
     const Float weight = min(most, opacity);
     // This is opacity * back + weight * (front - back), written with the colours at the cell
     // fragment's ends so that no term is negative.
-    const Float of_high = (opacity - weight) * run.back + weight * run.front;
+    const Float of_high = (opacity - weight) * segment.back + weight * segment.front;
     const Float of_low = opacity - of_high;
     const auto channel = [&](std::size_t i) LAMINA_LAMBDA {
         return of_low * record.low[i] + of_high * record.high[i];

@@ -50,13 +50,13 @@ class TetVectors {
     TetVectors(const TetsInView& tets, SetupLanes& lanes, std::size_t first)
         : tets_(tets), lanes_(lanes), first_(first), tet_(tets.view()) {}
 
-    void set_up(bool parts, bool lit) {
+    void set_up(bool cell_fragments, bool lit) {
         see();
         place_center();
         DoubleMask good = find_faces();
         good = good & find_gradient();
-        if (parts) {
-            set_part();
+        if (cell_fragments) {
+            set_fragment();
         } else {
             good = good & set_whole();
         }
@@ -196,7 +196,7 @@ class TetVectors {
             for (const Row& corner : corners) largest = max(largest, abs(get(corner)));
         }
         // as StoredGradients::scale_of_tet() does
-        constexpr double most = StoredGradients::most_of_tet;
+        constexpr double most = StoredGradients::largest_in_tet;
         const Double scale = select(largest > most, most / largest, 1);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             std::array<Double, 4> values;
@@ -218,7 +218,7 @@ class TetVectors {
         return most <= select(meets, Double(far_for_floats), farthest_normalised);
     }
 
-    void set_part() {
+    void set_fragment() {
         const Double from = get(lanes_.piece_from), to = get(lanes_.piece_to);
         const Double low = clamp(least_, from, to), high = clamp(largest_, from, to);
         set_scalars(low, high - low);
@@ -298,7 +298,7 @@ LAMINA_INLINE void write_group(const SetupLanes::Group& rows, std::size_t count,
 }
 
 // The groups have the layout of four numbers side by side in these types.
-static_assert(sizeof(PixelArea) == 16 && std::is_base_of_v<PixelArea, PartArea>);
+static_assert(sizeof(PixelArea) == 16 && std::is_base_of_v<PixelArea, CoveredArea>);
 static_assert(sizeof(GradientRecord::Component) == 16);
 static_assert(offsetof(SeenTet, center_z) == offsetof(SeenTet, center) + 12);
 static_assert(offsetof(SeenTet, scalar_per_row) == offsetof(SeenTet, scalar) + 12);
@@ -309,7 +309,7 @@ static_assert(offsetof(FragmentRecord, fronts) == offsetof(TetRecord, fronts));
 static_assert(offsetof(FragmentRecord, number) == offsetof(TetRecord, number));
 static_assert(offsetof(FragmentRecord, upper_cut) == offsetof(FragmentRecord, lower_cut) + 12);
 
-LAMINA_INLINE void write_records(const SetupLanes& lanes, bool parts, std::size_t count,
+LAMINA_INLINE void write_records(const SetupLanes& lanes, bool cell_fragments, std::size_t count,
                                  SilhouetteRecord* records) {
     write_group<offsetof(SeenTet, depth)>(lanes.depth, count, records);
     write_group<offsetof(SeenTet, depth_per_column)>(lanes.per_column, count, records);
@@ -317,7 +317,7 @@ LAMINA_INLINE void write_records(const SetupLanes& lanes, bool parts, std::size_
     write_group<offsetof(SeenTet, center)>(lanes.center, count, records);
     write_group<offsetof(SeenTet, scalar)>(lanes.scalar, count, records);
     write_group<offsetof(TetRecord, least)>(lanes.limits, count, records);
-    if (!parts) return;
+    if (!cell_fragments) return;
     write_group<offsetof(FragmentRecord, lower_cut)>(lanes.cuts, count, records);
     write_group<offsetof(FragmentRecord, low)>(lanes.low, count, records);
     write_group<offsetof(FragmentRecord, high)>(lanes.high, count, records);
@@ -333,11 +333,12 @@ LAMINA_INLINE void write_gradients(const SetupLanes& lanes, std::size_t count,
 
 // Sets up one vector after the other, and writes `count` records, their gradients if `lit` is not
 // null, and the pixels of areas.
-void set_up_vectors(const TetsInView& tets, bool parts, SetupLanes& lanes, std::size_t count,
-                    SilhouetteRecord* records, GradientRecord* lit, PartArea* areas) {
-    for (std::size_t first = 0; first < TetSetup::most_parts; first += Double::lanes)
-        TetVectors(tets, lanes, first).set_up(parts, lit != nullptr);
-    write_records(lanes, parts, count, records);
+void set_up_vectors(const TetsInView& tets, bool cell_fragments, SetupLanes& lanes,
+                    std::size_t count, SilhouetteRecord* records, GradientRecord* lit,
+                    CoveredArea* areas) {
+    for (std::size_t first = 0; first < TetSetup::most_cell_fragments; first += Double::lanes)
+        TetVectors(tets, lanes, first).set_up(cell_fragments, lit != nullptr);
+    write_records(lanes, cell_fragments, count, records);
     if (lit != nullptr) write_gradients(lanes, count, lit);
     write_group<0>(lanes.pixels, count, areas);
 }
@@ -369,8 +370,8 @@ std::array<std::size_t, 4> sorted_corners(const Tet& tet) {
 
 // Prefetches the corners of the next tets, and the tets after these, which lie scattered in memory.
 // Inlined because GCC 12 drops calls of a function that only prefetches.
-LAMINA_INLINE void prefetch(const TetsInView& tets, std::span<const TetPart> next) {
-    constexpr std::size_t most = TetSetup::most_parts;
+LAMINA_INLINE void prefetch(const TetsInView& tets, std::span<const CellFragment> next) {
+    constexpr std::size_t most = TetSetup::most_cell_fragments;
     const auto all = tets.mesh.tets();
     for (std::size_t i = 0; i < std::min(next.size(), most); ++i) {
         for (const std::int32_t corner : all[static_cast<std::size_t>(next[i].tet)]) {
@@ -383,11 +384,13 @@ LAMINA_INLINE void prefetch(const TetsInView& tets, std::span<const TetPart> nex
 }
 
 // Fills all lanes; those without a cell fragment repeat the last one.
-void load(const TetsInView& tets, std::span<const TetPart> parts, bool lit, SetupLanes& lanes) {
+void load(const TetsInView& tets, std::span<const CellFragment> cell_fragments, bool lit,
+          SetupLanes& lanes) {
     const auto all = tets.mesh.tets();
-    for (std::size_t lane = 0; lane < TetSetup::most_parts; ++lane) {
-        const TetPart& part = parts[std::min(lane, parts.size() - 1)];
-        const auto corners = sorted_corners(all[static_cast<std::size_t>(part.tet)]);
+    for (std::size_t lane = 0; lane < TetSetup::most_cell_fragments; ++lane) {
+        const CellFragment& cell_fragment =
+            cell_fragments[std::min(lane, cell_fragments.size() - 1)];
+        const auto corners = sorted_corners(all[static_cast<std::size_t>(cell_fragment.tet)]);
         for (std::size_t i = 0; i < 4; ++i) {
             const glm::dvec3& point = tets.mesh.points()[corners[i]];
             lanes.x[i][lane] = point.x;
@@ -398,8 +401,9 @@ void load(const TetsInView& tets, std::span<const TetPart> parts, bool lit, Setu
                 lanes.gradient[static_cast<std::size_t>(axis)][i][lane] =
                     static_cast<double>(tets.gradients[corners[i]][axis]);
         }
-        lanes.limits[3][lane] = std::bit_cast<float>(part_number(part, all.size()));
-        const LinearPiece* const piece = tets.piece_of(part);
+        lanes.limits[3][lane] =
+            std::bit_cast<float>(cell_fragment_number(cell_fragment, all.size()));
+        const LinearPiece* const piece = tets.piece_of(cell_fragment);
         if (piece == nullptr) continue;
         lanes.piece_from[lane] = piece->from;
         lanes.piece_to[lane] = piece->to;
@@ -412,22 +416,22 @@ void load(const TetsInView& tets, std::span<const TetPart> parts, bool lit, Setu
     }
 }
 
-void store(std::span<const TetPart> parts, const SetupLanes& lanes, int image_rows,
+void store(std::span<const CellFragment> cell_fragments, const SetupLanes& lanes, int image_rows,
            const SilhouetteRecord* records, TetSetup& result) {
     using Outcome = TetSetup::Outcome;
-    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
+    for (std::size_t lane = 0; lane < cell_fragments.size(); ++lane) {
         Outcome& outcome = result.outcomes[lane];
         outcome = lanes.good[lane] == 0      ? Outcome::doubtful
                   : lanes.visible[lane] == 0 ? Outcome::invisible
                                              : Outcome::done;
         if (outcome != Outcome::done) continue;
-        const bool whole = parts[lane].piece == TetPart::whole;
+        const bool whole = cell_fragments[lane].piece == CellFragment::whole;
         const double depth = whole ? INFINITY : lanes.largest_depth[lane];
-        PartArea& area = result.areas[lane];
+        CoveredArea& area = result.areas[lane];
         area.careful = false;
-        area.depth = depth <= faint_depth  ? PartDepth::faint
-                     : depth <= thin_depth ? PartDepth::thin
-                                           : PartDepth::any;
+        area.depth = depth <= faint_depth  ? DepthBound::faint
+                     : depth <= thin_depth ? DepthBound::thin
+                                           : DepthBound::any;
         area.bounded = lanes.bounded[lane] != 0;
         area.farthest = static_cast<float>(lanes.farthest[lane]);
         area.outline = outline_of(records[lane], area, image_rows);
@@ -436,16 +440,16 @@ void store(std::span<const TetPart> parts, const SetupLanes& lanes, int image_ro
 
 }  // namespace
 
-void set_up_tets(const TetsInView& tets, std::span<const TetPart> parts,
-                 std::span<const TetPart> next, SilhouetteRecord* records, GradientRecord* lit,
+void set_up_tets(const TetsInView& tets, std::span<const CellFragment> cell_fragments,
+                 std::span<const CellFragment> next, SilhouetteRecord* records, GradientRecord* lit,
                  TetSetup& result) {
     SetupLanes lanes;
     prefetch(tets, next);
-    load(tets, parts, lit != nullptr, lanes);
-    const bool pieces = parts[0].piece != TetPart::whole;
+    load(tets, cell_fragments, lit != nullptr, lanes);
+    const bool pieces = cell_fragments[0].piece != CellFragment::whole;
     LAMINA_DISPATCH(set_up_vectors)
-    (tets, pieces, lanes, parts.size(), records, lit, result.areas.data());
-    store(parts, lanes, tets.view().height, records, result);
+    (tets, pieces, lanes, cell_fragments.size(), records, lit, result.areas.data());
+    store(cell_fragments, lanes, tets.view().height, records, result);
 }
 
 }  // namespace lamina

@@ -11,26 +11,28 @@ namespace lamina {
 // handles only clear cases: the eye is well away from the planes of all faces, and the tet lies
 // beyond the near plane. The others, `doubtful`, are left to TetProjector.
 struct TetSetup {
-    static constexpr std::size_t most_parts = 8;  // in one call
+    static constexpr std::size_t most_cell_fragments = 8;  // in one call
     // invisible: no pixel centre is covered; doubtful: left to TetProjector.
     enum class Outcome : std::uint8_t { invisible, done, doubtful };
 
-    std::array<PartArea, most_parts> areas;  // areas of the whole tets, rows from the top
-    std::array<Outcome, most_parts> outcomes;
+    std::array<CoveredArea, most_cell_fragments>
+        areas;  // areas of the whole tets, rows from the top
+    std::array<Outcome, most_cell_fragments> outcomes;
 };
 
-// Sets up at most `most_parts` cell fragments: all whole tets, or none. Records and areas are
-// arbitrary unless the outcome is `done`. `records`, and `lit` unless null (nothing is lit), have
-// an element for each cell fragment. `next`: cell fragments that will follow, to be prefetched.
-void set_up_tets(const TetsInView& tets, std::span<const TetPart> parts,
-                 std::span<const TetPart> next, SilhouetteRecord* records, GradientRecord* lit,
+// Sets up at most `most_cell_fragments` cell fragments: all whole tets, or none. Records and areas
+// are arbitrary unless the outcome is `done`. `records`, and `lit` unless null (nothing is lit),
+// have an element for each cell fragment. `next`: cell fragments that will follow, to be
+// prefetched.
+void set_up_tets(const TetsInView& tets, std::span<const CellFragment> cell_fragments,
+                 std::span<const CellFragment> next, SilhouetteRecord* records, GradientRecord* lit,
                  TetSetup& result);
 
 // Input and output of the vectors, each row with one number a cell fragment. Corners ascend by
 // point number, so that both tets of a face compute the same numbers.
 struct SetupLanes {
-    struct alignas(64) Row : std::array<double, TetSetup::most_parts> {};
-    struct alignas(32) FloatRow : std::array<float, TetSetup::most_parts> {};
+    struct alignas(64) Row : std::array<double, TetSetup::most_cell_fragments> {};
+    struct alignas(32) FloatRow : std::array<float, TetSetup::most_cell_fragments> {};
     // Four numbers that lie side by side in a record.
     using Group = std::array<FloatRow, 4>;
 
@@ -40,7 +42,7 @@ struct SetupLanes {
     // The gradient at each corner, component by component; for lit ones alone.
     std::array<std::array<Row, 4>, 3> gradient;
     Row good, visible, bounded;  // out: 1 or 0
-    Row farthest;                // PartArea::farthest
+    Row farthest;                // CoveredArea::farthest
     Row largest_depth;
     Group pixels;                      // PixelArea, in the bits of integers
     Group depth, per_column, per_row;  // of the faces, as in SeenTet

@@ -17,8 +17,8 @@ namespace lamina {
 
 constexpr std::size_t block = 4096;  // number of tets whose cell fragments one task lists
 
-VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
-                           const TetPieces& pieces, bool cut, bool draw_transparent)
+VisibleCellFragments::VisibleCellFragments(const TetMesh& mesh, std::span<const double> scalar,
+                                           const TetPieces& pieces, bool cut, bool draw_transparent)
     : mesh_(mesh),
       scalar_(scalar),
       pieces_(pieces),
@@ -39,30 +39,32 @@ VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
             spans_[static_cast<std::size_t>(tet)].span = {};
         count_ = std::transform_reduce(
             spans_.begin(), spans_.end(), std::int64_t{0}, std::plus<>(),
-            [&](const TetSpan& tet) -> std::int64_t { return parts_in(tet.span); });
+            [&](const TetSpan& tet) -> std::int64_t { return count_in(tet.span); });
     }
-    parts_.reserve(static_cast<std::size_t>(count_));
+    cell_fragments_.reserve(static_cast<std::size_t>(count_));
     firsts_.reserve(tets.size() / block + 2);
 }
 
 // Visits the tets in the mesh's own order, in which corners lie near one another in memory.
-void VisibleParts::look_from(const Eye& eye) {
+void VisibleCellFragments::look_from(const Eye& eye) {
     if (!cut_) return;
     parallel_for(static_cast<std::int64_t>(spans_.size()), block, [&](std::int64_t index) {
         const auto tet = static_cast<std::size_t>(index);
-        TetSpan& parts = spans_[tet];
-        if (parts.span.first < parts.span.last) parts.nearest = nearest_piece(tet, eye);
+        TetSpan& cell_fragments = spans_[tet];
+        if (cell_fragments.span.first < cell_fragments.span.last)
+            cell_fragments.nearest = nearest_piece(tet, eye);
     });
 }
 
-std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order, const Eye& eye) {
+std::span<const CellFragment> VisibleCellFragments::list(std::span<const std::int32_t> order,
+                                                         const Eye& eye) {
     look_from(eye);
     return list_tets(order);
 }
 
 // Lists the cell fragments in two passes: the first counts those of each block of tets, so that in
 // the second each task knows the place of its first one.
-std::span<const TetPart> VisibleParts::list_tets(std::span<const std::int32_t> order) {
+std::span<const CellFragment> VisibleCellFragments::list_tets(std::span<const std::int32_t> order) {
     const std::size_t blocks = (order.size() + block - 1) / block;
     const auto tets_of = [&](std::size_t number) {
         return order.subspan(number * block, std::min(block, order.size() - number * block));
@@ -70,24 +72,24 @@ std::span<const TetPart> VisibleParts::list_tets(std::span<const std::int32_t> o
     firsts_.assign(blocks + 1, 0);
     parallel_for(static_cast<std::int64_t>(blocks), 1, [&](std::int64_t index) {
         const auto number = static_cast<std::size_t>(index);
-        std::size_t parts = 0;
-        for (const std::int32_t tet : tets_of(number)) parts += parts_of(tet);
-        firsts_[number + 1] = parts;
+        std::size_t cell_fragments = 0;
+        for (const std::int32_t tet : tets_of(number)) cell_fragments += count_in_tet(tet);
+        firsts_[number + 1] = cell_fragments;
     });
     std::partial_sum(firsts_.begin(), firsts_.end(), firsts_.begin());
-    parts_.resize(firsts_.back());
+    cell_fragments_.resize(firsts_.back());
     parallel_for(static_cast<std::int64_t>(blocks), 1, [&](std::int64_t index) {
         const auto number = static_cast<std::size_t>(index);
-        TetPart* next = parts_.data() + firsts_[number];
+        CellFragment* next = cell_fragments_.data() + firsts_[number];
         const auto tets = tets_of(number);
-        for (const std::int32_t tet : tets) next = list_parts(tet, next);
+        for (const std::int32_t tet : tets) next = list_cell_fragments(tet, next);
     });
-    return parts_;
+    return cell_fragments_;
 }
 
-DrawOrder<TetPart> VisibleParts::sorted(VisibilityOrder& order, const View& view, bool scattered,
-                                        bool solve_rings) {
-    if (is_scattered_) return {parts_, {}};
+DrawOrder<CellFragment> VisibleCellFragments::sorted(VisibilityOrder& order, const View& view,
+                                                     bool scattered, bool solve_rings) {
+    if (is_scattered_) return {cell_fragments_, {}};
     Stage sorting("sort");
     const Eye eye = eye_of(view);
     const auto look = [&] { look_from(eye); };
@@ -99,47 +101,48 @@ DrawOrder<TetPart> VisibleParts::sorted(VisibilityOrder& order, const View& view
     list_tets(tets.items);
     limit(tets);
     if (scattered) scatter();
-    return {parts_, limited_};
+    return {cell_fragments_, limited_};
 }
 
 // Translates the limited ranges of the list of tets into ranges of the list of cell fragments.
-void VisibleParts::limit(const DrawOrder<std::int32_t>& order) {
+void VisibleCellFragments::limit(const DrawOrder<std::int32_t>& order) {
     limited_.clear();
-    std::size_t place = 0, parts = 0;  // of a tet in the order; cell fragments before it
+    std::size_t place = 0, cell_fragments = 0;  // of a tet in the order; cell fragments before it
     const auto go_to = [&](std::size_t end) {
-        while (place < end) parts += parts_of(order.items[place++]);
-        return parts;
+        while (place < end) cell_fragments += count_in_tet(order.items[place++]);
+        return cell_fragments;
     };
-    for (const LimitedRun& run : order.limited) {
-        if (run.first / block > place / block) {
-            place = run.first / block * block;
-            parts = firsts_[run.first / block];
+    for (const LimitedItems& limited : order.limited) {
+        if (limited.first / block > place / block) {
+            place = limited.first / block * block;
+            cell_fragments = firsts_[limited.first / block];
         }
-        const std::size_t first = go_to(run.first), end = go_to(run.end);
-        if (first < end) limited_.push_back({first, end, run.pixels});
+        const std::size_t first = go_to(limited.first), end = go_to(limited.end);
+        if (first < end) limited_.push_back({first, end, limited.pixels});
     }
 }
 
-void VisibleParts::scatter() {
+void VisibleCellFragments::scatter() {
     // Sorted by tet and piece first, so that the random order does not depend on the eye.
-    std::ranges::sort(parts_, {},
-                      [](const TetPart& part) { return std::pair(part.tet, part.piece); });
+    std::ranges::sort(cell_fragments_, {}, [](const CellFragment& cell_fragment) {
+        return std::pair(cell_fragment.tet, cell_fragment.piece);
+    });
     SplitMix64 random(1);
-    for (std::size_t left = parts_.size(); left > 1; --left)
-        std::swap(parts_[left - 1], parts_[random.next() % left]);
+    for (std::size_t left = cell_fragments_.size(); left > 1; --left)
+        std::swap(cell_fragments_[left - 1], cell_fragments_[random.next() % left]);
     is_scattered_ = true;
 }
 
-std::int64_t VisibleParts::parts_in(const TetPieces::Span& span) const {
+std::int64_t VisibleCellFragments::count_in(const TetPieces::Span& span) const {
     if (span.empty()) return 0;
     if (!cut_) return 1;
     return draw_transparent_ ? span.last - span.first + 1 : pieces_.count(span);
 }
 
-std::size_t VisibleParts::parts_of(std::int32_t tet) const {
+std::size_t VisibleCellFragments::count_in_tet(std::int32_t tet) const {
     return spans_.empty()
                ? 1
-               : static_cast<std::size_t>(parts_in(spans_[static_cast<std::size_t>(tet)].span));
+               : static_cast<std::size_t>(count_in(spans_[static_cast<std::size_t>(tet)].span));
 }
 
 // Returns the piece of the transfer function that is nearest to the scalar's value at the eye,
@@ -147,16 +150,16 @@ std::size_t VisibleParts::parts_of(std::int32_t tet) const {
 // through a tet the scalar changes monotonically, away from this value. So this piece's cell
 // fragment hides all others; cell fragments above it hide the ones farther above, cell fragments
 // below it the ones farther below, and no ray meets both sides.
-std::int32_t VisibleParts::nearest_piece(std::size_t index, const Eye& eye) const {
+std::int32_t VisibleCellFragments::nearest_piece(std::size_t index, const Eye& eye) const {
     const TetPieces::Span& span = spans_[index].span;
     const Tet& tet = mesh_.tets()[index];
-    PartField::Corners corners;
-    PartField::Values values;
+    TetField::Corners corners;
+    TetField::Values values;
     for (std::size_t i = 0; i < 4; ++i) {
         corners[i] = mesh_.points()[static_cast<std::size_t>(tet[i])];
         values[i] = scalar_[static_cast<std::size_t>(tet[i])];
     }
-    const PartField field(corners, values, nullptr);
+    const TetField field(corners, values, nullptr);
     const double at_eye = !eye.at_infinity                               ? field.at(eye.position)
                           : glm::dot(field.gradient(), eye.position) > 0 ? -INFINITY
                                                                          : INFINITY;
@@ -166,8 +169,9 @@ std::int32_t VisibleParts::nearest_piece(std::size_t index, const Eye& eye) cons
     return nearest;
 }
 
-TetPart* VisibleParts::list_parts(std::int32_t tet, TetPart* next) const {
-    if (parts_of(tet) == 0) return next;
+CellFragment* VisibleCellFragments::list_cell_fragments(std::int32_t tet,
+                                                        CellFragment* next) const {
+    if (count_in_tet(tet) == 0) return next;
     if (!cut_) {
         *next++ = {tet};
         return next;
@@ -182,12 +186,13 @@ TetPart* VisibleParts::list_parts(std::int32_t tet, TetPart* next) const {
     return next;
 }
 
-DrawOrder<TetPart> parts_of_leaf(const DrawOrder<TetPart>& parts, const SampleSpan& leaf,
-                                 std::int64_t samples) {
-    const auto count = static_cast<std::int64_t>(parts.items.size());
+DrawOrder<CellFragment> cell_fragments_of_leaf(const DrawOrder<CellFragment>& cell_fragments,
+                                               const SampleSpan& leaf, std::int64_t samples) {
+    const auto count = static_cast<std::int64_t>(cell_fragments.items.size());
     const auto before = [&](int sample) { return sample * count / samples; };
-    return parts.part(static_cast<std::size_t>(count - before(leaf.end())),
-                      static_cast<std::size_t>(before(leaf.end()) - before(leaf.first)));
+    return cell_fragments.subrange(
+        static_cast<std::size_t>(count - before(leaf.end())),
+        static_cast<std::size_t>(before(leaf.end()) - before(leaf.first)));
 }
 
 }  // namespace lamina

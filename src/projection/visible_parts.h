@@ -17,22 +17,22 @@
 namespace lamina {
 
 // Lists the cell fragments of a mesh that are drawn, farthest first.
-class VisibleParts {
+class VisibleCellFragments {
   public:
     // `cut`: tets are cut into cell fragments at the transfer function's points, or else drawn
     // whole. `draw_transparent`: lists invisible ones, too. All arguments must outlive it.
-    VisibleParts(const TetMesh& mesh, std::span<const double> scalar, const TetPieces& pieces,
-                 bool cut, bool draw_transparent);
+    VisibleCellFragments(const TetMesh& mesh, std::span<const double> scalar,
+                         const TetPieces& pieces, bool cut, bool draw_transparent);
 
     // Lists the cell fragments of tets that are in visibility order. The list is valid until the
     // next call, which takes no memory. Parallel.
-    std::span<const TetPart> list(std::span<const std::int32_t> order, const Eye& eye);
+    std::span<const CellFragment> list(std::span<const std::int32_t> order, const Eye& eye);
     // Sorts the tets for this view, then lists their cell fragments. `scattered` (equal in every
     // call): lists them in a random order instead, equal for every view, so that cell fragments of
     // one region lie in different leaves of a tree; the first list then serves all calls.
     // `solve_rings`: pixels that need an order of their own get one (VisibilityOrder::sort_pixels).
-    DrawOrder<TetPart> sorted(VisibilityOrder& order, const View& view, bool scattered,
-                              bool solve_rings);
+    DrawOrder<CellFragment> sorted(VisibilityOrder& order, const View& view, bool scattered,
+                                   bool solve_rings);
     // Returns the number of cell fragments. Lists are longer if tets are listed more than once, for
     // different areas of the picture (DrawOrder::limited).
     std::int64_t count() const { return count_; }
@@ -45,14 +45,14 @@ class VisibleParts {
     };
 
     void look_from(const Eye& eye);  // parallel
-    std::span<const TetPart> list_tets(std::span<const std::int32_t> order);
+    std::span<const CellFragment> list_tets(std::span<const std::int32_t> order);
     void limit(const DrawOrder<std::int32_t>& order);
     void scatter();
-    std::int64_t parts_in(const TetPieces::Span& span) const;
-    std::size_t parts_of(std::int32_t tet) const;
+    std::int64_t count_in(const TetPieces::Span& span) const;
+    std::size_t count_in_tet(std::int32_t tet) const;
     std::int32_t nearest_piece(std::size_t index, const Eye& eye) const;
     // Writes the tet's cell fragments from `next` on; returns the place for those of the next tet.
-    TetPart* list_parts(std::int32_t tet, TetPart* next) const;
+    CellFragment* list_cell_fragments(std::int32_t tet, CellFragment* next) const;
 
     const TetMesh& mesh_;
     std::span<const double> scalar_;
@@ -60,16 +60,16 @@ class VisibleParts {
     bool cut_, draw_transparent_;
     std::vector<TetSpan> spans_;  // for each tet; empty if all are drawn whole
     std::int64_t count_ = 0;
-    std::vector<TetPart> parts_;
-    // Index in parts_ of the first cell fragment of each block of tets, and the end.
+    std::vector<CellFragment> cell_fragments_;
+    // Index in cell_fragments_ of the first cell fragment of each block of tets, and the end.
     std::vector<std::size_t> firsts_;
-    std::vector<LimitedRun> limited_;  // of the last list
+    std::vector<LimitedItems> limited_;  // of the last list
     bool is_scattered_ = false;
 };
 
 // Returns the cell fragments of a tree's leaf. A tree has `samples` samples, that is,
-// VisibleParts::count(), the nearest first; a longer list is shared out in proportion.
-DrawOrder<TetPart> parts_of_leaf(const DrawOrder<TetPart>& parts, const SampleSpan& leaf,
-                                 std::int64_t samples);
+// VisibleCellFragments::count(), the nearest first; a longer list is shared out in proportion.
+DrawOrder<CellFragment> cell_fragments_of_leaf(const DrawOrder<CellFragment>& cell_fragments,
+                                               const SampleSpan& leaf, std::int64_t samples);
 
 }  // namespace lamina

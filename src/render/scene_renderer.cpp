@@ -210,7 +210,7 @@ class SliceDrawing : public Drawing {
     void make_renderer(const Resolved& resolved, const Plan& plan,
                        const Capabilities& capabilities) override {
         const Scene& scene = resolved.scene();
-        const SliceParts ready = renderer_ ? renderer_->parts() : SliceParts();
+        const SliceReuse ready = renderer_ ? renderer_->reusable() : SliceReuse();
         renderer_ = make_slice_renderer(data_->volume, *scene.transfer_function, facts_, plan.slice,
                                         capabilities, scene.width, scene.height, ready);
     }
@@ -329,7 +329,7 @@ class ProjectDrawing : public Drawing {
         const bool same_mesh = renderer_ && renderer_->kept_mesh() == mesh_.get();
         auto made = make_project_renderer(*mesh_, *scene.transfer_function, plan.project,
                                           capabilities, scene.width, scene.height,
-                                          same_mesh ? renderer_->parts() : ProjectParts());
+                                          same_mesh ? renderer_->reusable() : ProjectReuse());
         made->keep(mesh_);
         renderer_ = std::move(made);
     }

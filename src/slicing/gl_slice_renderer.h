@@ -67,7 +67,7 @@ class GlSliceRenderer : public SliceRenderer {
     void read(Image& image) const override;
     std::map<std::string, double> stages_ms() const override;
 
-    SliceParts parts() const override { return {nullptr, volume()}; }
+    SliceReuse reusable() const override { return {nullptr, volume()}; }
     std::shared_ptr<const VolumeTextures> volume() const {
         return source_ ? source_->volume() : kept_;
     }

@@ -293,7 +293,7 @@ std::unique_ptr<SliceRenderer> make_slice_renderer(const Volume& volume,
                                                    const TransferFunction& transfer_function,
                                                    const Facts& facts, const SlicePlan& plan,
                                                    const Capabilities& capabilities, int width,
-                                                   int height, const SliceParts& ready) {
+                                                   int height, const SliceReuse& ready) {
     if (capabilities.cpu) {
         return std::make_unique<CpuSliceRenderer>(volume, transfer_function, facts, plan, width,
                                                   height, ready.tiles);

@@ -18,7 +18,7 @@ class CpuVolume;
 class VolumeTextures;
 
 // The volume as a renderer has prepared it. The next renderer uses it if it is what that one needs.
-struct SliceParts {
+struct SliceReuse {
     std::shared_ptr<const CpuVolume> tiles;          // of the engine `cpu`
     std::shared_ptr<const VolumeTextures> textures;  // of OpenGL
 };
@@ -26,17 +26,17 @@ struct SliceParts {
 // A renderer of volumes whose prepared volume other renderers can use.
 class SliceRenderer : public FrameRenderer {
   public:
-    virtual SliceParts parts() const = 0;
+    virtual SliceReuse reusable() const = 0;
 };
 
 // Makes a renderer that draws a volume as the plan says. The capabilities decide whether it is the
 // engine `cpu` or OpenGL in the current context. The context and the volume must outlive the
-// renderer. `ready`: parts of a renderer of the same volume and capabilities, or none.
+// renderer. `ready`: objects of a renderer of the same volume and capabilities, or none.
 std::unique_ptr<SliceRenderer> make_slice_renderer(const Volume& volume,
                                                    const TransferFunction& transfer_function,
                                                    const Facts& facts, const SlicePlan& plan,
                                                    const Capabilities& capabilities, int width,
-                                                   int height, const SliceParts& ready = {});
+                                                   int height, const SliceReuse& ready = {});
 
 // Draws a volume as the plan says, on the CPU. GlSliceRenderer draws it with OpenGL.
 class CpuSliceRenderer : public SliceRenderer {
@@ -58,7 +58,7 @@ class CpuSliceRenderer : public SliceRenderer {
     std::map<std::string, double> stages_ms() const override;
     std::int64_t fragments() const override { return samples_; }  // segments of rays
 
-    SliceParts parts() const override { return {volume_, nullptr}; }
+    SliceReuse reusable() const override { return {volume_, nullptr}; }
     const std::shared_ptr<const CpuVolume>& volume() const { return volume_; }
     std::int64_t byte_count() const override;  // host memory that it takes, without the volume
 

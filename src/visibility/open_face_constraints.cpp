@@ -203,7 +203,7 @@ class Search {
 };
 
 constexpr std::int64_t faces_per_task = 256;
-constexpr std::size_t faces_per_run = 32;       // number of exits that one task searches from
+constexpr std::size_t exits_per_task = 32;      // number of exits that one task searches from
 constexpr std::size_t most_pairs = 10'000'000;  // some seconds, and 200 MB with the order's lists
 constexpr std::size_t most_looks = 200'000'000;
 
@@ -371,7 +371,7 @@ OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh)
       seen_boxes_(open_faces_.size()),
       seen_(open_faces_.size()),
       signs_(open_faces_.size()),
-      found_((open_faces_.size() + faces_per_run - 1) / faces_per_run) {
+      found_((open_faces_.size() + exits_per_task - 1) / exits_per_task) {
     triangles_.reserve(open_faces_.size());
     for (const std::int32_t face : open_faces_)
         triangles_.push_back(mesh.corners(mesh.open_faces()[face]));
@@ -394,14 +394,14 @@ void OpenFaceConstraints::look_from(const Eye& eye) {
 std::span<const OpenFaceConstraint> OpenFaceConstraints::find(const Eye& eye) {
     look_from(eye);
     std::atomic<std::size_t> total{0}, looked_at{0};
-    parallel_for(std::ssize(found_), 1, [&](std::size_t run) {
-        found_[run].clear();
-        const std::size_t end = std::min(seen_.size(), (run + 1) * faces_per_run);
-        for (std::size_t face = run * faces_per_run; face < end; ++face) {
+    parallel_for(std::ssize(found_), 1, [&](std::size_t task) {
+        found_[task].clear();
+        const std::size_t end = std::min(seen_.size(), (task + 1) * exits_per_task);
+        for (std::size_t face = task * exits_per_task; face < end; ++face) {
             if (signs_[face] <= 0) continue;
-            const std::size_t before = found_[run].size();
-            const std::size_t looked = find_from(face, eye, found_[run]);
-            const std::size_t added = found_[run].size() - before;
+            const std::size_t before = found_[task].size();
+            const std::size_t looked = find_from(face, eye, found_[task]);
+            const std::size_t added = found_[task].size() - before;
             if (looked_at.fetch_add(looked, std::memory_order_relaxed) + looked > most_looks ||
                 total.fetch_add(added, std::memory_order_relaxed) + added > most_pairs) {
                 fail(

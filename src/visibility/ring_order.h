@@ -11,7 +11,7 @@
 namespace lamina {
 
 // Consecutive items of a DrawOrder, places first .. end - 1, that are drawn only in some pixels.
-struct LimitedRun {
+struct LimitedItems {
     std::size_t first, end;
     PixelArea pixels;
 };
@@ -21,20 +21,24 @@ struct LimitedRun {
 template <typename Item>
 struct DrawOrder {
     std::span<const Item> items;
-    std::span<const LimitedRun> limited;  // ascending, disjoint; other items are for all pixels
-    std::size_t first = 0;                // the place of items[0], as `limited` counts places
+    std::span<const LimitedItems> limited;  // ascending, disjoint; other items are for all pixels
+    std::size_t first = 0;                  // the place of items[0], as `limited` counts places
 
-    DrawOrder part(std::size_t i, std::size_t count) const {
+    DrawOrder subrange(std::size_t i, std::size_t count) const {
         const std::size_t begin = first + i, end = begin + count;
-        const auto from = std::ranges::upper_bound(limited, begin, {}, &LimitedRun::end);
-        const auto to = std::ranges::lower_bound(from, limited.end(), end, {}, &LimitedRun::first);
+        const auto from = std::ranges::upper_bound(limited, begin, {}, &LimitedItems::end);
+        const auto to =
+            std::ranges::lower_bound(from, limited.end(), end, {}, &LimitedItems::first);
         return {items.subspan(i, count), {from, to}, begin};
     }
     // Returns the pixels of the i-th item, or null if these are all.
     const PixelArea* pixels(std::size_t i) const {
         if (limited.empty()) return nullptr;
-        const auto run = std::ranges::upper_bound(limited, first + i, {}, &LimitedRun::end);
-        return run != limited.end() && run->first <= first + i ? &run->pixels : nullptr;
+        const auto limited_items =
+            std::ranges::upper_bound(limited, first + i, {}, &LimitedItems::end);
+        return limited_items != limited.end() && limited_items->first <= first + i
+                   ? &limited_items->pixels
+                   : nullptr;
     }
 };
 
@@ -127,7 +131,7 @@ class RingOrder {
     CycleBreaker breaker_;
     std::vector<CycleBreaker::Edge> edges_;
     std::vector<std::int32_t> tets_;
-    std::vector<LimitedRun> limited_;
+    std::vector<LimitedItems> limited_;
     std::vector<std::pair<std::int32_t, std::int32_t>> overlapping_;
 };
 

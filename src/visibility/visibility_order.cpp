@@ -105,11 +105,11 @@ void VisibilityOrder::solve_rings(const View& view) {
         const std::int32_t ring = cycles_.component(tets[first]);
         std::size_t end = first + 1;
         while (end < tets.size() && cycles_.component(tets[end]) == ring) ++end;
-        const auto run = tets.subspan(first, end - first);
+        const auto consecutive = tets.subspan(first, end - first);
         if (ring == OrderCycles::none) {
-            rings_->add(run);
+            rings_->add(consecutive);
         } else {
-            rings_->add_ring(run, cycles_);
+            rings_->add_ring(consecutive, cycles_);
         }
         first = end;
     }

@@ -105,7 +105,7 @@ TEST_P(Parts, OmitWhatShowsNothing) {
         {knot(.6, {1, 1, 1}, 0), knot(.65, {1, 1, 1}, 1), knot(.7, {1, 1, 1}, 0)});
     const TetPieces pieces(peak, {0, 1});
     ASSERT_EQ(pieces.pieces().size(), 4u);
-    VisibleParts parts(mesh_.mesh, mesh_.scalar.values, pieces, true, false);
+    VisibleCellFragments parts(mesh_.mesh, mesh_.scalar.values, pieces, true, false);
     std::vector<std::int32_t> order(mesh_.mesh.tets().size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
     const auto list = parts.list(order, {{.5, .5, 3}, false});
@@ -120,7 +120,8 @@ TEST_P(Parts, OmitWhatShowsNothing) {
         expected += (lo < .65 && hi > .6) + (lo < .7 && hi > .65);
     }
     EXPECT_EQ(parts.count(), expected);
-    for (const TetPart& part : list) EXPECT_TRUE(part.piece == 1 || part.piece == 2);
+    for (const CellFragment& cell_fragment : list)
+        EXPECT_TRUE(cell_fragment.piece == 1 || cell_fragment.piece == 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothEngines, Parts, both_engines, engine_name);

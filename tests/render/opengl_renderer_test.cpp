@@ -236,14 +236,14 @@ TEST_F(OpenGlSession, MeshesKeepOrderBuffersAndPrograms) {
             expect_fresh(frames, data, frames.picture(), std::to_string(degrees));
         }
         const Done before;
-        const auto [order, stream] = gl_renderer(frames).parts();
+        const auto [order, stream] = gl_renderer(frames).reusable();
         frames.set_transfer_function(
             TransferFunction::linear({test::knot(0, {1, .2, 0}, .2), test::knot(.4, {1, 1, .5}, 2),
                                       test::knot(1, {0, .3, 1}, 5)}));
         frames.draw();
         EXPECT_EQ(frames.counts().renderers, 2);
-        EXPECT_EQ(gl_renderer(frames).parts().order, order);
-        EXPECT_EQ(gl_renderer(frames).parts().stream, stream);
+        EXPECT_EQ(gl_renderer(frames).reusable().order, order);
+        EXPECT_EQ(gl_renderer(frames).reusable().stream, stream);
         EXPECT_EQ(Done().programs_compiled, before.programs_compiled);
         expect_fresh(frames, data, frames.picture(), "another transfer function");
     }
@@ -253,7 +253,7 @@ TEST(SessionOfTheCpuEngine, KeepsAMeshsOrder) {
     const auto data = split_box();
     SceneRenderer frames(mesh_scene(), data, cpu_capabilities());
     const auto order = [&] {
-        return dynamic_cast<const ProjectRenderer&>(frames.renderer()).parts().order;
+        return dynamic_cast<const ProjectRenderer&>(frames.renderer()).reusable().order;
     };
     frames.draw();
     const auto first = order();

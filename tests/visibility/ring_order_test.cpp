@@ -129,12 +129,12 @@ TEST(RingOrder, KeepsAllOverlappingTets) {
 // Batches, which are parts of a list, keep the pixels of their items.
 TEST(DrawOrder, SublistsKeepTheirPixels) {
     const std::vector<int> items{0, 1, 2, 3, 4, 5, 6, 7};
-    const std::vector<LimitedRun> runs{
+    const std::vector<LimitedItems> runs{
         {1, 3, {0, 0, 0, 0}}, {3, 4, {1, 1, 0, 0}}, {6, 8, {2, 2, 0, 0}}};
     const DrawOrder<int> order{items, runs};
     for (std::size_t first = 0; first < items.size(); ++first) {
         for (std::size_t count = 0; first + count <= items.size(); ++count) {
-            const DrawOrder<int> part = order.part(first, count);
+            const DrawOrder<int> part = order.subrange(first, count);
             for (std::size_t i = 0; i < count; ++i) {
                 EXPECT_EQ(part.items[i], items[first + i]);
                 EXPECT_EQ(part.pixels(i), order.pixels(first + i));
