@@ -15,7 +15,7 @@ namespace lamina {
 
 namespace {
 
-std::atomic<std::uint64_t> told_limit{0}, default_limit{0};  // 0: not set
+std::atomic<std::uint64_t> given_limit{0}, default_limit{0};  // 0: not set
 
 }  // namespace
 
@@ -32,21 +32,21 @@ std::uint64_t machine_memory() {
 }
 
 std::uint64_t memory_limit() {
-    if (const std::uint64_t told = told_limit.load(); told > 0) return told;
+    if (const std::uint64_t given = given_limit.load(); given > 0) return given;
     const std::uint64_t usual = default_limit.load();
     return usual > 0 ? usual : machine_memory() / 2;
 }
 
 void set_memory_limit(std::uint64_t bytes) {
-    told_limit.store(bytes);
+    given_limit.store(bytes);
 }
 
 void set_default_memory_limit(std::uint64_t bytes) {
     default_limit.store(bytes);
 }
 
-bool memory_limit_is_told() {
-    return told_limit.load() > 0;
+bool memory_limit_is_given() {
+    return given_limit.load() > 0;
 }
 
 std::uint64_t resident_memory() {

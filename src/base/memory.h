@@ -16,7 +16,7 @@ namespace lamina {
 // Bytes that the process may take for its own needs, beside memory_limit() bytes for data.
 constexpr std::uint64_t own_memory = 200'000'000;
 
-bool memory_limit_is_told();  // true once set_memory_limit() was called
+bool memory_limit_is_given();  // true once set_memory_limit() was called
 
 // Sets memory_limit() for as long as set_memory_limit() is not called.
 void set_default_memory_limit(std::uint64_t bytes);

@@ -260,18 +260,18 @@ AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {
 }  // namespace
 
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
-                                           const TransferWishes& wishes,
+                                           const TransferAdjustments& adjustments,
                                            double least_padding_share) {
     const Padding padding = find_padding(values, whole_numbers, least_padding_share);
-    AutomaticTransfer chosen =
-        wishes.range ? within(values, *wishes.range) : in_own_colors(padding, whole_numbers);
+    AutomaticTransfer chosen = adjustments.range ? within(values, *adjustments.range)
+                                                 : in_own_colors(padding, whole_numbers);
     TransferFunction& function = chosen.transfer_function;
-    if (wishes.colormap) function = recolored(function, *wishes.colormap);
-    if (wishes.range) {
+    if (adjustments.colormap) function = recolored(function, *adjustments.colormap);
+    if (adjustments.range) {
         // within() shows nothing below the range, so only padding above it must be made
         // transparent. Padding inside the range shows, because the user asked for it.
-        if (!padding.above || *padding.above <= wishes.range->hi) return chosen;
-        function = shown_below(function, std::max(padding.edge_above(), wishes.range->hi));
+        if (!padding.above || *padding.above <= adjustments.range->hi) return chosen;
+        function = shown_below(function, std::max(padding.edge_above(), adjustments.range->hi));
     } else {
         if (padding.below) function = shown_above(function, padding.edge_below());
         if (padding.above) function = shown_below(function, padding.edge_above());

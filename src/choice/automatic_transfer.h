@@ -12,7 +12,7 @@
 namespace lamina {
 
 // Settings of a transfer function that a user may ask for.
-struct TransferWishes {
+struct TransferAdjustments {
     std::optional<Colormap> colormap{};  // replaces the chosen colours
     std::optional<ValueRange> range{};   // the visible range, lo < hi: values below are transparent
 };
@@ -28,7 +28,7 @@ struct AutomaticTransfer {
 // Chooses a transfer function from values alone (docs/first-picture.md): the rarer values are, the
 // denser and brighter; common ones are transparent. `least_padding_share`: see find_padding().
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
-                                           const TransferWishes& wishes = {},
+                                           const TransferAdjustments& adjustments = {},
                                            double least_padding_share = least_padding);
 
 // Returns the function with its points moved in proportion to a range, lo < hi. Throws Error if it

@@ -188,11 +188,11 @@ bool leaves_something_open(const Scene& scene) {
            leaves_gradient_open(scene);
 }
 
-Choices choose(Scene asked, const Field& field, const Wishes& wishes) {
+Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) {
     Choices choices{std::move(asked), {}};
     Scene& scene = choices.scene;
     choose_smallest_gradient(choices, field);
-    if (!leaves_something_open(scene) && !wishes.transfer_function() && !wishes.camera())
+    if (!leaves_something_open(scene) && !adjustments.transfer_function() && !adjustments.camera())
         return choices;
     if (field.range().empty()) {
         fail("{}: all values are NaN or infinite, expected numbers to choose what shows by",
@@ -203,24 +203,26 @@ Choices choose(Scene asked, const Field& field, const Wishes& wishes) {
     std::string reason;
     if (chooses_function) {
         AutomaticTransfer chosen =
-            choose_transfer_function(field.distribution(), field.whole_numbers(), wishes.transfer,
-                                     field.least_padding_share());
+            choose_transfer_function(field.distribution(), field.whole_numbers(),
+                                     adjustments.transfer, field.least_padding_share());
         scene.transfer_function = std::move(chosen.transfer_function);
-        if (scene.color_space == ImageColorSpace::display && !wishes.transfer.colormap)
+        if (scene.color_space == ImageColorSpace::display && !adjustments.transfer.colormap)
             scene.transfer_function = displayed(*scene.transfer_function);
         reason = std::move(chosen.reason);
         if (!chosen.padding.empty())
             warn(fmt::format("{}: {}", name_of_data(scene), chosen.padding));
     } else {
         TransferFunction& changed = *scene.transfer_function;
-        if (wishes.transfer.range) changed = stretched(changed, *wishes.transfer.range);
-        if (wishes.transfer.colormap) changed = recolored(changed, *wishes.transfer.colormap);
+        if (adjustments.transfer.range) changed = stretched(changed, *adjustments.transfer.range);
+        if (adjustments.transfer.colormap)
+            changed = recolored(changed, *adjustments.transfer.colormap);
     }
     if (chooses_camera) {
-        scene.camera = fitted_camera(points_to_fit(*scene.transfer_function, field), field.axes(),
-                                     wishes.turn, scene.width, scene.height, wishes.all_around);
+        scene.camera =
+            fitted_camera(points_to_fit(*scene.transfer_function, field), field.axes(),
+                          adjustments.turn, scene.width, scene.height, adjustments.all_around);
     } else {
-        scene.camera = turned(*scene.camera, wishes.turn);
+        scene.camera = turned(*scene.camera, adjustments.turn);
     }
     if (chooses_function) {
         scene.transfer_function = per_diagonal(*scene.transfer_function, field);
@@ -228,13 +230,13 @@ Choices choose(Scene asked, const Field& field, const Wishes& wishes) {
         scene.transfer_function = scene.transfer_function->attenuated(density);
         choices.reasons.push_back(
             fmt::format("transfer function: {}; extinction up to {:.4g} per unit of length", reason,
-                        wishes.density * largest_extinction(*scene.transfer_function)));
+                        adjustments.density * largest_extinction(*scene.transfer_function)));
     }
     // linear() drops points on straight lines, so the function equals one read from a scene file.
-    const TransferFunction dense = scene.transfer_function->attenuated(wishes.density);
+    const TransferFunction dense = scene.transfer_function->attenuated(adjustments.density);
     scene.transfer_function =
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
-    scene.camera = zoomed(*scene.camera, wishes.zoom);
+    scene.camera = zoomed(*scene.camera, adjustments.zoom);
     if (chooses_camera) choices.reasons.push_back(camera_text(*scene.camera));
     return choices;
 }

@@ -33,8 +33,8 @@ Camera turned(const Camera& camera, const ViewTurn& turn);
 Camera zoomed(Camera camera, double factor);
 
 // Changes that the user wants of a scene, or of what would be chosen for it.
-struct Wishes {
-    TransferWishes transfer{};
+struct Adjustments {
+    TransferAdjustments transfer{};
     double density = 1;  // factor on extinction
     ViewTurn turn{};
     double zoom = 1;
@@ -53,9 +53,9 @@ struct Choices {
     std::vector<std::string> reasons;
 };
 
-// Chooses what the scene leaves open, from data and wishes alone, and applies the wishes. Open
-// colour maps must be closed before. Throws Error if it must choose and no value is finite.
-Choices choose(Scene asked, const Field& field, const Wishes& wishes = {});
+// Chooses what the scene leaves open, from data and adjustments alone, and applies the adjustments.
+// Open colour maps must be closed before. Throws Error if it must choose and no value is finite.
+Choices choose(Scene asked, const Field& field, const Adjustments& adjustments = {});
 
 // Returns the lines that say what was chosen, the first ones of the explanation of a plan.
 std::string chosen_text(const std::vector<std::string>& reasons);

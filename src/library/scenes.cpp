@@ -25,7 +25,7 @@ Camera fitted(Scene scene, SceneData data, Method method, const ViewTurn& turn) 
     scene.method = method;
     scene.camera = automatic;
     PipelineOptions options;
-    options.wishes.turn = turn;
+    options.adjustments.turn = turn;
     Pipeline pipeline(std::move(scene), std::move(data), std::move(options));
     return *pipeline.scene().camera;
 }

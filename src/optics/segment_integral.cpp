@@ -115,7 +115,7 @@ SegmentIntegral integrate_segment(const TransferFunction& transfer_function, dou
 }
 
 // The light factor on the piece is to_left + width * (1 - x), with x from 0 to 1.
-FrontParts front_parts_of(const SegmentStretch& piece) {
+FrontParts front_parts_of(const SegmentPiece& piece) {
     const double p = std::min(piece.length * piece.front.extinction, largest_depth);
     const double q = std::min(piece.length * piece.back.extinction, largest_depth);
     if (p == 0 && q == 0) return {};
@@ -134,7 +134,7 @@ LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, dou
     if (!(length > 0)) return result;
     double depth = 0;
     for_each_linear_piece(transfer_function.knots(), front, back, [&](const LinearPiece& piece) {
-        SegmentStretch lit{piece.at_from, piece.at_to, length, 0, 1};
+        SegmentPiece lit{piece.at_from, piece.at_to, length, 0, 1};
         if (front != back) {
             lit.from = (piece.from - front) / (back - front);
             lit.to = (piece.to - front) / (back - front);

@@ -108,12 +108,12 @@ LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, dou
                                   double back, double length);
 
 // A piece of a segment: linear colour and extinction, from `from` to `to` (shares of the segment).
-struct SegmentStretch {
+struct SegmentPiece {
     OpticalProperties front, back;
     double length = 0, from = 0, to = 1;
 };
 // Returns what the piece adds to the segment's FrontParts if nothing lies in front of it.
-FrontParts front_parts_of(const SegmentStretch& piece);
+FrontParts front_parts_of(const SegmentPiece& piece);
 
 // Fast approximations of piece_weights(p, q).front follow; shaders/optics/linear_segment.glsl has
 // twins of thin_front_weight() and FrontWeightTable. The error of a ray's colour is at most the

@@ -30,9 +30,9 @@ struct LightPlan {
 // `cuts_rays`: the method cuts rays at bends of light.
 LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays);
 
-// Returns the largest number of loop rounds that an OpenGL fragment takes, beyond those of unlit
-// scenes, to cut its ray at bends of light.
-double light_rounds(const Scene& scene, double max_color);
+// Returns the largest number of loop iterations that an OpenGL fragment takes, beyond those of
+// unlit scenes, to cut its ray at bends of light.
+double light_iterations(const Scene& scene, double max_color);
 
 // Returns the largest colour component that may be drawn with light. `max_color`: without light.
 double largest_drawn_color(const Scene& scene, double max_color);
@@ -139,7 +139,7 @@ bool may_be_quicker(const Scene& scene);
 // own, that of its tree, or the choice's. With exact segments all numbers are equally good.
 Scene with_classification(Scene scene, const ClassificationChoice& choice);
 
-// llvmpipe silently ends the loops of a fragment after 65535 rounds in all
+// llvmpipe silently ends the loops of a fragment after 65535 iterations in all
 // (LP_MAX_TGSI_LOOP_ITERATIONS); other drivers have no such limit. The next three functions respect
 // this.
 

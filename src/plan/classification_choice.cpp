@@ -30,21 +30,21 @@ double most_bend(const Scene& scene, double max_color) {
     return bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);
 }
 
-constexpr int most_rounds = 65535;  // rounds of llvmpipe's loops (plan/choices.h)
-constexpr int spare_rounds = 64;    // rounds for everything else that a fragment does
+constexpr int most_iterations = 65535;  // iterations of llvmpipe's loops (plan/choices.h)
+constexpr int spare_iterations = 64;    // iterations for everything else that a fragment does
 constexpr int search_cells = 1024;  // equal cells of the range, each with a first interval to try
-// Rounds for cutting deep cells: rays end at an optical depth of 20.7, and cells deeper than .75
-// are cut. A piece at least half as deep takes up to 20 rounds to find, and up to 20 pieces before
-// it if extinction rises from 0 (shaders/slicing/cut_cell.glsl).
-constexpr int deep_part_rounds = 8192;
+// Iterations for cutting deep cells: rays end at an optical depth of 20.7, and cells deeper than
+// .75 are cut. A piece at least half as deep takes up to 20 rounds to find, and up to 20 pieces
+// before it if extinction rises from 0 (shaders/slicing/cut_cell.glsl).
+constexpr int deep_cell_iterations = 8192;
 
 bool is_unlimited(const Capabilities& capabilities) {
     return !capabilities.software || capabilities.cpu;
 }
 
-// Returns the rounds of one search for an interval: the knots in the cell (of search_cells) with
-// the most of them, and one to see that it is done.
-int search_rounds(const Scene& scene, const Facts& facts) {
+// Returns the iterations of one search for an interval: the knots in the cell (of search_cells)
+// with the most of them, and one to see that it is done.
+int search_iterations(const Scene& scene, const Facts& facts) {
     const ValueRange range = drawn_range(*scene.transfer_function, facts.range);
     assert(range.hi > range.lo);
     std::vector<int> knots(search_cells, 0);
@@ -56,22 +56,23 @@ int search_rounds(const Scene& scene, const Facts& facts) {
     return 1 + *std::ranges::max_element(knots);
 }
 
-// Returns the loop rounds of a slab: counts the slab, a leap, light in the middle or at up to two
-// ends, and for tables four searches and up to three pieces (shaders/slicing/slab_march.glsl,
+// Returns the loop iterations of a slab: counts the slab, a leap, light in the middle or at up to
+// two ends, and for tables four searches and up to three pieces (shaders/slicing/slab_march.glsl,
 // slab_light.glsl, shaders/preintegration/knot_table.glsl).
-int rounds_of_slab(const Scene& scene, const Facts& facts) {
-    const int search = search_rounds(scene, facts);
+int iterations_of_slab(const Scene& scene, const Facts& facts) {
+    const int search = search_iterations(scene, facts);
     const bool table = scene.slice.classification == Classification::preintegrated;
     const int light = !scene.lighting ? 0 : table ? 2 : 1;
     return 2 + light + (table ? 4 * search + 4 : search);
 }
 
-// Returns the loop rounds of a cell: counts the cell, a leap, its light, two searches, and if there
-// are knots one for the cell and up to three crossings of each (a cubic has three monotone pieces).
-double rounds_of_cell(const Scene& scene, const Facts& facts) {
+// Returns the loop iterations of a cell: counts the cell, a leap, its light, two searches, and if
+// there are knots one for the cell and up to three crossings of each (a cubic has three monotone
+// pieces).
+double iterations_of_cell(const Scene& scene, const Facts& facts) {
     const auto pieces = 3 * (static_cast<double>(facts.knots) + 1);
     const int light = scene.lighting ? 1 : 0;
-    return 2 + light + 2 * search_rounds(scene, facts) + (facts.knots > 0 ? 1 + pieces : 0);
+    return 2 + light + 2 * search_iterations(scene, facts) + (facts.knots > 0 ? 1 + pieces : 0);
 }
 
 // Bounds the number of cells that a ray crosses between two planes `depth` apart: one for each grid
@@ -85,17 +86,17 @@ double most_cells(const Facts& facts, double depth) {
     return std::min(box.x + box.y + box.z, along) + 4;
 }
 
-// Returns the rounds that do not depend on the segment's length.
-double rounds_at_any_length(const Scene& scene, const Facts& facts) {
-    const bool parts_deep_cells = !facts.single_color || scene.lighting;
-    return spare_rounds + (parts_deep_cells ? deep_part_rounds : 0) +
-           light_rounds(scene, facts.max_color);
+// Returns the iterations that do not depend on the segment's length.
+double iterations_at_any_length(const Scene& scene, const Facts& facts) {
+    const bool cuts_deep_cells = !facts.single_color || scene.lighting;
+    return spare_iterations + (cuts_deep_cells ? deep_cell_iterations : 0) +
+           light_iterations(scene, facts.max_color);
 }
 
-double exact_rounds(const Scene& scene, const Facts& facts, double share) {
+double exact_iterations(const Scene& scene, const Facts& facts, double share) {
     const double depth = share * (facts.far_depth - facts.near_depth);
-    return rounds_at_any_length(scene, facts) +
-           most_cells(facts, depth) * rounds_of_cell(scene, facts);
+    return iterations_at_any_length(scene, facts) +
+           most_cells(facts, depth) * iterations_of_cell(scene, facts);
 }
 
 // Returns the number of slabs of a scene with exact segments: the scene's own, that of its tree, or
@@ -142,7 +143,7 @@ LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays) {
 }
 
 // Returns the bound of docs/numerics.md, equation (10.6).
-double light_rounds(const Scene& scene, double max_color) {
+double light_iterations(const Scene& scene, double max_color) {
     if (!scene.lighting) return 0;
     const RayLights lights(*scene.lighting, anywhere);
     const double most = 4 * std::max(lights.largest_effect(1), 1.0) * 2.52 * lights.effect_span() /
@@ -200,14 +201,14 @@ int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilitie
     if (is_unlimited(capabilities)) return std::numeric_limits<int>::max();
     if (scene.slice.classification == Classification::exact)
         return std::max(1, slabs / least_exact_slabs(scene, facts, capabilities));
-    return std::max(1, (most_rounds - spare_rounds) / rounds_of_slab(scene, facts));
+    return std::max(1, (most_iterations - spare_iterations) / iterations_of_slab(scene, facts));
 }
 
 int least_exact_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
     if (is_unlimited(capabilities) || facts.occupied.empty()) return 1;
     if (facts.constant && !scene.lighting) return 1;
     const auto fits = [&](int slabs) {
-        return exact_rounds(scene, facts, 1.0 / slabs) <= most_rounds;
+        return exact_iterations(scene, facts, 1.0 / slabs) <= most_iterations;
     };
     int slabs = 1;
     while (!fits(slabs) && slabs < max_slabs) slabs *= 2;
@@ -216,10 +217,10 @@ int least_exact_slabs(const Scene& scene, const Facts& facts, const Capabilities
 
 double least_lit_error(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
     if (is_unlimited(capabilities) || !scene.lighting) return 0;
-    const double light = light_rounds(scene, facts.max_color);
-    const double others = rounds_at_any_length(scene, facts) - light;
-    const double cells = most_cells(facts, 0) * rounds_of_cell(scene, facts);
-    return scene.max_error * light / std::max(most_rounds - others - cells, 1.0);
+    const double light = light_iterations(scene, facts.max_color);
+    const double others = iterations_at_any_length(scene, facts) - light;
+    const double cells = most_cells(facts, 0) * iterations_of_cell(scene, facts);
+    return scene.max_error * light / std::max(most_iterations - others - cells, 1.0);
 }
 
 ClassificationChoice choose_classification(const Scene& scene, const Facts& facts,

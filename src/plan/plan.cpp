@@ -263,13 +263,14 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials,
                 const std::shared_ptr<TableCache>& tables) {
-    const ClassificationChoice way = choose_classification(scene, facts, capabilities, trials);
-    const Scene chosen = with_classification(scene, way);
+    const ClassificationChoice classification =
+        choose_classification(scene, facts, capabilities, trials);
+    const Scene chosen = with_classification(scene, classification);
     const TargetChoice choice = choose_target(chosen, facts, trials);
     Plan plan = plan_slicing(with_chosen_target(chosen, choice.target), facts, capabilities,
                              omissions, trials, *tables);
     build_drawn_table(chosen, facts, plan.slice, *tables);
-    plan.slice.classification_reason = way.reason;
+    plan.slice.classification_reason = classification.reason;
     plan.slice.target_reason = choice.reason;
     return plan;
 }

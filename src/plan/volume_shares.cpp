@@ -38,11 +38,11 @@ int rows_of(const View& view) {
 }
 
 bool in_picture(const View& view, const glm::dvec3& point) {
-    const glm::dvec3 way = point - view.eye;
-    const double depth = glm::dot(way, view.forward);
+    const glm::dvec3 from_eye = point - view.eye;
+    const double depth = glm::dot(from_eye, view.forward);
     const double half = 0.5 * view.pixel * (view.projection == Projection::perspective ? depth : 1);
-    return depth > 0 && std::abs(glm::dot(way, view.right)) < half * view.width &&
-           std::abs(glm::dot(way, view.up)) < half * view.height;
+    return depth > 0 && std::abs(glm::dot(from_eye, view.right)) < half * view.width &&
+           std::abs(glm::dot(from_eye, view.up)) < half * view.height;
 }
 
 // Returns the mean extinction over a brick's range of values, taken as equally frequent.
@@ -84,34 +84,34 @@ struct ShareCosts {
     struct Pair {
         double below = 0, above = 0;
     };
-    Pair of_parts(int axis, double place) const;
+    Pair of_halves(int axis, double place) const;
 
     // Returns the costs inside one of these two boxes.
-    ShareCosts part(int axis, double place, bool above) const;
+    ShareCosts half(int axis, double place, bool above) const;
 
     // A step along a ray in a visible brick.
-    struct Stretch {
+    struct RayStep {
         glm::vec3 middle;     // in index space
         float cells;          // that the ray walks through in it
         float optical_depth;  // estimated
         std::int32_t ray;
     };
 
-    std::vector<Stretch> stretches;  // ray by ray, front to back
+    std::vector<RayStep> ray_steps;  // ray by ray, front to back
     std::vector<glm::vec3> pages;    // middles of the cache's bricks that are read, in index space
     double opaque_depth = 0, page_cost = 0;
 };
 
 namespace {
 
-std::vector<ShareCosts::Stretch> find_stretches(const Scene& scene, const Facts& facts,
+std::vector<ShareCosts::RayStep> find_ray_steps(const Scene& scene, const Facts& facts,
                                                 const MinMaxBricks& bricks) {
     const View view(*scene.camera, scene.width, scene.height);
     const int columns = columns_of(view), rows = rows_of(view);
     const int steps = static_cast<int>(
         std::clamp(facts.voxels_along_view / MinMaxBricks::edge, 8.0, double{most_steps}));
     const double step = (facts.far_depth - facts.near_depth) / steps;
-    std::vector<std::vector<ShareCosts::Stretch>> by_row(static_cast<std::size_t>(rows));
+    std::vector<std::vector<ShareCosts::RayStep>> by_row(static_cast<std::size_t>(rows));
     parallel_for(rows, 1, [&](std::int64_t row) {
         for (int column = 0; column < columns; ++column) {
             const View::Ray ray =
@@ -136,7 +136,7 @@ std::vector<ShareCosts::Stretch> find_stretches(const Scene& scene, const Facts&
             }
         }
     });
-    std::vector<ShareCosts::Stretch> all;
+    std::vector<ShareCosts::RayStep> all;
     for (const auto& row : by_row) all.insert(all.end(), row.begin(), row.end());
     return all;
 }
@@ -161,29 +161,29 @@ void find_pages(const Scene& scene, const Facts& facts, ShareCosts& costs) {
 
 }  // namespace
 
-ShareCosts::Pair ShareCosts::of_parts(int axis, double place) const {
+ShareCosts::Pair ShareCosts::of_halves(int axis, double place) const {
     double cost[2] = {0, 0}, depth[2] = {0, 0};
     for (const glm::vec3& page : pages) cost[page[axis] >= place ? 1 : 0] += page_cost;
     std::int32_t last_ray[2] = {-1, -1};
-    for (const Stretch& stretch : stretches) {
-        const int part = stretch.middle[axis] >= place ? 1 : 0;
-        if (last_ray[part] != stretch.ray) {
-            last_ray[part] = stretch.ray;
-            depth[part] = 0;
-            cost[part] += cells_of_ray;
+    for (const RayStep& ray_step : ray_steps) {
+        const int half = ray_step.middle[axis] >= place ? 1 : 0;
+        if (last_ray[half] != ray_step.ray) {
+            last_ray[half] = ray_step.ray;
+            depth[half] = 0;
+            cost[half] += cells_of_ray;
         }
-        if (depth[part] >= opaque_depth) continue;
-        depth[part] += stretch.optical_depth;
-        cost[part] += stretch.cells;
+        if (depth[half] >= opaque_depth) continue;
+        depth[half] += ray_step.optical_depth;
+        cost[half] += ray_step.cells;
     }
     return {cost[0], cost[1]};
 }
 
-ShareCosts ShareCosts::part(int axis, double place, bool above) const {
+ShareCosts ShareCosts::half(int axis, double place, bool above) const {
     ShareCosts result{{}, {}, opaque_depth, page_cost};
     std::ranges::copy_if(
-        stretches, std::back_inserter(result.stretches),
-        [&](const Stretch& stretch) { return (stretch.middle[axis] >= place) == above; });
+        ray_steps, std::back_inserter(result.ray_steps),
+        [&](const RayStep& ray_step) { return (ray_step.middle[axis] >= place) == above; });
     std::ranges::copy_if(pages, std::back_inserter(result.pages),
                          [&](const glm::vec3& page) { return (page[axis] >= place) == above; });
     return result;
@@ -194,7 +194,7 @@ VolumeShares::VolumeShares(const Scene& scene, const Facts& facts, const MinMaxB
     const auto& size = facts.grid.size;
     const glm::dvec3 last(size[0] - 1, size[1] - 1, size[2] - 1);
     ShareCosts costs{
-        find_stretches(scene, facts, bricks), {}, opaque_depth(scene.max_error, facts.max_color)};
+        find_ray_steps(scene, facts, bricks), {}, opaque_depth(scene.max_error, facts.max_color)};
     if (in_files) find_pages(scene, facts, costs);
     divide(costs, {glm::dvec3(-endless), glm::dvec3(endless)}, {glm::dvec3(0), last}, count);
 }
@@ -211,8 +211,8 @@ void VolumeShares::divide(const ShareCosts& costs, const IndexBox& box, const In
     IndexBox below = box, above = box, between_below = between, between_above = between;
     below.max[cut.axis] = above.min[cut.axis] = cut.place;
     between_below.max[cut.axis] = between_above.min[cut.axis] = cut.place;
-    divide(costs.part(cut.axis, cut.place, false), below, between_below, below_of(count));
-    divide(costs.part(cut.axis, cut.place, true), above, between_above, count - below_of(count));
+    divide(costs.half(cut.axis, cut.place, false), below, between_below, below_of(count));
+    divide(costs.half(cut.axis, cut.place, true), above, between_above, count - below_of(count));
 }
 
 // Finds on each axis the plane that divides the cost in the ratio of the numbers of boxes, and
@@ -234,7 +234,7 @@ VolumeShares::Cut VolumeShares::best_cut(const ShareCosts& costs, const IndexBox
         if (low > high) continue;
         const auto costs_at = [&](std::int64_t number) {
             const double place = static_cast<double>(number) * unit;
-            ShareCosts::Pair pair = costs.of_parts(axis, place);
+            ShareCosts::Pair pair = costs.of_halves(axis, place);
             const double share = (place - between.min[axis]) / size[axis];
             return ShareCosts::Pair{(pair.below + cost_of_emptiness * share) / below,
                                     (pair.above + cost_of_emptiness * (1 - share)) / above};

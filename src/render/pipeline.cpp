@@ -96,11 +96,12 @@ void Pipeline::drop_frames() {
 
 Choices Pipeline::chosen() {
     return keep_warnings(choice_warnings_, [&]() -> Choices {
-        const Wishes& wishes = options_.wishes;
+        const Adjustments& adjustments = options_.adjustments;
         if (const auto ramp = opaque_ramp(asked_)) warn(*ramp);
         Scene scene = asked_;
         if (has_open_colormap(scene)) close_colormap(scene, data_.range(scene));
-        if (!leaves_something_open(scene) && !wishes.transfer_function() && !wishes.camera())
+        if (!leaves_something_open(scene) && !adjustments.transfer_function() &&
+            !adjustments.camera())
             return {std::move(scene), {}};
         // If the mesh is made from the volume, transfer function and camera are chosen for the
         // volume.
@@ -108,7 +109,7 @@ Choices Pipeline::chosen() {
             data_.makes_mesh(scene) ? std::make_unique<VolumeField>(*data_.volume(scene))
                                     : data_.field(scene);
         Stage choosing("choose");
-        Choices result = choose(std::move(scene), *field, wishes);
+        Choices result = choose(std::move(scene), *field, adjustments);
         stages_ms_["choose"] = choosing.end();
         return result;
     });

@@ -57,7 +57,7 @@ struct PipelineOptions {
     // current whenever a member is called, and in the destructor.
     std::optional<Capabilities> capabilities = {};
     OmissionSwitch omissions = {};
-    Wishes wishes = {};
+    Adjustments adjustments = {};
     // Allows choices to take longer if that makes every frame faster. Otherwise the time to the
     // first picture counts.
     bool many_frames = false;

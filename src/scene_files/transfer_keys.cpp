@@ -137,11 +137,11 @@ void read_map(JsonReader& reader, GivenTransfer& given) {
 
 void read_map_range(JsonReader& reader, GivenTransfer& given) {
     if (!given.map) return;
-    const bool told = reader.has("colormap_range");
-    if (!told && given.map->own_range) return;
+    const bool has_range = reader.has("colormap_range");
+    if (!has_range && given.map->own_range) return;
     if (given.map->colors.front().value == given.map->colors.back().value)
         reader.fail_at("colormap_range", "cannot stretch a colour map that has a single value");
-    if (told) given.colormap_range = read_range(reader);
+    if (has_range) given.colormap_range = read_range(reader);
 }
 
 void read_points_of(JsonReader& reader, GivenTransfer& given) {

@@ -140,7 +140,7 @@ class CellIntegrator {
     }
 
     LAMINA_INLINE void set_cubic(const CpuBrick& brick, const Corners& corners, std::size_t i) {
-        const auto [place, change] = segments_.ways_from(i);
+        const auto [place, change] = segments_.paths_from(i);
         // The cubic is computed from codes minus `base` and then scaled; scale is a power of two
         // (exact_range()), so that is exact. Floats are normalised already: scale 1, offset 0.
         const Float base(-brick.offset / brick.scale);

@@ -54,8 +54,8 @@ class CutSegments {
     template <Lookup kind, bool curved>
     void run(const CpuTransfer& transfer, const CpuLight* light, bool colored, CellSegments& all) {
         light_ = light;
-        run_round<kind, curved, true>(transfer, colored, all);
-        while (count_ > 0) run_round<kind, curved, false>(transfer, colored, all);
+        composite_next_pieces<kind, curved, true>(transfer, colored, all);
+        while (count_ > 0) composite_next_pieces<kind, curved, false>(transfer, colored, all);
     }
 
   private:
@@ -81,7 +81,7 @@ class CutSegments {
     // The part of a segment from its present place to the next turn of its scalar, at t_end. If the
     // scalar `crosses` the knot before that, the segment leaves the interval at `root`.
     template <bool curved>
-    struct Stretch {
+    struct NextPiece {
         IntervalLanes<curved> interval;
         Float t_end, s_end, knot;
         FloatMask rising, crosses;
@@ -90,7 +90,7 @@ class CutSegments {
 
     // Composites the next piece of each segment.
     template <Lookup kind, bool curved, bool first>
-    void run_round(const CpuTransfer& transfer, bool colored, CellSegments& all) {
+    void composite_next_pieces(const CpuTransfer& transfer, bool colored, CellSegments& all) {
         constexpr std::size_t step = Float::lanes;
         const std::size_t count = count_;
         count_ = 0;
@@ -176,25 +176,25 @@ class CutSegments {
         // Two steps (of third order) find most roots; to ask after each step would cost more.
         constexpr int usual_steps = 2, most_steps = 30;
         static_assert(vectors == 2);
-        Stretch<curved> stretches[vectors];
+        NextPiece<curved> next_pieces[vectors];
         for (std::size_t i = 0; i < used; ++i)
-            stretches[i] = next_stretch<kind, curved>(transfer, lanes[i]);
+            next_pieces[i] = find_next_piece<kind, curved>(transfer, lanes[i]);
         const auto found = [&] LAMINA_LAMBDA {
-            return stretches[0].root.found() && (used == 1 || stretches[1].root.found());
+            return next_pieces[0].root.found() && (used == 1 || next_pieces[1].root.found());
         };
         for (int i = 0; i < usual_steps || (i < most_steps && !found()); ++i) {
             for (std::size_t j = 0; j < used; ++j)
-                stretches[j].root.refine(lanes[j].segment.scalar);
+                next_pieces[j].root.refine(lanes[j].segment.scalar);
         }
         for (std::size_t i = 0; i < used; ++i)
-            ended[i] = add_piece(colored, stretches[i], lanes[i]);
+            ended[i] = add_piece(colored, next_pieces[i], lanes[i]);
     }
 
     template <Lookup kind, bool curved>
-    static LAMINA_INLINE Stretch<curved> next_stretch(const CpuTransfer& transfer,
-                                                      const Lanes& lanes) {
+    static LAMINA_INLINE NextPiece<curved> find_next_piece(const CpuTransfer& transfer,
+                                                           const Lanes& lanes) {
         const auto& [segment, done] = lanes;
-        Stretch<curved> next;
+        NextPiece<curved> next;
         next.t_end = select(done.t < done.turns[0], done.turns[0],
                             select(done.t < done.turns[1], done.turns[1], 1));
         next.s_end = segment.scalar.at(next.t_end);
@@ -211,11 +211,11 @@ class CutSegments {
 
     // Composites a piece of each segment and moves behind it. Returns the lanes that are done.
     template <bool curved>
-    LAMINA_INLINE FloatMask add_piece(bool colored, const Stretch<curved>& stretch,
+    LAMINA_INLINE FloatMask add_piece(bool colored, const NextPiece<curved>& next_piece,
                                       Lanes& lanes) const {
         auto& [segment, done] = lanes;
-        const Float t_to = select(stretch.crosses, stretch.root.t, stretch.t_end);
-        const Float s_to = select(stretch.crosses, stretch.knot, stretch.s_end);
+        const Float t_to = select(next_piece.crosses, next_piece.root.t, next_piece.t_end);
+        const Float s_to = select(next_piece.crosses, next_piece.knot, next_piece.s_end);
         Float extent = max(t_to - done.t, 0), s_back = s_to;
         FloatMask whole(true);
         if constexpr (lit) {
@@ -223,14 +223,14 @@ class CutSegments {
             extent = min(extent, segment.longest);
             s_back = select(whole, s_to, segment.scalar.at(done.t + extent));
         }
-        PieceOptics<curved> piece(stretch.interval,
-                                  share_of_piece(stretch.interval, lanes, extent, s_back),
+        PieceOptics<curved> piece(next_piece.interval,
+                                  share_of_piece(next_piece.interval, lanes, extent, s_back),
                                   segment.length * extent);
-        whole = whole & shorten(stretch.interval, segment.length, piece, extent);
+        whole = whole & shorten(next_piece.interval, segment.length, piece, extent);
         if (!lit || !colored) {
-            composite(stretch.interval, piece, colored, done);
+            composite(next_piece.interval, piece, colored, done);
         } else if constexpr (lit) {
-            const FloatMask again = composite_lit(stretch.interval, piece, extent, lanes);
+            const FloatMask again = composite_lit(next_piece.interval, piece, extent, lanes);
             segment.longest = select(again, 0.5f * extent, max(segment.longest, 2 * extent));
             // Nothing was added in lanes `again`: the next round tries a piece half as long.
             whole = without(whole, again);
@@ -241,8 +241,8 @@ class CutSegments {
         const Float shortened = max(done.t + extent, done.t + 6e-8f);
         done.t = select(whole, t_to, shortened);
         done.s = select(whole, s_to, segment.scalar.at(done.t));
-        const Int next = select(stretch.rising, done.interval + 1, done.interval - 1);
-        done.interval = select(whole & stretch.crosses, next, done.interval);
+        const Int next = select(next_piece.rising, done.interval + 1, done.interval - 1);
+        done.interval = select(whole & next_piece.crosses, next, done.interval);
         return (done.t >= 1) | (done.transmittance < least_transmittance);
     }
 

@@ -186,7 +186,7 @@ LAMINA_INLINE GradientLanes set_gradients(const CpuBrick& brick, FloatMask membe
     Corners corners[3];
     fetch_gradients(brick, segments.index + i, bits_of(members), rows);
     const Int largest = unpack_gradients(rows, corners);
-    const auto [place, change] = segments.ways_from(i);
+    const auto [place, change] = segments.paths_from(i);
     leave_out_lower(place, change, corners);
     GradientLanes lanes;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -145,9 +145,9 @@ class CpuBounds {
     void for_each_shown(const OccupiedBricks& bricks, const CpuRays& rays, int first, int end,
                         const Found& found) const {
         while (first < end) {
-            const Stretch stretch = next_stretch(bricks, rays, first, end);
-            if (stretch.shown) found(first, stretch.end);
-            first = stretch.end;
+            const SlabInterval interval = next_interval(bricks, rays, first, end);
+            if (interval.shown) found(first, interval.end);
+            first = interval.end;
         }
     }
 
@@ -156,13 +156,13 @@ class CpuBounds {
 
   private:
     // Slabs up to `end` - 1, and whether they may be visible.
-    struct Stretch {
+    struct SlabInterval {
         int end;
         bool shown;
     };
     // Returns the longest run of slabs from `first` on that one test decides.
-    Stretch next_stretch(const OccupiedBricks& bricks, const CpuRays& rays, int first,
-                         int end) const;
+    SlabInterval next_interval(const OccupiedBricks& bricks, const CpuRays& rays, int first,
+                               int end) const;
     // Tells whether a ray may come near an occupied brick in slabs first .. end - 1.
     bool shows(const OccupiedBricks& bricks, const CpuRays& rays, int first, int end) const;
 

@@ -67,9 +67,9 @@ std::vector<BrickSpan> bricks_of_pages(const BrickSpan& span, std::int64_t first
 // Returns how far a point lies outside each of five planes that bound the view: that of the eye,
 // and the four sides of the picture, widened by a pixel. Negative: inside.
 std::array<double, 5> outside_of(const View& view, const glm::dvec3& point) {
-    const glm::dvec3 way = point - view.eye;
-    const double depth = glm::dot(way, view.forward);
-    const double across = glm::dot(way, view.right), up = glm::dot(way, view.up);
+    const glm::dvec3 from_eye = point - view.eye;
+    const double depth = glm::dot(from_eye, view.forward);
+    const double across = glm::dot(from_eye, view.right), up = glm::dot(from_eye, view.up);
     const double scale = view.projection == Projection::perspective ? depth : 1;
     const double half_width = (0.5 * view.width + 1) * view.pixel * scale;
     const double half_height = (0.5 * view.height + 1) * view.pixel * scale;
@@ -244,10 +244,10 @@ CpuPages CpuVolume::pages_of(const TextureBrick& part) const {
 
 // Announces neighbouring pages of a row along x as one box.
 void CpuVolume::will_read(std::span<const std::uint32_t> pages) const {
-    told_.resize(cache_->brick_count());
+    announced_.resize(cache_->brick_count());
     std::vector<std::uint32_t> news;
     for (const std::uint32_t page : pages)
-        if (std::exchange(told_[page], std::uint8_t{1}) == 0) news.push_back(page);
+        if (std::exchange(announced_[page], std::uint8_t{1}) == 0) news.push_back(page);
     const BrickPlaces places{volume_.grid().size, cache_->count(), first_of_pages()};
     const std::int64_t margin = lit_ ? 1 : 0, row = places.count[0];
     std::vector<SampleBox> boxes;

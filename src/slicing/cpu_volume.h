@@ -120,7 +120,7 @@ class CpuVolume {
     std::unique_ptr<BrickCache> own_cache_;
     BrickCache* cache_ = nullptr;
     std::vector<CpuPages> pages_;
-    mutable std::vector<std::uint8_t> told_;  // 1: pages that will_read() has announced
+    mutable std::vector<std::uint8_t> announced_;  // 1: pages that will_read() has announced
 };
 
 // Returns the pages, ascending, with cells in visible min/max bricks that touch `share`, if any.

@@ -30,7 +30,7 @@
 LAMINA_SIMD_BEGIN
 
 // The places at which rays enter cells, 0 to 1, and the changes of place up to where they leave.
-struct CellWays {
+struct CellPaths {
     Float place[3], change[3];
 };
 
@@ -42,7 +42,7 @@ struct CellSegments {
     static constexpr int most_steps = 32;
     static constexpr std::size_t capacity = (most_steps * most_packets + 1) * most_lanes;
 
-    alignas(64) float place[3][capacity];  // CellWays
+    alignas(64) float place[3][capacity];  // CellPaths
     alignas(64) float change[3][capacity];
     alignas(64) float length[capacity];        // world units
     alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner (cell_index())
@@ -58,13 +58,13 @@ struct CellSegments {
     int steps;
     std::size_t count;
 
-    LAMINA_INLINE CellWays ways_from(std::size_t i) const {
-        CellWays ways;
+    LAMINA_INLINE CellPaths paths_from(std::size_t i) const {
+        CellPaths paths;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            ways.place[axis] = load<Float>(place[axis] + i);
-            ways.change[axis] = load<Float>(change[axis] + i);
+            paths.place[axis] = load<Float>(place[axis] + i);
+            paths.change[axis] = load<Float>(change[axis] + i);
         }
-        return ways;
+        return paths;
     }
 };
 
@@ -121,8 +121,8 @@ class CellWalk {
     LAMINA_INLINE bool steps_done() const { return none_of(at_ < steps_end_); }
 
     LAMINA_INLINE void end_steps() {
-        const Float64 way(at_), whole(steps_end_);
-        depth_ = select(way >= whole, max(depth_, end_), depth_ + way);
+        const Float64 walked(at_), whole(steps_end_);
+        depth_ = select(walked >= whole, max(depth_, end_), depth_ + walked);
         for (std::size_t axis = 0; axis < 3; ++axis) cell_[axis] = cell_at(axis);
     }
 

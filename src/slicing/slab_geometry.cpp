@@ -260,14 +260,14 @@ PixelBox PixelBox::common(const PixelBox& other) const {
 // The picture of a box in front of the eye lies inside the rectangle around its corners' pixels.
 PixelBox pixels_of(const IndexBox& box, const Grid& grid, const View& view) {
     constexpr double far = std::numeric_limits<double>::infinity();
-    glm::dvec3 ways[8];
+    glm::dvec3 from_eye[8];
     double nearest = far, farthest = -far;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 index{(corner & 1) != 0 ? box.max.x : box.min.x,
                                (corner & 2) != 0 ? box.max.y : box.min.y,
                                (corner & 4) != 0 ? box.max.z : box.min.z};
-        ways[corner] = grid.to_world(index) - view.eye;
-        const double depth = glm::dot(ways[corner], view.forward);
+        from_eye[corner] = grid.to_world(index) - view.eye;
+        const double depth = glm::dot(from_eye[corner], view.forward);
         nearest = std::min(nearest, depth);
         farthest = std::max(farthest, depth);
     }
@@ -275,10 +275,11 @@ PixelBox pixels_of(const IndexBox& box, const Grid& grid, const View& view) {
     if (perspective && !(nearest > nearest_share * farthest))
         return {0, view.width, 0, view.height};
     double left = far, right = -far, top = far, bottom = -far;
-    for (const glm::dvec3& way : ways) {
-        const double pixel = view.pixel * (perspective ? glm::dot(way, view.forward) : 1);
-        const double column = 0.5 * view.width + glm::dot(way, view.right) / pixel;
-        const double row = 0.5 * view.height - glm::dot(way, view.up) / pixel;
+    for (const glm::dvec3& corner_from_eye : from_eye) {
+        const double pixel =
+            view.pixel * (perspective ? glm::dot(corner_from_eye, view.forward) : 1);
+        const double column = 0.5 * view.width + glm::dot(corner_from_eye, view.right) / pixel;
+        const double row = 0.5 * view.height - glm::dot(corner_from_eye, view.up) / pixel;
         left = std::min(left, column);
         right = std::max(right, column);
         top = std::min(top, row);

@@ -254,9 +254,10 @@ PairAt closest(const Crosscheck& crosscheck) {
     return best;
 }
 
-// Says at which settings the pictures agree. `told`: pairs that other findings mention already.
+// Says at which settings the pictures agree. `mentioned`: pairs that other findings mention
+// already.
 std::string agreement(const Crosscheck& crosscheck, double wanted,
-                      const std::vector<PairAt>& told) {
+                      const std::vector<PairAt>& mentioned) {
     if (const auto found = cheapest_agreeing(crosscheck, wanted)) {
         const Crosscheck::Projection& projection = crosscheck.projections[found->projection];
         return fmt::format(
@@ -266,12 +267,12 @@ std::string agreement(const Crosscheck& crosscheck, double wanted,
             projection.mesh_ms / 1000, crosscheck.slicings[found->slicing].times.ms);
     }
     const PairAt at = closest(crosscheck);
-    const bool is_told = std::any_of(told.begin(), told.end(),
-                                     [&](const PairAt& each) { return same_pair(each, at); });
+    const bool is_mentioned = std::any_of(mentioned.begin(), mentioned.end(),
+                                          [&](const PairAt& each) { return same_pair(each, at); });
     return fmt::format(
         "PT and slicing agree nowhere on this ladder within {:g}/255 in every pixel; they are "
         "closest at {}. Finer: --tolerances, --samples and mesh.max_tets; for noise, mesh.kuhn.",
-        wanted, is_told ? settings_text(crosscheck, at) : pair_text(crosscheck, at));
+        wanted, is_mentioned ? settings_text(crosscheck, at) : pair_text(crosscheck, at));
 }
 
 }  // namespace
@@ -344,20 +345,20 @@ std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,
         shares += fmt::format("{}{} {}", shares.empty() ? "" : ", ", part.name, share_text(part));
     const PairAt own = own_pair(crosscheck), coarsest;
     const PairAt finest{crosscheck.projections.size() - 1, crosscheck.slicings.size() - 1};
-    std::vector<PairAt> told{own};
+    std::vector<PairAt> mentioned{own};
     std::vector<std::string> findings{fmt::format(
         "{}: with {}, projected tetrahedra (PT) and slicing differ by Linf {:.3g} and L2 {:.3g} "
         "(1/255), and {}. The parts explain: {}.",
         subject.name, settings_text(crosscheck, own), budget.raw_error.all.linf,
         budget.raw_error.all.l2, dominance_of(budget.dominant()), shares)};
     for (const auto& [word, at] : {std::pair("coarsest", coarsest), {"finest", finest}}) {
-        if (std::any_of(told.begin(), told.end(),
+        if (std::any_of(mentioned.begin(), mentioned.end(),
                         [&, &at = at](const PairAt& each) { return same_pair(each, at); }))
             continue;
         findings.push_back(fmt::format("At the {} settings, {}.", word, pair_text(crosscheck, at)));
-        told.push_back(at);
+        mentioned.push_back(at);
     }
-    findings.push_back(agreement(crosscheck, subject.wanted, told));
+    findings.push_back(agreement(crosscheck, subject.wanted, mentioned));
     return findings;
 }
 

@@ -390,9 +390,9 @@ void Hdf5Volume::read(const SampleBox& box, bool is_all, void* to) const {
 }
 
 // Replaces missing samples, those with the value of an attribute of missing_keys, by NaN if their
-// type has it. If `is_told`, warns of them and counts them.
-void Hdf5Volume::mark_missing(std::int64_t count, bool is_told, void* samples) const {
-    if (is_integer(head_.type) && !is_told) return;
+// type has it. If `reports`, warns of them and counts them.
+void Hdf5Volume::mark_missing(std::int64_t count, bool reports, void* samples) const {
+    if (is_integer(head_.type) && !reports) return;
     for (const char* const key : missing_keys) {
         const std::optional<double> number = missing_value(array_, key);
         if (!number) continue;
@@ -407,7 +407,7 @@ void Hdf5Volume::mark_missing(std::int64_t count, bool is_told, void* samples) c
                     values[i] = std::numeric_limits<Value>::quiet_NaN();
             }
         });
-        if (missing == 0 || !is_told) continue;
+        if (missing == 0 || !reports) continue;
         warn(fmt::format(
             "{}: {} samples have the value {}, which \"{}\" calls missing: they are {}", name_,
             missing, *number, key, is_integer(head_.type) ? "drawn as it" : "NaN"));

@@ -115,7 +115,7 @@ class Hdf5Volume {
     void read(const SampleBox& box, bool is_all, void* to) const;
 
   private:
-    void mark_missing(std::int64_t count, bool is_told, void* samples) const;
+    void mark_missing(std::int64_t count, bool reports, void* samples) const;
 
     Hdf5Handle file_;
     std::string path_;  // the array's, in the file

@@ -18,13 +18,13 @@ namespace lamina {
 // An axis of an array in a file.
 struct StoredAxis {
     StoredAxis(std::int64_t a_size = 1, std::optional<std::int64_t> a_taken = {},
-               const char* its_name = "", bool is_told = false)
-        : size(a_size), taken(a_taken), what(its_name), told(is_told) {}
+               const char* its_name = "", bool is_given = false)
+        : size(a_size), taken(a_taken), what(its_name), given(is_given) {}
 
     std::int64_t size;
     std::optional<std::int64_t> taken;  // the only index that is read; empty: all are
     const char* what;                   // "channel" or "time", if `taken` is set
-    bool told;                          // the request names `taken`
+    bool given;                         // the request names `taken`
 };
 
 // Makes an axis of `count` channels or times (`what`: "channel" or "time", the request's key, too),

@@ -146,8 +146,8 @@ const VolumeFormat& expected_format(const Path& path) {
 }
 
 void expect_known_keys(const Path& path, const VolumeFormat& format, const VolumeRequest& request) {
-    const auto expect = [&](Keys key, bool told, const char* word) {
-        if (told && (format.keys & key) == 0) {
+    const auto expect = [&](Keys key, bool given, const char* word) {
+        if (given && (format.keys & key) == 0) {
             fail("{}: {}: expected no such key: {} files hold only one", path.string(), word,
                  format.name);
         }

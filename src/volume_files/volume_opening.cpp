@@ -94,7 +94,7 @@ void expect_room(const std::string& name, std::uint64_t bytes, const VolumeUse& 
             "makes a copy of it that can",
             name, why);
     }
-    if (memory_limit_is_told() && bytes > memory_limit()) {
+    if (memory_limit_is_given() && bytes > memory_limit()) {
         fail(
             "{}: {}, so all {} bytes of its samples would be in memory, more than the limit of {}: "
             "lamina index --bricks makes a copy of it that is read by parts",

@@ -63,8 +63,8 @@ void expect_median_opacity(const Scene& scene, const Field& field) {
     EXPECT_NEAR(*middle, std::log(10), 2e-5 * std::log(10));
 }
 
-Scene chosen_of(const Scene& scene, const Field& field, const Wishes& wishes = {}) {
-    return choose(scene, field, wishes).scene;
+Scene chosen_of(const Scene& scene, const Field& field, const Adjustments& adjustments = {}) {
+    return choose(scene, field, adjustments).scene;
 }
 
 TEST(Choose, TheMedianRayIsNineTenthsOpaque) {

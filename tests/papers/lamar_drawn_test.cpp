@@ -80,8 +80,8 @@ TEST_F(LamarDrawn, DitheringLosesTheLeavesOfFigure1) {
 }
 
 TEST_F(LamarDrawn, BothWaysOfPalettesGiveOnePicture) {
-    const Image lookup = PaletteSlices(PaletteSlices::Way::lookup, 32, 40, 16).draw();
-    const Image upload = PaletteSlices(PaletteSlices::Way::upload, 32, 40, 16).draw();
+    const Image lookup = PaletteSlices(PaletteSlices::Source::lookup, 32, 40, 16).draw();
+    const Image upload = PaletteSlices(PaletteSlices::Source::upload, 32, 40, 16).draw();
     EXPECT_EQ(lookup.rgba, upload.rgba);
     EXPECT_GT(lookup.rgba[0], 0);
 }

@@ -84,8 +84,8 @@ TEST(ColorJson, AShippedMapIsStretchedOverTheDataIfNoRangeIsGiven) {
     // Tolerance of a few roundings.
     EXPECT_NEAR(over_data.transfer_function->at(40).color.g, .5, 1e-15);
     map["colormap_range"] = {100, 200};
-    const auto told = read_scene(mapped(map, "display"), "s").transfer_function;
-    EXPECT_EQ(told->at(150).color, glm::dvec3(.5));
+    const auto given = read_scene(mapped(map, "display"), "s").transfer_function;
+    EXPECT_EQ(given->at(150).color, glm::dvec3(.5));
     const auto linear = read_scene(mapped(map, "linear"), "s").transfer_function;
     // The points of the resampled map follow it within 5e-4.
     EXPECT_NEAR(linear->at(150).color.g, linear_from_srgb(glm::dvec3(.5)).g, 5e-4);

@@ -166,7 +166,7 @@ void Viewer::take_key(const InputEvent& event) {
 
 void Viewer::take_comparison_key(int key) {
     if (key == 'B') precision_.comparison.flip();
-    if (key == 'M') precision_.comparison.next_way();
+    if (key == 'M') precision_.comparison.next_mode();
     if (key == 'N') precision_.pin(document_, *shown_);
     if (key == 'V') precision_.comparison.next_with();
 }

@@ -184,8 +184,8 @@ PipelineOptions how_to_draw(const RenderOptions& options, const Scene& scene,
     PipelineOptions how;
     how.omissions = omission_switch(options);
     how.context = context_choice(options.context);
-    how.wishes = wishes_of(options.view, scene.color_space);
-    how.wishes.all_around = options.output.views > 1;
+    how.adjustments = adjustments_of(options.view, scene.color_space);
+    how.adjustments.all_around = options.output.views > 1;
     how.many_frames = options.output.frames > 0 || options.output.views > 0;
     how.count_fragments = !options.stats.empty();
     how.trace_plainly = options.plain;
@@ -222,8 +222,8 @@ void run(const RenderOptions& options, const RenderExtras& extras) {
     Pipeline pipeline(read.scene, {}, how);
     pipeline.load();
     const Scene& scene = pipeline.scene();
-    const bool changed =
-        !pipeline.reasons().empty() || how.wishes.transfer_function() || how.wishes.camera();
+    const bool changed = !pipeline.reasons().empty() || how.adjustments.transfer_function() ||
+                         how.adjustments.camera();
     const std::string scene_text =
         json_text(changed ? nlohmann::json(document_of(scene, read.document)) : read.document, 2);
     for (const std::string& chosen : pipeline.reasons()) say(chosen);

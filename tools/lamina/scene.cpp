@@ -63,7 +63,7 @@ void run(const SceneVerbOptions& options) {
     expect_different_files(files_of(asked), {options.output});
     const auto output = open_named(options.output);
     PipelineOptions how;
-    how.wishes = wishes_of(options.view, asked.color_space);
+    how.adjustments = adjustments_of(options.view, asked.color_space);
     Pipeline pipeline(asked, {}, how);
     pipeline.load();
     const Scene& scene = pipeline.scene();

@@ -251,16 +251,16 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
         ->group(group);
 }
 
-Wishes wishes_of(const ViewOptions& options, ImageColorSpace space) {
-    Wishes wishes;
+Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space) {
+    Adjustments adjustments;
     if (!options.colormap.empty()) {
         Colormap colormap = colormap_of(options.colormap, space);
         // Positions in a colour map's file are rarely values of the data, so the map is stretched
         // over them.
         if (!is_colormap_name(options.colormap)) colormap.own_range = false;
-        wishes.transfer.colormap = std::move(colormap);
+        adjustments.transfer.colormap = std::move(colormap);
     }
-    if (!options.range.empty()) wishes.transfer.range = range_of(options.range);
+    if (!options.range.empty()) adjustments.transfer.range = range_of(options.range);
     for (const auto& [name, number] : {std::pair{"--azimuth", options.turn.azimuth},
                                        std::pair{"--elevation", options.turn.elevation}}) {
         if (!std::isfinite(number))
@@ -272,10 +272,10 @@ Wishes wishes_of(const ViewOptions& options, ImageColorSpace space) {
     if (!(options.density >= 0 && options.density <= 1e9))
         throw UsageError(
             fmt::format("--density {}: expected a number from 0 to 1e9", options.density));
-    wishes.density = options.density;
-    wishes.turn = options.turn;
-    wishes.zoom = options.zoom;
-    return wishes;
+    adjustments.density = options.density;
+    adjustments.turn = options.turn;
+    adjustments.zoom = options.zoom;
+    return adjustments;
 }
 
 std::vector<std::string> settings_of(const ViewOptions& options) {

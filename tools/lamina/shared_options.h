@@ -62,7 +62,7 @@ void add_view_options(CLI::App& verb, ViewOptions& options);
 
 // Returns the changes that the options make to the scene. Reads the file of --colormap, if given.
 // Throws UsageError.
-Wishes wishes_of(const ViewOptions& options, ImageColorSpace space);
+Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space);
 
 // Returns the other options as values of --set: "image.width=800".
 std::vector<std::string> settings_of(const ViewOptions& options);

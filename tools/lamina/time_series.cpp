@@ -96,7 +96,7 @@ std::vector<std::int64_t> TimeSeries::missing(const SeriesRecord& record) const 
 
 TimeSeries::Loaded TimeSeries::load(const Scene& resolved, std::int64_t step) const {
     PipelineOptions how = scene_.how;
-    how.wishes = {};  // the resolved scene has their results
+    how.adjustments = {};  // the resolved scene has their results
     auto pipeline = std::make_unique<Pipeline>(series_.at(resolved, step), SceneData(), how);
     std::string input = input_of(step);
     pipeline->load();

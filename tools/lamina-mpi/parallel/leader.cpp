@@ -179,7 +179,7 @@ int Leader::open(const Scene& scene, SceneData data, const OmissionSwitch& omiss
     Command command{.kind = Command::Kind::open,
                     .scene = next_,
                     .wire = wire_,
-                    .memory_limit = memory_limit_is_told() ? memory_limit() : 0,
+                    .memory_limit = memory_limit_is_given() ? memory_limit() : 0,
                     .many_frames = many_frames};
     SceneMessage message(scene, omissions);
     send(ranks_, command);

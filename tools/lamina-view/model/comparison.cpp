@@ -60,7 +60,7 @@ void Comparison::flip() {
     by = CompareBy::flip;
 }
 
-void Comparison::next_way() {
+void Comparison::next_mode() {
     switch (by) {
         case CompareBy::nothing:
         case CompareBy::flip:

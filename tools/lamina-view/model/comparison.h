@@ -54,7 +54,7 @@ class Comparison {
     void unpin();
     // Shows A in place of B, or B again.
     void flip();
-    void next_way();  // the next CompareBy, without flip
+    void next_mode();  // the next CompareBy, without flip
     void next_with();
     const std::shared_ptr<const PinnedPicture>& pinned() const { return pinned_; }
 

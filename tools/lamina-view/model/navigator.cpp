@@ -93,9 +93,9 @@ bool CameraControl::press(const InputEvent& event, const Around& around, Documen
     }
     dragging_ = true;
     button_ = event.button;
-    way_ = event.button == PointerButton::right                   ? Way::zoom
-           : event.button == PointerButton::middle || event.shift ? Way::pan
-                                                                  : Way::orbit;
+    motion_ = event.button == PointerButton::right                   ? Motion::zoom
+              : event.button == PointerButton::middle || event.shift ? Motion::pan
+                                                                     : Motion::orbit;
     return true;
 }
 
@@ -104,14 +104,14 @@ bool CameraControl::drag(const InputEvent& event, const Around& around, Document
     last_ = event.place;
     if (!dragging_ || moved == glm::dvec2(0)) return false;
     const Camera& camera = *document.scene().camera;
-    switch (way_) {
-        case Way::orbit:
+    switch (motion_) {
+        case Motion::orbit:
             document.set_camera(orbited(camera, moved));
             break;
-        case Way::pan:
+        case Motion::pan:
             document.set_camera(panned(camera, moved));
             break;
-        case Way::zoom:
+        case Motion::zoom:
             document.set_camera(zoomed(camera, std::exp(-zoom_of_height * moved.y)));
             break;
     }

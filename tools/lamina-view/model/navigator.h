@@ -84,7 +84,7 @@ class CameraControl {
     void see_axis(int axis, double sign, const Around& around, Document& document) const;
 
   private:
-    enum class Way { orbit, pan, zoom };
+    enum class Motion { orbit, pan, zoom };
     bool press(const InputEvent& event, const Around& around, Document& document);
     bool drag(const InputEvent& event, const Around& around, Document& document);
     bool key(const InputEvent& event, const Around& around, Document& document);
@@ -92,7 +92,7 @@ class CameraControl {
     void step_until(double seconds);
 
     bool dragging_ = false;
-    Way way_ = Way::orbit;
+    Motion motion_ = Motion::orbit;
     PointerButton button_ = PointerButton::left;
     glm::dvec2 last_{0}, pressed_{0};
     double pressed_at_ = -1, steps_until_ = 0;

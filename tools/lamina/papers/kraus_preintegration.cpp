@@ -23,9 +23,9 @@ int half(int pixels) {
     return std::max(1, pixels / 2);
 }
 
-enum TableWay : std::size_t { incremental, exact, ours_incremental, ours, automatic, analytic };
+enum TableVariant : std::size_t { incremental, exact, ours_incremental, ours, automatic, analytic };
 
-std::vector<Variant> ways(const Scene& scene) {
+std::vector<Variant> variants_of(const Scene& scene) {
     const auto table = [&](TableStore store, TableConstruction construction) {
         Scene made = scene;
         made.project.table->store = store;
@@ -60,7 +60,7 @@ Json build_ms(const KrausSubject& subject, const Scene& scene, const Capabilitie
 
 Json measured_rows(KrausSubject& subject, const char* transfer_function, const Scene& scene,
                    KrausStage& stage, std::vector<VariantErrors>& errors) {
-    const std::vector<Variant> variants = ways(scene);
+    const std::vector<Variant> variants = variants_of(scene);
     std::vector<MeshFrame> frames;
     for (const Variant& variant : variants) {
         frames.emplace_back(variant.name, subject.mesh, variant.scene, stage.capabilities(),
@@ -86,7 +86,7 @@ Json measured_rows(KrausSubject& subject, const char* transfer_function, const S
 
 void judge(Findings& findings, const std::string& on, const std::vector<VariantErrors>& errors,
            const Json& rows) {
-    const auto l2 = [&](TableWay way) { return errors[way].all.l2; };
+    const auto l2 = [&](TableVariant variant) { return errors[variant].all.l2; };
     findings.add_own(
         on + "the analytic solution is nearer to the tracer than the paper's numerical "
              "pre-integration",

@@ -192,16 +192,16 @@ nlohmann::ordered_json write_ramp_figure(const std::filesystem::path& folder,
 // entries repeats after `period` slices.
 class PaletteSlices {
   public:
-    enum class Way {
+    enum class Source {
         upload,  // the palette is uploaded before each slice
         lookup,  // all palettes are in one texture, with one dependent lookup
     };
-    PaletteSlices(Way way, int pixels, int slices, int period);
+    PaletteSlices(Source source, int pixels, int slices, int period);
 
     Image draw();  // draws a frame, which is complete on return
 
   private:
-    Way way_;
+    Source source_;
     int slices_, period_;
     std::vector<std::uint8_t> palettes_;  // 256 RGBA entries each
     gl::Texture indices_, palette_;

@@ -48,9 +48,9 @@ gl::Texture random_indices(int pixels) {
     return texture;
 }
 
-gl::Defines defines_of(PaletteSlices::Way way, int period) {
+gl::Defines defines_of(PaletteSlices::Source source, int period) {
     gl::Defines defines;
-    if (way == PaletteSlices::Way::lookup) defines.set("PALETTES", period);
+    if (source == PaletteSlices::Source::lookup) defines.set("PALETTES", period);
     return defines;
 }
 
@@ -82,7 +82,7 @@ Scene timed_scene(bool white) {
 }
 
 // A technique to be timed. `blend` makes float32 blend in the frame buffer instead of in registers.
-struct TimedWay {
+struct Technique {
     std::string name;
     Target target = Target::fixed8;
     bool white = false;
@@ -92,7 +92,7 @@ struct TimedWay {
     bool blend = false;
 };
 
-std::vector<TimedWay> timed_ways() {
+std::vector<Technique> timed_techniques() {
     const std::vector<int> binary(10, 2), quaternary(5, 4), two{32, 32};
     const auto fixed = NodeArithmetic::fixed;
     return {{"straight fixed8"},
@@ -111,7 +111,7 @@ std::vector<TimedWay> timed_ways() {
             {.name = "fixed tree 2^10, white", .white = true, .factors = binary, .nodes = fixed}};
 }
 
-Scene scene_of(const TimedWay& technique) {
+Scene scene_of(const Technique& technique) {
     Scene scene = timed_scene(technique.white);
     scene.target = technique.target;
     if (technique.dither) scene.slice.dither = DitherSettings{.period = palette_period};
@@ -136,7 +136,7 @@ study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const 
 
 Json time_techniques(const std::shared_ptr<const VolumeData>& volume, const LamarStage& stage) {
     std::vector<study::TimedFrame> frames;
-    for (const TimedWay& technique : timed_ways()) {
+    for (const Technique& technique : timed_techniques()) {
         OmissionSwitch omissions;
         if (technique.blend) omissions.kept = {"blending"};
         frames.push_back(frame_of(technique.name, volume, scene_of(technique),
@@ -169,16 +169,17 @@ Json time_barriers(const std::shared_ptr<const VolumeData>& volume, const LamarS
 
 // Measures the cost of a palette for every slice, which section 5 leaves open.
 Json time_palettes(bool& same_picture) {
-    using Way = PaletteSlices::Way;
+    using Source = PaletteSlices::Source;
     std::vector<study::TimedFrame> frames;
     std::array<Image, 2> images;
-    const auto add = [&](const char* name, Way way, Image& image) {
-        const auto all = std::make_shared<PaletteSlices>(way, timed_pixels, slices, palette_period);
-        const auto few = std::make_shared<PaletteSlices>(way, timed_pixels, 1, palette_period);
+    const auto add = [&](const char* name, Source source, Image& image) {
+        const auto all =
+            std::make_shared<PaletteSlices>(source, timed_pixels, slices, palette_period);
+        const auto few = std::make_shared<PaletteSlices>(source, timed_pixels, 1, palette_period);
         frames.push_back({name, [few] { few->draw(); }, [all, &image] { image = all->draw(); }});
     };
-    add("one dependent lookup", Way::lookup, images[0]);
-    add("an upload a slice", Way::upload, images[1]);
+    add("one dependent lookup", Source::lookup, images[0]);
+    add("an upload a slice", Source::upload, images[1]);
     const std::vector<study::FrameTimes> times =
         study::time_interleaved("times: palettes", frames, rounds);
     same_picture = images[0].rgba == images[1].rgba;
@@ -187,19 +188,19 @@ Json time_palettes(bool& same_picture) {
 
 }  // namespace
 
-PaletteSlices::PaletteSlices(Way way, int pixels, int slices, int period)
-    : way_(way),
+PaletteSlices::PaletteSlices(Source source, int pixels, int slices, int period)
+    : source_(source),
       slices_(slices),
       period_(period),
       palettes_(dithered_palettes(period)),
       indices_(random_indices(pixels)),
-      palette_(
-          gl::Texture::make_2d(gl::TextureFormat::rgba8, entries, way == Way::lookup ? period : 1)),
+      palette_(gl::Texture::make_2d(gl::TextureFormat::rgba8, entries,
+                                    source == Source::lookup ? period : 1)),
       target_(gl::Texture::make_2d(gl::TextureFormat::rgba8, pixels, pixels)),
-      program_("gl/full_screen.vert", "study/palette.frag", defines_of(way, period)) {
+      program_("gl/full_screen.vert", "study/palette.frag", defines_of(source, period)) {
     program_.set("indices", 0);
     program_.set("palette", 1);
-    if (way == Way::lookup) {
+    if (source == Source::lookup) {
         palette_.upload({0, 0, 0, entries, period, 1}, std::span<const std::uint8_t>(palettes_));
     }
 }
@@ -212,7 +213,7 @@ Image PaletteSlices::draw() {
     const CompositingState blending(CompositingPlan{}, false, target_);
     const std::span<const std::uint8_t> palettes(palettes_);
     for (int slice = 0; slice < slices_; ++slice) {
-        if (way_ == Way::upload) {
+        if (source_ == Source::upload) {
             const auto row = static_cast<std::size_t>(slice % period_);
             palette_.upload({0, 0, 0, entries, 1, 1}, palettes.subspan(row * row_bytes, row_bytes));
         }
