@@ -65,16 +65,16 @@ std::vector<double> markers_of(const SceneMesh& mesh) {
 }
 
 // Returns the optical depth of a segment in a tet.
-double depth_of(const TransferFunction& transfer_function, const MeshFacts::Run& run) {
+double depth_of(const TransferFunction& transfer_function, const MeshFacts::Segment& segment) {
     double sum = 0;
     for_each_linear_piece(
-        transfer_function.knots(), run.front, run.back, [&](const LinearPiece& piece) {
+        transfer_function.knots(), segment.front, segment.back, [&](const LinearPiece& piece) {
             const double mean = (piece.at_from.extinction + piece.at_to.extinction) / 2;
-            sum += run.front == run.back
+            sum += segment.front == segment.back
                        ? mean
-                       : mean * ((piece.to - piece.from) / (run.back - run.front));
+                       : mean * ((piece.to - piece.from) / (segment.back - segment.front));
         });
-    return sum * run.length;
+    return sum * segment.length;
 }
 
 using Shows = std::function<bool(const ValueRange&)>;
@@ -399,7 +399,8 @@ std::vector<double> MeshField::optical_depths(const Scene& scene) const {
     std::vector<double> depths;
     for (const auto& ray : find_view_rays(scene, mesh_)) {
         double depth = 0;
-        for (const MeshFacts::Run& run : ray) depth += depth_of(*scene.transfer_function, run);
+        for (const MeshFacts::Segment& segment : ray)
+            depth += depth_of(*scene.transfer_function, segment);
         depths.push_back(depth);
     }
     return depths;

@@ -299,12 +299,12 @@ LAMINA_INLINE SumOf<lit> no_sum() {
 }
 
 // Shares of a lit segment's length: a piece's, and (`left`) that of all behind the piece.
-struct RunShares {
+struct PieceShares {
     Float share, left;
 };
 // Composites a piece with a table entry behind `sum`.
 template <bool lit>
-LAMINA_INLINE void add_entry(const EntryOf<lit>& entry, Float length, const RunShares& shares,
+LAMINA_INLINE void add_entry(const EntryOf<lit>& entry, Float length, const PieceShares& shares,
                              SumOf<lit>& sum) {
     const Float depth = entry.extinction * length;
     const FloatMask seen = depth > 0;
@@ -326,13 +326,13 @@ LAMINA_INLINE void add_entry(const EntryOf<lit>& entry, Float length, const RunS
 }
 
 // The scalars at both ends of a segment, its length, and the places of the scalars in the table.
-struct RunEnds {
+struct SegmentEnds {
     Float front, back, length;
     TablePlace front_place, back_place;
 };
 
 // A piece of a segment that one look-up integrates: its cell in the table, and its length.
-struct TableRun {
+struct TablePiece {
     TableCell cell;
     Float length;
 };
@@ -341,7 +341,7 @@ struct TableRun {
 // crosses: `first` is the piece before the first cut, or all; `between` lies between the cuts;
 // `last` is the rest. Most cut segments cross one end only and have nothing between.
 struct Segment {
-    TableRun first, between, last;
+    TablePiece first, between, last;
     Float length;
     FloatMask seen, cut, parted;  // lanes that are visible; that are cut; that have a piece between
     bool some_cut;
@@ -353,10 +353,11 @@ LAMINA_INLINE std::int32_t table_nodes(const CpuTransfer& transfer) {
 
 // Sets `first`, `between` and `last` in lanes that are cut.
 template <Lookup kind>
-LAMINA_INLINE void cut_segment(const CpuTransfer& transfer, const RunEnds& run, Segment& segment) {
+LAMINA_INLINE void cut_segment(const CpuTransfer& transfer, const SegmentEnds& ends,
+                               Segment& segment) {
     const std::int32_t nodes = table_nodes(transfer);
-    const FloatMask rising = run.front < run.back;
-    const Int front_interval = run.front_place.interval, back_interval = run.back_place.interval;
+    const FloatMask rising = ends.front < ends.back;
+    const Int front_interval = ends.front_place.interval, back_interval = ends.back_place.interval;
     const Int first = select(rising, front_interval + 1, front_interval);
     const Int last = select(rising, back_interval, back_interval + 1);
     const Float first_end = look_up<kind>(transfer.left_end, first);
@@ -369,23 +370,23 @@ LAMINA_INLINE void cut_segment(const CpuTransfer& transfer, const RunEnds& run, 
                                   right_node(back_interval));
     const Float front_end = select(rising, right_node(front_interval),
                                    look_up<kind>(transfer.first_node, front_interval));
-    const Float per_scalar = run.length / (run.back - run.front);
+    const Float per_scalar = ends.length / (ends.back - ends.front);
     const auto length = [&](Float from, Float to)
                             LAMINA_LAMBDA { return (to - from) * per_scalar; };
     const FloatMask cut = segment.cut;
     segment.parted = cut & (first_end != last_end);
     segment.first = {
-        table_cell(nodes, run.front_place.node, select(cut, front_end, run.back_place.node)),
-        select(cut, length(run.front, first_end), segment.first.length)};
+        table_cell(nodes, ends.front_place.node, select(cut, front_end, ends.back_place.node)),
+        select(cut, length(ends.front, first_end), segment.first.length)};
     segment.between = {table_cell(nodes, look_up<kind>(transfer.first_node, first), back_end),
                        length(first_end, last_end)};
-    segment.last = {table_cell(nodes, back_end, run.back_place.node), length(last_end, run.back)};
+    segment.last = {table_cell(nodes, back_end, ends.back_place.node), length(last_end, ends.back)};
 }
 
 // Returns the ends of segments, with valid numbers in lanes that are not cut, so that cut_segment()
 // does not read beyond the last interval there.
-LAMINA_INLINE RunEnds ends_of_cut(const RunEnds& run, FloatMask cut) {
-    RunEnds ends = run;
+LAMINA_INLINE SegmentEnds ends_of_cut(const SegmentEnds& whole, FloatMask cut) {
+    SegmentEnds ends = whole;
     ends.front_place.interval = zero_unless(cut, ends.front_place.interval);
     ends.back_place.interval = zero_unless(cut, ends.back_place.interval);
     ends.length = zero_unless(cut, ends.length);
@@ -397,8 +398,8 @@ LAMINA_INLINE RunEnds ends_of_cut(const RunEnds& run, FloatMask cut) {
 template <Lookup kind>
 LAMINA_INLINE Segment segment_of(const CpuTransfer& transfer, Float front, Float back, Float length,
                                  FloatMask seen) {
-    const RunEnds ends{front, back, length, table_place<kind>(transfer, front),
-                       table_place<kind>(transfer, back)};
+    const SegmentEnds ends{front, back, length, table_place<kind>(transfer, front),
+                           table_place<kind>(transfer, back)};
     Segment segment;
     segment.length = segment.first.length = length;
     segment.seen = seen;
@@ -423,7 +424,7 @@ template <bool lit>
 LAMINA_INLINE SumOf<lit> sum_of_parts(const CpuTransfer& transfer, const Segment& segment,
                                       const SegmentEntries<lit>& entries) {
     SumOf<lit> sum = no_sum<lit>();
-    RunShares first, between, last;
+    PieceShares first, between, last;
     if constexpr (lit) {
         const Float inverse = 1.0f / segment.length;
         first.share = segment.first.length * inverse;
@@ -435,9 +436,9 @@ LAMINA_INLINE SumOf<lit> sum_of_parts(const CpuTransfer& transfer, const Segment
     }
     add_entry<lit>(entries.first, segment.first.length, first, sum);
     if (any_of(segment.parted)) {
-        const TableRun& run = segment.between;
-        add_entry<lit>(table_entry<lit>(transfer, run.cell, run.length, segment.parted), run.length,
-                       between, sum);
+        const TablePiece& piece = segment.between;
+        add_entry<lit>(table_entry<lit>(transfer, piece.cell, piece.length, segment.parted),
+                       piece.length, between, sum);
     }
     add_entry<lit>(entries.last, segment.last.length, last, sum);
     return sum;
@@ -477,8 +478,8 @@ LAMINA_INLINE SumOf<lit> integrate_colors(const CpuTransfer& transfer, const Seg
 
 // Returns the segments' optical depth alone, from a table without colour.
 LAMINA_INLINE Float integrate_depth(const CpuTransfer& transfer, const Segment& segment) {
-    const auto depth_of = [&](const TableRun& run) LAMINA_LAMBDA {
-        return table_extinction(*transfer.table, run.cell) * run.length;
+    const auto depth_of = [&](const TablePiece& piece) LAMINA_LAMBDA {
+        return table_extinction(*transfer.table, piece.cell) * piece.length;
     };
     const Float whole = depth_of(segment.first);
     if (!segment.some_cut) return whole;
@@ -510,8 +511,8 @@ LAMINA_INLINE RunSum integrate_run(const CpuTransfer& transfer, bool colored, Fl
                                    Float back, Float length, FloatMask seen) {
     const Segment segment = segment_of<kind>(transfer, front, back, length, seen);
     SegmentEntries<false> entries;
-    const auto entry = [&](const TableRun& run, FloatMask wanted) LAMINA_LAMBDA {
-        return table_entry<false>(transfer, run.cell, run.length, wanted);
+    const auto entry = [&](const TablePiece& piece, FloatMask wanted) LAMINA_LAMBDA {
+        return table_entry<false>(transfer, piece.cell, piece.length, wanted);
     };
     if (colored) entries.first = entry(segment.first, seen);
     if (colored && segment.some_cut) entries.last = entry(segment.last, segment.cut);

@@ -53,15 +53,15 @@ double longest_edge(const TetMesh& mesh, std::int32_t number) {
     return longest;
 }
 
-std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column, int row,
-                                    const TetMesh& mesh, std::span<const double> scalar) {
+std::vector<MeshFacts::Segment> segments_of(RayWalk& walk, const View& view, int column, int row,
+                                            const TetMesh& mesh, std::span<const double> scalar) {
     const View::Ray ray = view.ray(column, row);
     walk.aim(ray.origin, ray.direction);
     const double length_per_depth = glm::length(ray.direction);
     const double diagonal = glm::distance(mesh.bounds().min, mesh.bounds().max);
     std::vector<TetSegment> segments;
     walk.list(segments);
-    std::vector<MeshFacts::Run> runs;
+    std::vector<MeshFacts::Segment> found;
     for (const TetSegment& segment : segments) {
         const double in = std::max(segment.in.at, 0.0), length = segment.out.at - in;
         if (!(length > 0)) continue;
@@ -71,11 +71,11 @@ std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column,
         const double share = length / (segment.out.at - segment.in.at);
         const double back = segment.out.interpolate(scalar);
         const double front = std::lerp(back, segment.in.interpolate(scalar), share);
-        const MeshFacts::Run run{front, back, length * length_per_depth,
-                                 around_eye ? diagonal : longest_edge(mesh, segment.tet)};
-        if (std::isfinite(run.front) && std::isfinite(run.back)) runs.push_back(run);
+        const MeshFacts::Segment trial{front, back, length * length_per_depth,
+                                       around_eye ? diagonal : longest_edge(mesh, segment.tet)};
+        if (std::isfinite(trial.front) && std::isfinite(trial.back)) found.push_back(trial);
     }
-    return runs;
+    return found;
 }
 
 // Largest number of visible tets tried, evenly chosen, because rays may miss narrow peaks.
@@ -83,7 +83,7 @@ constexpr std::size_t most_trial_tets = 20000;
 
 // Appends two rays for each tet: its edge from least to largest scalar, in both directions.
 void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
-                 std::vector<std::vector<MeshFacts::Run>>& rays) {
+                 std::vector<std::vector<MeshFacts::Segment>>& rays) {
     const auto& values = mesh.scalar.values;
     const auto points = mesh.mesh.points();
     std::vector<const Tet*> seen;
@@ -172,20 +172,21 @@ void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& 
     }
 }
 
-std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh) {
+std::vector<std::vector<MeshFacts::Segment>> find_view_rays(const Scene& scene,
+                                                            const SceneMesh& mesh) {
     const View view(*scene.camera, scene.width, scene.height);
     const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
     const bool all = view.width * std::int64_t{view.height} <= most_rays;
     const int columns = all ? view.width : std::min(trial_rays_along_side, view.width);
     const int rows = all ? view.height : std::min(trial_rays_along_side, view.height);
-    std::vector<std::vector<MeshFacts::Run>> rays(static_cast<std::size_t>(columns * rows));
+    std::vector<std::vector<MeshFacts::Segment>> rays(static_cast<std::size_t>(columns * rows));
     parallel_for(rows, 1, [&](std::int64_t row) {
         RayWalk walk(mesh.mesh, boundary);
         for (int column = 0; column < columns; ++column) {
             rays[static_cast<std::size_t>(row * columns + column)] =
-                runs_of(walk, view, (2 * column + 1) * view.width / (2 * columns),
-                        static_cast<int>((2 * row + 1) * view.height / (2 * rows)), mesh.mesh,
-                        mesh.scalar.values);
+                segments_of(walk, view, (2 * column + 1) * view.width / (2 * columns),
+                            static_cast<int>((2 * row + 1) * view.height / (2 * rows)), mesh.mesh,
+                            mesh.scalar.values);
         }
     });
     std::erase_if(rays, [](const auto& ray) { return ray.empty(); });

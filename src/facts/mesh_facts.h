@@ -48,12 +48,12 @@ struct MeshFacts {
     // Trial rays for the methods to integrate segments: all over the picture, segments nearest
     // first, or edges of single visible tets. Empty if the scene leaves no choice.
     // A segment of a ray inside one tet.
-    struct Run {
+    struct Segment {
         double front, back;  // scalars at the near and the far end
         double length;       // world units
         double edge = 0;     // longest edge of the tet, world units
     };
-    std::vector<std::vector<Run>> trial_rays;
+    std::vector<std::vector<Segment>> trial_rays;
     // Errors found on trial rays, in 1/255.
     struct TrialError {
         double segments = 0;  // error of the method that integrates segments
@@ -85,6 +85,7 @@ void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& 
 
 // Returns rays of the scene's view, all over the picture, as segments in tets, nearest first. Rays
 // that meet no tet are left out, and so are tets with values that are not finite.
-std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh);
+std::vector<std::vector<MeshFacts::Segment>> find_view_rays(const Scene& scene,
+                                                            const SceneMesh& mesh);
 
 }  // namespace lamina

@@ -93,18 +93,18 @@ bool has_narrow_pieces(const TransferFunction& transfer_function, const ValueRan
 // Calls visit() with the pieces of a segment before the window, within it and behind it, as they
 // are drawn; their scalars lie in the window. A segment within the window is a single piece.
 template <typename Visit>
-void for_each_run_of_window(const MeshFacts::Run& run, const ValueRange& window,
-                            const Visit& visit) {
-    const double in = std::clamp(run.front, window.lo, window.hi),
-                 out = std::clamp(run.back, window.lo, window.hi);
-    if (in == out) return visit(MeshFacts::Run{in, out, run.length});
+void for_each_piece_of_window(const MeshFacts::Segment& segment, const ValueRange& window,
+                              const Visit& visit) {
+    const double in = std::clamp(segment.front, window.lo, window.hi),
+                 out = std::clamp(segment.back, window.lo, window.hi);
+    if (in == out) return visit(MeshFacts::Segment{in, out, segment.length});
     const auto length = [&](double from, double to) {
-        return run.length * ((to - from) / (run.back - run.front));
+        return segment.length * ((to - from) / (segment.back - segment.front));
     };
-    if (in != run.front) visit(MeshFacts::Run{in, in, length(run.front, in)});
-    const bool whole = in == run.front && out == run.back;
-    visit(MeshFacts::Run{in, out, whole ? run.length : length(in, out)});
-    if (out != run.back) visit(MeshFacts::Run{out, out, length(out, run.back)});
+    if (in != segment.front) visit(MeshFacts::Segment{in, in, length(segment.front, in)});
+    const bool whole = in == segment.front && out == segment.back;
+    visit(MeshFacts::Segment{in, out, whole ? segment.length : length(in, out)});
+    if (out != segment.back) visit(MeshFacts::Segment{out, out, length(out, segment.back)});
 }
 
 OrderMethod method_of(ProjectOrder order) {
@@ -347,11 +347,12 @@ struct ProjectPlanner {
     }
 
     // Returns the integral of a segment whose length is in the plan's units.
-    using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
+    using Lookup = std::function<SegmentIntegral(const MeshFacts::Segment&)>;
 
     Lookup exact_integral() const {
-        return [this](const MeshFacts::Run& run) {
-            return integrate_segment(transfer_function, run.front, run.back, run.length);
+        return [this](const MeshFacts::Segment& segment) {
+            return integrate_segment(transfer_function, segment.front, segment.back,
+                                     segment.length);
         };
     }
 
@@ -378,42 +379,44 @@ struct ProjectPlanner {
     struct RayError {
         double segments = 0, both = 0;
     };
-    RayError error_of_ray(const std::vector<MeshFacts::Run>& runs, const Lookup& lookup) const {
+    RayError error_of_ray(const std::vector<MeshFacts::Segment>& segments,
+                          const Lookup& lookup) const {
         const double rounding = plan.source == SegmentSource::parts
                                     ? 0
                                     : scalar_rounding * (plan.range.hi - plan.range.lo);
         glm::dvec4 exact(0), moved(0);
         std::array<glm::dvec4, 2> found{glm::dvec4(0), glm::dvec4(0)};  // rounded down and up
         double sign = 1;
-        for (std::size_t i = 0; i < runs.size(); ++i) {
-            MeshFacts::Run run = runs[i];
-            run.length *= plan.unit;
-            append(exact, integrate_segment(transfer_function, run.front, run.back, run.length));
-            for (std::size_t way = 0; way < found.size(); ++way) {
-                for_each_run_of_window(
-                    rounded(run, way == 0 ? -rounding : rounding), plan.range,
-                    [&](const MeshFacts::Run& part) { append(found[way], lookup(part)); });
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+            MeshFacts::Segment segment = segments[i];
+            segment.length *= plan.unit;
+            append(exact, integrate_segment(transfer_function, segment.front, segment.back,
+                                            segment.length));
+            for (std::size_t side = 0; side < found.size(); ++side) {
+                for_each_piece_of_window(
+                    rounded(segment, side == 0 ? -rounding : rounding), plan.range,
+                    [&](const MeshFacts::Segment& piece) { append(found[side], lookup(piece)); });
             }
             // A face within the mesh takes length from one segment and gives it to the next. The
             // first and the last face of a ray move outwards.
-            if (i + 1 == runs.size()) sign = 1;
-            const double change = sign * 2 * placing_share * run.edge * plan.unit;
-            append(moved, integrate_segment(transfer_function, run.front, run.back,
-                                            std::max(run.length + change, 0.0)));
+            if (i + 1 == segments.size()) sign = 1;
+            const double change = sign * 2 * placing_share * segment.edge * plan.unit;
+            append(moved, integrate_segment(transfer_function, segment.front, segment.back,
+                                            std::max(segment.length + change, 0.0)));
             sign = -sign;
         }
-        const double segments =
+        const double of_lookup =
             std::max(largest_of(exact - found[0]), largest_of(exact - found[1]));
-        return {segments, segments + largest_of(exact - moved)};
+        return {of_lookup, of_lookup + largest_of(exact - moved)};
     }
 
     // Returns a segment with its scalars moved by a rounding. One with a single scalar is not
     // moved: it stays on its side of a step, because both are rounded alike.
-    static MeshFacts::Run rounded(MeshFacts::Run run, double rounding) {
-        if (run.front == run.back) return run;
-        run.front += rounding;
-        run.back += rounding;
-        return run;
+    static MeshFacts::Segment rounded(MeshFacts::Segment segment, double rounding) {
+        if (segment.front == segment.back) return segment;
+        segment.front += rounding;
+        segment.back += rounding;
+        return segment;
     }
 
     static double largest_of(const glm::dvec4& v) {
@@ -429,9 +432,10 @@ struct ProjectPlanner {
     void try_table(const TableRequest& request) {
         plan.table.request = request;
         plan.table.built = tables.get(transfer_function, request);
-        plan.trial_error = error_of([&table = *plan.table.built](const MeshFacts::Run& run) {
-            return table.lookup(run.front, run.back, run.length);
-        });
+        plan.trial_error =
+            error_of([&table = *plan.table.built](const MeshFacts::Segment& segment) {
+                return table.lookup(segment.front, segment.back, segment.length);
+            });
     }
 
     void choose_table() {
@@ -473,24 +477,26 @@ struct ProjectPlanner {
 
     // Returns the lookup that integrates pieces of tets as drawn (projection/tet_run-inl.h).
     Lookup integral_of_parts() const {
-        return [this, &weights = FrontWeightTable::get()](const MeshFacts::Run& run) {
-            SegmentIntegral segment;
+        return [this, &weights = FrontWeightTable::get()](const MeshFacts::Segment& segment) {
+            SegmentIntegral sum;
             for_each_linear_piece(
-                transfer_function.knots(), run.front, run.back, [&](const LinearPiece& piece) {
-                    const double share = run.front == run.back
-                                             ? 1
-                                             : (piece.to - piece.from) / (run.back - run.front);
-                    const double p = share * run.length * piece.at_from.extinction,
-                                 q = share * run.length * piece.at_to.extinction;
+                transfer_function.knots(), segment.front, segment.back,
+                [&](const LinearPiece& piece) {
+                    const double share =
+                        segment.front == segment.back
+                            ? 1
+                            : (piece.to - piece.from) / (segment.back - segment.front);
+                    const double p = share * segment.length * piece.at_from.extinction,
+                                 q = share * segment.length * piece.at_to.extinction;
                     const double alpha = opacity_from_depth(p / 2 + q / 2);
                     const bool thin = plan.plain && p / 2 + q / 2 <= thin_depth;
                     const double weight = thin ? thin_front_weight(p, q) : weights.lookup(p, q);
-                    segment.color +=
-                        (1 - segment.alpha) * (alpha * piece.at_to.color +
-                                               weight * (piece.at_from.color - piece.at_to.color));
-                    segment.alpha += (1 - segment.alpha) * alpha;
+                    sum.color +=
+                        (1 - sum.alpha) * (alpha * piece.at_to.color +
+                                           weight * (piece.at_from.color - piece.at_to.color));
+                    sum.alpha += (1 - sum.alpha) * alpha;
                 });
-            return segment;
+            return sum;
         };
     }
 };

@@ -88,18 +88,18 @@ struct Sums {
 };
 
 // A segment between two nodes, with its linear pieces.
-struct Run {
+struct TableSegment {
     std::span<const LinearPiece> pieces;
     double width = 0;        // in scalars; 0: homogeneous
     double extinction = 0;   // mean over the scalars
     glm::dvec3 emission{0};  // mean over the scalars
 };
 
-glm::dvec3 associated_color(const Run& run, double length) {
+glm::dvec3 associated_color(const TableSegment& segment, double length) {
     glm::dvec3 sum(0);
     double transmittance = 1;
-    for (const LinearPiece& piece : run.pieces) {
-        const double part = length * (std::abs(piece.to - piece.from) / run.width);
+    for (const LinearPiece& piece : segment.pieces) {
+        const double part = length * (std::abs(piece.to - piece.from) / segment.width);
         const double p = part * piece.at_from.extinction, q = part * piece.at_to.extinction;
         if (p == 0 && q == 0) continue;
         const double alpha = opacity_from_depth(p / 2 + q / 2);
@@ -149,7 +149,7 @@ struct ExactLayers {
                 sums.add(pieces[whole++]);
             }
             Sums total = sums;
-            std::span<const LinearPiece> run(pieces.data(), whole);
+            std::span<const LinearPiece> segment(pieces.data(), whole);
             LinearPiece uncut;
             if (whole < pieces.size() && before(pieces[whole].from)) {
                 uncut = pieces[whole];
@@ -158,11 +158,11 @@ struct ExactLayers {
                 last.at_to =
                     interpolate({uncut.from, uncut.at_from}, {uncut.to, uncut.at_to}, value);
                 total.add(last);
-                run = {pieces.data(), whole + 1};
+                segment = {pieces.data(), whole + 1};
             }
             const double width = std::abs(value - start);
-            store(front, back, {run, width, total.extinction / width, total.emission / width});
-            if (run.size() > whole) pieces[whole] = uncut;
+            store(front, back, {segment, width, total.extinction / width, total.emission / width});
+            if (segment.size() > whole) pieces[whole] = uncut;
         }
     }
 
@@ -171,25 +171,26 @@ struct ExactLayers {
         store(front, back, {{}, 0, optics.extinction, optics.extinction * optics.color});
     }
 
-    void store(int front, int back, const Run& run) {
+    void store(int front, int back, const TableSegment& segment) {
         for (int layer = 0; layer < layer_count; ++layer) {
             const double length = table.length_of(layer);
-            const double alpha = opacity_from_depth(run.extinction * length);
+            const double alpha = opacity_from_depth(segment.extinction * length);
             // The limit of length 0 serves one scalar, length 0, and depths that underflow.
-            const bool at_limit = run.width == 0 || !(alpha > std::numeric_limits<double>::min());
+            const bool at_limit =
+                segment.width == 0 || !(alpha > std::numeric_limits<double>::min());
             const std::size_t count = nodes.size();
             float* texel = &table.texels[((layer * count + back) * count + front) * table.channels];
             const bool opacity = table.request.store == TableStore::opacity;
             if (table.request.colored) {
                 const double per_emission =
-                    run.extinction > 0 ? alpha / run.extinction : 0;  // associated colour
+                    segment.extinction > 0 ? alpha / segment.extinction : 0;  // associated colour
                 const glm::dvec3 color =
-                    at_limit ? run.emission * per_emission : associated_color(run, length);
+                    at_limit ? segment.emission * per_emission : associated_color(segment, length);
                 const glm::dvec3 stored =
-                    opacity ? color : (at_limit ? run.emission : color / per_emission);
+                    opacity ? color : (at_limit ? segment.emission : color / per_emission);
                 for (int c = 0; c < 3; ++c) *texel++ = as_float(stored[c]);
             }
-            *texel = as_float(opacity ? alpha : run.extinction);
+            *texel = as_float(opacity ? alpha : segment.extinction);
         }
     }
 };

@@ -16,7 +16,7 @@ struct CellFragmentShader {
                           opacity_only = false;
 
     LAMINA_INLINE Fragment color(const TetFragments& fragments, const SilhouetteRecord& record,
-                                 const CoveredArea& area, const TetSegment& segment) const {
+                                 const CoveredArea& area, const FragmentSegment& segment) const {
         return cell_fragment_color(true, area.depth, fragments, record.fragment, segment);
     }
     LAMINA_INLINE void put(const TetFragments&, std::uint32_t, const Fragment& fragment,

@@ -250,7 +250,7 @@ struct LitShader {
         const TetSpan ends =
             find_ends(*this, fragments, record, found.span, by_depth ? slant : Float(1));
         const Float aside = column * seen.scalar_per_column + row * seen.scalar_per_row;
-        const TetSegment segment =
+        const FragmentSegment segment =
             has_exact_segments(fragments, batch.area(number))
                 ? find_exact_segment(*this, fragments, record, found, by_depth)
                 : segment_between(*this, record, ends, aside);
@@ -300,7 +300,7 @@ struct LitShader {
     }
 
     LAMINA_INLINE Fragment cell_fragment_lit(const TileBatch& batch, std::size_t number,
-                                             const TetSegment& segment,
+                                             const FragmentSegment& segment,
                                              const SegmentGradients& gradient) const {
         const FragmentRecord& record = batch.record(number).fragment;
         const Fragment unlit =
@@ -322,7 +322,7 @@ struct LitShader {
         return {color[0], color[1], color[2], unlit.alpha};
     }
 
-    LAMINA_INLINE Fragment analytic_lit(const TetSegment& segment,
+    LAMINA_INLINE Fragment analytic_lit(const FragmentSegment& segment,
                                         const SegmentGradients& gradient) const {
         Float color[3] = {0, 0, 0};
         const Float front = segment.front, back = segment.back;

@@ -200,7 +200,7 @@ LAMINA_INLINE AnalyticSum integrate_analytic(const CpuTransfer& transfer, bool c
     return sum;
 }
 
-LAMINA_INLINE Fragment table_color(const TetFragments& fragments, const TetSegment& segment) {
+LAMINA_INLINE Fragment table_color(const TetFragments& fragments, const FragmentSegment& segment) {
     const SegmentEntry entry =
         integrate_segment(*fragments.table, fragments.inverse_first_length, fragments.single_color,
                           segment.front, segment.back, segment.world_length);
@@ -210,7 +210,8 @@ LAMINA_INLINE Fragment table_color(const TetFragments& fragments, const TetSegme
             zero_unless(met, entry.color[2]), zero_unless(met, entry.value)};
 }
 
-LAMINA_INLINE Fragment analytic_color(const TetFragments& fragments, const TetSegment& segment) {
+LAMINA_INLINE Fragment analytic_color(const TetFragments& fragments,
+                                      const FragmentSegment& segment) {
     const AnalyticSum sum = integrate_analytic(*fragments.transfer, fragments.colored,
                                                segment.front, segment.back, segment.world_length);
     const Float opacity = opacity_from_depth(sum.depth);
@@ -218,7 +219,8 @@ LAMINA_INLINE Fragment analytic_color(const TetFragments& fragments, const TetSe
     return {sum.color[0], sum.color[1], sum.color[2], opacity};
 }
 
-LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments, const TetSegment& segment) {
+LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments,
+                                       const FragmentSegment& segment) {
     constexpr Lookup kind = Lookup::gather;
     const CpuTransfer& transfer = *fragments.transfer;
     const Float front = clamp01(segment.front), back = clamp01(segment.back);
@@ -240,7 +242,7 @@ LAMINA_INLINE Fragment cut_table_color(const TetFragments& fragments, const TetS
 // transfer function is constant: the colour of the pieces before the window, within it and behind
 // it, composited. `color`: the function that returns the colour of segments within [0, 1].
 template <class Color>
-LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const TetSegment& segment,
+LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const FragmentSegment& segment,
                                       const Color& color) {
     if (!fragments.windowed) return color(fragments, segment);
     const Float in = clamp01(segment.front), out = clamp01(segment.back);
@@ -266,7 +268,7 @@ LAMINA_INLINE Fragment windowed_color(const TetFragments& fragments, const TetSe
 
 // Returns the colour of segments whose ends are given by their scalars.
 LAMINA_NOINLINE inline Fragment segment_color(const TetFragments& fragments,
-                                              const TetSegment& segment) {
+                                              const FragmentSegment& segment) {
     switch (fragments.source) {
         case SegmentSource::constant:
             return constant_color(fragments, segment);
@@ -320,7 +322,7 @@ struct GeneralShader {
     }
 
     LAMINA_NOINLINE Fragment color(const TetFragments& fragments, const SilhouetteRecord& record,
-                                   const CoveredArea& area, const TetSegment& segment) const {
+                                   const CoveredArea& area, const FragmentSegment& segment) const {
         if (!cut) return segment_color(fragments, segment);
         return cell_fragment_color(fragments.colored, depth_of(fragments, area), fragments,
                                    record.fragment, segment);

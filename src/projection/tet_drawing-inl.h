@@ -129,7 +129,8 @@ class FragmentQueue {
     LAMINA_INLINE void for_each_vector(const Visit& visit) const {
         for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{numbers_[i / lanes]}, i);
     }
-    // Calls visit(Place, color) for each vector of pixels; those that are not covered have colour 0.
+    // Calls visit(Place, color) for each vector of pixels; those that are not covered have colour
+    // 0.
     template <class Visit>
     LAMINA_INLINE void for_each_place(const Visit& visit) const {
         for (std::size_t i = 0; i < place_count_; ++i) {
@@ -139,20 +140,20 @@ class FragmentQueue {
     }
 
     // The queue has four values for each fragment. Each step of shading replaces them by its
-    // result: a SlantedRay or PlacedRay becomes a TetSegment (unless it is lit), which becomes a
-    // colour.
+    // result: a SlantedRay or PlacedRay becomes a FragmentSegment (unless it is lit), which becomes
+    // a colour.
     LAMINA_INLINE SlantedRay slanted(std::size_t i) const {
         return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
     }
     LAMINA_INLINE PlacedRay placed(std::size_t i) const {
         return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
     }
-    LAMINA_INLINE void set_segment(std::size_t i, const TetSegment& segment) {
+    LAMINA_INLINE void set_segment(std::size_t i, const FragmentSegment& segment) {
         put(0, i, segment.front);
         put(1, i, segment.back);
         put(2, i, segment.world_length);
     }
-    LAMINA_INLINE TetSegment segment(std::size_t i) const {
+    LAMINA_INLINE FragmentSegment segment(std::size_t i) const {
         return {value(0, i), value(1, i), value(2, i)};
     }
     LAMINA_INLINE void set_color(std::size_t i, const Fragment& color) {

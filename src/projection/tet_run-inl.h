@@ -36,7 +36,7 @@ struct PlacedRay {
 
 // The segment of a ray through a cell fragment. Scalars are normalised as the record says. A ray
 // that misses the cell fragment has equal scalars and length 0.
-struct TetSegment {
+struct FragmentSegment {
     Float front, back, world_length;
 };
 
@@ -254,9 +254,9 @@ LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragme
 
 // Returns the segments with the scalars at their ends. `aside`: as in SlantedRay.
 template <class Shader>
-LAMINA_INLINE TetSegment segment_between(const Shader& shader, const SilhouetteRecord& record,
-                                         const TetSpan& ends, Float aside) {
-    TetSegment segment{0, 0, ends.world_length};
+LAMINA_INLINE FragmentSegment segment_between(const Shader& shader, const SilhouetteRecord& record,
+                                              const TetSpan& ends, Float aside) {
+    FragmentSegment segment{0, 0, ends.world_length};
     if (!shader.scalars) return segment;
     const float least = shader.cut ? 0.0f : record.tet.least;
     const float largest = shader.cut ? 1.0f : record.tet.largest;
@@ -280,9 +280,10 @@ LAMINA_INLINE bool has_exact_segments(const TetFragments& fragments, const Cover
 // scalar within the window in a tet whose scalars reach far outside it (facts/drawn_range.h).
 // `slanted`: lengths along rays are longer than differences of z.
 template <class Shader>
-LAMINA_INLINE TetSegment find_exact_segment(const Shader& shader, const TetFragments& fragments,
-                                            const SilhouetteRecord& record, const PlacedRay& ray,
-                                            bool slanted) {
+LAMINA_INLINE FragmentSegment find_exact_segment(const Shader& shader,
+                                                 const TetFragments& fragments,
+                                                 const SilhouetteRecord& record,
+                                                 const PlacedRay& ray, bool slanted) {
     const auto [exact_length, front, back] =
         CarefulDepths(fragments, record).exact_at(shader.perspective, ray.column, ray.row);
     Float length = to_float(exact_length);
@@ -305,7 +306,8 @@ LAMINA_INLINE Fragment with_color(const glm::vec3& color, Float opacity) {
     return {color.r * opacity, color.g * opacity, color.b * opacity, opacity};
 }
 
-LAMINA_INLINE Fragment constant_color(const TetFragments& fragments, const TetSegment& segment) {
+LAMINA_INLINE Fragment constant_color(const TetFragments& fragments,
+                                      const FragmentSegment& segment) {
     const glm::vec4& optics = fragments.constant_optics;
     return with_color(glm::vec3(optics), opacity_from_depth(optics.a * segment.world_length));
 }
@@ -315,7 +317,7 @@ LAMINA_INLINE Fragment constant_color(const TetFragments& fragments, const TetSe
 LAMINA_INLINE Fragment cell_fragment_color(bool colored, DepthBound most_depth,
                                            const TetFragments& fragments,
                                            const FragmentRecord& record,
-                                           const TetSegment& segment) {
+                                           const FragmentSegment& segment) {
     const auto optics = [&](std::size_t i, Float place) LAMINA_LAMBDA {
         return mix(Float(record.low[i]), Float(record.high[i]), place);
     };

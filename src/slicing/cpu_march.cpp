@@ -177,17 +177,18 @@ class Marcher {
         segments_ += cells.segments() - before;
     }
 
-    // Sets the wanted slabs of a block; runs of slabs in constant regions become one slab each.
+    // Sets the wanted slabs of a block; intervals of slabs in constant regions become one slab
+    // each.
     void set_block(const CpuBrickView& brick, std::size_t packet, int number) {
         const PacketRays& rays = rays_.packets[packet];
         const BlockMask constant = rays_.constant(slabs_, number, block_.wanted);
         block_.wanted ^= constant;
         segments_ += set_segments(slabs_, brick, rays, !single_color_, false, block_);
         block_.wanted ^= constant;
-        for_each_run(constant, [&](int first, int end) {
+        for_each_interval(constant, [&](int first, int end) {
             const OpticalProperties& optics =
                 rays_.constant_optics(slabs_, block_.first_slab + first);
-            set_constant_run(slabs_, optics, rays, !single_color_, first, end, block_);
+            set_constant_interval(slabs_, optics, rays, !single_color_, first, end, block_);
         });
     }
 
@@ -205,7 +206,7 @@ class Marcher {
 
     Float block_depth() const {
         Float depth(0);
-        for_each_run(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
+        for_each_interval(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
             for (int i = first; i < end; ++i) depth += load<Float>(block_.depths + at(i));
         });
         return depth;
@@ -226,7 +227,7 @@ class Marcher {
             sum.opacity += weight;
             sum.depth += depth;
         };
-        for_each_run(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
+        for_each_interval(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
             for (int i = first; i < end; ++i) put_slab_behind(i);
         });
         put_behind(sum, leaf);

@@ -69,8 +69,8 @@ LAMINA_INLINE void light_ends(const EffectLanes<channels>& front, const EffectLa
     }
 }
 
-// Lights slabs of the present run if shows(i), at middle(i) or, if the plan pre-integrates, at both
-// ends (docs/numerics.md, section 10). edge(i): the point on a slab's front.
+// Lights slabs of the present interval if shows(i), at middle(i) or, if the plan pre-integrates, at
+// both ends (docs/numerics.md, section 10). edge(i): the point on a slab's front.
 template <std::size_t channels, PointKind kind, class Middle, class Edge, class Shows>
 LAMINA_INLINE void light_slabs(const CpuSlabs& slabs, const CpuBrick& brick, const PacketRays& rays,
                                const Middle& middle, const Edge& edge, const Shows& shows,
@@ -105,48 +105,49 @@ LAMINA_INLINE void light_slabs(const CpuSlabs& slabs, const CpuBrick& brick, con
 }
 
 template <PointKind kind, class Middle, class Edge, class Shows>
-LAMINA_INLINE void light_run(const CpuSlabs& slabs, const CpuBrick& brick, const PacketRays& rays,
-                             const Middle& middle, const Edge& edge, const Shows& shows,
-                             SlabBlock& block) {
+LAMINA_INLINE void light_interval(const CpuSlabs& slabs, const CpuBrick& brick,
+                                  const PacketRays& rays, const Middle& middle, const Edge& edge,
+                                  const Shows& shows, SlabBlock& block) {
     if (slabs.light->gray)
         return light_slabs<1, kind>(slabs, brick, rays, middle, edge, shows, block);
     light_slabs<3, kind>(slabs, brick, rays, middle, edge, shows, block);
 }
 
 // Normalised scalars of a segment, and its length; all 0 if one is NaN and NaN is transparent.
-struct RunScalars {
+struct SegmentScalars {
     Float front, middle, back, length;
 };
 
-LAMINA_INLINE RunScalars run_scalars(const SlabBlock& block, int i, bool nan_transparent) {
-    RunScalars run{load<Float>(block.edge_scalars + at(i)), load<Float>(block.scalars + at(i)),
-                   load<Float>(block.edge_scalars + at(i + 1)), load<Float>(block.lengths + at(i))};
-    if (!nan_transparent) return run;
-    const Float sum = run.front + run.middle + run.back;
+LAMINA_INLINE SegmentScalars segment_scalars(const SlabBlock& block, int i, bool nan_transparent) {
+    SegmentScalars scalars{
+        load<Float>(block.edge_scalars + at(i)), load<Float>(block.scalars + at(i)),
+        load<Float>(block.edge_scalars + at(i + 1)), load<Float>(block.lengths + at(i))};
+    if (!nan_transparent) return scalars;
+    const Float sum = scalars.front + scalars.middle + scalars.back;
     const FloatMask numbers = sum == sum;
-    for (Float* const v : {&run.front, &run.middle, &run.back, &run.length})
+    for (Float* const v : {&scalars.front, &scalars.middle, &scalars.back, &scalars.length})
         *v = zero_unless(numbers, *v);
-    return run;
+    return scalars;
 }
 
 // Makes the scalar linear: moves both ends to keep the mean of the parabola through all three.
-LAMINA_INLINE void straighten(RunScalars& run) {
-    const Float mean = 0.5f * (run.front + run.back);
-    const Float bend = 2.0f / 3.0f * (run.middle - mean);
-    run.front = clamp01(run.front + bend);
-    run.back = clamp01(run.back + bend);
+LAMINA_INLINE void straighten(SegmentScalars& scalars) {
+    const Float mean = 0.5f * (scalars.front + scalars.back);
+    const Float bend = 2.0f / 3.0f * (scalars.middle - mean);
+    scalars.front = clamp01(scalars.front + bend);
+    scalars.back = clamp01(scalars.back + bend);
 }
 
 // Integrates a segment in closed form, for transfer functions of one linear piece, as
 // integrate_linear_run() of shaders/slicing/segment.glsl does.
 LAMINA_INLINE RunSum integrate_linear(const CpuTransfer& transfer, bool colored,
-                                      const RunScalars& run) {
+                                      const SegmentScalars& scalars) {
     constexpr Lookup one = Lookup::one;
     const Int piece(0);
-    const Float front = share_of_interval<one>(transfer, piece, run.front),
-                back = share_of_interval<one>(transfer, piece, run.back);
-    const Float p = optics_at<one>(transfer, 3, piece, front) * run.length,
-                q = optics_at<one>(transfer, 3, piece, back) * run.length;
+    const Float front = share_of_interval<one>(transfer, piece, scalars.front),
+                back = share_of_interval<one>(transfer, piece, scalars.back);
+    const Float p = optics_at<one>(transfer, 3, piece, front) * scalars.length,
+                q = optics_at<one>(transfer, 3, piece, back) * scalars.length;
     RunSum sum;
     sum.depth = 0.5f * p + 0.5f * q;
     if (!colored) return sum;
@@ -159,22 +160,23 @@ LAMINA_INLINE RunSum integrate_linear(const CpuTransfer& transfer, bool colored,
     return sum;
 }
 
-LAMINA_INLINE void store_run(const RunSum& run, bool colored, int slab, SlabBlock& block) {
-    store(run.depth, block.depths + at(slab));
+LAMINA_INLINE void store_segment(const RunSum& sum, bool colored, int slab, SlabBlock& block) {
+    store(sum.depth, block.depths + at(slab));
     if (!colored) return;
     for (std::size_t channel = 0; channel < 3; ++channel)
-        store(run.color[channel], block.colors[channel] + at(slab));
+        store(sum.color[channel], block.colors[channel] + at(slab));
 }
-LAMINA_INLINE void store_run(const LitSum& run, bool colored, int slab, SlabBlock& block) {
-    const RunSum& unlit = run;
-    store_run(unlit, colored, slab, block);
+LAMINA_INLINE void store_segment(const LitSum& sum, bool colored, int slab, SlabBlock& block) {
+    const RunSum& unlit = sum;
+    store_segment(unlit, colored, slab, block);
     for (std::size_t channel = 0; channel < 3; ++channel)
-        store(run.front_color[channel], block.front_colors[channel] + at(slab));
-    store(run.front_share, block.front_shares + at(slab));
+        store(sum.front_color[channel], block.front_colors[channel] + at(slab));
+    store(sum.front_share, block.front_shares + at(slab));
 }
 
-// Integrates the present run by the table, a few slabs at a time, so that many entries are looked
-// up together. A segment is invisible if nothing shows between its least and its largest scalar.
+// Integrates the present interval by the table, a few slabs at a time, so that many entries are
+// looked up together. A segment is invisible if nothing shows between its least and its largest
+// scalar.
 template <Lookup kind, bool lit>
 LAMINA_INLINE void integrate_by_table(const CpuTransfer& transfer, bool colored,
                                       bool nan_transparent, SlabBlock& block) {
@@ -186,22 +188,22 @@ LAMINA_INLINE void integrate_by_table(const CpuTransfer& transfer, bool colored,
     for (int begin = block.from; begin < block.end;) {
         int count = 0;
         for (; count < stage && begin < block.end; ++begin) {
-            RunScalars run = run_scalars(block, begin, nan_transparent);
-            const Float least = clamp01(min(run.middle, min(run.front, run.back)));
-            const Float largest = clamp01(max(run.middle, max(run.front, run.back)));
+            SegmentScalars scalars = segment_scalars(block, begin, nan_transparent);
+            const Float least = clamp01(min(scalars.middle, min(scalars.front, scalars.back)));
+            const Float largest = clamp01(max(scalars.middle, max(scalars.front, scalars.back)));
             const Int first = find_interval<kind>(transfer, least);
             const FloatMask seen =
-                (run.length > 0) & shows_something<kind>(transfer, first, largest);
+                (scalars.length > 0) & shows_something<kind>(transfer, first, largest);
             if (none_of(seen)) {
-                store_run(no_sum<false>(), colored, begin, block);
+                store_segment(no_sum<false>(), colored, begin, block);
                 continue;
             }
-            straighten(run);
+            straighten(scalars);
             Segment& segment = segments[count];
-            segment = segment_of<kind>(transfer, run.front, run.back, run.length, seen);
+            segment = segment_of<kind>(transfer, scalars.front, scalars.back, scalars.length, seen);
             if (colored) {
-                const auto set = [&](const TableRun& part, EntryPlaces& places) LAMINA_LAMBDA {
-                    set_places(transfer, part.cell, part.length, places);
+                const auto set = [&](const TablePiece& piece, EntryPlaces& places) LAMINA_LAMBDA {
+                    set_places(transfer, piece.cell, piece.length, places);
                 };
                 set(segment.first, first_places[count]);
                 if (segment.some_cut) set(segment.last, last_places[count]);
@@ -218,24 +220,24 @@ LAMINA_INLINE void integrate_by_table(const CpuTransfer& transfer, bool colored,
             SegmentEntries<lit> entries;
             if (colored) entries.first = load_entry(first_entries[i]);
             if (colored && segments[i].some_cut) entries.last = load_entry(last_entries[i]);
-            store_run(integrate_segment<lit>(transfer, colored, segments[i], entries), colored,
-                      slabs[i], block);
+            store_segment(integrate_segment<lit>(transfer, colored, segments[i], entries), colored,
+                          slabs[i], block);
         }
     }
 }
 
-// Integrates the slabs of the present run, pre-integrated. Lit plans always have a table.
+// Integrates the slabs of the present interval, pre-integrated. Lit plans always have a table.
 template <Lookup kind>
-LAMINA_INLINE void integrate_runs(const CpuTransfer& transfer, bool colored, const SlicePlan& plan,
-                                  SlabBlock& block) {
+LAMINA_INLINE void integrate_interval(const CpuTransfer& transfer, bool colored,
+                                      const SlicePlan& plan, SlabBlock& block) {
     if (colored && plan.lighting)
         return integrate_by_table<kind, true>(transfer, colored, plan.nan_transparent, block);
     if (kind != Lookup::one || !plan.linear)
         return integrate_by_table<kind, false>(transfer, colored, plan.nan_transparent, block);
     for (int i = block.from; i < block.end; ++i) {
-        RunScalars run = run_scalars(block, i, plan.nan_transparent);
-        straighten(run);
-        store_run(integrate_linear(transfer, colored, run), colored, i, block);
+        SegmentScalars scalars = segment_scalars(block, i, plan.nan_transparent);
+        straighten(scalars);
+        store_segment(integrate_linear(transfer, colored, scalars), colored, i, block);
     }
 }
 
@@ -276,7 +278,8 @@ LAMINA_INLINE Points point_at(const PacketRays& rays, const Float64& depth) {
     return point;
 }
 
-// Tells whether rays stay in the box and between the first and last samples in the present run.
+// Tells whether rays stay in the box and between the first and last samples in the present
+// interval.
 LAMINA_INLINE bool is_inside(const CpuRays& frame, const CpuBrick& brick, const SlabBlock& block,
                              const BlockRays& rays, const PacketRays& packet) {
     const Float front(frame.edges[static_cast<std::size_t>(block.from)]);
@@ -429,10 +432,10 @@ LAMINA_INLINE void set_constant(const CpuSlabs& slabs, Number extinction, SlabBl
     }
 }
 
-// Sets depths and colours of the present run. Returns the number of segments with a length.
+// Sets depths and colours of the present interval. Returns the number of segments with a length.
 template <bool precise>
-std::int64_t set_run(const CpuSlabs& slabs, const CpuBrickView& view, const PacketRays& packet,
-                     bool colored, SlabBlock& block) {
+std::int64_t set_interval(const CpuSlabs& slabs, const CpuBrickView& view, const PacketRays& packet,
+                          bool colored, SlabBlock& block) {
     const SlicePlan& plan = *slabs.plan;
     const CpuBrick& brick = view.brick;
     const bool sampled = plan.sampling != VolumeSampling::none;
@@ -470,7 +473,7 @@ std::int64_t set_run(const CpuSlabs& slabs, const CpuBrickView& view, const Pack
     with_lookup(transfer, [&](auto kind) LAMINA_LAMBDA {
         constexpr Lookup lookup = decltype(kind)::value;
         if (plan.preintegrates()) {
-            integrate_runs<lookup>(transfer, colored, plan, block);
+            integrate_interval<lookup>(transfer, colored, plan, block);
             if constexpr (precise) set_precise_depths(block.from, block.end, block);
         } else {
             classify<precise, lookup>(transfer, colored, plan.nan_transparent, block);
@@ -484,14 +487,14 @@ std::int64_t set_run(const CpuSlabs& slabs, const CpuBrickView& view, const Pack
             return any_of(load<Float>(block.depths + at(i)) > 0);
     };
     with([&](auto kind, const auto& middle, const auto& edge) LAMINA_LAMBDA {
-        light_run<decltype(kind)::value>(slabs, brick, packet, middle, edge, shows, block);
+        light_interval<decltype(kind)::value>(slabs, brick, packet, middle, edge, shows, block);
     });
     return segments;
 }
 
-void set_constant_run(const CpuSlabs& slabs, const OpticalProperties& optics,
-                      const PacketRays& packet, bool colored, int first, int end,
-                      SlabBlock& block) {
+void set_constant_interval(const CpuSlabs& slabs, const OpticalProperties& optics,
+                           const PacketRays& packet, bool colored, int first, int end,
+                           SlabBlock& block) {
     const BlockRays rays = block_rays(slabs.rays, packet, block.first_slab);
     const Float length =
         (boundary(slabs.rays, rays, end) - boundary(slabs.rays, rays, first)) * packet.length_float;
@@ -504,11 +507,11 @@ void set_constant_run(const CpuSlabs& slabs, const OpticalProperties& optics,
 std::int64_t set_segments(const CpuSlabs& slabs, const CpuBrickView& brick,
                           const PacketRays& packet, bool colored, bool precise, SlabBlock& block) {
     std::int64_t segments = 0;
-    for_each_run(block.wanted, [&](int first, int end) {
+    for_each_interval(block.wanted, [&](int first, int end) {
         block.from = first;
         block.end = end;
-        segments += precise ? set_run<true>(slabs, brick, packet, colored, block)
-                            : set_run<false>(slabs, brick, packet, colored, block);
+        segments += precise ? set_interval<true>(slabs, brick, packet, colored, block)
+                            : set_interval<false>(slabs, brick, packet, colored, block);
     });
     return segments;
 }

@@ -262,7 +262,7 @@ void CpuVolume::fill_own_pages(std::span<const BrickCache::Wanted> wanted) const
     const BrickPlaces places{volume_.grid().size, own_cache_->count(), first_of_pages()};
     with_sample_type(volume_.type(), [&](auto zero) {
         using Sample = decltype(zero);
-        read_brick_runs<Sample>(
+        read_adjacent_bricks<Sample>(
             volume_.store().source(), places, wanted, lit_ ? 1 : 0,
             [&](const BrickCache::Wanted& page, const std::array<std::int64_t, 3>& first,
                 const SampleWindow<Sample>& window) {

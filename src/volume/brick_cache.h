@@ -166,9 +166,9 @@ struct BrickPlaces {
 // Reads the samples, of type T, of bricks, with `margin` more on each side, those beside each other
 // along x at once. Calls make(brick, its first sample, window with the samples) for each.
 template <typename T, typename Make>
-void read_brick_runs(const SampleSource& source, const BrickPlaces& places,
-                     std::span<const BrickCache::Wanted> wanted, std::int64_t margin,
-                     const Make& make) {
+void read_adjacent_bricks(const SampleSource& source, const BrickPlaces& places,
+                          std::span<const BrickCache::Wanted> wanted, std::int64_t margin,
+                          const Make& make) {
     const auto together = [&](std::uint32_t a, std::uint32_t b) {
         return a / places.count[0] == b / places.count[0];
     };

@@ -24,7 +24,7 @@ void VolumeStore::fill(std::span<const BrickCache::Wanted> wanted) const {
     with_sample_type(type_, [&](auto zero) {
         using T = decltype(zero);
         const BrickPlaces places{size_, bricks_.count(), {0, 0, 0}};
-        read_brick_runs<T>(
+        read_adjacent_bricks<T>(
             *source_, places, wanted, 0,
             [](const BrickCache::Wanted& brick, const auto& first, const SampleWindow<T>& window) {
                 T* to = reinterpret_cast<T*>(brick.to);
