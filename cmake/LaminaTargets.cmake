@@ -70,16 +70,17 @@ function(lamina_module name)
     endif()
 endfunction()
 
-# lamina_test(NAME SOURCES ... VECTOR ... LINK ...): the program test_NAME, registered test by test with CTest. VECTOR:
-# as in lamina_module.
+# lamina_test(NAME SOURCES ... ALONE ... LINK ...): the program test_NAME, registered test by test with CTest. ALONE:
+# sources that are not joined with others.
 function(lamina_test name)
-    cmake_parse_arguments(TEST "" "" "SOURCES;VECTOR;LINK" ${ARGN})
-    add_executable(test_${name} ${TEST_SOURCES} ${TEST_VECTOR})
+    cmake_parse_arguments(TEST "" "" "SOURCES;ALONE;LINK" ${ARGN})
+    add_executable(test_${name} ${TEST_SOURCES} ${TEST_ALONE})
     lamina_join_sources(test_${name})
-    if(TEST_VECTOR)
-        set_source_files_properties(${TEST_VECTOR} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    if(TEST_ALONE)
+        set_source_files_properties(${TEST_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
-    set_target_properties(test_${name} PROPERTIES LAMINA_SHADOW_LOCALS ON)
+    get_target_property(joined test_${name} UNITY_BUILD)
+    set_target_properties(test_${name} PROPERTIES LAMINA_SHADOW_LOCALS ${joined})
     target_link_libraries(test_${name} PRIVATE ${TEST_LINK} GTest::gtest_main)
     target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_compile_definitions(test_${name} PRIVATE LAMINA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -475,7 +475,8 @@ struct ProjectPlanner {
         return false;
     }
 
-    // Returns the lookup that integrates pieces of tets as drawn (projection/tet_run-inl.h).
+    // Returns the lookup that integrates pieces of tets as drawn
+    // (projection/fragment_segment-inl.h).
     Lookup integral_of_parts() const {
         return [this, &weights = FrontWeightTable::get()](const MeshFacts::Segment& segment) {
             SegmentIntegral sum;

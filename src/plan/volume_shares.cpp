@@ -84,10 +84,10 @@ struct ShareCosts {
     struct Pair {
         double below = 0, above = 0;
     };
-    Pair of_halves(int axis, double place) const;
+    Pair of_sides(int axis, double place) const;
 
     // Returns the costs inside one of these two boxes.
-    ShareCosts half(int axis, double place, bool above) const;
+    ShareCosts side(int axis, double place, bool above) const;
 
     // A step along a ray in a visible brick.
     struct RayStep {
@@ -161,25 +161,25 @@ void find_pages(const Scene& scene, const Facts& facts, ShareCosts& costs) {
 
 }  // namespace
 
-ShareCosts::Pair ShareCosts::of_halves(int axis, double place) const {
+ShareCosts::Pair ShareCosts::of_sides(int axis, double place) const {
     double cost[2] = {0, 0}, depth[2] = {0, 0};
     for (const glm::vec3& page : pages) cost[page[axis] >= place ? 1 : 0] += page_cost;
     std::int32_t last_ray[2] = {-1, -1};
     for (const RayStep& ray_step : ray_steps) {
-        const int half = ray_step.middle[axis] >= place ? 1 : 0;
-        if (last_ray[half] != ray_step.ray) {
-            last_ray[half] = ray_step.ray;
-            depth[half] = 0;
-            cost[half] += cells_of_ray;
+        const int side = ray_step.middle[axis] >= place ? 1 : 0;
+        if (last_ray[side] != ray_step.ray) {
+            last_ray[side] = ray_step.ray;
+            depth[side] = 0;
+            cost[side] += cells_of_ray;
         }
-        if (depth[half] >= opaque_depth) continue;
-        depth[half] += ray_step.optical_depth;
-        cost[half] += ray_step.cells;
+        if (depth[side] >= opaque_depth) continue;
+        depth[side] += ray_step.optical_depth;
+        cost[side] += ray_step.cells;
     }
     return {cost[0], cost[1]};
 }
 
-ShareCosts ShareCosts::half(int axis, double place, bool above) const {
+ShareCosts ShareCosts::side(int axis, double place, bool above) const {
     ShareCosts result{{}, {}, opaque_depth, page_cost};
     std::ranges::copy_if(
         ray_steps, std::back_inserter(result.ray_steps),
@@ -211,8 +211,8 @@ void VolumeShares::divide(const ShareCosts& costs, const IndexBox& box, const In
     IndexBox below = box, above = box, between_below = between, between_above = between;
     below.max[cut.axis] = above.min[cut.axis] = cut.place;
     between_below.max[cut.axis] = between_above.min[cut.axis] = cut.place;
-    divide(costs.half(cut.axis, cut.place, false), below, between_below, below_of(count));
-    divide(costs.half(cut.axis, cut.place, true), above, between_above, count - below_of(count));
+    divide(costs.side(cut.axis, cut.place, false), below, between_below, below_of(count));
+    divide(costs.side(cut.axis, cut.place, true), above, between_above, count - below_of(count));
 }
 
 // Finds on each axis the plane that divides the cost in the ratio of the numbers of boxes, and
@@ -234,7 +234,7 @@ VolumeShares::Cut VolumeShares::best_cut(const ShareCosts& costs, const IndexBox
         if (low > high) continue;
         const auto costs_at = [&](std::int64_t number) {
             const double place = static_cast<double>(number) * unit;
-            ShareCosts::Pair pair = costs.of_halves(axis, place);
+            ShareCosts::Pair pair = costs.of_sides(axis, place);
             const double share = (place - between.min[axis]) / size[axis];
             return ShareCosts::Pair{(pair.below + cost_of_emptiness * share) / below,
                                     (pair.above + cost_of_emptiness * (1 - share)) / above};

@@ -197,7 +197,7 @@ struct ExactLayers {
 
 // One of two pieces of a segment, from interpolated texels. Without colour, color and emission are
 // unused; with TableStore::opacity, extinction and emission are.
-struct HalfSegment {
+struct SplitPiece {
     std::array<double, 3> color{}, emission{};
     double alpha = 0, extinction = 0;
 };
@@ -219,10 +219,10 @@ struct IncrementalLayers {
                 static_cast<double>(front) * (1 - share) + static_cast<double>(back) * share;
             const std::size_t below = std::min(static_cast<std::size_t>(middle), nodes - 2);
             const double weight = std::clamp(middle - static_cast<double>(below), 0.0, 1.0);
-            const HalfSegment first =
+            const SplitPiece first =
                 mix(texel(front_layer, below, front), texel(front_layer, below + 1, front), weight,
                     table.length_of(front_layer));
-            const HalfSegment second =
+            const SplitPiece second =
                 mix(texel(layer - 1, back, below), texel(layer - 1, back, below + 1), weight,
                     table.length_of(layer - 1));
             if (table.request.store == TableStore::opacity) {
@@ -238,25 +238,25 @@ struct IncrementalLayers {
         return &table.texels[((layer * nodes + back) * nodes + front) * table.channels];
     }
 
-    HalfSegment mix(const float* a, const float* b, double weight, double length) const {
+    SplitPiece mix(const float* a, const float* b, double weight, double length) const {
         const auto channel = [&](int c) { return a[c] * (1 - weight) + b[c] * weight; };
         const int last = table.channels - 1;
-        HalfSegment part;
+        SplitPiece piece;
         if (table.request.store == TableStore::opacity) {
-            part.alpha = channel(last);
-            for (int c = 0; c < last; ++c) part.color[c] = channel(c);
-            return part;
+            piece.alpha = channel(last);
+            for (int c = 0; c < last; ++c) piece.color[c] = channel(c);
+            return piece;
         }
-        part.extinction = channel(last);
-        part.alpha = opacity_from_depth(part.extinction * length);
+        piece.extinction = channel(last);
+        piece.alpha = opacity_from_depth(piece.extinction * length);
         for (int c = 0; c < last; ++c) {
-            part.emission[c] = channel(c);
-            if (part.alpha > 0) part.color[c] = channel(c) * (part.alpha / part.extinction);
+            piece.emission[c] = channel(c);
+            if (piece.alpha > 0) piece.color[c] = channel(c) * (piece.alpha / piece.extinction);
         }
-        return part;
+        return piece;
     }
 
-    void store_opacity(const HalfSegment& first, const HalfSegment& second, float* texel) const {
+    void store_opacity(const SplitPiece& first, const SplitPiece& second, float* texel) const {
         for (int c = 0; c < table.channels - 1; ++c) {
             texel[c] = static_cast<float>(first.color[c] + (1 - first.alpha) * second.color[c]);
         }
@@ -265,7 +265,7 @@ struct IncrementalLayers {
     }
 
     // `share`: the first piece's share of `length`.
-    void store_emission(const HalfSegment& first, const HalfSegment& second, double share,
+    void store_emission(const SplitPiece& first, const SplitPiece& second, double share,
                         double length, float* texel) const {
         const auto mean = [&](double a, double b) { return a * share + b * (1 - share); };
         const double extinction = mean(first.extinction, second.extinction);

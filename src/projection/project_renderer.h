@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "plan/plan.h"
-#include "projection/visible_parts.h"
+#include "projection/visible_cell_fragments.h"
 #include "scene/scene.h"
 #include "visibility/visibility_order.h"
 

@@ -27,7 +27,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "projection/tet_run-inl.h"
+#include "projection/fragment_segment-inl.h"
 #include "simd/members-inl.h"
 
 LAMINA_SIMD_BEGIN

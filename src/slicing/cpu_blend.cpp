@@ -99,11 +99,11 @@ class SlabBlender {
     template <class Body>
     LAMINA_INLINE void for_each_slab(const Body& body) const {
         if (behind_) {
-            for_each_interval(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
+            for_each_range(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
                 for (int i = first; i < end; ++i) body(i);
             });
         } else {
-            for_each_interval_backwards(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
+            for_each_range_backwards(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
                 for (int i = end; i-- > first;) body(i);
             });
         }

@@ -313,7 +313,7 @@ template <bool lit>
 std::int64_t set_exact_segments(const CpuBrickView& brick, const PacketRays& packet, bool colored,
                                 CellIntegrator<lit>& cells, SlabBlock& block) {
     const std::int64_t before = cells.segments();
-    for_each_interval(block.wanted, [&](int first, int end) LAMINA_LAMBDA {
+    for_each_range(block.wanted, [&](int first, int end) LAMINA_LAMBDA {
         cells.begin(brick, &packet, 1, block.first_slab + first);
         for (int i = first; i < end; ++i) {
             cells.set_end(block.first_slab + i + 1);

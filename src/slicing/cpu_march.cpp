@@ -177,7 +177,7 @@ class Marcher {
         segments_ += cells.segments() - before;
     }
 
-    // Sets the wanted slabs of a block; intervals of slabs in constant regions become one slab
+    // Sets the wanted slabs of a block; ranges of slabs in constant regions become one slab
     // each.
     void set_block(const CpuBrickView& brick, std::size_t packet, int number) {
         const PacketRays& rays = rays_.packets[packet];
@@ -185,10 +185,10 @@ class Marcher {
         block_.wanted ^= constant;
         segments_ += set_segments(slabs_, brick, rays, !single_color_, false, block_);
         block_.wanted ^= constant;
-        for_each_interval(constant, [&](int first, int end) {
+        for_each_range(constant, [&](int first, int end) {
             const OpticalProperties& optics =
                 rays_.constant_optics(slabs_, block_.first_slab + first);
-            set_constant_interval(slabs_, optics, rays, !single_color_, first, end, block_);
+            set_constant_range(slabs_, optics, rays, !single_color_, first, end, block_);
         });
     }
 
@@ -206,7 +206,7 @@ class Marcher {
 
     Float block_depth() const {
         Float depth(0);
-        for_each_interval(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
+        for_each_range(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
             for (int i = first; i < end; ++i) depth += load<Float>(block_.depths + at(i));
         });
         return depth;
@@ -227,7 +227,7 @@ class Marcher {
             sum.opacity += weight;
             sum.depth += depth;
         };
-        for_each_interval(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
+        for_each_range(block_.wanted, [&](int first, int end) LAMINA_LAMBDA {
             for (int i = first; i < end; ++i) put_slab_behind(i);
         });
         put_behind(sum, leaf);

@@ -13,7 +13,7 @@
 LAMINA_SIMD_BEGIN
 
 // The values of a block, a vector for each slab. Slab i is slab first_slab + i of the view. Only
-// `wanted` slabs are computed, interval by interval; from .. end - 1 is the present interval of
+// `wanted` slabs are computed, range by range; from .. end - 1 is the present range of
 // consecutive ones.
 struct SlabBlock {
     static constexpr std::size_t size = block_slabs * most_lanes;
@@ -44,8 +44,8 @@ LAMINA_INLINE void set_precise_depths(int first, int end, SlabBlock& block) {
         store(Float64(load<Float>(block.depths + at(i))), block.precise_depths + at(i));
 }
 inline void set_precise_depths(SlabBlock& block) {
-    for_each_interval(block.wanted, [&](int first, int end)
-                                        LAMINA_LAMBDA { set_precise_depths(first, end, block); });
+    for_each_range(block.wanted, [&](int first, int end)
+                                     LAMINA_LAMBDA { set_precise_depths(first, end, block); });
 }
 
 // Sets optical depths and colours of wanted slabs; if `precise`, precise_depths, too. Returns the
@@ -55,9 +55,9 @@ std::int64_t set_segments(const CpuSlabs& slabs, const CpuBrickView& brick,
 
 // Handles slabs first .. end - 1, which lie in a region of one colour and extinction: the first
 // slab gets the optical depth of all, and the others are no longer wanted.
-void set_constant_interval(const CpuSlabs& slabs, const OpticalProperties& optics,
-                           const PacketRays& packet, bool colored, int first, int end,
-                           SlabBlock& block);
+void set_constant_range(const CpuSlabs& slabs, const OpticalProperties& optics,
+                        const PacketRays& packet, bool colored, int first, int end,
+                        SlabBlock& block);
 
 LAMINA_SIMD_END
 

@@ -69,7 +69,7 @@ LAMINA_INLINE void light_ends(const EffectLanes<channels>& front, const EffectLa
     }
 }
 
-// Lights slabs of the present interval if shows(i), at middle(i) or, if the plan pre-integrates, at
+// Lights slabs of the present range if shows(i), at middle(i) or, if the plan pre-integrates, at
 // both ends (docs/numerics.md, section 10). edge(i): the point on a slab's front.
 template <std::size_t channels, PointKind kind, class Middle, class Edge, class Shows>
 LAMINA_INLINE void light_slabs(const CpuSlabs& slabs, const CpuBrick& brick, const PacketRays& rays,
@@ -105,9 +105,9 @@ LAMINA_INLINE void light_slabs(const CpuSlabs& slabs, const CpuBrick& brick, con
 }
 
 template <PointKind kind, class Middle, class Edge, class Shows>
-LAMINA_INLINE void light_interval(const CpuSlabs& slabs, const CpuBrick& brick,
-                                  const PacketRays& rays, const Middle& middle, const Edge& edge,
-                                  const Shows& shows, SlabBlock& block) {
+LAMINA_INLINE void light_range(const CpuSlabs& slabs, const CpuBrick& brick, const PacketRays& rays,
+                               const Middle& middle, const Edge& edge, const Shows& shows,
+                               SlabBlock& block) {
     if (slabs.light->gray)
         return light_slabs<1, kind>(slabs, brick, rays, middle, edge, shows, block);
     light_slabs<3, kind>(slabs, brick, rays, middle, edge, shows, block);
@@ -174,7 +174,7 @@ LAMINA_INLINE void store_segment(const LitSum& sum, bool colored, int slab, Slab
     store(sum.front_share, block.front_shares + at(slab));
 }
 
-// Integrates the present interval by the table, a few slabs at a time, so that many entries are
+// Integrates the present range by the table, a few slabs at a time, so that many entries are
 // looked up together. A segment is invisible if nothing shows between its least and its largest
 // scalar.
 template <Lookup kind, bool lit>
@@ -226,10 +226,10 @@ LAMINA_INLINE void integrate_by_table(const CpuTransfer& transfer, bool colored,
     }
 }
 
-// Integrates the slabs of the present interval, pre-integrated. Lit plans always have a table.
+// Integrates the slabs of the present range, pre-integrated. Lit plans always have a table.
 template <Lookup kind>
-LAMINA_INLINE void integrate_interval(const CpuTransfer& transfer, bool colored,
-                                      const SlicePlan& plan, SlabBlock& block) {
+LAMINA_INLINE void integrate_range(const CpuTransfer& transfer, bool colored, const SlicePlan& plan,
+                                   SlabBlock& block) {
     if (colored && plan.lighting)
         return integrate_by_table<kind, true>(transfer, colored, plan.nan_transparent, block);
     if (kind != Lookup::one || !plan.linear)
@@ -432,10 +432,10 @@ LAMINA_INLINE void set_constant(const CpuSlabs& slabs, Number extinction, SlabBl
     }
 }
 
-// Sets depths and colours of the present interval. Returns the number of segments with a length.
+// Sets depths and colours of the present range. Returns the number of segments with a length.
 template <bool precise>
-std::int64_t set_interval(const CpuSlabs& slabs, const CpuBrickView& view, const PacketRays& packet,
-                          bool colored, SlabBlock& block) {
+std::int64_t set_range(const CpuSlabs& slabs, const CpuBrickView& view, const PacketRays& packet,
+                       bool colored, SlabBlock& block) {
     const SlicePlan& plan = *slabs.plan;
     const CpuBrick& brick = view.brick;
     const bool sampled = plan.sampling != VolumeSampling::none;
@@ -473,7 +473,7 @@ std::int64_t set_interval(const CpuSlabs& slabs, const CpuBrickView& view, const
     with_lookup(transfer, [&](auto kind) LAMINA_LAMBDA {
         constexpr Lookup lookup = decltype(kind)::value;
         if (plan.preintegrates()) {
-            integrate_interval<lookup>(transfer, colored, plan, block);
+            integrate_range<lookup>(transfer, colored, plan, block);
             if constexpr (precise) set_precise_depths(block.from, block.end, block);
         } else {
             classify<precise, lookup>(transfer, colored, plan.nan_transparent, block);
@@ -487,14 +487,14 @@ std::int64_t set_interval(const CpuSlabs& slabs, const CpuBrickView& view, const
             return any_of(load<Float>(block.depths + at(i)) > 0);
     };
     with([&](auto kind, const auto& middle, const auto& edge) LAMINA_LAMBDA {
-        light_interval<decltype(kind)::value>(slabs, brick, packet, middle, edge, shows, block);
+        light_range<decltype(kind)::value>(slabs, brick, packet, middle, edge, shows, block);
     });
     return segments;
 }
 
-void set_constant_interval(const CpuSlabs& slabs, const OpticalProperties& optics,
-                           const PacketRays& packet, bool colored, int first, int end,
-                           SlabBlock& block) {
+void set_constant_range(const CpuSlabs& slabs, const OpticalProperties& optics,
+                        const PacketRays& packet, bool colored, int first, int end,
+                        SlabBlock& block) {
     const BlockRays rays = block_rays(slabs.rays, packet, block.first_slab);
     const Float length =
         (boundary(slabs.rays, rays, end) - boundary(slabs.rays, rays, first)) * packet.length_float;
@@ -507,11 +507,11 @@ void set_constant_interval(const CpuSlabs& slabs, const OpticalProperties& optic
 std::int64_t set_segments(const CpuSlabs& slabs, const CpuBrickView& brick,
                           const PacketRays& packet, bool colored, bool precise, SlabBlock& block) {
     std::int64_t segments = 0;
-    for_each_interval(block.wanted, [&](int first, int end) {
+    for_each_range(block.wanted, [&](int first, int end) {
         block.from = first;
         block.end = end;
-        segments += precise ? set_interval<true>(slabs, brick, packet, colored, block)
-                            : set_interval<false>(slabs, brick, packet, colored, block);
+        segments += precise ? set_range<true>(slabs, brick, packet, colored, block)
+                            : set_range<false>(slabs, brick, packet, colored, block);
     });
     return segments;
 }

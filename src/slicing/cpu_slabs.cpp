@@ -74,8 +74,8 @@ bool CpuBounds::shows(const OccupiedBricks& bricks, const CpuRays& rays, int fir
     return bricks.any_in(glm::min(near, far) - reach, glm::max(near, far) + reach);
 }
 
-CpuBounds::SlabInterval CpuBounds::next_interval(const OccupiedBricks& bricks, const CpuRays& rays,
-                                                 int first, int end) const {
+CpuBounds::SlabRange CpuBounds::next_range(const OccupiedBricks& bricks, const CpuRays& rays,
+                                           int first, int end) const {
     const double thickness = rays.slab_thickness;
     const double front = first * thickness;
     const glm::dvec3 middle = middle_at(front);

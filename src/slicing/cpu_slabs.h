@@ -86,10 +86,10 @@ inline BlockMask block_mask(int first, int end) {
     return ~BlockMask{0} >> (block_slabs - (end - first)) << first;
 }
 
-// Calls body(first, end) for the intervals of consecutive bits first .. end - 1, from the lowest
+// Calls body(first, end) for the ranges of consecutive bits first .. end - 1, from the lowest
 // on.
 template <class Body>
-LAMINA_INLINE void for_each_interval(BlockMask mask, const Body& body) {
+LAMINA_INLINE void for_each_range(BlockMask mask, const Body& body) {
     while (mask != 0) {
         const int first = std::countr_zero(mask);
         const int end = first + std::countr_one(mask >> first);
@@ -98,9 +98,9 @@ LAMINA_INLINE void for_each_interval(BlockMask mask, const Body& body) {
     }
 }
 
-// Calls body(first, end) for the same intervals, from the highest to the lowest.
+// Calls body(first, end) for the same ranges, from the highest to the lowest.
 template <class Body>
-LAMINA_INLINE void for_each_interval_backwards(BlockMask mask, const Body& body) {
+LAMINA_INLINE void for_each_range_backwards(BlockMask mask, const Body& body) {
     while (mask != 0) {
         const int end = block_slabs - std::countl_zero(mask);
         const int first = end - std::countl_one(mask << (block_slabs - end));
@@ -140,15 +140,15 @@ class CpuBounds {
     // `column`, `row`: the first of edge x edge pixels.
     CpuBounds(const CpuRays& rays, const CpuBrickView& brick, int column, int row, int edge);
 
-    // Calls found(first, end) for the intervals of consecutive slabs among first .. end - 1 in
+    // Calls found(first, end) for the ranges of consecutive slabs among first .. end - 1 in
     // which a ray may come near an occupied brick, nearest first.
     template <class Found>
     void for_each_shown(const OccupiedBricks& bricks, const CpuRays& rays, int first, int end,
                         const Found& found) const {
         while (first < end) {
-            const SlabInterval interval = next_interval(bricks, rays, first, end);
-            if (interval.shown) found(first, interval.end);
-            first = interval.end;
+            const SlabRange range = next_range(bricks, rays, first, end);
+            if (range.shown) found(first, range.end);
+            first = range.end;
         }
     }
 
@@ -157,13 +157,13 @@ class CpuBounds {
 
   private:
     // Slabs up to `end` - 1, and whether they may be visible.
-    struct SlabInterval {
+    struct SlabRange {
         int end;
         bool shown;
     };
-    // Returns the longest interval of slabs from `first` on that one test decides.
-    SlabInterval next_interval(const OccupiedBricks& bricks, const CpuRays& rays, int first,
-                               int end) const;
+    // Returns the longest range of slabs from `first` on that one test decides.
+    SlabRange next_range(const OccupiedBricks& bricks, const CpuRays& rays, int first,
+                         int end) const;
     // Tells whether a ray may come near an occupied brick in slabs first .. end - 1.
     bool shows(const OccupiedBricks& bricks, const CpuRays& rays, int first, int end) const;
 

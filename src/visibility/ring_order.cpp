@@ -104,24 +104,23 @@ constexpr std::int64_t work_a_constraint = 16;
 constexpr double overlap_share = 1e-3, overlap_of_depth = 1e-9;
 
 // The parameters of a ray between which it is inside a tet; it misses the tet if in > out.
-struct RayInterval {
+struct RaySpan {
     double in, out;
     double middle() const { return 0.5 * in + 0.5 * out; }
 };
 
-RayInterval interval_through(const View::Ray& ray, std::span<const glm::dvec3> points,
-                             const Tet& tet) {
+RaySpan span_through(const View::Ray& ray, std::span<const glm::dvec3> points, const Tet& tet) {
     const auto corner = [&](std::int32_t number) -> const glm::dvec3& { return points[number]; };
-    RayInterval interval{-INFINITY, INFINITY};
+    RaySpan span{-INFINITY, INFINITY};
     for (std::size_t face = 0; face < 4; ++face) {
         const auto [a, b, c] = corners_of_face(tet, face);
         const glm::dvec3 outwards = glm::cross(corner(b) - corner(a), corner(c) - corner(a));
         const double speed = glm::dot(outwards, ray.direction);
         const double at = glm::dot(outwards, corner(a) - ray.origin) / speed;
-        if (speed > 0) interval.out = std::min(interval.out, at);
-        if (speed < 0) interval.in = std::max(interval.in, at);
+        if (speed > 0) span.out = std::min(span.out, at);
+        if (speed < 0) span.in = std::max(span.in, at);
     }
-    if (std::isfinite(interval.in) && std::isfinite(interval.out)) return interval;
+    if (std::isfinite(span.in) && std::isfinite(span.out)) return span;
     // A tet without volume shows nothing, wherever it is in the order.
     return {0, 0};
 }
@@ -313,34 +312,31 @@ void RingOrder::draw_pixel(const Problem& problem, const PixelArea& pixel) {
     const View::Ray ray =
         finder_.view().ray(pixel.first_column + moved.x, pixel.first_row - moved.y);
     const TetMesh& mesh = graph_.mesh();
-    std::vector<RayInterval> intervals(problem.tets.size());
+    std::vector<RaySpan> spans(problem.tets.size());
     std::vector<std::int32_t> order(problem.tets.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         order[i] = static_cast<std::int32_t>(i);
         const auto tet = static_cast<std::size_t>(problem.tets[i].tet);
-        intervals[i] = interval_through(ray, mesh.points(), mesh.tets()[tet]);
+        spans[i] = span_through(ray, mesh.points(), mesh.tets()[tet]);
     }
-    const auto interval_of = [&](std::int32_t index) -> const RayInterval& {
-        return intervals[index];
-    };
+    const auto span_of = [&](std::int32_t index) -> const RaySpan& { return spans[index]; };
     std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-        return interval_of(a).middle() > interval_of(b).middle();
+        return span_of(a).middle() > span_of(b).middle();
     });
     draw(problem, order, pixel);
     const Member* before = nullptr;  // of the tets so far, the one that the ray enters first
-    RayInterval reached{INFINITY, INFINITY};
+    RaySpan reached{INFINITY, INFINITY};
     for (const std::int32_t index : order) {
-        const RayInterval& interval = interval_of(index);
-        if (!(interval.out > interval.in)) continue;
+        const RaySpan& span = span_of(index);
+        if (!(span.out > span.in)) continue;
         const Member& member = problem.tets[index];
-        const double shorter = std::min(interval.out - interval.in, reached.out - reached.in);
+        const double shorter = std::min(span.out - span.in, reached.out - reached.in);
         if (before != nullptr &&
-            interval.out - reached.in >
-                overlap_share * shorter + overlap_of_depth * std::abs(interval.out))
+            span.out - reached.in > overlap_share * shorter + overlap_of_depth * std::abs(span.out))
             overlapping_.emplace_back(std::minmax(before->tet, member.tet));
-        if (before != nullptr && interval.in > reached.in) continue;
+        if (before != nullptr && span.in > reached.in) continue;
         before = &member;
-        reached = interval;
+        reached = span;
     }
 }
 

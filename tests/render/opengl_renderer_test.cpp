@@ -24,17 +24,17 @@ bool has_egl() {
     return dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL) != nullptr;
 }
 
-struct Frames {
+struct DrawnFrames {
     std::vector<Image> volume, mesh;
 };
 
 // Draws the frames of two renderers that take turns in one context.
-Frames draw_frames(gl::ContextKind kind, double first_degrees) {
+DrawnFrames draw_frames(gl::ContextKind kind, double first_degrees) {
     const DrawContext context(kind);
     const auto current = context.make_current();
     SceneRenderer volume(volume_scene(), blobs(), context.capabilities());
     SceneRenderer mesh(mesh_scene(), split_box(), context.capabilities());
-    Frames frames;
+    DrawnFrames frames;
     for (int frame = 0; frame < 6; ++frame) {
         const Camera camera = orbit(first_degrees + 25 * frame);
         volume.set_camera(camera);
@@ -45,7 +45,7 @@ Frames draw_frames(gl::ContextKind kind, double first_degrees) {
     return frames;
 }
 
-void expect_equal(const Frames& drawn, const Frames& alone) {
+void expect_equal(const DrawnFrames& drawn, const DrawnFrames& alone) {
     for (std::size_t frame = 0; frame < alone.mesh.size(); ++frame) {
         EXPECT_EQ(drawn.volume[frame].rgba, alone.volume[frame].rgba) << frame;
         EXPECT_EQ(drawn.mesh[frame].rgba, alone.mesh[frame].rgba) << frame;
@@ -55,15 +55,15 @@ void expect_equal(const Frames& drawn, const Frames& alone) {
 TEST(OpenGlSessions, DrawInSeveralThreadsAsAlone) {
     const auto osmesa = gl::ContextKind::osmesa;
     const auto other_kind = has_egl() ? gl::ContextKind::egl : osmesa;
-    const Frames alone = draw_frames(osmesa, 20);
-    const Frames alone_turned = draw_frames(osmesa, 200);
-    const Frames alone_elsewhere = draw_frames(other_kind, 200);
+    const DrawnFrames alone = draw_frames(osmesa, 20);
+    const DrawnFrames alone_turned = draw_frames(osmesa, 200);
+    const DrawnFrames alone_elsewhere = draw_frames(other_kind, 200);
     EXPECT_NE(alone.volume[0].rgba, alone_turned.volume[0].rgba);
     for (int round = 0; round < 3; ++round) {
-        Frames turned, elsewhere;
+        DrawnFrames turned, elsewhere;
         std::thread second([&] { turned = draw_frames(osmesa, 200); });
         std::thread third([&] { elsewhere = draw_frames(other_kind, 200); });
-        const Frames first = draw_frames(osmesa, 20);
+        const DrawnFrames first = draw_frames(osmesa, 20);
         second.join();
         third.join();
         expect_equal(first, alone);

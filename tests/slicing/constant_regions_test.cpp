@@ -44,7 +44,7 @@ std::vector<TransferFunction> transfer_functions() {
 // Returns the largest difference in 1/255 between a region crossed in one step and slab by slab. A
 // sum of N segments rounds N times, by at most 6e-8 of the sum of opacities, which is up to 1.
 // Roundings of scalars and lengths change an optical depth by 1e-6 of itself, and the opacity by
-// less, since depth * exp(-depth) < .4. Tables differ by up to .0026 (linear_runs_test.cpp) for
+// less, since depth * exp(-depth) < .4. Tables differ by up to .0026 (linear_segments_test.cpp) for
 // deep segments; here segments are at most 9 / 100 deep.
 double bound(const Scene& scene) {
     const bool table = scene.slice.classification == Classification::preintegrated;

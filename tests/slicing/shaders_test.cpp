@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every specialisation of the slicing shaders that a plan can ask for compiles, under OSMesa and by
-// glslangValidator. It is enough to test all kinds of segments with one way of compositing, and all
-// ways of compositing with two kinds of segments, because the text of neither depends on the other.
-// Mesa, which takes much longer, compiles all kinds of segments in slabs alone, and not in leaves,
-// too, as glslangValidator does.
+// Specialisations of the slicing shaders that a plan can ask for. It is enough to test all kinds of
+// segments with one way of compositing, and all ways of compositing with two kinds of segments,
+// because the text of neither depends on the other. glslangValidator compiles all kinds of segments
+// in slabs and in leaves of trees; Mesa, which takes much longer, in slabs alone.
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -289,7 +288,7 @@ TEST_F(SlicingTest, EverySlabShaderCompiles) {
     expect_to_compile(all, capabilities().framebuffer_fetch);
 }
 
-TEST_F(SlicingTest, EveryNodeShaderCompiles) {
+TEST_F(SlicingTest, NodeShadersCompileWithTwoKindsOfSegments) {
     Specialisations all;
     add_nodes(all, LeafSegments::two);
     EXPECT_GE(all.by_text.size(), 60u);

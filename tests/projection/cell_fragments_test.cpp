@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tets cut at the transfer function's points, in meshes so large that depths on faces are float32.
-#include "projection/visible_parts.h"
+#include "projection/visible_cell_fragments.h"
 #include "projection_fixture.h"
 #include "support/split_box.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "projection/visible_parts.h"
+#include "projection/visible_cell_fragments.h"
 
 #include <algorithm>
 #include <cmath>

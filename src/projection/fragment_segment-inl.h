@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the segments of the rays of some pixels inside a cell fragment. This is the vector form of
 // shaders/projection/silhouette.glsl, whose comments give the reasons.
-#if defined(LAMINA_PROJECTION_TET_RUN_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LAMINA_PROJECTION_TET_RUN_INL_H_
-#undef LAMINA_PROJECTION_TET_RUN_INL_H_
+#if defined(LAMINA_PROJECTION_FRAGMENT_SEGMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_PROJECTION_FRAGMENT_SEGMENT_INL_H_
+#undef LAMINA_PROJECTION_FRAGMENT_SEGMENT_INL_H_
 #else
-#define LAMINA_PROJECTION_TET_RUN_INL_H_
+#define LAMINA_PROJECTION_FRAGMENT_SEGMENT_INL_H_
 #endif
 
 #include "optics/segment_integral.h"
