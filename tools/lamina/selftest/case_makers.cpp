@@ -54,16 +54,19 @@ Drawn draw(const PictureMaker& maker, const SelftestScene& subject, const Drawin
 
 }  // namespace
 
-std::vector<SelftestCase> cases_of(const std::string& group, const SelftestScene& scene,
+std::vector<SelftestCase> cases_of(const std::string& group,
+                                   const std::vector<SelftestScene>& scenes,
                                    const std::vector<DrawingWay>& ways) {
     std::vector<SelftestCase> cases;
-    for (const DrawingWay& way : ways) {
-        if (way.draws_mesh() && !scene.mesh) continue;
-        cases.push_back({group, scene.name, way.name, scene.about + ". " + from_layers,
-                         [scene, way](const PictureMaker& maker) {
-                             const Drawn drawn = draw(maker, scene, way);
-                             return outcome_of(fit_of(drawn.picture, drawn.bounds));
-                         }});
+    for (const SelftestScene& scene : scenes) {
+        for (const DrawingWay& way : ways) {
+            if (way.draws_mesh() && !scene.mesh) continue;
+            cases.push_back({group, scene.name, way.name, scene.about + ". " + from_layers,
+                             [scene, way](const PictureMaker& maker) {
+                                 const Drawn drawn = draw(maker, scene, way);
+                                 return outcome_of(fit_of(drawn.picture, drawn.bounds));
+                             }});
+        }
     }
     return cases;
 }

@@ -19,8 +19,9 @@ struct MeshScene {
     bool cyclic = false;  // its visibility order has cycles; the renderer must report them
 };
 
-// Returns one case for each way to draw that the scene allows; ways that draw meshes need a mesh.
-std::vector<SelftestCase> cases_of(const std::string& group, const SelftestScene& scene,
+// Returns one case for each way to draw that a scene allows; ways that draw meshes need a mesh.
+std::vector<SelftestCase> cases_of(const std::string& group,
+                                   const std::vector<SelftestScene>& scenes,
                                    const std::vector<DrawingWay>& ways);
 SelftestCase case_of(const std::string& group, const MeshScene& scene, const DrawingWay& way);
 

@@ -51,11 +51,6 @@ DrawingWay project(const std::string& name, const std::function<void(Scene&)>& s
     return {"project " + name, Method::project, TraceOf::mesh, set, rounding};
 }
 
-void set_codes(Scene& scene, int bits, AlphaRounding alpha, OverRounding over) {
-    scene.target = Target::emulated;
-    scene.emulate = {bits, alpha, over, 1};
-}
-
 }  // namespace
 
 Scene DrawingWay::scene_of(const Scene& scene) const {
@@ -92,7 +87,10 @@ std::vector<DrawingWay> coarse_ways() {
         return [which](Scene& scene) { scene.target = which; };
     };
     const auto codes = [](int bits, AlphaRounding alpha, OverRounding over) {
-        return [=](Scene& scene) { set_codes(scene, bits, alpha, over); };
+        return [=](Scene& scene) {
+            scene.target = Target::emulated;
+            scene.emulate = {bits, alpha, over, 1};
+        };
     };
     struct Coarse {
         std::string name;
@@ -134,6 +132,12 @@ DrawingWay way_named(const std::string& name) {
     const auto found = std::ranges::find(ways, name, &DrawingWay::name);
     assert(found != ways.end());
     return *found;
+}
+
+std::vector<DrawingWay> traces_and(const std::vector<std::string>& names) {
+    std::vector<DrawingWay> ways = traces();
+    for (const std::string& name : names) ways.push_back(way_named(name));
+    return ways;
 }
 
 }  // namespace lamina::selftest

@@ -57,5 +57,7 @@ std::vector<DrawingWay> tree_ways();
 DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Target target);
 // Returns the way of float_ways() with this name.
 DrawingWay way_named(const std::string& name);
+// Returns traces() and these ways of float_ways().
+std::vector<DrawingWay> traces_and(const std::vector<std::string>& names);
 
 }  // namespace lamina::selftest

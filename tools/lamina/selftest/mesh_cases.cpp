@@ -191,10 +191,7 @@ std::vector<MeshScene> mesh_scenes() {
 }  // namespace
 
 std::vector<SelftestCase> mesh_cases() {
-    std::vector<SelftestCase> cases;
-    for (const SelftestScene& scene : box_scenes()) {
-        for (SelftestCase& each : cases_of(mesh_group, scene, mesh_ways())) cases.push_back(each);
-    }
+    std::vector<SelftestCase> cases = cases_of(mesh_group, box_scenes(), mesh_ways());
     for (const MeshScene& scene : mesh_scenes()) {
         for (const DrawingWay& way : mesh_ways()) cases.push_back(case_of(mesh_group, scene, way));
     }

@@ -15,7 +15,6 @@ constexpr const char* metamorphic_group = "metamorphic";
 SelftestScene base_scene(const std::string& about = "") {
     SelftestScene scene = plain_scene("base", about);
     scene.box.edges = {{{1, 0, 0}, {0, .75, 0}, {0, 0, 1.25}}};
-    scene.box.samples = {0, 1};
     scene.scene.transfer_function =
         optics_of({{.25, {{.2, .4, 1}, .25}}, {.5, {{.4, 1, .2}, 4}}, {.75, {{1, .3, .1}, .5}}});
     scene.scene.camera = camera_at(scene.box, 1.5, 40);

@@ -19,8 +19,8 @@ void append(std::vector<SelftestCase>& cases, std::vector<SelftestCase> more) {
 }
 
 void append_float_ways(std::vector<SelftestCase>& cases, const SelftestScene& scene) {
-    append(cases, cases_of(optics_group, scene, traces()));
-    append(cases, cases_of(optics_group, scene, float_ways()));
+    append(cases, cases_of(optics_group, {scene}, traces()));
+    append(cases, cases_of(optics_group, {scene}, float_ways()));
 }
 
 // Sets transfer function and max_error. `depth`: bound of the optical depths; faint pictures allow
@@ -105,20 +105,16 @@ void append_spikes(std::vector<SelftestCase>& cases) {
 
 void append_targets(std::vector<SelftestCase>& cases) {
     SelftestScene faint = plain_scene("targets_faint", "A ramp of optical depth up to .4");
-    faint.scene.slice.samples = 16;
     faint.scene.transfer_function = optics_of({{0, {{.3, .6, .9}, .05}}, {1, {{.3, .6, .9}, .3}}});
     SelftestScene dense = plain_scene("targets_dense", "A ramp of optical depth up to 1000");
-    dense.scene.slice.samples = 16;
     dense.scene.transfer_function = optics_of({{0, {{.3, .6, .9}, 0}}, {1, {{.3, .6, .9}, 1e3}}});
     SelftestScene colored = plain_scene("targets_colored", "Colours from blue to red");
-    colored.scene.slice.samples = 16;
     colored.scene.transfer_function = optics_of({{0, {{0, .1, 1}, 1}}, {1, {{1, .4, 0}, 3}}});
-    for (const SelftestScene* scene : {&faint, &dense, &colored})
-        append(cases, cases_of(optics_group, *scene, coarse_ways()));
-    for (SelftestScene* scene : {&faint, &dense, &colored}) {
-        scene->scene.slice.samples = 64;
-        append(cases, cases_of(optics_group, *scene, tree_ways()));
-    }
+    std::vector<SelftestScene> scenes{faint, dense, colored};
+    for (SelftestScene& scene : scenes) scene.scene.slice.samples = 16;
+    append(cases, cases_of(optics_group, scenes, coarse_ways()));
+    for (SelftestScene& scene : scenes) scene.scene.slice.samples = 64;
+    append(cases, cases_of(optics_group, scenes, tree_ways()));
 }
 
 SelftestScene lit_scene(const std::string& name, const std::string& about,
@@ -142,12 +138,6 @@ Lighting two_lights(double smallest_gradient) {
     lighting.smallest_gradient = smallest_gradient;
     lighting.lights = {{glm::dvec3(.4, .9, .6), {1, .5, .25}},
                        {glm::dvec3(-.7, .1, .5), {.25, .5, 1}}};
-    return lighting;
-}
-
-Lighting headlight() {
-    Lighting lighting;
-    lighting.smallest_gradient = .1;
     return lighting;
 }
 
@@ -197,26 +187,20 @@ std::vector<SelftestCase> optics_cases() {
 // same manner; ambient light of 1 alone changes nothing in any box.
 
 std::vector<SelftestCase> light_cases() {
-    std::vector<DrawingWay> ways = traces();
-    ways.push_back(way_named("slice exact float32"));
     // The gradient has a length of .8.
-    const SelftestScene scenes[] = {
+    const std::vector<SelftestScene> scenes{
         orthographic("directional", "Two lights, parallel rays: one factor for the picture",
                      two_lights(.1)),
         lit_scene("perspective", "Two lights, rays in perspective: one factor a ray",
                   two_lights(.1)),
-        lit_scene("headlight", "A light at the eye", headlight()),
+        lit_scene("headlight", "A light at the eye", Lighting{.smallest_gradient = .1}),
         lit_scene("half_lit", "A smallest gradient as long as the gradient", two_lights(.8)),
         lit_scene("steep", "A smallest gradient far below the gradient", two_lights(1e-100)),
         lit_scene("flat", "A smallest gradient far above the gradient", two_lights(1e100)),
         light_behind(),
         ambient_alone(),
     };
-    std::vector<SelftestCase> cases;
-    for (const SelftestScene& scene : scenes) {
-        for (SelftestCase& each : cases_of("light", scene, ways)) cases.push_back(each);
-    }
-    return cases;
+    return cases_of("light", scenes, traces_and({"slice exact float32"}));
 }
 
 }  // namespace lamina::selftest

@@ -225,14 +225,10 @@ std::vector<SelftestCase> number_cases() {
         scene.scene.nan = NanPolicy::transparent;
         scenes.push_back(scene);
     }
-    std::vector<DrawingWay> ways = traces();
-    for (const char* name : {"slice post float32", "slice preintegrated float32", "project float32",
-                             "project analytic float32"})
-        ways.push_back(way_named(name));
-    std::vector<SelftestCase> cases;
-    for (const SelftestScene& scene : scenes) {
-        for (SelftestCase& each : cases_of(number_group, scene, ways)) cases.push_back(each);
-    }
+    std::vector<SelftestCase> cases =
+        cases_of(number_group, scenes,
+                 traces_and({"slice post float32", "slice preintegrated float32", "project float32",
+                             "project analytic float32"}));
     const char* const reason = "NaN or infinite samples";
     cases.push_back(refusal_case(number_group, not_finite("nan_error", nan),
                                  way_named("slice post float32"), reason));

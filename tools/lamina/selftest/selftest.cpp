@@ -17,15 +17,7 @@
 namespace lamina::selftest {
 
 const char* name_of(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::passed:
-            return "passed";
-        case Verdict::failed:
-            return "failed";
-        case Verdict::refused:
-            return "refused";
-    }
-    unreachable_enum();
+    return word_of(verdict, {"passed", "failed", "refused"});
 }
 
 const std::vector<std::string>& selftest_groups() {

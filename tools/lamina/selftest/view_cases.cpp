@@ -11,19 +11,6 @@
 namespace lamina::selftest {
 namespace {
 
-constexpr const char* view_group = "views";
-
-const std::vector<DrawingWay>& view_ways() {
-    static const std::vector<DrawingWay> all = [] {
-        std::vector<DrawingWay> list = traces();
-        for (const char* name : {"slice post float32", "slice preintegrated float32",
-                                 "project float32", "project analytic float32"})
-            list.push_back(way_named(name));
-        return list;
-    }();
-    return all;
-}
-
 SelftestScene view_scene(const std::string& name, const std::string& about) {
     SelftestScene scene = plain_scene(name, about);
     scene.box.edges = {{{1, 0, 0}, {0, .8, 0}, {0, 0, 1.2}}};
@@ -45,13 +32,9 @@ SelftestScene looking(const std::string& name, const std::string& about, const g
 
 SelftestScene cut_scene(const std::string& name, const std::string& about,
                         const std::vector<ClipPlane>& planes) {
-    SelftestScene scene = plain_scene(name, about);
-    scene.box.edges = {{{1, 0, 0}, {0, .8, 0}, {0, 0, 1.2}}};
-    scene.box.samples = {0, 1, .5, .75, 0};
+    SelftestScene scene = view_scene(name, about);
     scene.scene.transfer_function =
         optics_of({{0, {{.9, .5, .2}, .2}}, {.5, {{.3, 1, .4}, 2}}, {1, {{.2, .5, .9}, 4}}});
-    scene.scene.camera = camera_at(scene.box, 1.5, 40);
-    scene.mesh = [](const LayeredBox& box) { return kuhn_tets(box, 2); };
     scene.box.cuts = planes;
     scene.scene.clip.planes = planes;
     return scene;
@@ -106,8 +89,6 @@ std::vector<SelftestScene> all_clips() {
     scenes.push_back(parallel);
     return scenes;
 }
-
-constexpr const char* depth_group = "depth";
 
 SelftestScene slabs_scene(const std::string& name, int slabs, double extinction) {
     SelftestScene scene = plain_scene(
@@ -176,9 +157,8 @@ std::vector<SelftestCase> view_cases() {
     row.scene.slice.samples = 16;
     row.scene.camera = camera_at(row.box, 1.5, .01);
     scenes.push_back(row);
-    SelftestScene behind =
-        looking("box_behind", "The box behind the eye", {.5, .5, -3}, {.5, .5, -5}, 60);
-    scenes.push_back(behind);
+    scenes.push_back(
+        looking("box_behind", "The box behind the eye", {.5, .5, -3}, {.5, .5, -5}, 60));
     for (const auto& [name, direction] : {std::pair{"along_axis", glm::dvec3(0, 0, -1)},
                                           {"along_edges", glm::dvec3(-1, -.8, -1.2)},
                                           {"oblique", glm::dvec3(-.7, .2, -.4)}}) {
@@ -190,25 +170,18 @@ std::vector<SelftestCase> view_cases() {
         camera.eye = camera.center - 3.0 * direction;
         scenes.push_back(scene);
     }
-    std::vector<SelftestCase> cases;
-    for (const SelftestScene& scene : scenes) {
-        for (SelftestCase& each : cases_of(view_group, scene, view_ways())) cases.push_back(each);
-    }
-    return cases;
+    return cases_of("views", scenes,
+                    traces_and({"slice post float32", "slice preintegrated float32",
+                                "project float32", "project analytic float32"}));
 }
 
 // Boxes cut by planes: rays end where they meet the planes.
 
 std::vector<SelftestCase> clip_cases() {
-    std::vector<DrawingWay> ways = traces();
-    for (const char* name : {"slice post float32", "slice preintegrated float32",
-                             "slice exact float32", "project float32", "project analytic float32"})
-        ways.push_back(way_named(name));
-    std::vector<SelftestCase> cases;
-    for (const SelftestScene& scene : all_clips()) {
-        for (SelftestCase& each : cases_of("clips", scene, ways)) cases.push_back(each);
-    }
-    return cases;
+    return cases_of(
+        "clips", all_clips(),
+        traces_and({"slice post float32", "slice preintegrated float32", "slice exact float32",
+                    "project float32", "project analytic float32"}));
 }
 
 // Scenes of many slabs, whose sums must not drift.
@@ -216,7 +189,7 @@ std::vector<SelftestCase> clip_cases() {
 std::vector<SelftestCase> depth_cases() {
     std::vector<SelftestCase> cases;
     const auto add = [&](const SelftestScene& scene, const std::vector<DrawingWay>& ways) {
-        for (SelftestCase& each : cases_of(depth_group, scene, ways)) cases.push_back(each);
+        for (SelftestCase& each : cases_of("depth", {scene}, ways)) cases.push_back(each);
     };
     for (const int slabs : {1, 2, 3, 17, 255, 4096, 65536}) {
         add(slabs_scene("medium", slabs, 2), float_ways());
