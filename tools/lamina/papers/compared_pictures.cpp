@@ -300,10 +300,6 @@ std::vector<VariantErrors> variant_errors(const std::string& label, KrausSubject
     return errors;
 }
 
-std::vector<std::string> compared_picture_files(const std::string& name) {
-    return {name + ".csv"};
-}
-
 ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
                                          const std::string& name, KrausSubject& subject,
                                          const std::vector<Variant>& variants,
@@ -328,7 +324,7 @@ ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
     const double scale = shown_scale(differences.front());
     study::write_text(folder / (name + ".csv"), csv_of_rows(rows));
     made.values = {
-        {"files", compared_picture_files(name)},
+        {"files", {name + ".csv"}},
         {"mesh", subject.name},
         {"pixels", {scene.width, scene.height}},
         {"inset", {inset.column, inset.row, inset.width, inset.height}},

@@ -57,9 +57,6 @@ struct ComparedPictures {
     nlohmann::ordered_json values;      // files, mesh, pixels, inset, scale, rows, panels
 };
 
-// Returns the names of the files that write_compared_pictures() writes: NAME.csv.
-std::vector<std::string> compared_picture_files(const std::string& name);
-
 // Writes NAME.csv with the errors, and makes panels like the paper's figures: the variants'
 // pictures and the exact one; an inset of each, magnified; and the signed differences from the
 // exact picture (image/difference.h). All insets get the same gain of contrast, chosen for the

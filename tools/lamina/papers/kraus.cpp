@@ -69,10 +69,7 @@ double largest_depth(study::TracedMesh& mesh, Scene scene, const std::vector<Tra
 std::vector<std::string> files_of_meshes(const std::string& name,
                                          const std::vector<std::string>& meshes,
                                          std::vector<std::string> also = {}) {
-    for (const std::string& mesh : meshes) {
-        const auto files = compared_picture_files(name + "_" + mesh);
-        also.insert(also.end(), files.begin(), files.end());
-    }
+    for (const std::string& mesh : meshes) also.push_back(name + "_" + mesh + ".csv");
     return also;
 }
 
@@ -83,17 +80,16 @@ std::filesystem::path file_of(const std::filesystem::path& data, const std::stri
     return data / (name + ".vtu");
 }
 
-}  // namespace
+// Views and transfer functions of a subject. Extinctions are relative: they are scaled until the
+// picture has the intended largest opacity.
+struct KrausView {
+    Camera camera, isosurface_camera;
+    std::vector<TransferKnot> smooth, isosurface;
+    double isosurface_opacity = 0.98;
+};
 
-TableSettings paper_table() {
-    TableSettings table;
-    table.store = TableStore::opacity;
-    return table;
-}
-
-KrausView kraus_view(const std::string& name) {
+KrausView view_of(const std::string& name) {
     KrausView view;
-    view.name = name;
     if (name == "bluntfin") {
         view.camera = view.isosurface_camera = camera({-9, -12, 8}, {1.5, 3.5, 2.3}, 45);
         view.smooth = {knot(.2, {.05, .1, .6}, .1), knot(1, {.1, .4, .8}, .2),
@@ -130,15 +126,18 @@ KrausView kraus_view(const std::string& name) {
     return view;
 }
 
-KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, bool measured_data,
-                                int width, int height) {
-    KrausSubject subject{view.name, measured_data, std::move(mesh), {}, {}, {}, {}};
+}  // namespace
+
+KrausSubject make_kraus_subject(study::TracedMesh mesh, const std::string& name, int width,
+                                int height) {
+    const KrausView view = view_of(name);
+    KrausSubject subject{name, std::move(mesh), {}, {}, {}, {}};
     Scene scene;
     scene.method = Method::project;
     scene.camera = view.camera;
     scene.width = width;
     scene.height = height;
-    scene.project.table = paper_table();
+    scene.project.table = TableSettings{.store = TableStore::opacity};
     // Optical depth is proportional to extinction, so one measurement with thin extinctions gives
     // the factor for any opacity. Relative extinctions are about 1.
     const auto& bounds = subject.mesh.tets().bounds();
@@ -161,9 +160,9 @@ KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, b
 
 const std::vector<KrausItem>& kraus_items() {
     static const std::vector<KrausItem> items{
-        {"figure7", compared_picture_files("figure7"), nullptr, draw_kraus_figure7},
-        {"figure8", compared_picture_files("figure8"), nullptr, draw_kraus_figure8},
-        {"figure9", compared_picture_files("figure9"), nullptr, draw_kraus_figure9},
+        {"figure7", {"figure7.csv"}, nullptr, draw_kraus_figure7},
+        {"figure8", {"figure8.csv"}, nullptr, draw_kraus_figure8},
+        {"figure9", {"figure9.csv"}, nullptr, draw_kraus_figure9},
         {"figure10", files_of_meshes("figure10", {"graded", "plate", "bluntfin"}), nullptr,
          draw_kraus_figure10},
         {"artifacts", {"artifacts.csv"}, nullptr, draw_kraus_artifacts},
@@ -192,26 +191,20 @@ bool KrausStage::has(const std::string& data_set) const {
 }
 
 KrausSubject KrausStage::make(const std::string& name) const {
-    const auto subject = [&](study::TracedMesh mesh, bool measured_data) {
-        return make_kraus_subject(std::move(mesh), kraus_view(name), measured_data, sizes_.width,
-                                  sizes_.height);
+    const auto mesh = [&] {
+        if (name == "graded" || name == "plate")
+            return study::TracedMesh(make_graded_mesh(sizes_.graded_cells, sizes_.graded_layers,
+                                                      graded_ratio, name == "graded" ? bump : 0));
+        if (name == "box")
+            return study::TracedMesh(
+                make_box_mesh({sizes_.box_cells, sizes_.box_cells, sizes_.box_cells}));
+        Scene scene;
+        scene.mesh = MeshFile{file_of(data_, name)};
+        SceneData data;
+        data.mesh(scene);
+        return study::TracedMesh(std::move(data));
     };
-    if (name == "graded" || name == "plate") {
-        return subject(
-            study::TracedMesh(make_graded_mesh(sizes_.graded_cells, sizes_.graded_layers,
-                                               graded_ratio, name == "graded" ? bump : 0)),
-            false);
-    }
-    if (name == "box") {
-        return subject(study::TracedMesh(
-                           make_box_mesh({sizes_.box_cells, sizes_.box_cells, sizes_.box_cells})),
-                       false);
-    }
-    Scene scene;
-    scene.mesh = MeshFile{file_of(data_, name)};
-    SceneData data;
-    data.mesh(scene);
-    return subject(study::TracedMesh(std::move(data)), true);
+    return make_kraus_subject(mesh(), name, sizes_.width, sizes_.height);
 }
 
 KrausSubject& KrausStage::subject(const std::string& name) {
@@ -237,9 +230,11 @@ std::vector<KrausSubject*> KrausStage::subjects() {
 
 nlohmann::ordered_json result_with_data(Findings findings, nlohmann::ordered_json values,
                                         nlohmann::ordered_json printed, const std::string& more,
-                                        const KrausStage& stage, const DataNeeds& needs) {
+                                        const KrausStage& stage,
+                                        const std::vector<std::string>& data_sets,
+                                        const std::string& instead) {
     std::vector<std::string> missing;
-    for (const std::string& name : needs.data_sets) {
+    for (const std::string& name : data_sets) {
         if (!stage.has(name)) missing.push_back(name + ".vtu");
     }
     if (!missing.empty()) findings.make_untestable();
@@ -248,7 +243,7 @@ nlohmann::ordered_json result_with_data(Findings findings, nlohmann::ordered_jso
     for (const char* const key : {"remark", "note"}) {
         result[key] =
             fmt::format("Set LAMINA_DATA to a folder that holds {}; {}. {}",
-                        fmt::join(missing, ", "), needs.instead, result[key].get<std::string>());
+                        fmt::join(missing, ", "), instead, result[key].get<std::string>());
     }
     return result;
 }

@@ -26,7 +26,6 @@ namespace lamina::papers {
 // float32, and the paper's table (256 x 256 x 16, opacity, 16 bits, exact entries, octaves).
 struct KrausSubject {
     std::string name;
-    bool measured_data;  // read from a file, not generated
     study::TracedMesh mesh;
     Scene smooth;      // opacity of a ray up to .5
     Scene faint;       // as `smooth`, with opacity up to .1
@@ -37,22 +36,10 @@ struct KrausSubject {
     std::shared_ptr<TableCache> tables = std::make_shared<TableCache>();
 };
 
-// Views and transfer functions of a subject. Extinctions are relative: they are scaled until the
-// picture has the intended largest opacity.
-struct KrausView {
-    std::string name;
-    Camera camera, isosurface_camera;
-    std::vector<TransferKnot> smooth, isosurface;
-    double isosurface_opacity = 0.98;
-};
-// Returns the view of one of the meshes "bluntfin", "combustor", "torso", "graded", "plate" and
-// "box" (papers/compared_pictures.h).
-KrausView kraus_view(const std::string& name);
-
-KrausSubject make_kraus_subject(study::TracedMesh mesh, const KrausView& view, bool measured_data,
-                                int width, int height);
-
-TableSettings paper_table();
+// `name`: "bluntfin", "combustor", "torso", "graded", "plate" or "box"
+// (papers/compared_pictures.h).
+KrausSubject make_kraus_subject(study::TracedMesh mesh, const std::string& name, int width,
+                                int height);
 
 // Functions that switch off one remedy of Kraus 2004 in a scene that has all of them.
 
@@ -148,8 +135,8 @@ class KrausStage {
     const std::shared_ptr<TableCache>& tables() const { return tables_; }
 
     bool has(const std::string& data_set) const;
-    // Returns a subject of kraus_view(), made when it is first needed. "box" replaces a missing
-    // data set. "graded" has a bump and "plate" has none; both have an edge ratio of 1e4.
+    // Returns a subject of make_kraus_subject(), made when it is first needed. "box" replaces a
+    // missing data set. "graded" has a bump and "plate" has none; both have an edge ratio of 1e4.
     KrausSubject& subject(const std::string& name);
     // Returns all subjects whose data exist (or "box" if none does), and "graded" and "plate".
     std::vector<KrausSubject*> subjects();
@@ -165,57 +152,36 @@ class KrausStage {
     std::map<std::string, std::unique_ptr<KrausSubject>> subjects_;
 };
 
-// Data sets that an item needs, and words for what replaces missing ones.
-struct DataNeeds {
-    std::vector<std::string> data_sets;
-    std::string instead;
-};
-
-// Returns Findings::result(values, printed, more). If a data set is missing, the note says so
-// first, and the paper's statements count as untestable.
+// Returns Findings::result(values, printed, more). If one of the `data_sets` that an item needs is
+// missing, the note says so first, with what happens `instead`, and the paper's statements count as
+// untestable.
 nlohmann::ordered_json result_with_data(Findings findings, nlohmann::ordered_json values,
                                         nlohmann::ordered_json printed, const std::string& more,
-                                        const KrausStage& stage, const DataNeeds& needs);
+                                        const KrausStage& stage,
+                                        const std::vector<std::string>& data_sets,
+                                        const std::string& instead);
 
 // A scene of a mesh, prepared to be drawn again and again. The context must outlive it.
-class MeshFrame {
-  public:
-    MeshFrame(std::string name, const study::TracedMesh& mesh, const Scene& scene,
+struct MeshFrame {
+    MeshFrame(std::string of, const study::TracedMesh& mesh, const Scene& scene,
               const Capabilities& capabilities, std::shared_ptr<TableCache> tables)
-        : name_(std::move(name)),
-          pipeline_(std::make_unique<Pipeline>(
+        : name(std::move(of)),
+          pipeline(std::make_unique<Pipeline>(
               scene, mesh.data(),
               PipelineOptions{.capabilities = capabilities, .tables = std::move(tables)})) {
-        pipeline_->set_up();
+        pipeline->set_up();
     }
 
-    const std::string& name() const { return name_; }
-    // Returns the durations of the last frame's stages.
-    std::map<std::string, double> stages_ms() const {
-        return pipeline_->renderer().renderer().stages_ms();
-    }
-    std::int64_t tets_drawn() const { return pipeline_->statistics().tets_drawn; }
-    Image picture() const { return pipeline_->renderer().picture(); }
-    // Draws a frame with all its stages: order, geometry and fragments.
-    void draw() {
-        pipeline_->draw_frame();
-        drawn_ = true;
-    }
-    void warm_up() {
-        if (!drawn_) draw();
-    }
-
-  private:
-    std::string name_;
-    std::unique_ptr<Pipeline> pipeline_;
-    bool drawn_ = false;
+    std::string name;
+    std::unique_ptr<Pipeline> pipeline;
 };
 
 // Returns the frames for time_interleaved(). `frames` must not move in memory while it is used.
-inline std::vector<study::TimedFrame> timed(std::vector<MeshFrame>& frames) {
+inline std::vector<study::TimedFrame> timed(const std::vector<MeshFrame>& frames) {
     std::vector<study::TimedFrame> all;
-    for (MeshFrame& frame : frames) {
-        all.push_back({frame.name(), [&frame] { frame.warm_up(); }, [&frame] { frame.draw(); }});
+    for (const MeshFrame& frame : frames) {
+        const auto draw = [&frame] { frame.pipeline->draw_frame(); };
+        all.push_back({frame.name, draw, draw});
     }
     return all;
 }

@@ -194,7 +194,7 @@ Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage
         nullptr,
         "Judged with the smooth transfer functions, of total opacity up to .5 (.1 where said), on "
         "all meshes together; tables hold opacity, 256 x 256 x 16.",
-        stage, {{"bluntfin", "combustor", "torso"}, "generated meshes are judged alone"});
+        stage, {"bluntfin", "combustor", "torso"}, "generated meshes are judged alone");
 }
 
 Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
@@ -246,7 +246,7 @@ Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
           "frame and its contrast; the differences from the exact picture are signed, blue below "
           "and red above."}},
         nullptr, "Total opacity up to .95, default integration, float32.", stage,
-        {{"bluntfin", "combustor", "torso"}, "generated meshes are judged alone"});
+        {"bluntfin", "combustor", "torso"}, "generated meshes are judged alone");
 }
 
 }  // namespace lamina::papers

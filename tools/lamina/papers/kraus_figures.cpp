@@ -59,8 +59,8 @@ Json draw_kraus_figure7(const std::filesystem::path& folder, KrausStage& stage) 
         "to those in Figure 7a.",
         is_worse(errors[1], errors[2]), falls(errors[1], errors[2]));
     made.values["caption"] = caption_of("The blunt fin with coarse tables and buffers.");
-    return result_with_data(findings, made.values, nullptr, view_note, stage,
-                            {{"bluntfin"}, "a generated box stands in"});
+    return result_with_data(findings, made.values, nullptr, view_note, stage, {"bluntfin"},
+                            "a generated box stands in");
 }
 
 Json draw_kraus_figure8(const std::filesystem::path& folder, KrausStage& stage) {
@@ -82,7 +82,7 @@ Json draw_kraus_figure8(const std::filesystem::path& folder, KrausStage& stage) 
         "interpolations.");
     return result_with_data(findings, made.values, nullptr,
                             std::string("The paper's heat sink is not to be had. ") + view_note,
-                            stage, {{"combustor"}, "a generated box stands in"});
+                            stage, {"combustor"}, "a generated box stands in");
 }
 
 Json draw_kraus_figure9(const std::filesystem::path& folder, KrausStage& stage) {
@@ -120,7 +120,7 @@ Json draw_kraus_figure9(const std::filesystem::path& folder, KrausStage& stage) 
         findings, made.values, nullptr,
         std::string("The paper's tapered cylinder is not to be had; total opacity up to .1. ") +
             view_note,
-        stage, {{"combustor"}, "a generated box stands in"});
+        stage, {"combustor"}, "a generated box stands in");
 }
 
 Json draw_kraus_figure10(const std::filesystem::path& folder, KrausStage& stage) {
@@ -171,7 +171,7 @@ Json draw_kraus_figure10(const std::filesystem::path& folder, KrausStage& stage)
                             std::string("The paper's X38 is not to be had: generated boundary "
                                         "layers of edge ratio 1e4 stand in. ") +
                                 view_note,
-                            stage, {{"bluntfin"}, "that mesh is left out"});
+                            stage, {"bluntfin"}, "that mesh is left out");
 }
 
 }  // namespace lamina::papers

@@ -65,9 +65,10 @@ Json measured_rows(KrausSubject& subject, const char* transfer_function, const S
     for (const Variant& variant : variants) {
         frames.emplace_back(variant.name, subject.mesh, variant.scene, stage.capabilities(),
                             subject.tables);
-        frames.back().draw();
-        errors.push_back(errors_of(variant.name,
-                                   difference(frames.back().picture(), subject.mesh.exact(scene))));
+        Pipeline& pipeline = *frames.back().pipeline;
+        pipeline.draw_frame();
+        errors.push_back(errors_of(
+            variant.name, difference(pipeline.renderer().picture(), subject.mesh.exact(scene))));
     }
     const auto to_time = timed(frames);
     const Json times = time_rows(
@@ -132,7 +133,7 @@ Json draw_kraus_preintegration(const std::filesystem::path& folder, KrausStage& 
                             "Tables: 256 x 256 x 16, 16 bits, octaves; float32 target. `ratio`: to "
                             "the first row of the "
                             "same mesh and transfer function.",
-                            stage, {{"bluntfin"}, "a generated box stands in"});
+                            stage, {"bluntfin"}, "a generated box stands in");
 }
 
 }  // namespace lamina::papers

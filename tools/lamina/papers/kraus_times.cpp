@@ -59,8 +59,9 @@ Scene timed_scene(Scene scene, const KrausSizes& sizes) {
 }
 
 void add_stages(Json& row, const MeshFrame& frame) {
-    for (const auto& [stage, ms] : frame.stages_ms()) row[stage + "_ms"] = ms;
-    row["tets_drawn"] = frame.tets_drawn();
+    for (const auto& [stage, ms] : frame.pipeline->renderer().renderer().stages_ms())
+        row[stage + "_ms"] = ms;
+    row["tets_drawn"] = frame.pipeline->statistics().tets_drawn;
 }
 
 double ratio(const Json& rows, std::size_t of, std::size_t to) {
@@ -138,8 +139,8 @@ Json printed_table2() {
 std::vector<TimedMesh> meshes_of_table2(KrausStage& stage, std::deque<study::TracedMesh>& boxes) {
     std::vector<TimedMesh> meshes;
     const Scene box_scene =
-        timed_scene(make_kraus_subject(study::TracedMesh(make_box_mesh({8, 8, 8})),
-                                       kraus_view("box"), false, coarse_width, coarse_height)
+        timed_scene(make_kraus_subject(study::TracedMesh(make_box_mesh({8, 8, 8})), "box",
+                                       coarse_width, coarse_height)
                         .dense,
                     stage.sizes());
     for (const std::int32_t cells : stage.sizes().timed_box_cells) {
@@ -196,7 +197,7 @@ Json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage) {
                     "of the paper's frame buffer total, its silhouettes {:.2f} times that of its "
                     "triangles.",
                     ratio(rows, 11, 3), ratio(rows, 10, 9)),
-        stage, {{"bluntfin"}, "a generated box stands in"});
+        stage, {"bluntfin"}, "a generated box stands in");
 }
 
 Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
@@ -248,7 +249,7 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
          {"rounds", stage.sizes().rounds},
          {"rows", rows}},
         printed_table2(), fmt::format("Cell sorting takes up to {:.0f} % of a frame.", 100 * order),
-        stage, {{"bluntfin", "combustor", "torso"}, "the data sets are left out"});
+        stage, {"bluntfin", "combustor", "torso"}, "the data sets are left out");
 }
 
 }  // namespace lamina::papers

@@ -67,9 +67,6 @@ nlohmann::ordered_json draw_times(const std::filesystem::path& folder, LamarStag
 // section 4).
 Scene with_paper_hardware(Scene scene);
 
-// Returns the norms of one channel (0..3: R, G, B, A) of `image` - `exact`, in units of 1/255.
-ErrorNorms channel_error(const Image& image, const Image& exact, std::size_t channel);
-
 // Generates the volume `mixing`, which replaces LaMar's Richtmyer-Meshkov data (2004, section 5.2).
 // Heavy liquid, at large x, flows into light liquid.
 Volume mixing_volume();
@@ -79,12 +76,11 @@ Volume mixing_volume();
 // goes from green at density 0 to red at 1. The intended opacity of a ray is .765 times its
 // density. Then the largest red is 195, and green cannot exceed 48.8, as in the paper (Table 4,
 // period 1: nothing is drawn, so that the largest errors, 195 and 47, are the largest values).
-Scene mixing_scene(int pixels);
-Scene white_mixing_scene(int pixels);  // for techniques that carry no colour
+// `white`: for techniques that carry no colour.
+Scene mixing_scene(int pixels, bool white = false);
 
 // Pictures of mixing_volume(): exact (float32), and as the paper's hardware dithers them.
 struct DitheredMixing {
-    Scene scene;  // scene of the exact picture
     Image exact;
     std::vector<int> periods;  // 1 stands for no dithering
     std::vector<Image> dithered;

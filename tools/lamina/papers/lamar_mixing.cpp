@@ -64,8 +64,8 @@ struct MeasuredRow {
 std::vector<MeasuredRow> measured_rows(const DitheredMixing& mixing) {
     std::vector<MeasuredRow> rows;
     for (const Image& image : mixing.dithered) {
-        rows.push_back(
-            {channel_error(image, mixing.exact, 0), channel_error(image, mixing.exact, 1)});
+        const ImageError error = image_error(image, mixing.exact);
+        rows.push_back({error.of_channel[0], error.of_channel[1]});
     }
     return rows;
 }
@@ -211,12 +211,13 @@ Image LamarStage::draw_mixing(const Scene& scene) {
 
 const DitheredMixing& LamarStage::dithered_mixing() {
     if (dithered_mixing_) return *dithered_mixing_;
-    DitheredMixing made{mixing_scene(pixels_), {}, {1, 4, 16, 64, 256}, {}};
+    const Scene exact = mixing_scene(pixels_);
+    DitheredMixing made{{}, {1, 4, 16, 64, 256}, {}};
     Progress progress("mixing liquids", 1 + static_cast<std::int64_t>(made.periods.size()));
-    made.exact = draw_mixing(made.scene);
+    made.exact = draw_mixing(exact);
     progress.advance();
     for (const int period : made.periods) {
-        Scene scene = with_paper_hardware(made.scene);
+        Scene scene = with_paper_hardware(exact);
         if (period > 1) scene.slice.dither = DitherSettings{.period = period, .color = true};
         made.dithered.push_back(draw_mixing(scene));
         progress.advance();
@@ -267,7 +268,7 @@ Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
     Json rows = Json::array();
     int front_better = 0, back_better = 0;
     for (const bool white : {false, true}) {
-        Scene scene = white ? white_mixing_scene(pixels) : mixing_scene(pixels);
+        Scene scene = mixing_scene(pixels, white);
         for (const int samples : {64, 256, 1024}) {
             scene.slice.samples = samples;
             const Image exact = stage.draw_mixing(scene);
@@ -313,7 +314,7 @@ Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
 // LaMar 2004, Figure 10: exponent-factoring of two liquids that mix.
 
 Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
-    const Scene white = white_mixing_scene(stage.pixels()), colored = mixing_scene(stage.pixels());
+    const Scene white = mixing_scene(stage.pixels(), true), colored = mixing_scene(stage.pixels());
     Progress progress("figure 10", 2 * static_cast<std::int64_t>(std::size(trees)) + 4);
     const auto draw = [&](const Scene& scene) {
         progress.advance();
@@ -328,7 +329,7 @@ Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
         for (const AlphaRounding rounding : {AlphaRounding::truncate, AlphaRounding::nearest}) {
             const Image image = draw(fixed_tree(white, tree.name, rounding));
             const bool paper = rounding == AlphaRounding::truncate;
-            const ErrorNorms e = channel_error(image, exact, 3);
+            const ErrorNorms e = image_error(image, exact).of_channel[3];
             (paper ? truncated : nearest)[tree.name] = e;
             rows.push_back(row_of("white", "fixed", tree.name, name_of(rounding), e));
             if (paper && tree.shown) panels.add("", tree.name, image);

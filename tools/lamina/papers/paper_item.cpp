@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "base/enum_words.h"
 #include "base/input_file.h"
 #include "study/report_files.h"
 
@@ -68,15 +69,7 @@ Json rows_of(const Json& values) {
 }  // namespace
 
 const char* name_of(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::agrees:
-            return "agrees";
-        case Verdict::disagrees:
-            return "disagrees";
-        case Verdict::untestable:
-            break;
-    }
-    return "cannot be tested here";
+    return word_of(verdict, {"agrees", "disagrees", "cannot be tested here"});
 }
 
 Verdict Findings::Statement::verdict() const {
