@@ -49,9 +49,13 @@ std::string slicing_name(int samples) {
     return "slicing, " + slabs_text(samples);
 }
 
+std::string tets_text(std::int64_t count) {
+    return fmt::format("{} tet{}", count, count == 1 ? "" : "s");
+}
+
 std::string projection_name(const Crosscheck::Projection& each) {
     return each.tolerance > 0 ? fmt::format("PT, tolerance {:g}", each.tolerance)
-                              : fmt::format("PT, {} tet{}", each.tets, each.tets == 1 ? "" : "s");
+                              : "PT, " + tets_text(each.tets);
 }
 
 Json runs_json(const Crosscheck& crosscheck, double scale) {
@@ -185,11 +189,9 @@ std::string dominance_of(const ErrorBudget::Part& part) {
 
 struct PairAt {
     std::size_t projection = 0, slicing = 0;
-};
 
-std::string tets_text(std::int64_t count) {
-    return fmt::format("{} tet{}", count, count == 1 ? "" : "s");
-}
+    friend bool operator==(const PairAt&, const PairAt&) = default;
+};
 
 std::string mesh_text(const Crosscheck::Projection& projection) {
     if (projection.tolerance == 0)
@@ -202,10 +204,6 @@ std::string mesh_text(const Crosscheck::Projection& projection) {
 
 const Crosscheck::Pair& pair_at(const Crosscheck& crosscheck, const PairAt& at) {
     return crosscheck.pairs[at.projection][at.slicing];
-}
-
-bool same_pair(const PairAt& a, const PairAt& b) {
-    return a.projection == b.projection && a.slicing == b.slicing;
 }
 
 std::string settings_text(const Crosscheck& crosscheck, const PairAt& at) {
@@ -267,8 +265,7 @@ std::string agreement(const Crosscheck& crosscheck, double wanted,
             projection.mesh_ms / 1000, crosscheck.slicings[found->slicing].times.ms);
     }
     const PairAt at = closest(crosscheck);
-    const bool is_mentioned = std::any_of(mentioned.begin(), mentioned.end(),
-                                          [&](const PairAt& each) { return same_pair(each, at); });
+    const bool is_mentioned = std::ranges::find(mentioned, at) != mentioned.end();
     return fmt::format(
         "PT and slicing agree nowhere on this ladder within {:g}/255 in every pixel; they are "
         "closest at {}. Finer: --tolerances, --samples and mesh.max_tets; for noise, mesh.kuhn.",
@@ -352,9 +349,7 @@ std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,
         subject.name, settings_text(crosscheck, own), budget.raw_error.all.linf,
         budget.raw_error.all.l2, dominance_of(budget.dominant()), shares)};
     for (const auto& [word, at] : {std::pair("coarsest", coarsest), {"finest", finest}}) {
-        if (std::any_of(mentioned.begin(), mentioned.end(),
-                        [&, &at = at](const PairAt& each) { return same_pair(each, at); }))
-            continue;
+        if (std::ranges::find(mentioned, at) != mentioned.end()) continue;
         findings.push_back(fmt::format("At the {} settings, {}.", word, pair_text(crosscheck, at)));
         mentioned.push_back(at);
     }

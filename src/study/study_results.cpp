@@ -57,6 +57,8 @@ CompleteLines read_lines(const std::filesystem::path& path) {
 using Json = nlohmann::ordered_json;
 using Records = std::vector<nlohmann::json>;
 
+constexpr const char* channel_names[] = {"R", "G", "B", "A"};
+
 // The records of one run in one journal.
 struct RunRecords {
     const nlohmann::json* drawn = nullptr;
@@ -118,7 +120,7 @@ RunResult result_of(std::size_t number, const RunRecords& run) {
     result.reference = drawn.at("reference");
     if (drawn.contains("first_ms")) result.first_ms = drawn["first_ms"].get<double>();
     result.all = norms_from(drawn.at("all"));
-    for (const char* const channel : {"R", "G", "B", "A"})
+    for (const char* const channel : channel_names)
         result.channels[channel] = norms_from(drawn.at("channels").at(channel));
     drawn.at("stages").get_to(result.stages_ms);
     drawn.at("bytes_gpu").get_to(result.bytes_gpu);
@@ -184,8 +186,6 @@ Json environment_of(const std::vector<Records>& journals, const std::vector<RunR
     return json;
 }
 
-const std::vector<std::string> channel_names{"R", "G", "B", "A"};
-
 // Returns the number with all digits, so that a reader can check the Pareto front.
 std::string number(double value) {
     return fmt::format("{}", value);
@@ -198,7 +198,7 @@ std::vector<std::string> columns_of(const RunList& list) {
          {"frame_ms_median", "frame_ms_min", "frame_ms_max", "still_ms_median", "still_ms_min",
           "still_ms_max", "first_ms", "ratio", "linf", "l1", "l2"})
         columns.emplace_back(name);
-    for (const std::string& channel : channel_names) {
+    for (const char* const channel : channel_names) {
         for (const char* const norm : {"linf", "l1", "l2"})
             columns.push_back(fmt::format("{}_{}", norm, channel));
     }
@@ -231,7 +231,7 @@ std::vector<std::string> cells_of(const RunList& list, const RunResult& result,
         cells.push_back(result.first_ms ? number(*result.first_ms) : "");
         cells.push_back(result.ratio ? number(*result.ratio) : "");
         add_norms(result.all, cells);
-        for (const std::string& channel : channel_names)
+        for (const char* const channel : channel_names)
             add_norms(result.channels.at(channel), cells);
         cells.push_back(number(result.reference_error));
         cells.emplace_back(result.near_reference() ? "true" : "false");
@@ -283,6 +283,11 @@ std::vector<std::filesystem::path> StudyFolder::kept() const {
 void StudyFolder::make() const {
     own().add(folders());
     for (const auto& folder : {path, references(), pictures()}) make_folder(folder);
+}
+
+std::string strange_record(const std::exception& error) {
+    if (dynamic_cast<const Error*>(&error) != nullptr) return error.what();
+    return "a record lacks a key, or a key has a value of another kind";
 }
 
 Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
@@ -354,12 +359,9 @@ StudyResults read_results(const StudyFolder& folder) {
         for (const Records& each : records) journals.push_back(by_run(each));
         for (std::size_t run = 0; run < results.list.runs.size(); ++run)
             add_result(results.list, run, journals, results.runs);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         fail("{}: a journal holds what lamina study did not write: {}", folder.path.string(),
-             error.what());
-    } catch (const std::exception&) {
-        fail("{}: a journal holds what lamina study did not write: {}", folder.path.string(),
-             strange_record);
+             strange_record(error));
     }
     for (RunResult& run : results.runs) {
         if (run.failed.empty())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -42,9 +43,8 @@ struct StudyFolder {
     void make() const;  // makes the folder and its subfolders; throws Error
 };
 
-// Message about a record that lamina did not write.
-inline constexpr const char* strange_record =
-    "a record lacks a key, or a key has a value of another kind";
+// Returns what is wrong with a record that lamina did not write. `error`: thrown when it was read.
+std::string strange_record(const std::exception& error);
 
 // The file with the records of a study, one line of JSON each. A record is on disk before append()
 // returns, so that a crash loses at most the record being written.

@@ -95,13 +95,11 @@ Scene scene_of(const StudyRun& run, const StudyFile& file) {
                                    name, automatic));
     }
     const TraceOf reference = reference_of(scene, file);
-    if (reference == TraceOf::volume && !scene.has_volume())
-        throw KeyError("volume", fmt::format("{}: the reference is a volume's, and the scene has "
-                                             "none",
-                                             name));
-    if (reference == TraceOf::mesh && !scene.has_mesh())
-        throw KeyError("mesh",
-                       fmt::format("{}: the reference is a mesh's, and the scene has none", name));
+    if (!(reference == TraceOf::volume ? scene.has_volume() : scene.has_mesh())) {
+        const char* const data = name_of(reference);
+        throw KeyError(
+            data, fmt::format("{}: the reference is a {}'s, and the scene has none", name, data));
+    }
     return scene;
 }
 
@@ -173,12 +171,9 @@ StudyRunner::StudyRunner(const RunList& list, const StudyFile& file, const Study
       contexts_([this] { drop_opengl(); }) {
     try {
         take_over(journal_.found());
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         fail("{}: holds records that lamina study did not write: {}",
-             folder.journal(shard.number, shard.count).string(), error.what());
-    } catch (const std::exception&) {
-        fail("{}: holds records that lamina study did not write: {}",
-             folder.journal(shard.number, shard.count).string(), strange_record);
+             folder.journal(shard.number, shard.count).string(), strange_record(error));
     }
     journal_.append(begin);
 }
