@@ -30,23 +30,18 @@ constexpr std::size_t alignment = 64;  // bytes; the data begin at a multiple of
 
 // Element type and shape of an image.
 struct Layout {
-    bool is_double = true;
-    std::int64_t height = 0, width = 0, channels = 0;
+    bool is_double;
+    std::int64_t height, width, channels;
 };
 
 Layout layout_of(const NpyHeader& header) {
-    Layout found;
     const std::string descr = header.descr();
     if (descr != "<f8" && descr != "<f4") header.wrong("descr", "'<f4' or '<f8'");
-    found.is_double = descr == "<f8";
     if (header.is_fortran_order()) header.wrong("fortran_order", "False");
     const std::vector<std::int64_t> shape = header.shape();
     if (shape.size() != 3 || (shape[2] != 3 && shape[2] != 4))
         header.wrong("shape", "(height, width, 4) or (height, width, 3)");
-    found.height = shape[0];
-    found.width = shape[1];
-    found.channels = shape[2];
-    return found;
+    return {descr == "<f8", shape[0], shape[1], shape[2]};
 }
 
 template <typename Real>

@@ -32,8 +32,7 @@ FragmentFormat first_format(Wire wire) {
     return wire == Wire::half ? FragmentFormat::half : FragmentFormat::float32;
 }
 FragmentFormat later_format(Wire wire) {
-    if (wire == Wire::coded) return FragmentFormat::fixed16;
-    return first_format(wire);
+    return wire == Wire::coded ? FragmentFormat::fixed16 : first_format(wire);
 }
 
 void add(const IndexBox& box, std::string& text) {

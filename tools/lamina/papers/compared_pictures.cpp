@@ -222,9 +222,8 @@ Json panels_of(const std::string& name, const std::vector<Variant>& variants,
         panels.add(name, variants[i].name, framed(study::shown(pictures[i]), inset));
     panels.add(name, "exact", framed(study::shown(exact), inset));
     const std::string insets = fmt::format(
-        "{}: the frame {} times as large, with {:.3g} times the "
-        "contrast about its mean",
-        name, magnification, gain);
+        "{}: the frame {} times as large, with {:.3g} times the contrast about its mean", name,
+        magnification, gain);
     for (std::size_t i = 0; i < pictures.size(); ++i)
         panels.add(insets, variants[i].name, magnified(pictures[i], inset, gain));
     panels.add(insets, "exact", magnified(exact, inset, gain));

@@ -18,8 +18,7 @@ constexpr const char* view_note = "View and transfer function are ours.";
 
 std::string falls(const VariantErrors& from, const VariantErrors& to) {
     return fmt::format(
-        "L2 {:.3g} with {}, {:.3g} with {}; Linf {:.3g} and {:.3g}; L1 {:.3g} and "
-        "{:.3g}",
+        "L2 {:.3g} with {}, {:.3g} with {}; Linf {:.3g} and {:.3g}; L1 {:.3g} and {:.3g}",
         from.all.l2, from.name, to.all.l2, to.name, from.all.linf, to.all.linf, from.all.mean,
         to.all.mean);
 }
@@ -150,8 +149,7 @@ Json draw_kraus_figure10(const std::filesystem::path& folder, KrausStage& stage)
                          is_worse(errors[1], errors[2]), falls(errors[1], errors[2]));
         for (const Json& file : made.values["files"]) values["files"].push_back(file);
         made.values.erase("files");
-        const EdgeLengths edges = edge_lengths(subject.mesh.tets());
-        made.values["edge_ratio"] = edges.ratio();
+        made.values["edge_ratio"] = edge_lengths(subject.mesh.tets()).ratio();
         values["meshes"].push_back(made.values);
     };
     add(stage.subject("graded"));
@@ -161,8 +159,7 @@ Json draw_kraus_figure10(const std::filesystem::path& folder, KrausStage& stage)
         "This results in darker renderings with substantial edge artifacts (Figure 10a)", darker,
         "with a uniform lookup texture, " + uniform);
     findings.add_untestable(
-        "as opposed to the artifact-free rendering with a logarithmic lookup "
-        "texture (Figure 10b).",
+        "as opposed to the artifact-free rendering with a logarithmic lookup texture (Figure 10b).",
         logarithmic_better, logarithmic);
     values["caption"] = caption_of(
         "Isosurfaces of generated boundary layers and of the blunt fin, which stand in for the "

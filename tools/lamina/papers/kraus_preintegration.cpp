@@ -131,8 +131,7 @@ Json draw_kraus_preintegration(const std::filesystem::path& folder, KrausStage& 
                              {"rows", rows}},
                             nullptr,
                             "Tables: 256 x 256 x 16, 16 bits, octaves; float32 target. `ratio`: to "
-                            "the first row of the "
-                            "same mesh and transfer function.",
+                            "the first row of the same mesh and transfer function.",
                             stage, {"bluntfin"}, "a generated box stands in");
 }
 

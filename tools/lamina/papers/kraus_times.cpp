@@ -235,8 +235,7 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
     Findings findings;
     findings.add_untestable(
         "The times are roughly linear in the number of projected tetrahedra but also depend "
-        "strongly "
-        "on the number of rasterized fragments.",
+        "strongly on the number of rasterized fragments.",
         most <= 673.0 / 483 * least,
         fmt::format("boxes of the paper's sizes: {:.0f}K to {:.0f}K tets per second; the paper's: "
                     "483K to 673K",

@@ -21,12 +21,6 @@ using Json = nlohmann::ordered_json;
 constexpr int dither_depths[] = {64, 256, 1024, 4096};
 constexpr int increments[] = {1, 2, 4, 8, 16};
 
-void append(Json& row, const ErrorNorms& e) {
-    row["linf"] = e.linf;
-    row["l1"] = e.mean;
-    row["l2"] = e.l2;
-}
-
 // Returns the first column of the ramp in which the opacity of a sample is at least 1 / (255 P),
 // the least that a pattern of period P shows.
 int predicted_first_shown(int samples, int period) {
@@ -43,7 +37,7 @@ Json measure_period(int samples, int period, double color, OverRounding over) {
     setting.dither = Dither{.period = period};
     const Curve curve = composite_ramp(setting);
     Json row{{"samples", samples}, {"period", period}, {"color", color}, {"over", name_of(over)}};
-    append(row, error_of(curve, exact_ramp(color)));
+    row.update(study::to_json(error_of(curve, exact_ramp(color))));
     row["first_column_shown"] = first_shown(curve);
     row["first_column_predicted"] = predicted_first_shown(samples, period);
     return row;
@@ -77,7 +71,7 @@ Json measure_increment(const RampSetting& setting) {
     Json row{{"samples", setting.samples},    {"period", dither.period},
              {"increment", dither.increment}, {"color", setting.color},
              {"dither_color", dither.color},  {"over", name_of(setting.emulation.over)}};
-    append(row, error_of(composite_ramp(setting), exact_ramp(setting.color)));
+    row.update(study::to_json(error_of(composite_ramp(setting), exact_ramp(setting.color))));
     return row;
 }
 
@@ -224,8 +218,7 @@ void judge_spans(Findings& findings, const Json& spans) {
     const Json ten = span(10);
     findings.add(
         "If the dithering period is 10, such that one voxel will be dithered to a value of 1, it "
-        "is "
-        "also possible for the voxels not to contribute",
+        "is also possible for the voxels not to contribute",
         ten["lost"] > 0 && ten["lost"] < 1,
         fmt::format("{:.0f} % of the places lose them", 100 * ten["lost"].get<double>()));
     findings.add(

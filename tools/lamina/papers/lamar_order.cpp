@@ -243,10 +243,9 @@ Json reproduce_order(const std::filesystem::path& folder) {
         "Curves that are not fused round each product of OVER by itself.";
     return findings.result(
         values, nullptr,
-        "With white, the colour of a ray front to back is that of the mirrored ray "
-        "back to front: haze in front gains from one order what haze behind it "
-        "loses. With colours, each sample front to back is rounded after its "
-        "attenuation, and many small ones vanish.");
+        "With white, the colour of a ray front to back is that of the mirrored ray back to front: "
+        "haze in front gains from one order what haze behind it loses. With colours, each sample "
+        "front to back is rounded after its attenuation, and many small ones vanish.");
 }
 
 }  // namespace lamina::papers

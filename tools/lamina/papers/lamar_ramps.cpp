@@ -23,10 +23,7 @@ std::string depth_name(int samples) {
 
 // Returns the paper's dithering, of colour as well as opacity (section 5).
 Dither paper_dither() {
-    Dither dither;
-    dither.period = paper_period;
-    dither.color = true;
-    return dither;
+    return {.period = paper_period, .color = true};
 }
 
 std::string brief(const ErrorNorms& e) {

@@ -137,10 +137,8 @@ Json reproduce_table1(const std::filesystem::path& folder) {
     Findings findings;
     findings.add(
         "A comparison of desired per-unit-distance opacity (\"PUDo\", column a) vs. computed "
-        "opacity "
-        "(\"Co\", column d) for a sample depth of 64. The per-voxel opacity (\"PVo\", columns b "
-        "and c) "
-        "is shown in base-10 and base-2.",
+        "opacity (\"Co\", column d) for a sample depth of 64. The per-voxel opacity (\"PVo\", "
+        "columns b and c) is shown in base-10 and base-2.",
         same, "every printed digit of the columns (b), (c) and (d) of all nine rows follows");
     findings.add(
         "Column (d) shows the value (in decimal) in the buffer after all compositing is completed.",
@@ -173,8 +171,7 @@ Json reproduce_table2(const std::filesystem::path& folder) {
     Findings findings;
     findings.add(
         "OVER(f, b) is found in the above matrix at [b, f]. [...] Wide cells indicate that the "
-        "same "
-        "value appears in consecutive cells.",
+        "same value appears in consecutive cells.",
         same == 16,
         fmt::format("{} of 16 rows hold the printed values in the printed order", same));
     bool halves = true;

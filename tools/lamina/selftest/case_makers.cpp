@@ -16,14 +16,12 @@ namespace {
 
 constexpr const char* from_layers =
     "Exact: every ray layer by layer in closed form. Bound: the ray cut as this way to draw cuts "
-    "it, "
-    "every optical depth and colour an interval of what coordinates, scalars and lengths off by 16 "
-    "roundings of a float32 (double for traces), and codes, can make of it, composited as "
+    "it, every optical depth and colour an interval of what coordinates, scalars and lengths off "
+    "by 16 roundings of a float32 (double for traces), and codes, can make of it, composited as "
     "intervals.";
 constexpr const char* from_tets =
     "Exact: one colour, and optical depths of all tets along the ray. Bound: every face off by "
-    "9e-6 of "
-    "its tet's longest edge (1e-9 for traces), and roundings of every blend.";
+    "9e-6 of its tet's longest edge (1e-9 for traces), and roundings of every blend.";
 constexpr const char* from_both = "The pictures may differ by what both bounds allow together.";
 
 std::shared_ptr<const SceneMesh> drawn_mesh(MeshData data) {

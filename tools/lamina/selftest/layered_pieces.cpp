@@ -201,17 +201,13 @@ std::vector<PieceBounds> run_pieces(const LayeredBox& box,
         const Interval w = Interval{std::min(a, b), std::max(a, b)}.widened(precision.position);
         const std::vector<LayerRun> runs = runs_between(box, any, part);
         const double scalar_error = precision.scalar * box.range().width();
-        if (runs.size() != 1) {
-            const OpticsRange all = optics_between(box, transfer_function, w, scalar_error, true);
-            pieces.push_back({times(all.extinction, lengths, precision.relative), all.color});
-            return;
-        }
-        const LayerRun& run = runs.front();
-        const OpticsRange met = optics_between(box, transfer_function, w, scalar_error);
-        if (box.is_void(run.layer)) {
+        const bool linear = runs.size() == 1;
+        const OpticsRange met = optics_between(box, transfer_function, w, scalar_error, !linear);
+        if (!linear || box.is_void(runs.front().layer)) {
             pieces.push_back({times(met.extinction, lengths, precision.relative), met.color});
             return;
         }
+        const LayerRun& run = runs.front();
         const ExactRun exact = integrate(box, transfer_function, any, run);
         const double length = part.width() * any.world_per_parameter;
         const double mean = length > 0 ? exact.integral.optical_depth / length : 0;

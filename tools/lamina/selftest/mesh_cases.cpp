@@ -38,8 +38,7 @@ std::vector<SelftestScene> box_scenes() {
     scenes.push_back(box_scene("needles_1e-3", "Points 1e-3 of the way from faces, edges, corners",
                                split(150, 1e-3, 5)));
     scenes.push_back(box_scene("needles_1e-6",
-                               "Edge ratios beyond 1e6, dihedral angles down to "
-                               "1e-4 degrees",
+                               "Edge ratios beyond 1e6, dihedral angles down to 1e-4 degrees",
                                split(40, 1e-6, 7)));
     scenes.push_back(box_scene("hub", "30,000 tets that share one point",
                                [](const LayeredBox& box) { return fan_tets(box, 50); }));
