@@ -121,7 +121,7 @@ TEST_F(Compare, DiffShowsSignAndPlace) {
 
 // With twice the range, colours are half as strong; with half the range, the message says that the
 // error is beyond the scale.
-TEST_F(Compare, RangeSetsTheColours) {
+TEST_F(Compare, RangeSetsTheColors) {
     const auto blue_of = [&](const std::string& range, const char* says) {
         const ProgramResult result =
             compare("a.exr", "b.exr", {"--diff", folder / "r.png", "--range", range});

@@ -62,7 +62,7 @@ TEST_F(Memory, LimitsDoNotChangeThePicture) {
             << fmt::format("{}", fmt::join(more, " "));
 }
 
-TEST_F(Memory, IndexIsKeptAndMadeAgainWhereTheVolumeChanged) {
+TEST_F(Memory, IndexIsKeptUntilTheVolumeChanges) {
     const std::string picture = render("1M");
     const auto cached = [&] {
         return std::filesystem::directory_iterator(folder / "cache/lamina")->path();

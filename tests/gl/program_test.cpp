@@ -72,7 +72,7 @@ TEST_P(ProgramTest, IgnoresUnusedUniformsButNotMisspeltOnes) {
     EXPECT_THROW(program.set("ligh", 1.0f), Error);
 }
 
-TEST_P(ProgramTest, IsSpecialisedByDefines) {
+TEST_P(ProgramTest, IsSpecializedByDefines) {
     const Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 1, 1));
     target.bind();
     draw_full_screen(full_screen_program(

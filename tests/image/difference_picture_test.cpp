@@ -25,7 +25,7 @@ int ink(const CodedImage& image, int first_row, int first, int end) {
     return dots;
 }
 
-TEST(DifferencePicture, HasTheColoursAboveAndTheirBarBelow) {
+TEST(DifferencePicture, HasTheColorsAboveAndTheirBarBelow) {
     const Difference difference{3, 2, {"Y"}, {-4, -2, 0, 2, 4, 8}};
     const CodedImage whole = difference_picture(difference, 8);
     ASSERT_EQ(whole.width, 160);

@@ -100,7 +100,7 @@ TEST(Exr, ReadsHalfAtAnyDataWindow) {
     }
 }
 
-TEST(Exr, MissingAlphaIsOpaqueAndYIsGrey) {
+TEST(Exr, MissingAlphaIsOpaqueAndYIsGray) {
     const TemporaryFolder folder;
     write_half(folder / "rgb.exr", {"R", "G", "B"}, two_by_three);
     EXPECT_EQ(read_exr(folder / "rgb.exr").pixel(1, 2)[0], 5);

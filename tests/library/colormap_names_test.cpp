@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-TEST(LibraryColormaps, AreListedWithTheirColours) {
+TEST(LibraryColormaps, AreListedWithTheirColors) {
     const std::vector<std::string> names = colormap_names();
     EXPECT_TRUE(std::ranges::find(names, "viridis") != names.end());
     for (const std::string& name : names) {

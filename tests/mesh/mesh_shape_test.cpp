@@ -25,7 +25,7 @@ Convexity convexity_of(const MeshData& data) {
     return convexity(TetMesh(data, "mesh"));
 }
 
-TEST(MeshShape, ConvexMeshesAreRecognised) {
+TEST(MeshShape, ConvexMeshesAreRecognized) {
     EXPECT_EQ(convexity_of(box({3, 2, 4})), Convexity::exact);
     EXPECT_EQ(convexity_of(test::DelaunayMesh::make(200, 1)), Convexity::exact);
     EXPECT_EQ(convexity_of(test::twisted_prism(-20)), Convexity::exact);
@@ -48,7 +48,7 @@ TEST(MeshShape, RoundedBoxesAreConvexWithinRounding) {
     EXPECT_EQ(convexity_of(dented), Convexity::within_rounding);
 }
 
-TEST(MeshShape, NonconvexMeshesAreRecognised) {
+TEST(MeshShape, NonconvexMeshesAreRecognized) {
     const auto carved = [](const auto& keep) {
         return convexity_of(test::carved(box({3, 3, 3}), keep));
     };

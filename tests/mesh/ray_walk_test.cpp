@@ -25,9 +25,10 @@ constexpr double u = 0x1p-53;  // largest rounding, as a share of the result
 // Across the line, in u N:
 //     sqrt(2) 16   errors of the corners' x and y, each up to RayWalk::place_error N;
 //     11           weights of three positive areas: an area 4, a sum of three 6, a quotient 1.
-// If an area is not positive, the crossing is the place on an edge that is nearest to the line:
+// If an area is not positive, the crossing is the place on an edge that is nearest to the line.
+// Then these, which are more than 11, are added to the errors of the corners:
 //     sqrt(2) 16   the line passes so far outside the corners as they are seen;
-//     25           the share of an edge 3 + 5 * 2, and the distances of two edges 6 each.
+//     25           3 + 10 for the share of an edge (3 + 5 * 2), 12 for the distances of two edges.
 // Along the line, in u N:
 //     8            a corner's depth: difference 1, product and two sums 3, square 3, quotient 1;
 //     7            the mean: 3 roundings of differences of depths (2 N each), and the last sum.

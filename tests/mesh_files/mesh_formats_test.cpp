@@ -263,7 +263,7 @@ TEST_F(MeshFormats, LargeMeshesWithoutScalarsAreReadBack) {
     expect_equal(read_mesh(folder() / "large.vtu"), mesh);
 }
 
-TEST(MeshFile, IsRecognisedByItsExtension) {
+TEST(MeshFile, IsRecognizedByItsExtension) {
     for (const char* const name : {"a.vtu", "b/a.vtk", "a.node", "a.ele"}) {
         EXPECT_TRUE(is_mesh_file(name)) << name;
     }

@@ -109,7 +109,7 @@ TEST(ShippedColormaps, AreInLinearLightByDefault) {
     }
 }
 
-TEST(ShippedColormaps, GreysAndCoolWarmHaveTheirPublishedColors) {
+TEST(ShippedColormaps, GraysAndCoolWarmHaveTheirPublishedColors) {
     EXPECT_EQ(mapped_color(load_colormap("greys", ImageColorSpace::display), .25), glm::dvec3(.25));
     // Moreland 2009, table: the middle is (221, 221, 221), the ends (59, 76, 192) and (180, 4, 38).
     const Colormap map = load_colormap("cool-warm", ImageColorSpace::display);

@@ -56,7 +56,7 @@ TEST(TransferFunction, NearestStepsHalfwayBetweenPoints) {
     EXPECT_EQ(TransferFunction::nearest({knot(3, 2)}).at(7).extinction, 2);
 }
 
-TEST(TransferFunction, NearestOfNeighbouringDoublesHasAtMostTwoKnotsAtAValue) {
+TEST(TransferFunction, NearestOfNeighboringDoublesHasAtMostTwoKnotsAtAValue) {
     std::vector<TransferKnot> points;
     double value = 1;
     for (int i = 0; i < 9; ++i, value = std::nextafter(value, 2)) points.push_back(knot(value, i));
@@ -70,7 +70,7 @@ TEST(TransferFunction, NearestOfNeighbouringDoublesHasAtMostTwoKnotsAtAValue) {
 
 // A point is left out if colour and extinction both are on the line, to a few roundings of their
 // own value, so that nothing faint is lost. Steps keep their height.
-TEST(TransferFunction, PointsOnTheLineBetweenTheirNeighboursAreLeftOut) {
+TEST(TransferFunction, PointsOnTheLineBetweenTheirNeighborsAreLeftOut) {
     const auto count = [](const std::vector<TransferKnot>& points) {
         return TransferFunction::linear(points).knots().size();
     };

@@ -61,7 +61,7 @@ TEST(FragmentCode, RoundsCodesByAtMostHalfACode) {
     EXPECT_LE(largest_error(picture, FragmentFormat::fixed8, true), code16 + roundings);
 }
 
-TEST(FragmentCode, ScalesColoursAboveOneToCodes) {
+TEST(FragmentCode, ScalesColorsAboveOneToCodes) {
     constexpr float largest = 20;
     const Image picture = random_picture(width, height, 4, largest);
     const double error = largest_error(picture, FragmentFormat::fixed8, false);

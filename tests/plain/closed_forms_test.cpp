@@ -81,7 +81,7 @@ TEST(PlainTracer, ConstantExtinctionHasTheOpacityOfTheChordThatTheClipKeeps) {
 }
 
 // G (docs/numerics.md, section 5) is (1 - exp(-D)) / D if p = q.
-TEST(PlainTracer, AColourThatIsLinearAlongTheRayHasItsClosedForm) {
+TEST(PlainTracer, AColorThatIsLinearAlongTheRayHasItsClosedForm) {
     for (const double depth : {1e-6, .3, 5., 80., 1e6}) {
         const double t = std::exp(-depth), g = -std::expm1(-depth) / depth;
         const double front = 1 - g, back = g - t;

@@ -121,7 +121,7 @@ TEST(TracerAndTwin, AgreeOnNonFiniteSamples) {
 }
 
 // Colours are composited as given, in linear light or in display values, and may exceed 1.
-TEST(TracerAndTwin, AgreeInBothColourSpaces) {
+TEST(TracerAndTwin, AgreeInBothColorSpaces) {
     for (const char* space : {"linear", "display"}) {
         nlohmann::json document = with("/image/color_space", space);
         document["transfer_function"]["points"] = {

@@ -110,7 +110,7 @@ TEST(CompositingPlan, AutomaticPeriodIsTheNumberOfSlabs) {
     EXPECT_EQ(slice_of(rendered("fixed8", {{"dither", {{"period", "auto"}}}})).dither->period, 40);
 }
 
-TEST(CompositingPlan, FixedNodesNeedFixedPointAndOneColour) {
+TEST(CompositingPlan, FixedNodesNeedFixedPointAndOneColor) {
     const nlohmann::json tree = {{"tree", {{"factors", {8, 5}}, {"nodes", "fixed"}}}};
     for (const char* target : {"fixed8", "fixed16", "emulated"}) {
         EXPECT_TRUE(slice_of(rendered(target, tree)).has_tree(NodeArithmetic::fixed));
@@ -125,7 +125,7 @@ TEST(CompositingPlan, FixedNodesNeedFixedPointAndOneColour) {
     }
 }
 
-TEST(CompositingPlan, ShaderNodesTakeAnyColourButNoEmulatedTarget) {
+TEST(CompositingPlan, ShaderNodesTakeAnyColorButNoEmulatedTarget) {
     const nlohmann::json tree = {
         {"tree", {{"factors", "8x5"}, {"code", "alpha"}, {"alpha_bits", 16}}}};
     for (const char* target : {"fixed8", "fixed16", "float16", "float32"}) {

@@ -72,7 +72,7 @@ TEST(SlabChoice, SlabsGetWhatCompositingLeavesOfTheError) {
 
 // Errors of second order fall to a quarter and a ninth with twice and three times the slabs. Errors
 // at steps fall to a half and a third, or go up and down.
-TEST(SlabChoice, ErrorsOfSecondOrderAreRecognised) {
+TEST(SlabChoice, ErrorsOfSecondOrderAreRecognized) {
     EXPECT_TRUE(are_of_second_order({{100, 9, 1}, {300, 1, 1}, {200, 2.2, 1}}));
     EXPECT_TRUE(are_of_second_order({{100, 9, 1}}));
     EXPECT_FALSE(are_of_second_order({{100, 9, 1}, {200, 4.5, 1}}));

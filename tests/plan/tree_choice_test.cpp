@@ -152,7 +152,7 @@ TEST(TreeChoice, AnEmulatedBufferHasNoTreeAndMayMissTheError) {
                   fmt::format("{:.4g}", straight_error_bound(question)), "100 visible slabs"});
 }
 
-TEST(TreeChoice, ColoursAboveOneAreCutOffByFixedPoint) {
+TEST(TreeChoice, ColorsAboveOneAreCutOffByFixedPoint) {
     TreeQuestion question = question_of(Target::fixed8, 1024);
     question.largest_color = 1.5;
     EXPECT_GT(one_level_error_bound(question), 127);

@@ -62,7 +62,7 @@ TEST_P(Conforming, LargeKuhnMeshesHaveNoCracks) {
 
 // A box of `across` x `across` pixels whose sides lie exactly on pixel centres, seen along an axis:
 // rays along a side must meet the box if they do in the tracer. A single wrong one costs 200.
-TEST_P(Conforming, SidesOnPixelCentresMeetTheTracersRays) {
+TEST_P(Conforming, SidesOnPixelCentersMeetTheTracersRays) {
     const SceneMesh mesh = scene_mesh(scaled(test::kuhn_box({2, 2, 2}, zero), 0.5));
     for (const int across : {50, 100, 256}) {
         for (int axis = 0; axis < 3; ++axis) {

@@ -157,7 +157,7 @@ TEST_P(LitProjection, ClippedMeshesMeetTheTracer) {
 }
 
 // A tet with a NaN shows nothing, and its neighbours are lit by the gradients of the other tets.
-TEST_P(LitProjection, TetsWithNanLeaveTheirNeighboursLit) {
+TEST_P(LitProjection, TetsWithNanLeaveTheirNeighborsLit) {
     MeshData data = test::split_box(6, 300, .1, lit_field);
     data.point_scalars[0].values[20] = NAN;
     const SceneMesh mesh = scene_mesh(data);

@@ -91,7 +91,7 @@ TEST(ProjectPlan, LinearInterpolationUsesTriangles) {
 }
 
 // An interpolated opacity belongs to no depth by which it could be divided.
-TEST(ProjectPlan, VertexColoursAreInterpolatedInThePicture) {
+TEST(ProjectPlan, VertexColorsAreInterpolatedInThePicture) {
     const Plan plan =
         plan_for(colored, [](Scene& scene) { scene.project.coloring = Coloring::vertex; });
     EXPECT_EQ(plan.project.interpolation, Interpolation::linear);
@@ -99,7 +99,7 @@ TEST(ProjectPlan, VertexColoursAreInterpolatedInThePicture) {
 
 // Vertex and attenuation mix colours of visible scalars with those of transparent ones, so one
 // colour needs that these are equal, too.
-TEST(ProjectPlan, MixedColoursCountAsOneOnlyIfAllAreEqual) {
+TEST(ProjectPlan, MixedColorsCountAsOneOnlyIfAllAreEqual) {
     const auto hidden = [](const glm::dvec3& color) {
         return TransferFunction::linear(
             {knot(0, color, 0), knot(.5, color, 0), knot(.5, {1, 0, 0}, 0), knot(1, {1, 0, 0}, 1)});
@@ -127,7 +127,7 @@ TEST(ProjectPlan, DitherNeedsCodes) {
     EXPECT_EQ(fixed8.project.blending, Blending::barrier);  // without framebuffer fetch
 }
 
-TEST(ProjectPlan, TreesNeedFixedNodesAndOneColour) {
+TEST(ProjectPlan, TreesNeedFixedNodesAndOneColor) {
     const TransferFunction grey =
         TransferFunction::linear({knot(0, {.5, .5, .5}, .2), knot(1, {.5, .5, .5}, .9)});
     const auto tree = [](Scene& scene) {

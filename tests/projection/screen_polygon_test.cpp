@@ -74,7 +74,7 @@ TEST(ScreenPolygon, SurroundsItsPoints) {
     }
 }
 
-TEST(ScreenPolygon, IsEmptyWithoutAPixelCentre) {
+TEST(ScreenPolygon, IsEmptyWithoutAPixelCenter) {
     const std::vector<glm::dvec2> between{{10.6, 10.6}, {11.4, 10.6}, {11, 11.4}};
     EXPECT_EQ(surround(between, 1.0 / 128, 800, 600).count, 0);
     const std::vector<glm::dvec2> outside{{-5, -5}, {-2, -5}, {-3, -1}};

@@ -24,7 +24,7 @@ def test_opacity_is_that_of_its_unit_length():
     assert abs(opacity_through(function, 0.5, 1.5) - (1 - 0.7 ** 3)) < 1e-12
 
 
-def test_colours_of_all_forms(blob):
+def test_colors_of_all_forms(blob):
     values = {"#ff8019": (1, 0.2158605, 0.009721217), "tomato": (1, 0.12477182, 0.06301002),
               (0.25, 0.5, 1): (0.25, 0.5, 1)}
     for color, linear in values.items():

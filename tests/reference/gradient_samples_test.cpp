@@ -58,7 +58,7 @@ TEST(GradientSamples, MatchTheGradientOfALinearField) {
 
 // The field is x^2 at 0, 1, 2, 3. Gradients are one-sided at the ends (1 and 5), central inside (2
 // and 4), and linear between samples.
-TEST(GradientSamples, AreDifferencesOfNeighbours) {
+TEST(GradientSamples, AreDifferencesOfNeighbors) {
     const Grid grid = make_grid({4, 1, 1}, Centering::cell, {.5, 3, 3});
     const std::vector<float> samples{0, 1, 4, 9};
     const auto x = [&](std::int64_t cell, double place) {

@@ -112,7 +112,7 @@ TEST(LitMesh, TurningAndScalingEverythingChangesNothing) {
 }
 
 // A tet with a NaN shows nothing, and the points around it get the gradients of their other tets.
-TEST(LitMesh, TetsWithNanLeaveTheirNeighboursLit) {
+TEST(LitMesh, TetsWithNanLeaveTheirNeighborsLit) {
     MeshData data = test::split_box(6, 300, .1, waves);
     data.point_scalars[0].values[20] = NAN;
     const View view = view_of_box(Projection::perspective);

@@ -168,7 +168,7 @@ TEST(LitVolume, NoiseInFlatRegionsDoesNotShow) {
     }
 }
 
-TEST(LitVolume, NanCellsAreTransparentAndLeaveNeighboursLit) {
+TEST(LitVolume, NanCellsAreTransparentAndLeaveNeighborsLit) {
     Lit scene = noise(Centering::node);
     for (const std::size_t hole : {40, 41, 77}) scene.samples[hole] = NAN;
     for (const Camera& camera : cameras(scene.grid)) {

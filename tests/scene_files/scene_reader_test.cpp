@@ -88,7 +88,7 @@ TEST(SceneReader, PathsAreRelativeToTheScene) {
     EXPECT_THROW(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json"), KeyError);
 }
 
-TEST(SceneReader, ColormapGivesColoursAndPointsExtinction) {
+TEST(SceneReader, ColormapGivesColorsAndPointsExtinction) {
     const TemporaryFolder folder;
     write_bytes_to(
         folder / "map.json",

@@ -30,7 +30,7 @@ TEST(VolumeSelection, IsReadAndWrittenBack) {
     EXPECT_EQ(Json(scene_json(scene)["volume"]), everything);
 }
 
-TEST(VolumeSelection, IsAPathWhereNothingIsGiven) {
+TEST(VolumeSelection, IsAPathIfNothingIsGiven) {
     const Scene scene = read_scene(with("/volume", {{"path", "/a.nrrd"}}), "s.json");
     EXPECT_EQ(scene.volume_file()->selection, VolumeRequest{});
     EXPECT_EQ(scene_json(scene)["volume"], "/a.nrrd");

@@ -319,7 +319,7 @@ TEST(ClippedCpuPictures, PlanesThatCutNothingAreLeftOut) {
     EXPECT_EQ(clipped.rgba, render_tiles(volume, scene).rgba);
 }
 
-TEST(ClippedCpuPictures, NothingIsDrawnWhereNothingIsLeft) {
+TEST(ClippedCpuPictures, NothingIsDrawnIfNothingIsLeft) {
     Scene scene = posed(clip_poses[1], smooth_transfer_function());
     const Volume volume = gaussians(12);
     scene.clip.planes = {{{1.5, .5, .5}, {1, 0, 0}}};

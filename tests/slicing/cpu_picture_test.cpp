@@ -163,7 +163,7 @@ TEST(CpuPictureTest, HardwareFilterHasAnErrorOfItsOwn) {
     EXPECT_GT(error, 0);
 }
 
-TEST(CpuPictureTest, NanCellsAreTransparentWhereAskedFor) {
+TEST(CpuPictureTest, NanCellsAreTransparentIfAskedFor) {
     Grid grid = reference_test::make_grid({12, 12, 12}, Centering::node, glm::dvec3(1. / 11));
     std::vector<float> samples(12 * 12 * 12);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i % 12) / 11;

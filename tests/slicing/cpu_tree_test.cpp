@@ -65,7 +65,7 @@ TEST_F(CpuTreeTest, NodesMatchOpenGl) {
 }
 
 // Bounds and reasons: tree_test.cpp.
-TEST_F(CpuTreeTest, ColoursKeepTheirErrorBound) {
+TEST_F(CpuTreeTest, ColorsKeepTheirErrorBound) {
     const Image expected = render_tiles(volume_, scene_of(1024, Target::float32, {}));
     const Image image = render_tiles(volume_, scene_of(1024, Target::fixed8, {32, 32}));
     EXPECT_LE(linf(image, expected), 2.2);

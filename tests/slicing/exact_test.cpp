@@ -62,7 +62,7 @@ TEST_P(ExactTest, TouchingAPointIsNotCrossingIt) {
 
 // With an optical depth of 4e6, the cell is opaque within a hundredth of its length from one side,
 // and from the other within less than float32 can resolve.
-TEST_P(ExactTest, DeepCellsHaveTheColourOfTheirFront) {
+TEST_P(ExactTest, DeepCellsHaveTheColorOfTheirFront) {
     const auto steep =
         TransferFunction::linear({knot(0, {0, 0, 0}, 0), knot(1, {1, .5, .25}, 1e7)});
     Scene scene = diagonal_scene(steep);
@@ -288,7 +288,7 @@ TEST_P(ExactTest, BricksLeaveNoSeam) {
 }
 
 // llvmpipe ends all loops of a fragment after 65535 rounds together (plan/choices.h).
-TEST_P(ExactTest, LongRaysAreDividedWhereLoopsAreLimited) {
+TEST_P(ExactTest, LongRaysAreDividedIfLoopsAreLimited) {
     const Volume volume = noise<std::uint8_t>({50, 50, 50}, Centering::cell, 255);
     std::vector<TransferKnot> knots;
     for (int i = 0; i < 200; ++i)

@@ -172,7 +172,7 @@ TEST(LitSlabs, AmbientAloneIsTheUnlitPictureBitForBit) {
 
 // The colour of a narrow peak inside a segment is lit as at the place of the peak, and not as in
 // the segment's middle.
-TEST(LitSlabs, PreintegrationKnowsWhereInASegmentColoursAre) {
+TEST(LitSlabs, PreintegrationKnowsWhereInASegmentColorsAre) {
     const Volume volume = waves(12);
     Scene scene = lit_scene(Classification::preintegrated, directional());
     scene.transfer_function = TransferFunction::linear(
@@ -274,7 +274,7 @@ TEST_P(LitSlabsOf, EmulatedTargetsAreLit) {
     }
 }
 
-TEST_P(LitSlabsOf, BricksKnowTheGradientsOfTheirNeighbours) {
+TEST_P(LitSlabsOf, BricksKnowTheGradientsOfTheirNeighbors) {
     const Volume volume = waves(30);
     Capabilities small = capabilities();
     small.max_texture_bytes = 16 * 75 * 53;

@@ -181,7 +181,7 @@ TEST_P(LitTest, NanCellsAreTransparent) {
 }
 
 // The part of a ray in a leaf of a tree is lit as in a ray without a tree.
-TEST_P(LitTest, TreesKeepTheColours) {
+TEST_P(LitTest, TreesKeepTheColors) {
     const Volume volume = waves<float>(test::grid_of({9, 8, 7}, Centering::node), 1);
     Scene scene = lit_scene(volume, 5, directional(), .01);
     look_from(volume, {.4, -.7, .9}, .6, scene);
@@ -323,7 +323,7 @@ TEST_P(LitTest, AnAutomaticSmallestGradientIsRefused) {
 }
 
 // llvmpipe ends all loops of a fragment after 65535 rounds together (plan/choices.h).
-TEST_P(LitTest, TooManyCutsAreRefusedWhereLoopsAreLimited) {
+TEST_P(LitTest, TooManyCutsAreRefusedIfLoopsAreLimited) {
     const Volume volume = waves<float>(test::grid_of({5, 5, 5}, Centering::node), 1);
     Scene scene = lit_scene(volume, 5, Lighting{}, .01);
     scene.max_error = .01;

@@ -142,7 +142,7 @@ TEST(SlabTrials, TryNoMoreRaysThanAMillion) {
     EXPECT_LT(chosen.goal, .75 * scene.max_error);
 }
 
-TEST(SlabTrials, AreMadeOnlyWhereTheNumberOfSlabsMatters) {
+TEST(SlabTrials, AreMadeOnlyIfTheNumberOfSlabsMatters) {
     const Volume volume = gaussians(8);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::orthographic);
     scene.slice.samples = 9;

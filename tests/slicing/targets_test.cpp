@@ -58,7 +58,7 @@ TEST_F(SlicingTest, BothOrdersGiveTheSamePicture) {
               255 * 150 * 1.2e-7);
 }
 
-TEST_F(SlicingTest, NanCellsAreTransparentWhereAskedFor) {
+TEST_F(SlicingTest, NanCellsAreTransparentIfAskedFor) {
     Grid grid = reference_test::make_grid({12, 12, 12}, Centering::node, glm::dvec3(1. / 11));
     std::vector<float> samples(12 * 12 * 12);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i % 12) / 11;

@@ -97,7 +97,7 @@ TEST_F(TreeTest, FloatNodesMatchStraightCompositing) {
 // bounds. Colours may be off by another .5, with convex weights; in these scenes, which are not the
 // worst, the bounds hold nevertheless. With an alpha of 16 bits only both roundings of .5 remain,
 // and 1.83 / 257.
-TEST_F(TreeTest, ColoursKeepTheirErrorBound) {
+TEST_F(TreeTest, ColorsKeepTheirErrorBound) {
     for (const Example& example : examples()) {
         for (const auto& [samples, factor, most] :
              {std::tuple{1024, 32, 2.2}, std::tuple{4096, 64, 2.4}}) {
@@ -116,7 +116,7 @@ TEST_F(TreeTest, ColoursKeepTheirErrorBound) {
 // Fixed-point images of nodes hold colours above 1 divided by the largest colour; only the picture
 // is clamped. So colours are coarser by that factor: half a code times it for each of two levels,
 // in addition to the errors of alpha codes.
-TEST_F(TreeTest, ColoursAboveOneKeepTheirErrorBound) {
+TEST_F(TreeTest, ColorsAboveOneKeepTheirErrorBound) {
     const Example faint{
         "faint, bright", generated("mixing"),
         TransferFunction::linear({knot(0, {3, 0, .5}, 0), knot(255, {.5, 3, 1}, .2)})};

@@ -308,7 +308,7 @@ class ReportPage(PageInBrowser):
         for norm in ("L∞", "L1", "L2", "1/255"):
             self.assertIn(norm, norms)
 
-    def test_clipped_colour_bars_say_so(self):
+    def test_clipped_color_bars_say_so(self):
         report = made_up_report(12)
         runs = measured(report["comparisons"][0])
         runs[1]["linf"], runs[2]["linf"] = 5, 2  # the scale is 2

@@ -141,7 +141,7 @@ TEST(Document, UndoKeepsTheView) {
     EXPECT_EQ(document.scene().camera->eye, glm::dvec3(9, 8, 7));
 }
 
-TEST(Document, ColoursKeepTheirLookInAnotherSpace) {
+TEST(Document, ColorsKeepTheirLookInAnotherSpace) {
     Document document = opened();
     const TransferFunction before = *document.scene().transfer_function;
     document.set_setting("image.color_space", "display");
@@ -162,7 +162,7 @@ Scene scene_with_open_colormap(const std::string& space) {
 
 // Before the first picture, the colours of a map that is stretched over the data are in no function
 // that could be converted.
-TEST(Document, ColoursOfAnOpenColormapKeepTheirLookInAnotherSpace) {
+TEST(Document, ColorsOfAnOpenColormapKeepTheirLookInAnotherSpace) {
     const Scene linear = scene_with_open_colormap("linear");
     const Scene display = scene_with_open_colormap("display");
     const Volume volume = load_volume(linear);

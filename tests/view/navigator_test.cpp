@@ -51,7 +51,7 @@ glm::dvec3 point_at_center(const Camera& camera, const glm::dvec2& place) {
     return camera.center + height_at_center(camera) * (place.x * axes.right + place.y * axes.up);
 }
 
-TEST(Navigator, OrbitKeepsCentreAndDistance) {
+TEST(Navigator, OrbitKeepsCenterAndDistance) {
     for (Camera camera : cameras()) {
         const Camera first = camera;
         for (int i = 0; i < 500; ++i) camera = orbited(camera, {.013, i % 2 ? .02 : -.017});

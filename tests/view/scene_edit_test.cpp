@@ -64,7 +64,7 @@ TEST(SceneEdit, NamesMistakes) {
     EXPECT_NE(message("render.slice.tree.factors", "32y"), "");
 }
 
-TEST(SceneEdit, KeepsTheLookOfColoursInAnotherSpace) {
+TEST(SceneEdit, KeepsTheLookOfColorsInAnotherSpace) {
     Scene before = scene();
     before.background = {.2, .5, 1};
     const Scene after = with_setting(before, "image.color_space", "display");

@@ -112,7 +112,7 @@ TEST(TransferCurves, FindSlopesFromAndToOpacityOne) {
 
 // A slope of opacity is stored as many points, whose colours were rounded when it was made. They
 // are kept bit for bit until a colour stop changes.
-TEST(TransferCurves, KeepColoursBetweenStopsUntilAStopChanges) {
+TEST(TransferCurves, KeepColorsBetweenStopsUntilAStopChanges) {
     const TransferFunction function = TransferFunction::linear_opacity(
         {{0, {.1, .2, .7}, 0}, {10, {.9, .3, 0}, .97}, {11.3, {.2, .2, .2}, .1}}, 1);
     TransferCurves curves = curves_of(function, 1);

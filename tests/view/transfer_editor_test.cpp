@@ -265,7 +265,7 @@ TEST(TransferEditor, DensityScalesAllExtinctionsAndKeepsSlopes) {
     EXPECT_NEAR(editor.curves().density[0].opacity_length, .25, 1e-16);
 }
 
-TEST(TransferEditor, MapsReplaceColoursAlone) {
+TEST(TransferEditor, MapsReplaceColorsAlone) {
     TransferEditor editor = four_points();
     const auto density = editor.curves().density;
     EXPECT_TRUE(editor.recolor(load_colormap("viridis"), 0, 5, true));
@@ -304,7 +304,7 @@ TEST(TransferEditor, PalettesStepHalfwayBetweenPoints) {
     EXPECT_EQ(editor.function().at(1).extinction, .75);
 }
 
-TEST(TransferEditor, ConvertsColoursToAnotherSpace) {
+TEST(TransferEditor, ConvertsColorsToAnotherSpace) {
     TransferEditor editor = four_points();
     const glm::dvec3 color = editor.curves().colors[1].color;
     EXPECT_TRUE(editor.convert_colors(ImageColorSpace::linear, ImageColorSpace::display));

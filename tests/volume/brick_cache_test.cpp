@@ -113,7 +113,7 @@ TEST(BrickCache, ForgetsWhatWasUsedLongestAgo) {
     EXPECT_EQ(filled, static_cast<int>(3 * slots));
 }
 
-TEST(BrickCache, ReadsExpectedNeighboursTogether) {
+TEST(BrickCache, ReadsExpectedNeighborsTogether) {
     std::vector<std::size_t> calls;
     BrickCache cache({32 * 4000 + 1, 2, 2}, 4096, [&](std::span<const BrickCache::Wanted> wanted) {
         calls.push_back(wanted.size());

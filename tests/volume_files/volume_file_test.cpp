@@ -18,7 +18,7 @@ const std::string small_header =
     "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n";
 const std::vector<std::uint8_t> two_samples = {7, 9};
 
-TEST_F(VolumeFiles, AreRecognisedAsNrrdWhateverTheirName) {
+TEST_F(VolumeFiles, AreRecognizedAsNrrdWhateverTheirName) {
     for (const char* name : {"a.nrrd", "a.NRRD", "a.nhdr", "a.dat", "a"}) {
         const Volume volume = read_volume(write(name, small_header + "\n\x07\x09"));
         EXPECT_EQ(testing::samples_of<std::uint8_t>(volume), two_samples) << name;
