@@ -7,7 +7,7 @@ in vec4 back_values;
 flat in vec2 scalars;
 flat in uint tet;
 
-uint part_number() { return tet; }
+uint cell_fragment_number() { return tet; }
 
 #if defined(ORTHOGRAPHIC) || defined(LINEAR)
 #define DIVIDED 0
@@ -44,13 +44,13 @@ TetOptics find_optics() {
 vec4 vertex_values() { return front_values; }
 
 // The segment of the ray inside the tet.
-struct TetRun {
+struct FragmentSegment {
     float front, back;   // scalars, normalised
     float world_length;
 };
 
-TetRun find_run() {
+FragmentSegment find_segment() {
     TetOptics optics = find_optics();
     vec2 ends = clamp(vec2(optics.front.x, optics.back.x), scalars.x, scalars.y);
-    return TetRun(ends.x, ends.y, optics.world_length);
+    return FragmentSegment(ends.x, ends.y, optics.world_length);
 }

@@ -9,7 +9,8 @@
 uniform int image_rows;
 uniform int seed;
 uint random_of_fragment() {
-    return random_bits(uint(gl_FragCoord.x), uint(image_rows) - 1u - uint(gl_FragCoord.y), part_number(), uint(seed));
+    uint row = uint(image_rows) - 1u - uint(gl_FragCoord.y);
+    return random_bits(uint(gl_FragCoord.x), row, cell_fragment_number(), uint(seed));
 }
 #endif
 #ifdef EMULATED

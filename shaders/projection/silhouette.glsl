@@ -4,7 +4,7 @@
 // the polygon covers a little more than the tet, and rasterisers move its corners.
 //
 // CAREFUL: in double precision, for faces seen nearly edge-on, tets at the near plane, and an eye inside the tet.
-// EXACT_RUNS: lengths and scalars, too. CUT: the cell fragment ends at planes of constant scalar.
+// EXACT_SEGMENTS: lengths and scalars, too. CUT: the cell fragment ends at planes of constant scalar.
 #ifdef CAREFUL
 flat in vec4 face_depths[6];
 uniform dvec3 ray_perturbation;  // pixels: moves rays along faces to one side, equal for all tets
@@ -16,7 +16,7 @@ flat in vec4 center;
 #ifdef SCALARS
 flat in vec4 scalars;
 #endif
-#if defined(EXACT_RUNS) && defined(SCALARS)
+#if defined(EXACT_SEGMENTS) && defined(SCALARS)
 flat in vec4 scalars_low;
 #endif
 flat in vec4 limits;
@@ -40,11 +40,11 @@ uniform float depth_scale;
 #endif
 
 // Returns the number of the cell fragment, for random numbers.
-uint part_number() { return floatBitsToUint(limits.w); }
+uint cell_fragment_number() { return floatBitsToUint(limits.w); }
 
 uint front_faces() { return floatBitsToUint(limits.z) & 7u; }
 
-struct TetRun {
+struct FragmentSegment {
     float front, back;   // scalars, normalised to the range of the table or of the cell fragment
     float world_length;  // 0 if the ray misses the tet
 #ifdef LIT
@@ -85,7 +85,7 @@ dvec2 find_exact_depths(dvec2 moved) {
     return dvec2(enter, leave);
 }
 
-#ifndef EXACT_RUNS
+#ifndef EXACT_SEGMENTS
 vec2 find_depths(vec2 place) { return vec2(find_exact_depths(moved_place(place))); }
 #elif defined(SCALARS)
 // Returns the scalars at these depths. They are double because a scalar within the window is a small difference of
@@ -135,26 +135,26 @@ vec2 cut_depths(vec2 depths, vec2 place) {
 #ifdef LIT
 // Sets the values that light needs. `from_center`: the distances along z of the segment's ends behind the center.
 // `reach`: their z, or 1 if rays are parallel.
-void find_gradients(vec2 place, vec2 from_center, vec2 reach, inout TetRun run) {
+void find_gradients(vec2 place, vec2 from_center, vec2 reach, inout FragmentSegment segment) {
     for (int axis = 0; axis < 3; ++axis) {
         vec4 of = gradients[axis];
         vec2 ends = of.x + from_center * of.y + reach * dot(place, of.zw);
         ends = clamp(ends, -1.0, 1.0);  // rounding in slivers may make it longer than at the points
-        run.front_gradient[axis] = ends.x;
-        run.back_gradient[axis] = ends.y;
+        segment.front_gradient[axis] = ends.x;
+        segment.back_gradient[axis] = ends.y;
     }
 #ifdef ORTHOGRAPHIC
-    run.to_eye = -view_axes[2].xyz;
+    segment.to_eye = -view_axes[2].xyz;
 #else
     vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
-    run.to_eye = -normalize((view_axes[2] + from_middle.x * view_axes[0] + from_middle.y * view_axes[1]).xyz);
+    segment.to_eye = -normalize((view_axes[2] + from_middle.x * view_axes[0] + from_middle.y * view_axes[1]).xyz);
 #endif
 }
 #endif
 
-TetRun find_run() {
+FragmentSegment find_segment() {
     vec2 place = gl_FragCoord.xy - center.xy;  // exact
-#ifdef EXACT_RUNS
+#ifdef EXACT_SEGMENTS
     dvec2 moved = moved_place(place);
     dvec2 exact_depths = find_exact_depths(moved);
     // Depths rounded to float decide whether the ray meets the tet: far outside the tet on a steep face, the doubles
@@ -171,31 +171,31 @@ TetRun find_run() {
     depths = depths.y > depths.x ? depths : vec2(0.0);  // missed: finite numbers, and no length
     float difference = depths.y - depths.x;
 #endif
-    TetRun run;
+    FragmentSegment segment;
 #ifdef ORTHOGRAPHIC
-    run.world_length = difference;
+    segment.world_length = difference;
     vec2 from_center = depths;
     vec2 reach = vec2(1.0);
 #else
     // z = -1 / depth. Differences of z are computed from differences of depth, so that a far eye costs no digits
     // (docs/numerics.md, section 6).
     vec2 z = -1.0 / min(center.z + depths, -1e-30);
-    run.world_length = difference * z.x * z.y;
+    segment.world_length = difference * z.x * z.y;
 #ifndef THICKNESS_DZ
     vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
-    run.world_length *= sqrt(1.0 + dot(from_middle, from_middle));
+    segment.world_length *= sqrt(1.0 + dot(from_middle, from_middle));
 #endif
     vec2 from_center = depths * z * center.w;
     vec2 reach = z;
 #endif
 #ifdef OPACITY_ONLY
-    run.world_length *= depth_scale;
+    segment.world_length *= depth_scale;
 #endif
 #ifdef LIT
-    find_gradients(place, from_center, reach, run);
+    find_gradients(place, from_center, reach, segment);
 #endif
 #ifdef SCALARS
-#ifdef EXACT_RUNS
+#ifdef EXACT_SEGMENTS
     vec2 ends = exact_ends(exact_depths, moved);
 #else
     vec2 ends = scalars.x + from_center * scalars.y + reach * dot(place, scalars.zw);
@@ -205,11 +205,11 @@ TetRun find_run() {
 #else
     ends = clamp(ends, limits.x, limits.y);
 #endif
-    run.front = ends.x;
-    run.back = ends.y;
+    segment.front = ends.x;
+    segment.back = ends.y;
 #else
-    run.front = 0.0;
-    run.back = 0.0;
+    segment.front = 0.0;
+    segment.back = 0.0;
 #endif
-    return run;
+    return segment;
 }

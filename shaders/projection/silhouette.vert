@@ -25,7 +25,7 @@ flat out vec4 center;           // column, row, depth, z
 #ifdef SCALARS
 flat out vec4 scalars;          // at the center, per z, per column, per row
 #endif
-#if defined(EXACT_RUNS) && defined(SCALARS)
+#if defined(EXACT_SEGMENTS) && defined(SCALARS)
 flat out vec4 scalars_low;      // remainders of these that float does not hold
 #endif
 flat out vec4 limits;  // least and largest scalar (CUT: upper cut per column and row); number of front faces and number
@@ -48,7 +48,7 @@ void main() {
 #ifdef SCALARS
     scalars = uintBitsToFloat(records[first + 7u]);
 #endif
-#if defined(EXACT_RUNS) && defined(SCALARS)
+#if defined(EXACT_SEGMENTS) && defined(SCALARS)
     scalars_low = uintBitsToFloat(records[first + 10u]);
 #endif
     limits = uintBitsToFloat(records[first + 8u]);

@@ -10,15 +10,15 @@
 vec4 color_within(float front, float back, float world_length);
 
 vec4 tet_color() {
-    TetRun run = find_run();
-    float front = clamp(run.front, 0.0, 1.0), back = clamp(run.back, 0.0, 1.0);
+    FragmentSegment segment = find_segment();
+    float front = clamp(segment.front, 0.0, 1.0), back = clamp(segment.back, 0.0, 1.0);
 #ifdef WINDOWED
     // The pieces of the segment before the window, within it and behind it; the transfer function is constant outside
     // the window. They are added in a loop, because LLVM takes minutes to compile three copies of the look-ups.
-    vec3 lengths = vec3(0.0, run.world_length, 0.0);
-    if (front != back && (front != run.front || back != run.back)) {
-        float per_scalar = run.world_length / abs(run.back - run.front);
-        lengths = per_scalar * vec3(abs(front - run.front), abs(back - front), abs(run.back - back));
+    vec3 lengths = vec3(0.0, segment.world_length, 0.0);
+    if (front != back && (front != segment.front || back != segment.back)) {
+        float per_scalar = segment.world_length / abs(segment.back - segment.front);
+        lengths = per_scalar * vec3(abs(front - segment.front), abs(back - front), abs(segment.back - back));
     }
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 3; ++i) {
@@ -27,35 +27,35 @@ vec4 tet_color() {
     }
     return sum;
 #else
-    return color_within(front, back, run.world_length);
+    return color_within(front, back, segment.world_length);
 #endif
 }
 #endif
 
 #if SOURCE == SOURCE_CONSTANT
 vec4 tet_color() {
-    float opacity = opacity_from_depth(constant_optics.a * find_run().world_length);
+    float opacity = opacity_from_depth(constant_optics.a * find_segment().world_length);
     return vec4(constant_optics.rgb * opacity, opacity);
 }
 #elif SOURCE == SOURCE_PARTS
 #include "optics/linear_segment.glsl"
 #ifdef LIT
-vec4 integrate_lit(vec4 front, vec4 back, TetRun run) {
-    vec4 unlit = integrate_linear(front, back, run.world_length);
-    LitRun lit = LitRun(vec2(front.a, back.a) * run.world_length, run.front_gradient,
-                        run.back_gradient - run.front_gradient, run.to_eye);
+vec4 integrate_lit(vec4 front, vec4 back, FragmentSegment segment) {
+    vec4 unlit = integrate_linear(front, back, segment.world_length);
+    LitSegment lit = LitSegment(vec2(front.a, back.a) * segment.world_length, segment.front_gradient,
+                                segment.back_gradient - segment.front_gradient, segment.to_eye);
     vec3 added = light_added(light_along(lit, 1.0), front.rgb, back.rgb);
     return vec4(max(unlit.rgb + added, 0.0), unlit.a);  // rounding may leave less than 0
 }
 #endif
 vec4 tet_color() {
-    TetRun run = find_run();
-    OPTICS front = low_optics + run.front * (high_optics - low_optics);
-    OPTICS back = low_optics + run.back * (high_optics - low_optics);
+    FragmentSegment segment = find_segment();
+    OPTICS front = low_optics + segment.front * (high_optics - low_optics);
+    OPTICS back = low_optics + segment.back * (high_optics - low_optics);
 #ifdef LIT
-    return integrate_lit(front, back, run);
+    return integrate_lit(front, back, segment);
 #else
-    return integrate_linear(front, back, run.world_length);
+    return integrate_linear(front, back, segment.world_length);
 #endif
 }
 #elif SOURCE == SOURCE_MEAN
@@ -103,17 +103,18 @@ void set_lit_segment(vec3 front_gradient, vec3 back_gradient, vec3 to_eye) {
 // Returns the contribution of light to the piece of the segment from share `from` of its length to share `to`.
 // optics/analytic_segment.glsl calls it.
 vec3 light_on_piece(float from, float to, vec2 depths, vec3 near, vec3 far, float in_front) {
-    LitRun run = LitRun(depths, segment_gradient + from * segment_turn, (to - from) * segment_turn, segment_to_eye);
-    return light_added(light_along(run, in_front), near, far);
+    LitSegment segment = LitSegment(depths, segment_gradient + from * segment_turn, (to - from) * segment_turn,
+                                    segment_to_eye);
+    return light_added(light_along(segment, in_front), near, far);
 }
 #endif
 #include "optics/analytic_segment.glsl"
 vec4 tet_color() {
-    TetRun run = find_run();
+    FragmentSegment segment = find_segment();
 #ifdef LIT
-    set_lit_segment(run.front_gradient, run.back_gradient, run.to_eye);
+    set_lit_segment(segment.front_gradient, segment.back_gradient, segment.to_eye);
 #endif
-    return integrate_segment(run.front, run.back, run.world_length);
+    return integrate_segment(segment.front, segment.back, segment.world_length);
 }
 #else
 #error SOURCE is none of these

@@ -73,9 +73,9 @@ float largest_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 float largest_component(float v) { return v; }
 
 // Adds light to a part's associated colour by Gauss' rule with three nodes, whose weights add up to
-// the part's opacity. `part` is the piece of `extent` from `at` on of the stretch for which
-// `gradient` is given. Returns the bend of light, or a bound on what the rule may miss if that is
-// larger. The rule misses .045 of the bend of a kink.
+// the part's opacity. `part` is the piece of `extent` from `at` on of the part of the ray for
+// which `gradient` is given. Returns the bend of light, or a bound on what the rule may miss if that
+// is larger. The rule misses .045 of the bend of a kink.
 float add_light(CellGradient gradient, vec3 to_eye, Interval interval, LinearPart part, float at, float extent,
                 float depth, float opacity, inout vec3 color) {
     const vec3 nodes = vec3(0.112701665, 0.5, 0.887298335);

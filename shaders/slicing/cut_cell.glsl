@@ -82,15 +82,14 @@ CutPlace first_place(vec4 cubic, vec2 turns) {
     return CutPlace(0.0, cubic.x, interval);
 }
 
-// The stretch of a part from a place on over which the scalar is monotone and stays in one
-// interval.
-struct Stretch {
+// The piece of a part from a place on over which the scalar is monotone and stays in one interval.
+struct NextPiece {
     Interval interval;
-    float to, at_to;    // t at its end, and the scalar there
+    float t_to, s_to;   // t at its end, and the scalar there
     int next_interval;  // behind its end
 };
 
-Stretch next_stretch(vec4 cubic, vec2 turns, CutPlace place) {
+NextPiece find_next_piece(vec4 cubic, vec2 turns, CutPlace place) {
     float end = place.t < turns.x ? turns.x : place.t < turns.y ? turns.y : 1.0;
     float at_end = cubic_at(cubic, end);
     bool rising = at_end >= place.scalar;
@@ -98,7 +97,7 @@ Stretch next_stretch(vec4 cubic, vec2 turns, CutPlace place) {
     float knot = rising ? interval.right_end : place.interval == 0 ? -3e38 : interval.left_end;
     bool crosses = rising ? knot < at_end : knot > at_end;
     float to = crosses ? cubic_root(cubic, knot, vec2(place.t, end), vec2(place.scalar, at_end)) : end;
-    return Stretch(interval, to, crosses ? knot : at_end, place.interval + (crosses ? rising ? 1 : -1 : 0));
+    return NextPiece(interval, to, crosses ? knot : at_end, place.interval + (crosses ? rising ? 1 : -1 : 0));
 }
 
 // Returns the piece of `extent` from a place on; the scalar at its end is `at_end`, exactly.
@@ -109,31 +108,31 @@ LinearPart piece_from(CutPlace place, Interval interval, vec4 cubic, float exten
     return linear_part(interval, piece, world_length * extent);
 }
 
-// Moves a place to the end of a stretch if `whole`, else by a piece of `extent`, but at least by
-// 6e-8, about one float.
-void advance(Stretch stretch, vec4 cubic, bool whole, float extent, inout CutPlace place) {
+// Moves a place to the end of the next piece if `whole`, else by `extent`, but at least by 6e-8,
+// about one float.
+void advance(NextPiece next_piece, vec4 cubic, bool whole, float extent, inout CutPlace place) {
     float shortened = max(place.t + extent, place.t + 6e-8);
-    place.t = whole ? stretch.to : shortened;
-    place.scalar = whole ? stretch.at_to : cubic_at(cubic, shortened);
-    if (whole) place.interval = stretch.next_interval;
+    place.t = whole ? next_piece.t_to : shortened;
+    place.scalar = whole ? next_piece.s_to : cubic_at(cubic, shortened);
+    if (whole) place.interval = next_piece.next_interval;
 }
 
 #ifdef LIGHTS
 #include "slicing/lit_cell.glsl"
 #else
-// Adds the next stretch of a part, or its beginning if it is too deep, and moves the place behind
+// Adds the next piece of a part, or its beginning if it is too deep, and moves the place behind
 // what was added.
 void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place, inout PartSum sum) {
-    Stretch stretch = next_stretch(cubic, turns, place);
-    float extent = max(stretch.to - place.t, 0.0);
-    LinearPart part = piece_from(place, stretch.interval, cubic, extent, stretch.at_to, world_length);
+    NextPiece next_piece = find_next_piece(cubic, turns, place);
+    float extent = max(next_piece.t_to - place.t, 0.0);
+    LinearPart part = piece_from(place, next_piece.interval, cubic, extent, next_piece.s_to, world_length);
 #ifdef SINGLE_COLOR
     const bool whole = true;
 #else
     bool whole = shorten(part, extent);
 #endif
-    add_linear_part(stretch.interval, part, depth_of(part), sum);
-    advance(stretch, cubic, whole, extent, place);
+    add_linear_part(next_piece.interval, part, depth_of(part), sum);
+    advance(next_piece, cubic, whole, extent, place);
 }
 
 // Adds a part piece by piece.

@@ -29,14 +29,14 @@ BrickRay brick_ray(Ray ray, REAL entry) {
 }
 
 // Consecutive slabs, and whether they may be visible.
-struct Stretch {
+struct SlabRange {
     float end;   // the slab behind the last one
     bool shown;
 };
 
 // Returns the slabs from number `slab` on that are known to be empty; or, if that one may be
 // visible, the slabs up to the next one for which a test is worth its time.
-Stretch next_stretch(BrickRay ray, float slab) {
+SlabRange next_slab_range(BrickRay ray, float slab) {
     float depth = float(REAL(slab) * slab_thickness - ray.entry);
     vec3 place = ray.start + depth * ray.change;
     vec3 brick = floor(clamp(place, vec3(0.0), last_distance));
@@ -49,5 +49,5 @@ Stretch next_stretch(BrickRay ray, float slab) {
     float exit = float(ray.entry) + depth + min(leave.x, min(leave.y, leave.z));
     float end = floor(exit / float(slab_thickness));
     bool empty = to_shown > 0.0 && between && end > slab;
-    return Stretch(empty ? end : to_shown > 0.0 ? slab + 1.0 : max(end, slab + 1.0), !empty);
+    return SlabRange(empty ? end : to_shown > 0.0 ? slab + 1.0 : max(end, slab + 1.0), !empty);
 }

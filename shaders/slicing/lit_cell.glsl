@@ -15,13 +15,13 @@ struct LitStep {
 // light bends little enough. So, of pieces whose light bends too much, two overlap only if one is
 // at least twice as long as the other, which bounds their number (plan/classification_choice.cpp).
 struct PieceLength {
-    float first;    // at the beginning of each stretch
+    float first;    // behind each turn of the scalar and each knot
     float longest;  // at present
     bool passed_one;  // one full piece of the present length was added
 };
 
-// Chooses the length of the next piece. again: the last one bent too much. whole: it ended its
-// stretch. full: it had the full length.
+// Chooses the length of the next piece. again: the last one bent too much. whole: it
+// ended where the NextPiece ends. full: it had the full length.
 void choose_length(bool again, bool whole, bool full, float extent, inout PieceLength pieces) {
     float longer = full && pieces.passed_one ? min(2.0 * pieces.longest, 1.0) : pieces.longest;
     pieces.longest = again ? 0.5 * extent : whole ? pieces.first : longer;
@@ -32,22 +32,22 @@ void choose_length(bool again, bool whole, bool full, float extent, inout PieceL
 // what was added. If its light bends too much, nothing is added and the next piece is shorter.
 void add_lit_piece(vec4 cubic, vec2 turns, float world_length, CellGradient gradient, vec3 to_eye,
                    inout PieceLength pieces, inout CutPlace place, inout PartSum sum) {
-    Stretch stretch = next_stretch(cubic, turns, place);
-    float extent = max(stretch.to - place.t, 0.0);
+    NextPiece next_piece = find_next_piece(cubic, turns, place);
+    float extent = max(next_piece.t_to - place.t, 0.0);
     bool to_end = extent <= pieces.longest;
     extent = min(extent, pieces.longest);
-    float at_end = to_end ? stretch.at_to : cubic_at(cubic, place.t + extent);
-    LinearPart part = piece_from(place, stretch.interval, cubic, extent, at_end, world_length);
+    float at_end = to_end ? next_piece.s_to : cubic_at(cubic, place.t + extent);
+    LinearPart part = piece_from(place, next_piece.interval, cubic, extent, at_end, world_length);
     bool whole = shorten(part, extent);
     float depth = depth_of(part), opacity = opacity_from_depth(depth);
-    vec3 color = color_of(stretch.interval, part, depth, opacity);
-    float bend = add_light(gradient, to_eye, stretch.interval, part, place.t, extent, depth, opacity, color);
+    vec3 color = color_of(next_piece.interval, part, depth, opacity);
+    float bend = add_light(gradient, to_eye, next_piece.interval, part, place.t, extent, depth, opacity, color);
     bool again = extent > shortest_lit_piece && bends(bend, sum.transmittance * opacity);
     choose_length(again, whole && to_end, whole && !to_end, extent, pieces);
     if (again) return;
     sum.depth += depth;
     composite(color, opacity, sum);
-    advance(stretch, cubic, whole && to_end, extent, place);
+    advance(next_piece, cubic, whole && to_end, extent, place);
 }
 
 // Adds a part piece by piece, the first one at most `longest`.

@@ -31,9 +31,9 @@ void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associa
 #ifdef OCCUPIED_ONLY
         float here = i;
         while (i >= shown_end && i < end) {
-            Stretch stretch = next_stretch(bricks, i);
-            if (stretch.shown) shown_end = stretch.end;
-            else i = stretch.end;
+            SlabRange range = next_slab_range(bricks, i);
+            if (range.shown) shown_end = range.end;
+            else i = range.end;
         }
         if (i >= end) break;
 #ifdef PREINTEGRATED

@@ -97,7 +97,7 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     if (plan.source != SegmentSource::constant) defines.set("SCALARS", 1);
     if (plan.windowed) defines.set("WINDOWED", 1);
     if (kind == FragmentKind::careful && plan.source != SegmentSource::parts)
-        defines.set("EXACT_RUNS", 1);
+        defines.set("EXACT_SEGMENTS", 1);
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
     if (plan.lighting) {
         defines.set("LIT", 1);
