@@ -9,11 +9,11 @@
 uniform float most_bend;  // a part is cut if light bends more along it
 
 // Length, as a share of the part, below which a piece is not cut further
-// (plan/classification_choice.cpp counts the rounds that this allows).
+// (plan/classification_choice.cpp counts the iterations that this allows).
 const float shortest_lit_piece = 1.0 / 256.0;
 // Share of most_bend that a faint piece may keep, weighted by its opacity. It is half of the engine
-// `cpu`'s (faint_share_of_cells in executors/lights.h): here the number of rounds is bounded
-// anyway, and pieces grow more slowly.
+// `cpu`'s (faint_share_of_cells in executors/lights.h): here the number of iterations is
+// bounded anyway, and pieces grow more slowly.
 const float faint_share = 1.0 / 4.0;
 
 float length_square(vec3 v) { return dot(v, v); }

@@ -34,8 +34,8 @@ constexpr int most_iterations = 65535;  // iterations of llvmpipe's loops (plan/
 constexpr int spare_iterations = 64;    // iterations for everything else that a fragment does
 constexpr int search_cells = 1024;  // equal cells of the range, each with a first interval to try
 // Iterations for cutting deep cells: rays end at an optical depth of 20.7, and cells deeper than
-// .75 are cut. A piece at least half as deep takes up to 20 rounds to find, and up to 20 pieces
-// before it if extinction rises from 0 (shaders/slicing/cut_cell.glsl).
+// .75 are cut. A piece at least half as deep takes up to 20 iterations to find, and up to 20
+// pieces before it if extinction rises from 0 (shaders/slicing/cut_cell.glsl).
 constexpr int deep_cell_iterations = 8192;
 
 bool is_unlimited(const Capabilities& capabilities) {

@@ -13,8 +13,8 @@
 //       composite the piece's colour (9.3) and opacity behind those before
 //       t = t_to; behind the knot in the next interval
 //
-// Each lane holds a segment. As numbers of pieces differ, each round composites one piece of every
-// segment, and packs the segments that have more pieces into full vectors.
+// Each lane holds a segment. As numbers of pieces differ, each iteration composites one piece of
+// every segment, and packs the segments that have more pieces into full vectors.
 #if defined(LAMINA_SLICING_CPU_CUT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_CUT_INL_H_
 #undef LAMINA_SLICING_CPU_CUT_INL_H_
@@ -78,8 +78,8 @@ class CutSegments {
         Progress done;
     };
 
-    // The part of a segment from its present place to the next turn of its scalar, at t_end. If the
-    // scalar `crosses` the knot before that, the segment leaves the interval at `root`.
+    // The piece of a segment from its present place to the next turn of its scalar, at t_end. If
+    // the scalar `crosses` the knot before that, the segment leaves the interval at `root`.
     template <bool curved>
     struct NextPiece {
         IntervalLanes<curved> interval;
@@ -147,7 +147,7 @@ class CutSegments {
         return done;
     }
 
-    // Stores `members` for the next round behind the others; overwrites only what was loaded.
+    // Stores `members` for the next iteration behind the others; overwrites only what was loaded.
     LAMINA_INLINE void keep(const Lanes& lanes, FloatMask members) {
         if (none_of(members)) return;
         progress_.store_members(lanes.done, members, count_);
@@ -232,12 +232,12 @@ class CutSegments {
         } else if constexpr (lit) {
             const FloatMask again = composite_lit(next_piece.interval, piece, extent, lanes);
             segment.longest = select(again, 0.5f * extent, max(segment.longest, 2 * extent));
-            // Nothing was added in lanes `again`: the next round tries a piece half as long.
+            // Nothing was added in lanes `again`: the next iteration tries a piece half as long.
             whole = without(whole, again);
             extent = zero_unless(!again, extent);
         }
 
-        // t grows by at least 2^-24, the spacing of floats below 1: every round makes progress.
+        // t grows by at least 2^-24, the spacing of floats below 1: every iteration makes progress.
         const Float shortened = max(done.t + extent, done.t + 6e-8f);
         done.t = select(whole, t_to, shortened);
         done.s = select(whole, s_to, segment.scalar.at(done.t));
@@ -340,7 +340,7 @@ class CutSegments {
     const CpuLight* light_ = nullptr;
     std::size_t count_ = 0;
     Columns<Segment, CellSegments::capacity> segments_;
-    Columns<Progress, CellSegments::capacity> progress_;  // set from the second round on
+    Columns<Progress, CellSegments::capacity> progress_;  // set from the second iteration on
 };
 
 LAMINA_SIMD_END

@@ -287,7 +287,7 @@ TEST_P(ExactTest, BricksLeaveNoSeam) {
     EXPECT_LE(linf(draw(volume, scene, {}, small), trace(volume, scene, 1e-8)), promised);
 }
 
-// llvmpipe ends all loops of a fragment after 65535 rounds together (plan/choices.h).
+// llvmpipe ends all loops of a fragment after 65535 iterations together (plan/choices.h).
 TEST_P(ExactTest, LongRaysAreDividedIfLoopsAreLimited) {
     const Volume volume = noise<std::uint8_t>({50, 50, 50}, Centering::cell, 255);
     std::vector<TransferKnot> knots;

@@ -48,8 +48,8 @@ TEST_P(LitKinks, StrongLightsKeepMaxError) {
         Scene scene = scene_of(volume, 5);
         scene.lighting->lights[0].color = glm::dvec3(strength);
         const Image traced = trace(volume, scene, 1e-6);
-        // llvmpipe limits loops to fewer rounds than an error of 1 would take under strong lights
-        // (plan/choices.h).
+        // llvmpipe limits loops to fewer iterations than an error of 1 would take under strong
+        // lights (plan/choices.h).
         for (const double max_error : {1., 4.}) {
             if (!is_native() && max_error < strength) continue;
             scene.max_error = max_error;
