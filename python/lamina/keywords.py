@@ -44,7 +44,7 @@ class VolumeKeys(TypedDict, total=False):
     - ``type``: Default: "uint8".
     - ``size``: Samples of a file without a header.
     - ``path``
-    - ``array``: By its name; the first unless told.
+    - ``array``: By its name; the first unless given.
     - ``level``: Of a pyramid. Default: 0.
     - ``channel``: Default: 0.
     - ``time``: Default: 0.

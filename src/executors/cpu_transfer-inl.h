@@ -421,8 +421,8 @@ struct SegmentEntries {
 
 // Composites the pieces of cut segments: associated colour and depth. Other lanes are undefined.
 template <bool lit>
-LAMINA_INLINE SumOf<lit> sum_of_parts(const CpuTransfer& transfer, const Segment& segment,
-                                      const SegmentEntries<lit>& entries) {
+LAMINA_INLINE SumOf<lit> sum_of_pieces(const CpuTransfer& transfer, const Segment& segment,
+                                       const SegmentEntries<lit>& entries) {
     SumOf<lit> sum = no_sum<lit>();
     PieceShares first, between, last;
     if constexpr (lit) {
@@ -460,19 +460,19 @@ LAMINA_INLINE SumOf<lit> integrate_colors(const CpuTransfer& transfer, const Seg
         sum.front_share = entry.front_extinction * inverse;
     }
     if (!segment.some_cut) return sum;
-    const SumOf<lit> parts = sum_of_parts<lit>(transfer, segment, entries);
-    sum.depth = select(segment.cut, parts.depth, sum.depth);
-    const Float opacity = opacity_from_depth(parts.depth);
-    const FloatMask some = parts.depth > 0;
-    const auto put = [&](Float of_parts, Float& whole) LAMINA_LAMBDA {
-        const Float color = zero_unless(some, of_parts / opacity);
+    const SumOf<lit> pieces = sum_of_pieces<lit>(transfer, segment, entries);
+    sum.depth = select(segment.cut, pieces.depth, sum.depth);
+    const Float opacity = opacity_from_depth(pieces.depth);
+    const FloatMask some = pieces.depth > 0;
+    const auto put = [&](Float of_pieces, Float& whole) LAMINA_LAMBDA {
+        const Float color = zero_unless(some, of_pieces / opacity);
         whole = select(segment.cut, color, whole);
     };
     for (int channel = 0; channel < 3; ++channel) {
-        put(parts.color[channel], sum.color[channel]);
-        if constexpr (lit) put(parts.front_color[channel], sum.front_color[channel]);
+        put(pieces.color[channel], sum.color[channel]);
+        if constexpr (lit) put(pieces.front_color[channel], sum.front_color[channel]);
     }
-    if constexpr (lit) put(parts.front_share, sum.front_share);
+    if constexpr (lit) put(pieces.front_share, sum.front_share);
     return sum;
 }
 
@@ -483,11 +483,11 @@ LAMINA_INLINE Float integrate_depth(const CpuTransfer& transfer, const Segment& 
     };
     const Float whole = depth_of(segment.first);
     if (!segment.some_cut) return whole;
-    Float parts(0);
-    parts += whole;
-    if (any_of(segment.parted)) parts += depth_of(segment.between);
-    parts += depth_of(segment.last);
-    return select(segment.cut, parts, whole);
+    Float pieces(0);
+    pieces += whole;
+    if (any_of(segment.parted)) pieces += depth_of(segment.between);
+    pieces += depth_of(segment.last);
+    return select(segment.cut, pieces, whole);
 }
 
 // Returns segments' colour, not associated, and optical depth. `entries`: for `colored` alone.

@@ -39,20 +39,21 @@ struct MeshFacts {
     // mesh_window(); number of visible tets more than far_for_parts outside (facts/drawn_range.h)
     ValueRange window;
     std::int64_t far_tets = 0;
-    std::int64_t parts = 0;  // visible parts, if all tets are cut at the function's points
+    // Number of visible cell fragments, if all tets are cut at the function's points.
+    std::int64_t parts = 0;
 
     // The following describe the view.
     bool orthographic = false;
     bool in_front = true;  // some point lies in front of the eye's plane
 
-    // Trial rays for the methods to integrate segments: all over the picture, segments nearest
-    // first, or edges of single visible tets. Empty if the scene leaves no choice.
     // A segment of a ray inside one tet.
     struct Segment {
         double front, back;  // scalars at the near and the far end
         double length;       // world units
         double edge = 0;     // longest edge of the tet, world units
     };
+    // Trial rays for the methods to integrate segments: all over the picture, segments nearest
+    // first, or edges of single visible tets. Empty if the scene leaves no choice.
     std::vector<std::vector<Segment>> trial_rays;
     // Errors found on trial rays, in 1/255.
     struct TrialError {

@@ -287,8 +287,8 @@ class FrameRenderer {
   public:
     virtual ~FrameRenderer() = default;
 
-    // Draws further frames after another plan of the same scene and size. Returns false, and
-    // changes nothing, if that plan differs in more than the view and so needs other preparations.
+    // Uses another plan of the same scene and size for further frames. Returns false, and changes
+    // nothing, if that plan differs in more than the view and so needs other preparations.
     virtual bool take(const Plan& plan) = 0;
     // Draws a frame, which is complete on return. It has step_count() steps; `progress` advances by
     // one with each, and Ctrl-C ends the frame between two of them.

@@ -52,9 +52,9 @@ constexpr double most_segment_error = 0.5;
 // Factor by which other rays of the picture may be worse than the trial rays.
 constexpr double sampling_margin = 1.25;
 
-// Largest average number of pieces of a visible tet, cut at the transfer function's points, with
-// which tets are cut; with more pieces a table that knows the transfer function is faster.
-constexpr std::int64_t most_parts = 8;
+// Largest average number of cell fragments of a visible tet, cut at the transfer function's points,
+// with which tets are cut; with more pieces a table that knows the transfer function is faster.
+constexpr std::int64_t most_cell_fragments_a_tet = 8;
 
 // Number of points of a transfer function above which a table takes longer to build than it saves.
 constexpr std::size_t most_table_points = 200;
@@ -441,7 +441,8 @@ struct ProjectPlanner {
     void choose_table() {
         const bool whole = plan.geometry == ProjectGeometry::triangles;
         take_window();
-        const bool few = facts.parts <= most_parts * (facts.tets - facts.transparent_tets);
+        const bool few =
+            facts.parts <= most_cell_fragments_a_tet * (facts.tets - facts.transparent_tets);
         const bool narrow = has_narrow_pieces(*scene.transfer_function, drawn);
         const bool cut = plan.windowed ? few && facts.far_tets == 0 : few || narrow;
         if (!whole && cut) {

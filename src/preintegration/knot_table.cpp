@@ -404,20 +404,20 @@ double KnotTable::coordinate(double value) const {
 }
 
 LitIntegral KnotTable::lookup_lit(double front, double back, double length) const {
-    std::array<LookUpPiece, 3> parts = split(*this, std::min(front, back), std::max(front, back));
+    std::array<LookUpPiece, 3> pieces = split(*this, std::min(front, back), std::max(front, back));
     if (front > back) {
-        std::ranges::reverse(parts);
-        for (LookUpPiece& part : parts) std::swap(part.from, part.to);
+        std::ranges::reverse(pieces);
+        for (LookUpPiece& piece : pieces) std::swap(piece.from, piece.to);
     }
-    if (front == back) return sample(*this, parts[0].from, parts[0].to, length);
+    if (front == back) return sample(*this, pieces[0].from, pieces[0].to, length);
     LitIntegral result;
     SegmentIntegral& whole = result.whole;
     double left = 1;  // share of the segment's length that is behind the piece
-    for (const LookUpPiece& part : parts) {
-        if (part.width == 0) continue;
-        const double share = part.width / std::abs(back - front);
+    for (const LookUpPiece& piece : pieces) {
+        if (piece.width == 0) continue;
+        const double share = piece.width / std::abs(back - front);
         left = std::max(left - share, 0.0);
-        const LitIntegral next = sample(*this, part.from, part.to, length * share);
+        const LitIntegral next = sample(*this, piece.from, piece.to, length * share);
         const double transmittance = std::exp(-whole.optical_depth);
         result.front.color += transmittance * (left * next.whole.color + share * next.front.color);
         result.front.alpha += transmittance * (left * next.whole.alpha + share * next.front.alpha);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by both kinds of tables: numbers of their entries, and the neighbours of a coordinate.
+// Shared by both kinds of tables: limits, conversion to float, and the neighbours of a coordinate.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,7 @@ inline constexpr std::size_t most_table_bytes = std::size_t{1} << 30;
 // Transmittance below which the rest of a segment is skipped: it is far below a float's precision.
 inline constexpr double least_transmittance = 1e-12;
 
+// Converts to float; numbers beyond float's range become its largest.
 inline float as_float(double x) {
     return static_cast<float>(std::min<double>(x, std::numeric_limits<float>::max()));
 }

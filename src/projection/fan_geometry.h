@@ -117,7 +117,7 @@ class FanGeometry : public TetGeometry {
     FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
                 const ProjectPlan& plan, const View& view);
     static Size largest_size();
-    // Projects the tet uncut, whatever its piece.
+    // Projects the whole tet, whatever `cell_fragment.piece` is.
     Written write(const CellFragment& cell_fragment, const Place& place) const override;
 
     // A corner of a tet.

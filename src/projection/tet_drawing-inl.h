@@ -6,8 +6,8 @@
 //       blocks = the blocks of pixels inside its silhouette                TetCoverage::blocks()
 //       for each vector of pixels in these blocks:
 //           enter, leave = depths of the rays on its front and back faces  TetCoverage::find_in()
-//           put the pixels whose rays meet it into the queue                        FragmentQueue
-//       if the queue is full:                                            TetDrawing::draw_queue()
+//           put the pixels whose rays meet the cell fragment into the queue         FragmentQueue
+//       if the queue is full, and at the end:                            TetDrawing::draw_queue()
 //           for each vector of fragments: the ray's segment, its length and the scalars at its ends
 //           for each vector of fragments: colour and opacity                      Shader::color()
 //           for each vector of pixels: composite onto the tile                      Shader::put()

@@ -106,7 +106,8 @@ double largest(const glm::dvec3& v) {
 constexpr double least_width = 0x1p-42;
 
 bool is_needle(const std::array<glm::dvec3, 4>& corners) {
-    double distance = 0, longest_edge = 0, double_area = 0;  // the last: twice the largest face's
+    // double_area: twice the area of the largest face.
+    double distance = 0, longest_edge = 0, double_area = 0;
     for (const glm::dvec3& corner : corners) distance = std::max(distance, largest(corner));
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec3& from = corners[i];
@@ -234,7 +235,8 @@ void set_fragment(const OneTet& view, const TetField& field, const LinearPiece& 
     const double width = field.largest() - field.least();
     set_scalars(linear(view, field, field.least(), width > 0 ? 1 / width : 0), record.seen);
     const auto [lower, lower_front] = cut_at(view, field, field.least(), field.cut_low());
-    // The planes are fronts of the larger scalars, the upper one so of those above the fragment.
+    // cut_at() tells whether a plane is the front of the region with larger scalars. The fragment
+    // lies below its upper plane, so that answer is negated.
     const auto [upper, front_of_above] = cut_at(view, field, field.largest(), field.cut_high());
     record.lower_cut = {static_cast<float>(lower.depth), static_cast<float>(lower.per_column),
                         static_cast<float>(lower.per_row)};

@@ -15,8 +15,8 @@ struct TetSetup {
     // invisible: no pixel centre is covered; doubtful: left to TetProjector.
     enum class Outcome : std::uint8_t { invisible, done, doubtful };
 
-    std::array<CoveredArea, most_cell_fragments>
-        areas;  // areas of the whole tets, rows from the top
+    // Areas of the whole tets, rows from the top.
+    std::array<CoveredArea, most_cell_fragments> areas;
     std::array<Outcome, most_cell_fragments> outcomes;
 };
 

@@ -175,7 +175,7 @@ bool has_mesh(const JsonReader& reader, const Scene& scene) {
 
 void volume_selection_keys(KeyTable<VolumeRequest>& keys) {
     const auto number = optional_form(whole_form<std::int64_t>(0, largest_number));
-    keys.key("array", &VolumeRequest::array, text_form(), "By its name; the first unless told.");
+    keys.key("array", &VolumeRequest::array, text_form(), "By its name; the first unless given.");
     keys.key("level", &VolumeRequest::level, number, "Of a pyramid.").otherwise(0);
     keys.key("channel", &VolumeRequest::channel, number).otherwise(0);
     keys.key("time", &VolumeRequest::time, number).otherwise(0);

@@ -48,8 +48,8 @@ LAMINA_INLINE void put_behind(const RaySum& next, RaySum& sum) {
     sum.depth += next.depth;
 }
 
-// Integrates up to most_packets packets side by side: begin(), then next() until done(). Both are
-// compiled once for all callers, in cpu_cells.cpp.
+// Integrates up to most_packets packets side by side. begin() and next() are compiled once for all
+// callers, in cpu_cells.cpp.
 template <bool lit>
 class CellIntegrator {
   public:

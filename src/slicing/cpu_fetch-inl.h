@@ -287,8 +287,8 @@ LAMINA_INLINE void prefetch_cells(const CpuBrick& brick, const void* samples,
 template <CpuLayout layout, PointKind kind, class PointAt>
 LAMINA_INLINE void sample_in_stages(const CpuBrick& brick, bool hardware, int first, int end,
                                     const PointAt& point_at, float* scalars) {
-    constexpr int most_points =
-        block_slabs / 2 + 1;  // one more, because n slabs have n + 1 boundaries
+    // One more than half a block, because n slabs have n + 1 boundaries.
+    constexpr int most_points = block_slabs / 2 + 1;
     constexpr std::size_t lanes = Float::lanes;
     alignas(64) std::int32_t indices[most_points * most_lanes];
     alignas(64) float weights[3][most_points * most_lanes];

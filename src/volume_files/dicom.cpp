@@ -76,7 +76,7 @@ Images chosen_series(const Path& path, const VolumeRequest& request) {
     if (all.size() > 1) {
         warn(
             fmt::format("{}: of the series {} the largest, {}, is drawn: \"array\" in the volume "
-                        "tells another",
+                        "names another",
                         path.string(), fmt::join(list, ", "), described(largest->second)));
     }
     return std::move(largest->second);

@@ -300,7 +300,7 @@ StoredAxis taken_axis(const std::string& file, const char* what,
 void say_taken(const std::string& file, Axes axes) {
     for (const StoredAxis& axis : axes) {
         if (!axis.taken || axis.given || axis.size == 1) continue;
-        warn(fmt::format("{}: {} 0 of {} is taken: \"{}\" in the volume tells another", file,
+        warn(fmt::format("{}: {} 0 of {} is taken: \"{}\" in the volume names another", file,
                          axis.what, axis.size, axis.what));
     }
 }

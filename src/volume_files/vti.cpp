@@ -135,7 +135,7 @@ class ImageFile {
             array_ = std::ranges::find(names, preferred) != names.end() ? preferred : names[0];
             if (names.size() > 1) {
                 warn(
-                    fmt::format("{}: array \"{}\" of {} is taken: \"array\" in the volume tells "
+                    fmt::format("{}: array \"{}\" of {} is taken: \"array\" in the volume names "
                                 "another",
                                 file_.name(), one_line(array_), names.size()));
             }

@@ -45,8 +45,8 @@ def test_colormaps(blob):
     # Without a range it is stretched over the data's.
     free = lamina.TransferFunction.colormap("viridis", extinction=[(0, 1)])
     range_ = (float(blob.array.min()), float(blob.array.max()))
-    told = lamina.TransferFunction.colormap("viridis", range=range_, extinction=[(0, 1)])
-    pictures = [lamina.render(blob, function, size=(8, 6), context="cpu") for function in (free, told)]
+    given = lamina.TransferFunction.colormap("viridis", range=range_, extinction=[(0, 1)])
+    pictures = [lamina.render(blob, function, size=(8, 6), context="cpu") for function in (free, given)]
     assert np.array_equal(pictures[0].array, pictures[1].array) and pictures[0].array.max() > 0
 
 

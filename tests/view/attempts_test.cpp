@@ -134,8 +134,8 @@ TEST(Attempts, CsvHasEveryAttempt) {
     EXPECT_EQ(rows[0][0], "view");
     EXPECT_EQ(rows[1][7], "2.5");
     EXPECT_EQ(rows[1][8], "");
-    const std::vector<std::string> told(rows[2].begin(), rows[2].end() - 1);
-    EXPECT_EQ(told,
+    const std::vector<std::string> given(rows[2].begin(), rows[2].end() - 1);
+    EXPECT_EQ(given,
               (std::vector<std::string>{"1", "slice", "auto", "fixed8", "8x8", "64", "2", "", "3.5",
                                         "-0.125", "0.5", "0.25", "12.5", "9.5", "800", "600"}));
     // The last cell is the complete scene.
