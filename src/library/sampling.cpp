@@ -70,13 +70,16 @@ FieldPoint point_at(const Grid& grid, const Samples& samples, const CellPlace& a
             glm::dvec3(gradient[0](0), gradient[1](0), gradient[2](0))};
 }
 
-struct MeshField {
+}  // namespace
+
+// The mesh of a FieldSampler.
+struct SampledMesh {
     SceneMesh mesh;
     FaceTree open_faces;
     // Gradients at the mesh's points: x, y, z components.
     std::array<std::vector<double>, 3> gradients;
 
-    explicit MeshField(SceneMesh taken)
+    explicit SampledMesh(SceneMesh taken)
         : mesh(std::move(taken)), open_faces(mesh.mesh, mesh.mesh.open_faces()) {
         for (const glm::dvec3& gradient : gradients_of(mesh))
             for (int c = 0; c < 3; ++c)
@@ -93,8 +96,8 @@ struct MeshField {
     FieldPoint in_tet(const TetSegment& segment) const;
 };
 
-std::vector<TetSegment> MeshField::segments(const glm::dvec3& origin,
-                                            const glm::dvec3& direction) const {
+std::vector<TetSegment> SampledMesh::segments(const glm::dvec3& origin,
+                                              const glm::dvec3& direction) const {
     RayWalk walk(mesh.mesh, open_faces);
     walk.aim(origin, direction);
     std::vector<TetSegment> found;
@@ -102,7 +105,7 @@ std::vector<TetSegment> MeshField::segments(const glm::dvec3& origin,
     return found;
 }
 
-std::array<double, 4> MeshField::corner_values(std::int32_t tet) const {
+std::array<double, 4> SampledMesh::corner_values(std::int32_t tet) const {
     std::array<double, 4> values;
     std::ranges::transform(
         mesh.mesh.tets()[static_cast<std::size_t>(tet)], values.begin(),
@@ -111,7 +114,7 @@ std::array<double, 4> MeshField::corner_values(std::int32_t tet) const {
 }
 
 // Returns the field at parameter 0 of the line, which lies in the segment.
-FieldPoint MeshField::in_tet(const TetSegment& segment) const {
+FieldPoint SampledMesh::in_tet(const TetSegment& segment) const {
     if (!all_finite(corner_values(segment.tet))) return no_value;
     constexpr double all = std::numeric_limits<double>::infinity();
     const auto value_of = [&](std::span<const double> values) {
@@ -124,7 +127,7 @@ FieldPoint MeshField::in_tet(const TetSegment& segment) const {
             glm::dvec3(value_of(gradients[0]), value_of(gradients[1]), value_of(gradients[2]))};
 }
 
-std::optional<FieldPoint> MeshField::at(const glm::dvec3& position) const {
+std::optional<FieldPoint> SampledMesh::at(const glm::dvec3& position) const {
     const auto& [lowest, highest] = mesh.mesh.bounds();
     const double slack = rounding * (norm1(position) + norm1(lowest) + norm1(highest));
     for (int axis = 0; axis < 3; ++axis) {
@@ -149,23 +152,14 @@ std::optional<FieldPoint> MeshField::at(const glm::dvec3& position) const {
     return in_tet(*nearest);
 }
 
+namespace {
+
 // Returns the segment begin..end with the smallest and largest of `values`, those of the corners;
 // both are NaN if a corner's value is not finite.
 RaySegment bounded(double begin, double end, std::span<const double> values) {
     if (!all_finite(values)) return {begin, end, no_number, no_number};
     const auto [least, most] = std::ranges::minmax(values);
     return {begin, end, least, most};
-}
-
-std::vector<RaySegment> MeshField::along(const glm::dvec3& origin,
-                                         const glm::dvec3& direction) const {
-    std::vector<RaySegment> result;
-    for (const TetSegment& segment : segments(origin, direction)) {
-        const double begin = std::max(segment.in.at, 0.0);
-        if (!(begin < segment.out.at)) continue;
-        result.push_back(bounded(begin, segment.out.at, corner_values(segment.tet)));
-    }
-    return result;
 }
 
 // `direction` has length 1.
@@ -194,18 +188,30 @@ SceneMesh mesh_of(MeshData data, const std::string& scalar) {
 
 }  // namespace
 
+std::vector<RaySegment> SampledMesh::along(const glm::dvec3& origin,
+                                           const glm::dvec3& direction) const {
+    std::vector<RaySegment> result;
+    for (const TetSegment& segment : segments(origin, direction)) {
+        const double begin = std::max(segment.in.at, 0.0);
+        if (!(begin < segment.out.at)) continue;
+        result.push_back(bounded(begin, segment.out.at, corner_values(segment.tet)));
+    }
+    return result;
+}
+
 struct FieldSampler::Parts {
-    std::variant<Volume, MeshField> field;
+    std::variant<Volume, SampledMesh> field;
 };
 
 FieldSampler::FieldSampler(Volume volume)
     : parts_(std::make_shared<Parts>(Parts{std::move(volume)})) {}
 
 FieldSampler::FieldSampler(MeshData mesh, const std::string& scalar)
-    : parts_(std::make_shared<Parts>(Parts{MeshField(mesh_of(std::move(mesh), scalar))})) {}
+    : parts_(std::make_shared<Parts>(Parts{SampledMesh(mesh_of(std::move(mesh), scalar))})) {}
 
 std::optional<FieldPoint> FieldSampler::at(const glm::dvec3& position) const {
-    if (const auto* const mesh = std::get_if<MeshField>(&parts_->field)) return mesh->at(position);
+    if (const auto* const mesh = std::get_if<SampledMesh>(&parts_->field))
+        return mesh->at(position);
     const Volume& volume = std::get<Volume>(parts_->field);
     const auto place = place_in(volume.grid(), position);
     if (!place) return {};
@@ -217,7 +223,7 @@ std::vector<RaySegment> FieldSampler::along(const glm::dvec3& origin,
                                             const glm::dvec3& direction) const {
     const double length = glm::length(direction);
     if (!(length > 0 && std::isfinite(length) && std::isfinite(norm1(origin)))) return {};
-    if (const auto* const mesh = std::get_if<MeshField>(&parts_->field))
+    if (const auto* const mesh = std::get_if<SampledMesh>(&parts_->field))
         return mesh->along(origin, direction / length);
     return segments_in(std::get<Volume>(parts_->field), origin, direction / length);
 }
