@@ -137,6 +137,8 @@ LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const
     const Double opacity = kind.opacity(depth);
     const Double transmittance = exp(-load_unaligned<Double>(batch.before.data() + i));
     const Double span = load_unaligned<Double>(batch.color_span.data() + i);
+    // The allowed error is given for the final colour. Dividing by transmittance and colour span
+    // turns it into an error of the integral. No rule can be better than its rounding.
     const Double allowed = fma(batch.error_of_opacity, opacity * transmittance,
                                load_unaligned<Double>(batch.error_of_length.data() + i)) /
                            (transmittance * span);
@@ -162,7 +164,8 @@ LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const
         done = error <= enough;
     }
     done = done & (depth < resolvable_depth);
-    // If opacity is negligible: with any x in [0, 1] the result is off by at most `opacity`.
+    // If the opacity is negligible, any x in [0, 1] will do: the result is then off by at most
+    // `opacity`.
     const DoubleMask faint = opacity <= negligible_opacity * allowed;
     value = select(faint, pieces.middle() * opacity, value);
     error = select(faint, opacity, error);
@@ -188,18 +191,19 @@ struct WeightLanes {
 };
 
 // Computes the weights of both ends by the rule of quadrature_weights() in
-// optics/segment_integral.cpp, which gives the reasons for the form of the sums.
+// optics/segment_integral.cpp, which gives the reasons for the form of the sums. p, q: extinction
+// times length at the piece's start and end.
 template <typename Depth>
 LAMINA_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Double p, Double q,
                                           const Depth& kind) {
     WeightLanes sum{0, 0};
     for (std::size_t i = 0; i < rule.points; ++i) {
         const double x = rule.x[i], rest = 1 - x;
-        const Double before = fma(x * (1 - x / 2), p, x * x / 2 * q);
-        const Double behind = fma(rest * rest / 2, p, rest * (1 + x) / 2 * q);
-        const Double absorbed = kind.opacity(before), weight(rule.weight[i]);
+        const Double depth_before = fma(x * (1 - x / 2), p, x * x / 2 * q);
+        const Double depth_behind = fma(rest * rest / 2, p, rest * (1 + x) / 2 * q);
+        const Double absorbed = kind.opacity(depth_before), weight(rule.weight[i]);
         sum.front = fma(weight, absorbed, sum.front);
-        sum.back = fma(weight * (1 - absorbed), kind.opacity(behind), sum.back);
+        sum.back = fma(weight * (1 - absorbed), kind.opacity(depth_behind), sum.back);
     }
     return sum;
 }
@@ -285,12 +289,13 @@ struct QuantityRange {
 
 // Integrates f w over a piece, for a quantity f, by nested rules and bisection. The integral of w
 // is known in closed form, which shows whether a rule misses a boundary layer. A Quantity has:
-//   Value at(t)                                  f
-//   QuantityRange over(from, to)
-//   bool is_faint(opacity, allowed, bound)       any value of f will do for the interval's
-//   double spread(opacity, bound)                largest error in that case
-//   double rounding(in_front, depth_to, bound)   of a rule's sums; in_front: transmittance
-//   double largest(Value)                        absolute value, of the largest component
+//   Value at(t): returns f.
+//   QuantityRange over(from, to): returns the range of f on an interval.
+//   bool is_faint(opacity, allowed, bound): tells whether f at the middle will do for an interval.
+//   double spread(opacity, bound): returns the largest error of an interval with f at the middle.
+//   double rounding(in_front, depth_to, bound): returns the rounding error of a rule's sums on an
+//       interval that ends at depth_to and is seen through the transmittance in_front.
+//   double largest(Value): returns the largest absolute value of a component.
 template <class Quantity>
 class NestedIntegral {
   public:
@@ -405,7 +410,7 @@ struct PiecePosition {
     double largest(double x) const { return std::abs(x); }
 };
 
-double largest_component(const glm::dvec3& v) {
+double max_component(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
@@ -458,7 +463,7 @@ class LightEffect {
         : piece_(piece),
           lights_(lights),
           largest_effect_(lights.largest_effect(
-              largest_component(glm::max(piece.color, piece.color + piece.color_change)))),
+              max_component(glm::max(piece.color, piece.color + piece.color_change)))),
           most_turn_(lights.has_highlights()
                          ? std::min(most_growth, peak_widths / std::sqrt(lights.power()))
                          : most_growth) {}
@@ -491,9 +496,9 @@ class LightEffect {
     }
     double spread(double opacity, double bound) const { return 2 * bound * std::max(opacity, 0.0); }
     double rounding(double in_front, double depth_to, double bound) const {
-        return 1e-15 * bound * in_front * (depth_to + 1);
+        return emission_rounding * bound * in_front * (depth_to + 1);
     }
-    double largest(const glm::dvec3& effect) const { return largest_component(glm::abs(effect)); }
+    double largest(const glm::dvec3& effect) const { return max_component(glm::abs(effect)); }
 
   private:
     void append_roots(const glm::dvec3& direction, std::vector<double>& roots) const {

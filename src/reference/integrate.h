@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integrates the visible colour of the pieces of a ray. On a piece of a cubic segment, the position
 // x(t) in the transfer function's interval and the extinction e(t) are cubics, and D(t), the
-// integral of e, is the optical depth (docs/numerics.md, section 9.2). The change of the colour is
-// weighted by the integral of x e exp(-D):
+// integral of e, is the optical depth (docs/numerics.md, section 9.2). The colour is linear in x,
+// so the piece needs only two integrals: of e exp(-D), which is its opacity, and of x e exp(-D):
 //   integral(from, to):
 //       opacity = exp(-D(from)) - exp(-D(to)), which is the integral of e exp(-D)
-//       if the opacity is negligible beside the error that is allowed: x(middle) opacity
+//       if the opacity is negligible against the allowed error: return x(middle) * opacity
 //       apply Patterson's rules of 3, 7 and 15 nodes to x e exp(-D), and to e exp(-D), whose exact
 //           integral shows a rule's error
-//       if two successive rules differ by no more than is allowed: the finer one
-//       otherwise integral(from, middle) + integral(middle, to)
+//       if two successive rules differ by no more than is allowed: return the finer one
+//       otherwise return integral(from, middle) + integral(middle, to)
 // Pieces of linear segments have closed forms (optics/segment_integral.h).
 //
 // The colour that light adds to a piece (docs/numerics.md, section 10.3), for the gradient g and
@@ -18,10 +18,10 @@
 //   for each interval of the piece between two kinks:
 //       ball = a ball around g in the middle that contains g on the interval
 //       if the largest effect of light for gradients in the ball (10.2) is below the allowed error:
-//           the effect in the middle
+//           add opacity * the effect in the middle
 //       else if g changes its length and its direction by little in the ball:
-//           Patterson's rules, as soon as two successive ones agree
-//       else halve the interval
+//           add the finer of two successive of Patterson's rules, if they agree
+//       if nothing was added: halve the interval
 // The effect has narrow dips and peaks if the gradient is small and turns quickly.
 #pragma once
 
@@ -54,7 +54,7 @@ inline constexpr double weight15[8] = {
 inline constexpr double negligible_opacity = 1.0 / 1024;
 // Optical depth that 15 nodes resolve. Deeper pieces are bisected at once, which is cheaper.
 inline constexpr double resolvable_depth = 8;
-// Rounding error of a rule's sums, relative to the optical depth.
+// Rounding error of a rule's sums, relative to the optical depth (for light, to that plus 1).
 inline constexpr double emission_rounding = 1e-15;
 
 // The integral of a quantity f(t), weighted by extinction * exp(-depth), over 0 <= t <= 1.

@@ -19,22 +19,25 @@ class WalkStep {
     WalkStep(WalkLanes& lanes, std::size_t first) : lanes_(lanes), first_(first) {}
 
     LAMINA_INLINE void run() {
-        const Seen top = see_top();
+        const Projected top = project_top();
         const Double to_top[3] = {area_to(0, top), area_to(1, top), area_to(2, top)};
-        // left[i]: lanes in which corner i is not in the face of exit. The line leaves between the
-        // corners whose edges to the top change from negative to positive.
-        const DoubleMask left[3] = {changes(to_top[1], to_top[2]), changes(to_top[2], to_top[0]),
-                                    changes(to_top[0], to_top[1])};
-        settled_ = settled_ & (left[0] | (left[1] | left[2]));
+        // is_left_behind[i]: lanes in which corner i is not in the face of exit. The line leaves
+        // between the corners whose areas to the top change from negative to positive.
+        const DoubleMask is_left_behind[3] = {changes(to_top[1], to_top[2]),
+                                              changes(to_top[2], to_top[0]),
+                                              changes(to_top[0], to_top[1])};
+        settled_ = settled_ & (is_left_behind[0] | (is_left_behind[1] | is_left_behind[2]));
         Double areas[3];
         for (std::size_t edge = 0; edge < 3; ++edge) {
             const std::size_t next = (edge + 1) % 3;
             const Double kept = get(lanes_.areas[edge]);
-            areas[edge] = select(left[edge], -to_top[next], select(left[next], to_top[edge], kept));
+            areas[edge] = select(is_left_behind[edge], -to_top[next],
+                                 select(is_left_behind[next], to_top[edge], kept));
             settled_ = settled_ & (areas[edge] > 0);
         }
         find_range();
-        for (std::size_t corner = 0; corner < 3; ++corner) replace(corner, left[corner], top);
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            replace(corner, is_left_behind[corner], top);
         cross(areas);
         for (std::size_t edge = 0; edge < 3; ++edge) put(lanes_.areas[edge], areas[edge]);
         store(minus_one_in(settled_), lanes_.settled.data() + first_);
@@ -42,7 +45,7 @@ class WalkStep {
 
   private:
     using Row = WalkLanes::Row;
-    struct Seen {
+    struct Projected {
         Double x, y, at, reach;
     };
 
@@ -54,7 +57,7 @@ class WalkStep {
         store(select(settled_, values, get(row)), row.data() + first_);
     }
 
-    LAMINA_INLINE Seen see_top() const {
+    LAMINA_INLINE Projected project_top() const {
         Double p[3];
         for (std::size_t i = 0; i < 3; ++i) p[i] = get(lanes_.top[i]) - get(lanes_.origin[i]);
         const auto along = [&](const std::array<Row, 3>& axis) LAMINA_LAMBDA {
@@ -68,7 +71,7 @@ class WalkStep {
 
     // Returns twice the area of the triangle of the line and the edge from a corner to the top.
     // Lanes in which rounding leaves its sign unknown become unsettled.
-    LAMINA_INLINE Double area_to(std::size_t corner, const Seen& top) {
+    LAMINA_INLINE Double area_to(std::size_t corner, const Projected& top) {
         const WalkLanes::Corner& row = lanes_.front[corner];
         const Double x = get(row.x), y = get(row.y), reach = get(row.reach);
         const Double product = y * top.x;
@@ -92,8 +95,9 @@ class WalkStep {
     }
 
     // Replaces the corner that is not in the face of exit by the tet's fourth one.
-    LAMINA_INLINE void replace(std::size_t corner, DoubleMask left, const Seen& top) const {
-        const DoubleMask replaced = settled_ & left;
+    LAMINA_INLINE void replace(std::size_t corner, DoubleMask is_left_behind,
+                               const Projected& top) const {
+        const DoubleMask replaced = settled_ & is_left_behind;
         WalkLanes::Corner& row = lanes_.front[corner];
         const auto set = [&](Row& values, Double value) LAMINA_LAMBDA {
             store(select(replaced, value, get(values)), values.data() + first_);
@@ -127,8 +131,9 @@ class WalkStep {
 
     WalkLanes& lanes_;
     std::size_t first_;
-    // Lanes that floats decide; none without fused multiply-add, as areas are less accurate.
-    DoubleMask settled_ = DoubleMask(fuses);
+    // Lanes in which rounding cannot change a sign. Without fused multiply-add no lane is trusted,
+    // because areas are then less accurate.
+    DoubleMask settled_ = DoubleMask(has_fma);
 };
 
 // Cuts a vector of segments as seen_segment() does. Returns the lanes that may be visible.
@@ -162,7 +167,7 @@ LAMINA_INLINE LaneSet find_seen_from(const WalkLanes& walk, const VisibleRanges&
 
 }  // namespace reference
 
-// Steps all lines. Lanes in which floats do not decide the face keep their state.
+// Steps all lines. Lanes in which rounding leaves a sign unknown keep their state.
 inline void step_lanes_of(WalkLanes& lanes) {
     using namespace reference;
     for (std::size_t first = 0; first < WalkLanes::width; first += Double::lanes)
@@ -270,7 +275,7 @@ void PacketWalk::move(std::size_t lane, std::int32_t tet) {
     lanes_.top_point[lane] = top;
 }
 
-// Takes the step of one line, exactly, if floats did not decide it.
+// Takes the step of one line, exactly, if rounding left a sign unknown.
 std::int32_t PacketWalk::step_alone(std::size_t lane) {
     const auto [least, most] = range_in(values_, mesh_.tets()[tets_[lane]]);
     lanes_.least[lane] = least;

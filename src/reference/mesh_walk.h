@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Follows lines through a mesh from tet to tet, one in each lane of a vector:
-//   front = the corners of the face by which the line enters, and the areas of the triangles that
-//           the line makes with its edges, seen along the line
-//   while there is a tet behind the face:
-//       top = the tet's corner that is not in front; in = the crossing by which the line entered
-//       area_to[i] = the area of the triangle of the line and the edge from front[i] to the top
-//       the line leaves by the top and the two corners between which area_to turns from - to +
-//       replace the third corner in front by the top; out = the crossing of this face
-// Lanes in which floats do not decide the sign of an area take RayWalk::step(), which is exact. Of
-// the segments between two crossings those are drawn that may be visible:
-//   for each segment (enter, leave) of the ray in a tet, in which the scalar is linear:
-//       cut it to the range that the clip keeps, and interpolate the scalar at its new ends
-//       it is visible if an interval of the transfer function that its scalars touch has extinction
+//   1. `front` holds the face by which the line enters: its three corners projected along the line,
+//      and for each edge twice the signed area of the triangle (line, edge).
+//   2. While there is a tet behind the face:
+//      a. `top` = the tet's fourth corner, which is not in `front`.
+//      b. area_to(i) = twice the signed area of the triangle (line, edge from front[i] to `top`).
+//      c. The line leaves by the face of `top` and of the two corners between which area_to turns
+//         from - to +.
+//      d. Replace the third corner of `front` by `top`, and interpolate where the line crosses.
+// If rounding leaves the sign of an area unknown in a lane, RayWalk::step() does that lane exactly.
+// A segment between two crossings is drawn only if it may be visible:
+//   1. Cut it to the range that the clip keeps, and interpolate the scalar, which is linear in a
+//      tet, at its new ends.
+//   2. It may be visible if extinction is above 0 in any interval of the transfer function between
+//      its two end scalars.
 #pragma once
 
 #include "mesh/ray_walk.h"
@@ -21,12 +23,14 @@
 
 namespace lamina {
 
-// The state of all lines, one a column. Names as in LineFrame, RayFront and FaceCrossing.
+// Holds the state of all lines; column i belongs to line i. Names are those of LineFrame, RayFront
+// and FaceCrossing.
 struct WalkLanes {
     static constexpr std::size_t width = longest_vector;
     using Row = LaneRow;
     struct alignas(64) Numbers : std::array<std::int64_t, width> {};
 
+    // (x, y): place across the line; at: parameter along it; reach: bound on the rounding of x, y.
     struct Corner {
         Row x, y, at, reach;
         Row value;
@@ -56,7 +60,7 @@ struct WalkLanes {
     Row least, most;  // values at the tet's corners
 
     Numbers left_behind;  // the corner of the entered face that is not in the face of exit
-    Numbers settled;      // not 0: the step is done; 0: floats do not decide it
+    Numbers settled;      // not 0: the step is done; 0: rounding leaves the sign of an area unknown
 };
 
 // Walks lines side by side, so that one waits for memory while others are computed. Each passes the
@@ -101,7 +105,8 @@ class PacketWalk {
     WalkLanes lanes_{};
 };
 
-// The part of a tet's segment that the clip keeps: linear scalars front..back; empty: !(from < to).
+// The part of a tet's segment that the clip keeps. The scalar is linear, from `front` to `back`.
+// The segment is empty unless from < to.
 struct SeenSegment {
     double from, to;
     double front, back;
@@ -120,11 +125,12 @@ struct SeenLanes {
     Row from, to, front, back;  // SeenSegment
     Row length;                 // in world units
     Row slack;                  // scalar_slack()
-    LaneSet shown = 0;          // lanes that are not empty and may be visible
+    LaneSet shown = 0;          // lanes whose segment is not empty and may be visible
 };
 
-// Returns the largest error of scalars interpolated in a tet with values least..most; 0 if equal.
 inline constexpr double scalar_epsilons = 64;
+// Bounds the rounding error of a scalar interpolated in a tet with values least..most: 0 if these
+// are equal, else scalar_epsilons epsilons of the larger one.
 inline double scalar_slack(double least, double most) {
     if (least == most) return 0;
     return scalar_epsilons * std::numeric_limits<double>::epsilon() *

@@ -13,7 +13,7 @@
 LAMINA_SIMD_BEGIN
 
 // True if the instruction set computes fma() with one rounding.
-inline constexpr bool fuses = HWY_NATIVE_FMA != 0;
+inline constexpr bool has_fma = HWY_NATIVE_FMA != 0;
 
 struct DoubleDoubles {
     Double hi, lo;
@@ -35,7 +35,7 @@ LAMINA_INLINE DoubleDoubles exact_sum(Double a, Double b) {
 
 LAMINA_INLINE DoubleDoubles exact_product(Double a, Double b) {
     const Double product = a * b;
-    if constexpr (fuses) return {product, fms(a, b, product)};
+    if constexpr (has_fma) return {product, fms(a, b, product)};
     alignas(64) double as[longest_vector], bs[longest_vector], rest[longest_vector];
     store(a, as);
     store(b, bs);
