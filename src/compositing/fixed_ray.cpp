@@ -57,7 +57,7 @@ struct TreeCompositor {
     const Emulation& emulation;
     Order order;
     const Coder& coder;
-    int swizzled = 0;
+    int inserted_nodes = 0;
 
     std::uint32_t evaluate(int level, const SampleSpan& node) {
         const bool leaf = tree.is_leaf(level, node);
@@ -89,7 +89,7 @@ struct TreeCompositor {
     // Nodes are numbered as they are evaluated, after the samples.
     std::uint32_t swizzle(std::uint32_t code, double share) {
         const double phi = static_cast<double>(code) / coder.largest();
-        const auto stage = static_cast<std::uint32_t>(tree.samples() + swizzled++);
+        const auto stage = static_cast<std::uint32_t>(tree.samples() + inserted_nodes++);
         return coder.round(opacity_over(phi, share), stage);
     }
 };

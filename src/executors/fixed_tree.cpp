@@ -110,7 +110,7 @@ LAMINA_EXPORT(colorize_pixels);
 struct CpuFixedTree::Evaluation {
     const TileGrid::Tile& area;
     const TileLeaves& leaves;
-    std::uint32_t swizzled = 0;  // number of children composited so far
+    std::uint32_t inserted_nodes = 0;  // number of children composited so far
     // The image of each level's present node. A shape may have one level more than factors.
     alignas(64) std::array<TilePixels::Plane, max_tree_levels + 1> planes;
 };
@@ -156,7 +156,7 @@ void CpuFixedTree::evaluate(int level, const SampleSpan& node, Evaluation& evalu
         const SampleSpan child = child_span(node, back_to_front ? children - 1 - i : i, children);
         if (child.count == 0) continue;
         evaluate(level + 1, child, evaluation);
-        put_into_parent(child, node, evaluation.swizzled++, evaluation.area,
+        put_into_parent(child, node, evaluation.inserted_nodes++, evaluation.area,
                         evaluation.planes[static_cast<std::size_t>(level) + 1], plane);
     }
 }

@@ -134,7 +134,7 @@ GlFixedTree::GlFixedTree(const CompositingPlan& plan, const TreeShape& shape,
 }
 
 void GlFixedTree::draw(TreeLeaves& leaves, gl::Framebuffer& target, Progress* progress) {
-    swizzled_ = 0;
+    inserted_nodes_ = 0;
     evaluate(0, shape_.root(), leaves, progress);
     target.bind();
     buffers_[0].color().bind(child_unit);
@@ -172,7 +172,7 @@ void GlFixedTree::put_into_parent(int level, const SampleSpan& child, const Samp
     finish_layer(plan_);
     buffers_[static_cast<std::size_t>(level) + 1].color().bind(child_unit);
     swizzles_.at({child.count, node.count}).bind(swizzle_unit);
-    if (plan_.emulation) swizzle_.set("stage", shape_.samples() + swizzled_++);
+    if (plan_.emulation) swizzle_.set("stage", shape_.samples() + inserted_nodes_++);
     gl::draw_full_screen(swizzle_, no_attributes_);
 }
 

@@ -80,7 +80,7 @@ class GlFixedTree {
     gl::VertexArray no_attributes_;
     std::vector<gl::Framebuffer> buffers_;                 // one for each level
     std::map<std::pair<int, int>, gl::Texture> swizzles_;  // by samples of child and node
-    int swizzled_ = 0;  // children composited in this frame, for stochastic rounding
+    int inserted_nodes_ = 0;  // children composited in this frame, for stochastic rounding
 };
 
 }  // namespace lamina

@@ -33,9 +33,9 @@ struct TetFragments {
     int image_rows;
     float pixel_size;
     float near_depth;
-    // True: both ends of a segment share one division, for which squares of depths must be finite.
-    // False for targets with codes, which must equal those of OpenGL's programs.
-    bool one_division;
+    // True: both ends of a segment share one division, for which squares of depths must be finite
+    // in float32. False for targets with codes, which must equal those of OpenGL's programs.
+    bool shares_division;
     glm::dvec3 ray_perturbation;
     glm::vec4 constant_optics;              // SegmentSource::constant
     glm::vec3 single_color;                 // if colored is false

@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+// Draws a frame of a mesh on the CPU:
+//   1. Sort the visible cell fragments into visibility order, and cut them into batches.
+//   2. For each batch: project its cell fragments onto the window, in chunks, and list in which
+//      tiles each chunk lies. Cell fragments are set up in vectors (TetSetup). TetProjector takes
+//      unclear ones and all of plans that are not `plain`, FanGeometry those of plans with fans.
+//   3. While the next batch is projected: for each tile, composite the fragments of this batch's
+//      chunks in order (cpu_fragments.h).
+// With a compositing tree, steps 2 and 3 draw each leaf, and the leaves' opacities are composited.
 #include "projection/cpu_project_renderer.h"
 
 #include <algorithm>
@@ -65,8 +73,8 @@ CpuProjectRenderer::CpuProjectRenderer(const SceneMesh& mesh,
                       std::array{color.r, color.g, color.b}, image_.grid());
     }
     // A batch has enough chunks that the tiles of all threads find work, and few enough that it
-    // fits the caches (2 MB with 800 x 600 pixels). Two batches also take less memory than a fourth
-    // of the mesh's cell fragments, beside 64 bytes for each tile and chunk.
+    // fits the caches (2 MB with 800 x 600 pixels). Two batches together take less memory than a
+    // quarter of all cell fragments would (or two chunks), plus 64 bytes for each tile and chunk.
     const std::size_t chunks =
         std::clamp<std::size_t>(static_cast<std::size_t>(visible_->count()) / (8 * chunk_size()), 1,
                                 TileBatch::most_chunks);
@@ -214,17 +222,23 @@ void CpuProjectRenderer::set_view(const View& view) {
     fragments_.image_middle = 0.5f * glm::vec2(view.width, view.height);
     fragments_.image_rows = view.height;
     fragments_.pixel_size = static_cast<float>(seeing_in_units(view, plan_.unit).pixel);
+    // In perspective views depth is stored as -1 / z, which is linear in the window.
     fragments_.near_depth =
         static_cast<float>(fragments_.perspective ? -1 / plan_.near_depth : plan_.near_depth);
     fragments_.ray_perturbation = ray_perturbation(view);
     const auto& [min, max] = mesh_.mesh.bounds();
     const double farthest =
         glm::length(glm::max(glm::abs(min - view.eye), glm::abs(max - view.eye)));
-    fragments_.one_division =
+    // Both ends of a segment can share one division if the squares of all depths are finite in
+    // float32.
+    fragments_.shares_division =
         !is_fixed_point(plan_.target) && plan_.near_depth > 1e-18 && plan_.unit * farthest < 1e18;
-    if (!fragments_.perspective || plan_.thickness == Thickness::dz || light_ ||
-        slant_pixel_ == view.pixel)
-        return;
+    if (fragments_.perspective && plan_.thickness != Thickness::dz && !light_ &&
+        slant_pixel_ != view.pixel)
+        compute_slants(view);
+}
+
+void CpuProjectRenderer::compute_slants(const View& view) {
     slant_pixel_ = view.pixel;
     slants_.resize(fragment_counts_.size());
     parallel_for(image_.grid().count(), 1, [&](std::int64_t number) {
@@ -265,7 +279,7 @@ void CpuProjectRenderer::project_chunk(const Projectors& projectors,
             if (is_fan()) {
                 project_fan(projectors.fans, cell_fragments[i], order.pixels(i), chunk);
             } else {
-                project_doubtful(projectors.careful, cell_fragments[i], order.pixels(i), chunk);
+                project_careful(projectors.careful, cell_fragments[i], order.pixels(i), chunk);
             }
         }
         return;
@@ -288,25 +302,25 @@ void CpuProjectRenderer::project_chunk(const Projectors& projectors,
                     if (lit != nullptr) *chunk.next_gradient() = lit[i];
                 }
                 add(done.areas[i], group[i].tet, limit, chunk);
-            } else if (done.outcomes[i] == TetSetup::Outcome::doubtful) {
-                project_doubtful(projectors.careful, group[i], limit, chunk);
+            } else if (done.outcomes[i] == TetSetup::Outcome::needs_care) {
+                project_careful(projectors.careful, group[i], limit, chunk);
             }
         }
     }
 }
 
-void CpuProjectRenderer::project_doubtful(const TetProjector& projector,
-                                          const CellFragment& cell_fragment, const PixelArea* limit,
-                                          TileBatch::Chunk& chunk) const {
+void CpuProjectRenderer::project_careful(const TetProjector& projector,
+                                         const CellFragment& cell_fragment, const PixelArea* limit,
+                                         TileBatch::Chunk& chunk) const {
     const TileGrid& grid = image_.grid();
     ScreenOutline outline;
     const auto kind =
         projector.project(cell_fragment, chunk.next(), outline, chunk.next_gradient());
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
-    // Doubtful cell fragments are drawn as careful ones, which is right for every kind. They are
-    // few, unless the plan draws all so (not `plain`). Then DepthBound::any is passed, so that
-    // weights come from FrontWeightTable.
+    // These cell fragments are drawn as careful ones, which is right for every kind. They are few,
+    // except in plans that are not `plain`, which draw every cell fragment this way. Such plans
+    // pass DepthBound::any, because their weights come from FrontWeightTable.
     add({{bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
           grid.height() - 1 - bounds.first_row},
          true,
@@ -339,19 +353,16 @@ void CpuProjectRenderer::project_fan(const FanGeometry& fans, const CellFragment
     }
 }
 
-void CpuProjectRenderer::add(const CoveredArea& area, std::int32_t tet, const PixelArea* limit,
+void CpuProjectRenderer::add(CoveredArea area, std::int32_t tet, const PixelArea* limit,
                              TileBatch::Chunk& chunk) const {
     constexpr int edge = TileGrid::edge;
     if (limit != nullptr) {
-        CoveredArea limited = area;
-        static_cast<PixelArea&>(limited) = common_pixels(area, *limit);
-        if (limited.empty()) return;
-        limited.bounded = true;
+        static_cast<PixelArea&>(area) = common_pixels(area, *limit);
+        if (area.empty()) return;
+        area.bounded = true;
         // The outline is relative to the area's first pixel.
         if (!is_fan() && !area.careful)
-            limited.outline = outline_of(chunk.next(), limited, image_.grid().height());
-        add(limited, tet, nullptr, chunk);
-        return;
+            area.outline = outline_of(chunk.next(), area, image_.grid().height());
     }
     chunk.add(area, tet);
     for (int row = area.first_row / edge; row <= area.last_row / edge; ++row) {
@@ -395,7 +406,7 @@ CpuTetTree::CpuTetTree(const CompositingPlan& plan, const TreeShape& shape,
 }
 
 void CpuTetTree::draw(const DrawLeaf& draw_leaf, TileImage& image, Progress* progress) {
-    swizzled_ = 0;
+    inserted_nodes_ = 0;
     evaluate(0, shape_.root(), draw_leaf, progress);
     parallel_for(grid_.count(), 8, [&](std::int64_t tile) {
         tree_.colorize(nodes_[0].opacity[static_cast<std::size_t>(tile)],
@@ -406,6 +417,7 @@ void CpuTetTree::draw(const DrawLeaf& draw_leaf, TileImage& image, Progress* pro
 void CpuTetTree::evaluate(int level, const SampleSpan& span, const DrawLeaf& draw_leaf,
                           Progress* progress) {
     Node& node = nodes_[static_cast<std::size_t>(level)];
+    // Clears only the tiles that the last use of this level touched.
     for (std::size_t tile = 0; tile < node.touched.size(); ++tile) {
         if (node.touched[tile] != 0) node.opacity[tile].fill(0);
         node.touched[tile] = 0;
@@ -429,7 +441,7 @@ void CpuTetTree::evaluate(int level, const SampleSpan& span, const DrawLeaf& dra
 void CpuTetTree::put_into_parent(int level, const SampleSpan& child, const SampleSpan& parent) {
     const Node& from = nodes_[static_cast<std::size_t>(level) + 1];
     Node& to = nodes_[static_cast<std::size_t>(level)];
-    const std::uint32_t number = swizzled_++;
+    const std::uint32_t number = inserted_nodes_++;
     parallel_for(grid_.count(), 8, [&](std::int64_t place) {
         const auto tile = static_cast<std::size_t>(place);
         if (from.touched[tile] == 0) return;

@@ -42,7 +42,7 @@ class CpuTetTree {
     TileGrid grid_;
     std::vector<Node> nodes_;  // by level
     // Number of nodes that were put into their parents in this frame; it seeds stochastic rounding.
-    std::uint32_t swizzled_ = 0;
+    std::uint32_t inserted_nodes_ = 0;
 };
 
 // Draws a mesh on the CPU. Cell fragments are projected in batches, in visibility order, while the
@@ -79,6 +79,7 @@ class CpuProjectRenderer : public ProjectRenderer {
     std::size_t batch_count(std::size_t cell_fragments) const;
     void set_tables();
     void set_view(const View& view);
+    void compute_slants(const View& view);
     void draw_cell_fragments(const Projectors& projectors,
                              const DrawOrder<CellFragment>& cell_fragments, CpuTetTree::Node* leaf,
                              Progress* progress);
@@ -89,11 +90,12 @@ class CpuProjectRenderer : public ProjectRenderer {
     void project_chunk(const Projectors& projectors, const DrawOrder<CellFragment>& cell_fragments,
                        TileBatch::Chunk& chunk) const;
     // `limit`: the pixels in which the cell fragment is drawn; null for all.
-    void project_doubtful(const TetProjector& projector, const CellFragment& cell_fragment,
-                          const PixelArea* limit, TileBatch::Chunk& chunk) const;
+    void project_careful(const TetProjector& projector, const CellFragment& cell_fragment,
+                         const PixelArea* limit, TileBatch::Chunk& chunk) const;
     void project_fan(const FanGeometry& fans, const CellFragment& cell_fragment,
                      const PixelArea* limit, TileBatch::Chunk& chunk) const;
-    void add(const CoveredArea& area, std::int32_t tet, const PixelArea* limit,
+    // `limit`: as for project_careful().
+    void add(CoveredArea area, std::int32_t tet, const PixelArea* limit,
              TileBatch::Chunk& chunk) const;
     void draw_batch(const TileBatch& batch, CpuTetTree::Node* leaf);
 
@@ -105,8 +107,9 @@ class CpuProjectRenderer : public ProjectRenderer {
     std::optional<CpuLight> light_;        // none if nothing is lit
     TetFragments fragments_{};
     TileImage image_;
-    std::vector<TilePixels::Plane> slants_;  // for each tile; empty if all are 1
-    double slant_pixel_ = 0;                 // View::pixel that the slants were computed for
+    // Slant: length along a pixel's ray per unit of z; for each tile, empty if all are 1.
+    std::vector<TilePixels::Plane> slants_;
+    double slant_pixel_ = 0;  // View::pixel that the slants were computed for
     // Two batches: one is projected while the other is drawn.
     std::array<std::unique_ptr<TileBatch>, 2> batches_;
     std::vector<std::int64_t> fragment_counts_;  // for each tile

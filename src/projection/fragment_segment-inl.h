@@ -234,7 +234,7 @@ LAMINA_INLINE TetSpan find_ends(const Shader& shader, const TetFragments& fragme
         // Differences of z come from differences of depth, so that a distant eye costs no digits.
         const Float depth_front = seen.center_depth + span.enter;
         const Float depth_back = seen.center_depth + span.leave;
-        if (fragments.one_division) {
+        if (fragments.shares_division) {
             // All depths in front of the eye are negative; near the horizon rounding may give 0.
             const Float near = min(depth_front, -1e-18f), far = min(depth_back, -1e-18f);
             const Float product = -1 / (near * far);

@@ -164,7 +164,7 @@ void GlProjectTables::upload(const UniformTable& table) {
             texture_->upload(whole,
                              std::span<const std::uint16_t>(to_codes<std::uint16_t>(table.texels)));
             break;
-        case TableFormat::float16:
+        case TableFormat::float16:  // OpenGL converts float32 to half
         case TableFormat::float32:
             texture_->upload(whole, std::span<const float>(table.texels));
             break;
@@ -180,6 +180,7 @@ void GlProjectTables::set_defines(gl::Defines& defines) const {
         defines.set("OPTICS", plan_.single_color ? "float" : "vec4");
         defines.set("FRONT_WEIGHT_NODES", FrontWeightTable::nodes);
     }
+    // At most one of `intervals_` and `table_` is set.
     if (intervals_) {
         defines.set("INTERVALS", intervals_->intervals());
         if (intervals_->nodes() > 0) defines.set("TABLE_NODES", intervals_->nodes());
@@ -250,7 +251,7 @@ void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
         fan ? FanGeometry::largest_size()
             : SilhouetteGeometry::largest_size(plan_.lighting.has_value());
     stream_ = std::move(ready);
-    if (!stream_ || !stream_->serves(size, cell_fragments)) {
+    if (!stream_ || !stream_->can_replace(size, cell_fragments)) {
         stream_ = fan ? std::make_shared<GlTetStream>(size, fan_attributes, cell_fragments)
                       : std::make_shared<GlTetStream>(size, silhouette_attributes, cell_fragments);
     }
@@ -295,6 +296,7 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
     program.set("pixel_size", static_cast<float>(seeing_in_units(view, plan_.unit).pixel));
     if (!is_fan()) {
         program.set("ray_perturbation", ray_perturbation(view));
+        // In perspective views depth is stored as -1 / z, which is linear in the window.
         const double near =
             view.projection == Projection::perspective ? -1 / plan_.near_depth : plan_.near_depth;
         program.set("near_depth", static_cast<float>(near));

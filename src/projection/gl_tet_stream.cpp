@@ -73,7 +73,7 @@ GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribut
     }
 }
 
-bool GlTetStream::serves(const TetGeometry::Size& size, std::size_t cell_fragments) const {
+bool GlTetStream::can_replace(const TetGeometry::Size& size, std::size_t cell_fragments) const {
     return size == size_ && batch_size_of(cell_fragments) == batch_size_;
 }
 

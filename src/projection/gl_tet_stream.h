@@ -26,8 +26,9 @@ class GlTetStream {
     GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
                 std::size_t cell_fragments);
 
-    // Tells whether the constructor would make an equal stream, given equal kinds of geometry.
-    bool serves(const TetGeometry::Size& size, std::size_t cell_fragments) const;
+    // Tells whether this stream can be used in place of a new one made from these arguments, given
+    // equal kinds of geometry.
+    bool can_replace(const TetGeometry::Size& size, std::size_t cell_fragments) const;
 
     // Sets whether draw() waits between cell fragments, for programs that read the target as a
     // texture.

@@ -421,7 +421,7 @@ void store(std::span<const CellFragment> cell_fragments, const SetupLanes& lanes
     using Outcome = TetSetup::Outcome;
     for (std::size_t lane = 0; lane < cell_fragments.size(); ++lane) {
         Outcome& outcome = result.outcomes[lane];
-        outcome = lanes.good[lane] == 0      ? Outcome::doubtful
+        outcome = lanes.good[lane] == 0      ? Outcome::needs_care
                   : lanes.visible[lane] == 0 ? Outcome::invisible
                                              : Outcome::done;
         if (outcome != Outcome::done) continue;

@@ -9,11 +9,11 @@ namespace lamina {
 
 // Results of a fast form of TetProjector, which works on vectors of several cell fragments. It
 // handles only clear cases: the eye is well away from the planes of all faces, and the tet lies
-// beyond the near plane. The others, `doubtful`, are left to TetProjector.
+// beyond the near plane. The others need care and are left to TetProjector.
 struct TetSetup {
     static constexpr std::size_t most_cell_fragments = 8;  // in one call
-    // invisible: no pixel centre is covered; doubtful: left to TetProjector.
-    enum class Outcome : std::uint8_t { invisible, done, doubtful };
+    // invisible: no pixel centre is covered; needs_care: left to TetProjector.
+    enum class Outcome : std::uint8_t { invisible, done, needs_care };
 
     // Areas of the whole tets, rows from the top.
     std::array<CoveredArea, most_cell_fragments> areas;

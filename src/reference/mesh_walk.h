@@ -130,7 +130,7 @@ struct SeenLanes {
 
 inline constexpr double scalar_epsilons = 64;
 // Bounds the rounding error of a scalar interpolated in a tet with values least..most: 0 if these
-// are equal, else scalar_epsilons epsilons of the larger one.
+// are equal, else scalar_epsilons epsilons of the larger absolute value.
 inline double scalar_slack(double least, double most) {
     if (least == most) return 0;
     return scalar_epsilons * std::numeric_limits<double>::epsilon() *
