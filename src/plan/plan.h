@@ -289,7 +289,7 @@ class FrameRenderer {
 
     // Uses another plan of the same scene and size for further frames. Returns false, and changes
     // nothing, if that plan differs in more than the view and so needs other preparations.
-    virtual bool take(const Plan& plan) = 0;
+    virtual bool try_switch_to(const Plan& plan) = 0;
     // Draws a frame, which is complete on return. It has step_count() steps; `progress` advances by
     // one with each, and Ctrl-C ends the frame between two of them.
     virtual void draw(const View& view, Progress* progress = nullptr) = 0;

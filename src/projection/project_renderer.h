@@ -24,7 +24,9 @@ struct ProjectReuse {
 // Draws frames of a mesh.
 class ProjectRenderer : public FrameRenderer {
   public:
-    bool take(const Plan& plan) override { return plan.project.picture() == plan_.picture(); }
+    bool try_switch_to(const Plan& plan) override {
+        return plan.project.picture() == plan_.picture();
+    }
     virtual ProjectReuse reusable() const = 0;
     // These two describe the last frame.
     const OrderReport& order_report() const { return order_->report(); }

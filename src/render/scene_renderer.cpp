@@ -500,7 +500,7 @@ std::vector<int> SceneRenderer::front_to_back() {
 void SceneRenderer::set_up() {
     plan();
     FrameRenderer* const ready = drawing_->renderer();
-    if (ready != nullptr && renderer_fits_ && ready->take(*plan_)) return;
+    if (ready != nullptr && renderer_fits_ && ready->try_switch_to(*plan_)) return;
     Stage setting_up("set_up");
     drawing_->make_renderer(*resolved_, *plan_, capabilities_);
     ++counts_.renderers;

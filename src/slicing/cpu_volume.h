@@ -82,7 +82,7 @@ class CpuVolume {
     CpuVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
     // Tells whether this object can be used in place of a new one made from these arguments.
-    bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
+    bool can_replace(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
 
     const std::vector<CpuBrick>& bricks() const { return bricks_; }
     // Returns the cache that holds the pages of a volume on disk; null if the volume is in memory.

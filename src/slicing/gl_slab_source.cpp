@@ -175,8 +175,8 @@ VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, co
 }
 
 // Textures of codes do not depend on the range, which normalises floats only.
-bool VolumeTextures::serves(const Volume& volume, const ValueRange& range,
-                            const SlicePlan& plan) const {
+bool VolumeTextures::can_replace(const Volume& volume, const ValueRange& range,
+                                 const SlicePlan& plan) const {
     return volume.shares_samples(volume_) && plan.bricks == parts_ &&
            plan.float_texture == float_texture_ && (!float_texture_ || range == range_) &&
            (plan.sampling != VolumeSampling::fetch) == filtered_ &&
@@ -235,7 +235,7 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
     take_plan(plan);
     if (plan_.sampling == VolumeSampling::none) return;
     codes_ = sample_codes(volume, range_, plan_);
-    if (volume_ && volume_->serves(volume, range_, plan_)) return;
+    if (volume_ && volume_->can_replace(volume, range_, plan_)) return;
     Stage upload("upload");
     volume_ = std::make_shared<VolumeTextures>(volume, range_, plan_);
     gl::api().Finish();

@@ -21,7 +21,7 @@ class VolumeTextures {
     VolumeTextures(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
     // Tells whether this object can be used in place of a new one made from these arguments.
-    bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
+    bool can_replace(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
 
     const std::vector<gl::Texture>& bricks() const { return bricks_; }
     // Returns the gradients that shaders/volume/gradient.glsl reads; empty if the plan is not lit.

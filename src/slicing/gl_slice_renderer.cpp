@@ -164,7 +164,7 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
 }
 
 // A renderer of a plan with nothing visible has no source, and can only take such plans.
-bool GlSliceRenderer::take(const Plan& plan) {
+bool GlSliceRenderer::try_switch_to(const Plan& plan) {
     const SlicePlan& slice = plan.slice;
     if ((!source_ && !slice.nothing_visible) || of_all_views(slice) != of_all_views(plan_))
         return false;

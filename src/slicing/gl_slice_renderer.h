@@ -60,7 +60,7 @@ class GlSliceRenderer : public SliceRenderer {
     GlSliceRenderer(const GlSliceRenderer&) = delete;  // its parts refer to its plan
     GlSliceRenderer& operator=(const GlSliceRenderer&) = delete;
 
-    bool take(const Plan& plan) override;
+    bool try_switch_to(const Plan& plan) override;
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override;
     using FrameRenderer::read;

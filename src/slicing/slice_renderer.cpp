@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+// Draws a frame of a volume on the CPU:
+//   1. For each brick in visibility order: limit it to what is drawn of it, and set the pixels in
+//      which it may show something.
+//   2. For each tile of pixels, in parallel, for each brick in this order: step the rays through
+//      slabs of equal thickness, or exactly from cell face to cell face (cpu_slabs.h).
+//      a. Skip slabs, or cells, of empty bricks.
+//      b. Composite the colour and opacity of the others onto the tile's pixels.
+// With a compositing tree, step 2 draws the samples of each leaf, and the leaves are composited.
 #include "slicing/slice_renderer.h"
 
 #include <algorithm>
@@ -23,9 +31,10 @@ namespace {
 // Length in voxels of slabs whose visibility is tested together; shorter ones find little more.
 constexpr double tested_voxels = MinMaxBricks::edge / 4.0;
 
-// Returns the margin in voxels within which empty slabs are found: .01 and the largest error of a
-// point, 1.2e-6 of the brick's size, from four roundings to float32 of coordinates of at most five
-// times the size, as in a block of slabs that begins in front of the box.
+// Returns by how many voxels a slab is enlarged before it is tested for emptiness: 0.01, plus a
+// bound on the rounding of a point in float32. This rounding is 1.2e-6 of the brick's size: four
+// roundings of coordinates of at most five times the size, as in a block of slabs that begins in
+// front of the box.
 double point_margin(const TextureBrick& part) {
     const std::int64_t size = *std::ranges::max_element(part.size);
     return 0.01 + 2e-6 * static_cast<double>(size);
@@ -77,16 +86,16 @@ void CpuSliceRenderer::prepare(const Volume& volume, const TransferFunction& tra
     if (!sampled) return;
     Stage tables("tables");
     const bool exact = plan_.integrates_cells();
-    const ValueRange unit =
+    const ValueRange normalized_range =
         exact ? exact_range(transfer_function, facts.range, volume.type()) : range;
-    transfer_.emplace(transfer_function, unit,
+    transfer_.emplace(transfer_function, normalized_range,
                       plan_.uses_table() ? plan_.table.knot_table() : nullptr,
                       exact ? 0 : sampled_step_advance, plan_.curve_error > 0);
     slabs_.transfer = &*transfer_;
     table_ms_ = tables.end();
-    if (!volume_ || !volume_->serves(volume, unit, plan_)) {
+    if (!volume_ || !volume_->can_replace(volume, normalized_range, plan_)) {
         Stage upload("upload");
-        volume_ = std::make_shared<CpuVolume>(volume, unit, plan_);
+        volume_ = std::make_shared<CpuVolume>(volume, normalized_range, plan_);
         upload_ms_ = upload.end();
     }
     if (volume_->pages() != nullptr) {
@@ -108,7 +117,7 @@ void CpuSliceRenderer::set_cells() {
         cells_leave_out_empty_ = plan_.occupied_only;
     }
     slabs_.cells = &cells_;
-    slabs_.occupied = nullptr;
+    slabs_.occupied = nullptr;  // `cells` already contains both
     slabs_.constant = nullptr;
 }
 
@@ -121,7 +130,8 @@ void CpuSliceRenderer::set_view(const View& view, const Slabs& slabs) {
         add_brick(0, view, slabs);
         return;
     }
-    // Nodes in float always march front to back, whatever the plan's order of slabs is.
+    // A compositing tree in float always marches front to back, whatever order of slabs the plan
+    // has.
     const Order order = plan_.has_tree(NodeArithmetic::shader) ? Order::front_to_back : plan_.order;
     set_visibility_order(plan_.bricks, grid_, view, order, order_);
     for (const std::size_t number : order_) add_brick(number, view, slabs);
@@ -182,7 +192,7 @@ void CpuSliceRenderer::add_brick(std::size_t number, const View& view, const Sla
         return;
     brick.last_face = last_face_of(brick.box.max, first, grid_);
     slabs_.bricks.push_back(brick);
-    see(brick, view);
+    add_visible_pixels(brick, view);
 }
 
 // Limits a brick to a renderer's share of the volume: exact segments are clipped to it, slabs keep
@@ -197,7 +207,7 @@ bool CpuSliceRenderer::keep_to_share(const IndexBox& share, CpuBrickView& brick)
     return !brick.drawn.empty();
 }
 
-void CpuSliceRenderer::see(const CpuBrickView& brick, const View& view) {
+void CpuSliceRenderer::add_visible_pixels(const CpuBrickView& brick, const View& view) {
     const auto pixels = [&](const glm::dvec3& min, const glm::dvec3& max) {
         return pixels_of({brick.first + min, brick.first + max}, grid_, view);
     };
@@ -208,8 +218,9 @@ void CpuSliceRenderer::see(const CpuBrickView& brick, const View& view) {
     seen_ = slabs_.bricks.size() == 1 ? seen : seen_.joined(seen);
 }
 
-// A renderer of a plan with nothing visible has prepared nothing, and can only take such plans.
-bool CpuSliceRenderer::take(const Plan& plan) {
+// If nothing was visible in the first plan, nothing was prepared, so the renderer accepts only
+// plans in which nothing is visible.
+bool CpuSliceRenderer::try_switch_to(const Plan& plan) {
     const SlicePlan& slice = plan.slice;
     if ((!prepared_ && !slice.nothing_visible) || of_all_views(slice) != of_all_views(plan_))
         return false;

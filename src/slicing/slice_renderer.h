@@ -38,7 +38,8 @@ std::unique_ptr<SliceRenderer> make_slice_renderer(const Volume& volume,
                                                    const Capabilities& capabilities, int width,
                                                    int height, const SliceReuse& ready = {});
 
-// Draws a volume as the plan says, on the CPU. GlSliceRenderer draws it with OpenGL.
+// Draws a volume as the plan says, on the CPU (slice_renderer.cpp has the algorithm).
+// GlSliceRenderer draws it with OpenGL.
 class CpuSliceRenderer : public SliceRenderer {
   public:
     // Prepares volume and tables. `ready`: another renderer's volume(), used if of the right form.
@@ -48,7 +49,7 @@ class CpuSliceRenderer : public SliceRenderer {
     CpuSliceRenderer(const CpuSliceRenderer&) = delete;  // its members refer to each other
     CpuSliceRenderer& operator=(const CpuSliceRenderer&) = delete;
 
-    bool take(const Plan& plan) override;
+    bool try_switch_to(const Plan& plan) override;
     // Draws a frame; its steps are tiles. After the first frame it allocates no memory. Throws
     // Error if the files of a volume that stays on disk have changed.
     void draw(const View& view, Progress* progress = nullptr) override;
@@ -73,7 +74,7 @@ class CpuSliceRenderer : public SliceRenderer {
     void set_rays(const View& view, const Slabs& slabs);
     void add_brick(std::size_t number, const View& view, const Slabs& slabs);
     // Adds to seen_ the pixels in which a brick may show something.
-    void see(const CpuBrickView& brick, const View& view);
+    void add_visible_pixels(const CpuBrickView& brick, const View& view);
     bool keep_to_share(const IndexBox& share, CpuBrickView& brick) const;
     void load_pages(const View& view) const;
     void clear_tile(int number);
