@@ -354,7 +354,7 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
         ZarrChunks chunks(array, {{0, 1, 2}, {0, 0, 0}});
         auto hashes = read_chunk_hashes(folder, chunks.count());
         if (!hashes) return is_not_used("damaged");
-        chunks.expect(std::move(*hashes));
+        chunks.set_expected_hashes(std::move(*hashes));
         return stored_volume(grid, *type, std::make_unique<ZarrSource>(std::move(chunks)));
     } catch (const Json::exception&) {
     } catch (const Error&) {

@@ -10,7 +10,8 @@
 
 namespace lamina {
 
-// Tells if a file or folder is a volume: by its content, else by its extension in any case.
+// Tells if a file or folder is a volume: by its content or, if that does not tell, by its extension
+// (upper or lower case).
 bool is_volume_file(const std::filesystem::path& path);
 
 // Reads a volume of any format into memory. Throws Error: one line that names the file, what was

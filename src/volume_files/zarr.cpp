@@ -257,7 +257,7 @@ PlacedArray place(const ZarrArray& array, const ZarrImage& image, const VolumeRe
 
 // Reads all selected samples, in native byte order.
 std::shared_ptr<void> samples_of(const ZarrChunks& chunks) {
-    chunks.expect_all();
+    chunks.check_plausible_size();
     const std::size_t bytes = chunks.selected_bytes();
     const std::shared_ptr<void> memory = filled_memory(bytes);
     const auto& size = chunks.size();

@@ -322,7 +322,7 @@ ZarrChunks::ZarrChunks(ZarrArray array, ZarrSelection selection)
     }
 }
 
-void ZarrChunks::expect_all() const {
+void ZarrChunks::check_plausible_size() const {
     if (const std::size_t bytes = selected_bytes(); bytes / most_chunk_expansion > stored_) {
         fail("{}: the array promises {} bytes, its chunks have {}, which cannot hold them",
              array_.folder.string(), bytes, stored_);
@@ -342,7 +342,7 @@ std::string ZarrChunks::selection_text() const {
     return fmt::format("{} {}", fmt::join(selection_.axes, " "), fmt::join(selection_.index, " "));
 }
 
-void ZarrChunks::expect(std::vector<std::uint64_t> hashes) {
+void ZarrChunks::set_expected_hashes(std::vector<std::uint64_t> hashes) {
     for (std::size_t chunk = 0; chunk < hashes.size(); ++chunk) {
         if (hashes[chunk] != no_chunk && states_[chunk] == 0)
             fail("{}: is missing", file_of(static_cast<std::int64_t>(chunk)).string());

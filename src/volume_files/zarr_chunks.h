@@ -51,7 +51,8 @@ struct ZarrArray {
     std::int64_t chunk_samples() const;
 };
 
-// Reads a folder's .zarray. Throws Error if it is none, or that of an array that cannot be read.
+// Reads a folder's .zarray. Throws Error if the file is missing or invalid, or if lamina cannot
+// read arrays of this kind.
 ZarrArray read_zarray(const std::filesystem::path& folder);
 
 // The samples that are taken of an array: which of its axes are z, y and x (-1: the array has no
@@ -63,7 +64,9 @@ struct ZarrSelection {
 
 // An array that lamina wrote has a file with the hashes of its chunks, in the order of ZarrChunks,
 // so that a damaged or lost chunk is never drawn.
-inline constexpr std::uint64_t no_chunk = 0;  // for a chunk of zeros, which has no file
+// Hash of a chunk that has no file: its samples are all the fill value, which is 0 in arrays
+// that lamina writes.
+inline constexpr std::uint64_t no_chunk = 0;
 
 std::uint64_t hash_of_chunk(std::span<const char> stored);
 
@@ -100,13 +103,15 @@ class ZarrChunks {
     std::uint64_t state(std::int64_t chunk) const {
         return states_[static_cast<std::size_t>(chunk)];
     }
-    // Returns a hash of the state of all files: not that of copies with their sizes and times.
+    // Returns a hash of the state of all chunk files. Copies of the files give another hash, even
+    // with equal sizes and times.
     std::uint64_t files() const { return files_.word(); }
     std::int64_t missing() const;
-    // Sets all chunks' hashes, for decoded(). Throws Error if a chunk with a hash has no file.
-    void expect(std::vector<std::uint64_t> hashes);
-    // Throws Error if the files are too small for the samples of all chunks, missing or not.
-    void expect_all() const;
+    // Sets the hashes that decoded() expects, one for each chunk. Throws Error if a chunk with a
+    // hash has no file.
+    void set_expected_hashes(std::vector<std::uint64_t> hashes);
+    // Throws Error if the files are so small that no compression could hold all selected samples.
+    void check_plausible_size() const;
     std::string selection_text() const;  // identifies what is selected
 
     // Returns a chunk's samples, decoded, in the byte order of the file. Throws Error if it is
