@@ -103,7 +103,7 @@ class FaceSets {
 constexpr std::int64_t faces_per_task = 64;
 
 // Limits the pairs of faces examined: average for each face. Real meshes need far fewer.
-constexpr std::int64_t looks_a_face = 60;
+constexpr std::int64_t max_tests_per_face = 60;
 
 constexpr std::int64_t most_lines = 500, lines_per_task = 8;
 
@@ -149,7 +149,7 @@ class OverlapSearch {
     // Marks the tets of faces that cross. Faces with two points in common only touch.
     void mark_crossing() {
         const auto faces = mesh_.open_faces();
-        std::atomic<std::int64_t> left{looks_a_face * std::ssize(faces)};
+        std::atomic<std::int64_t> left{max_tests_per_face * std::ssize(faces)};
         parallel_for(std::ssize(faces), faces_per_task, [&](std::int64_t index) {
             const TetFace& face = faces[index];
             if (is_flat(face) || left <= 0) return;

@@ -57,7 +57,8 @@ Polygon from_eye(const Eye& eye, const Triangle& triangle, const glm::dvec3& ori
 }
 
 // Makes boxes around triangles on one side of the eye: two axes across the rays, one along them.
-// Disjoint boxes do not hide each other. Triangles not well on that side get a box of everything.
+// Disjoint boxes do not hide each other. A triangle that is not clearly on that side gets an
+// infinite box.
 class SeenBoxes {
   public:
     // Makes boxes for the side of the eye towards `center`.
@@ -115,8 +116,8 @@ FaceTree::Box SeenBoxes::of(const Triangle& triangle) const {
     return box;
 }
 
-// Limits the pairs of faces examined: the average for each face. Real meshes need far fewer.
-constexpr std::size_t looks_a_face = 100;
+// Limits how many other faces are examined for each face, on average. Real meshes need far fewer.
+constexpr std::size_t max_tests_per_face = 100;
 
 // Finds gap_faces(): the open faces that are not outermost. A face is outermost if all of the mesh
 // lies inside of its plane, apart from faces in the plane that look the same way.
@@ -126,7 +127,7 @@ class Search {
         : mesh_(mesh),
           tree_(mesh, mesh.open_faces()),
           bounds_{mesh.bounds().min, mesh.bounds().max},
-          left_(looks_a_face * mesh.open_faces().size()),
+          left_(max_tests_per_face * mesh.open_faces().size()),
           outside_(mesh.points()[mesh.tets()[0][0]]) {}
 
     std::vector<std::int32_t> find() {
@@ -269,8 +270,9 @@ bool SeenTriangle::separated_by_edge(const Eye& eye, const SeenTriangle& other) 
 }
 
 // Tells whether the triangles do not overlap as seen from the eye. Two triangles in a plane have no
-// inner point in common if and only if a line along an edge of one separates them; so it is for
-// pyramids in one half-space. Otherwise the separating plane may also hold one edge of each.
+// inner point in common if and only if a line through an edge of one separates them (separating
+// axis theorem). The same holds for the pyramids of rays if all rays lie in one half-space. If they
+// do not, planes through the eye and one corner of each must be tested, too.
 bool SeenTriangle::apart(const Eye& eye, const SeenTriangle& entry) const {
     if (separated_by_edge(eye, entry) || entry.separated_by_edge(eye, *this)) return true;
     if (sees_ahead(eye, entry)) return false;
@@ -302,12 +304,13 @@ bool SeenTriangle::shows(const Eye& eye, const SeenTriangle& entry) const {
     if (of_entry < 0) return false;
     if (of_entry > 0) return true;
     const int of_exit = entry.all_on_one_side(*this);
-    return of_exit != 0 ? of_exit > 0 : behind_where_mixed(eye, entry);
+    return of_exit != 0 ? of_exit > 0 : overlap_is_behind(eye, entry);
 }
 
-// For triangles that intersect. The part of the entry seen through the exit has as corners those of
-// either inside the other, and crossings of edges. Tells whether one is behind the exit.
-bool SeenTriangle::behind_where_mixed(const Eye& eye, const SeenTriangle& entry) const {
+// Tells whether, for triangles that intersect, some part of the entry is seen behind the exit. The
+// corners of the overlap are corners of one triangle inside the other and crossings of edges; one
+// behind the exit suffices.
+bool SeenTriangle::overlap_is_behind(const Eye& eye, const SeenTriangle& entry) const {
     const auto inside = [&](const SeenTriangle& triangle, const glm::dvec3& point) {
         for (std::size_t i = 0; i < 3; ++i) {
             if (triangle.edge_sign(eye, i, point) * triangle.sign_ < 0) return false;

@@ -43,7 +43,7 @@ class SeenTriangle {
     bool sees_ahead(const Eye& eye, const SeenTriangle& other) const;
     bool separated_by_edge(const Eye& eye, const SeenTriangle& other) const;
     bool apart(const Eye& eye, const SeenTriangle& entry) const;
-    bool behind_where_mixed(const Eye& eye, const SeenTriangle& entry) const;
+    bool overlap_is_behind(const Eye& eye, const SeenTriangle& entry) const;
 
     Triangle corners_{glm::dvec3(0), glm::dvec3(0), glm::dvec3(0)};
     // Planes of edges 01, 12, 20, through the first corner of each.
