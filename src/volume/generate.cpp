@@ -114,7 +114,8 @@ struct Lines {
     }
 };
 
-// The gradients at one lattice x, interpolated over y and z, give value + slope * d at distance d.
+// The noise contribution of lattice plane x along one row: value + slope * d at distance d from the
+// plane.
 struct Node {
     double value;
     double slope;
@@ -326,7 +327,7 @@ const Sheet oblique_sheets[] = {
     {{0.20, 0.10, 1.00}, 0.86, 2}, {{-0.30, 0.25, 1.00}, 0.34, 2}, {{1.00, 0.35, 0.45}, 0.95, 0}};
 
 // Thin dense sheets, as in LaMar's tests: 1 inside, 0 outside. Two are perpendicular to z, one and
-// two samples thick; two are oblique, two samples along z each; one takes two samples along x.
+// two samples thick. Three are oblique: two are two samples thick along z, one along x.
 class Sheets final : public Generator {
   public:
     explicit Sheets(const GridSize& size)
@@ -447,7 +448,8 @@ class Mixing final : public Generator {
             frequency *= 2;
         }
         height = std::clamp(height, -1.0, 1.0);
-        // Spikes (towards small x) are narrow and long, bubbles are broad and flat.
+        // Spikes (towards small x) are narrow and reach to -1. Bubbles are broad, flat at the tip,
+        // and reach to 0.8 * 0.8 = 0.64.
         const double shape = height < 0 ? -height * height * (1.5 + 0.5 * height)
                                         : 0.8 * height * (2 - height) * 0.8;
         return 0.5 + interface_reach * shape;
