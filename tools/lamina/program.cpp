@@ -54,12 +54,14 @@ void print_warning(const std::string& text, std::set<std::string>& printed) {
     if (Progress::is_quiet() || !printed.insert(text).second) return;
     print_message("lamina: warning: {}\n", of_bounded_length(text));
 }
+
 // Memory kept in reserve until an allocation fails. Destructors of nested JSON values allocate, and
 // an exception that leaves a destructor ends the process; while the stack unwinds they use this
 // memory. It is large enough for malloc to map it separately, so that free() returns all of it.
 constexpr std::size_t reserve_bytes = 256 << 10;
 std::atomic<void*> reserve = nullptr;
 
+// Called by operator new when memory is out: frees the reserve, then throws.
 void release_reserve() {
     std::free(reserve.exchange(nullptr));
     throw std::bad_alloc();

@@ -26,7 +26,10 @@
 namespace lamina {
 namespace {
 
-// A scene of a volume and its omissions as texts that rank 0 broadcasts to the other ranks.
+// Stands for OmissionSwitch::none in a text that otherwise lists OmissionSwitch::kept.
+constexpr const char* all_omissions = "all";
+
+// A scene and the user's choice of omissions, as texts that rank 0 broadcasts.
 class SceneMessage {
   public:
     SceneMessage() = default;  // on the other ranks, before it arrives
@@ -43,7 +46,7 @@ class SceneMessage {
     std::string name_, text_;
     std::string
         volume_;  // absolute path; beside the JSON, which cannot hold all bytes of file names
-    std::string kept_;
+    std::string forbidden_omissions_;
     std::string only_below_;
 };
 
@@ -56,7 +59,7 @@ struct Command {
     Wire wire = Wire::float32;            // open
     unsigned long long memory_limit = 0;  // open: bytes, 0: unchanged
     bool many_frames = false;             // open
-    bool turned = false;                  // draw: with another camera
+    bool has_camera = false;              // draw: with another camera than before
     Camera camera{};                      // draw
 };
 static_assert(std::is_trivially_copyable_v<Command>);
@@ -70,12 +73,13 @@ SceneMessage::SceneMessage(const Scene& scene, const OmissionSwitch& omissions)
     : name_(scene.file.string()),
       text_(json_text(scene_json(scene))),
       volume_(path_of_volume(scene)),
-      kept_(omissions.none ? "all" : fmt::format("{}", fmt::join(omissions.kept, " "))) {
+      forbidden_omissions_(omissions.none ? all_omissions
+                                          : fmt::format("{}", fmt::join(omissions.kept, " "))) {
     if (const auto folder = ClientScope::current().only_below) only_below_ = folder->string();
 }
 
 void SceneMessage::broadcast(const Ranks& ranks) {
-    for (std::string* const sent : {&name_, &text_, &volume_, &kept_, &only_below_})
+    for (std::string* const sent : {&name_, &text_, &volume_, &forbidden_omissions_, &only_below_})
         ranks.broadcast(*sent);
 }
 
@@ -87,8 +91,8 @@ Scene SceneMessage::scene() const {
 
 OmissionSwitch SceneMessage::omissions() const {
     OmissionSwitch omissions;
-    omissions.none = kept_ == "all";
-    std::istringstream names(kept_);
+    omissions.none = forbidden_omissions_ == all_omissions;
+    std::istringstream names(forbidden_omissions_);
     for (std::string name; !omissions.none && names >> name;) omissions.kept.insert(name);
     return omissions;
 }
@@ -147,7 +151,7 @@ class Follower {
             case Command::Kind::draw: {
                 const OnlyBelowScope below(only_below_);
                 renderers_.at(command.scene)
-                    ->draw(command.turned ? std::optional(command.camera) : std::nullopt);
+                    ->draw(command.has_camera ? std::optional(command.camera) : std::nullopt);
                 return true;
             }
             case Command::Kind::close:
@@ -193,7 +197,7 @@ int Leader::open(const Scene& scene, SceneData data, const OmissionSwitch& omiss
 void Leader::draw(int scene, const std::optional<Camera>& camera) {
     send(ranks_, {.kind = Command::Kind::draw,
                   .scene = scene,
-                  .turned = camera.has_value(),
+                  .has_camera = camera.has_value(),
                   .camera = camera.value_or(Camera())});
     renderer(scene).draw(camera);
     if (first_reports_.empty()) first_reports_ = renderer(scene).reports();

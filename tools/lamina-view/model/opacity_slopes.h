@@ -7,6 +7,8 @@
 
 namespace lamina::view {
 
+// A slope is a curve on which opacity over a given length, not extinction, is linear.
+
 // Convert between opacity over a length of a medium and its extinction. Opacity 1 has the finite
 // extinction 1e7 / length, as in scene files (docs/scene.md, "Opacity").
 double opacity_of(double extinction, double length);
@@ -16,8 +18,8 @@ double extinction_of(double opacity, double length);
 // there.
 std::vector<ExtinctionKnot> inside_slope(const DensityPoint& a, const DensityPoint& b);
 
-// Turns knots into points. Successive smooth knots become a slope if they follow a linear opacity:
-// over `unit_length` if that fits, else over the length that fits best.
+// Turns knots into points. Successive smooth knots become a slope if they follow a linear opacity.
+// The length is unit_length if that fits, and otherwise the best-fitting one.
 std::vector<DensityPoint> with_slopes(const std::vector<ExtinctionKnot>& knots, double unit_length);
 
 }  // namespace lamina::view

@@ -11,14 +11,15 @@
 namespace lamina::view {
 namespace {
 
-// Text of the active field, of which there is only one. ImGui deactivates a field that Tab leaves
-// before the field is drawn again, so its text is kept here.
+// The unfinished input of the active field. Only one field can be active. ImGui deactivates a field
+// that Tab leaves before the field is drawn again, so its input is kept here.
 template <typename Value>
 struct Typed {
     ImGuiID field = 0;
     Value value{};
 };
 
+// Draws a field and returns true once its input ends; changes `value` only then.
 template <typename Value, typename Draw>
 bool typed(const char* id, Value& value, const Draw& draw) {
     static Typed<Value> last;
