@@ -13,7 +13,7 @@ from ._errors import Error, PictureWarning, warn
 def camera_keys(renderer: Any) -> dict[str, Any]:
     """Returns a renderer's camera as a scene file has it."""
     camera = renderer.GetActiveCamera()
-    _refuse_what_bends(camera)
+    _require_plain_camera(camera)
     width, height = renderer.GetSize()
     keys: dict[str, Any] = {"eye": list(camera.GetPosition()), "center": list(camera.GetFocalPoint()),
                             "up": list(camera.GetViewUp())}
@@ -27,9 +27,9 @@ def camera_keys(renderer: Any) -> dict[str, Any]:
     return keys
 
 
-def _refuse_what_bends(camera: Any) -> None:
+def _require_plain_camera(camera: Any) -> None:
     found = {
-        "a window centre beside the middle": tuple(camera.GetWindowCenter()) != (0, 0),
+        "an off-centre window": tuple(camera.GetWindowCenter()) != (0, 0),
         "a view shear": tuple(camera.GetViewShear()) != (0, 0, 1),
         "off-axis projection": bool(camera.GetUseOffAxisProjection()),
         "an explicit projection matrix": bool(camera.GetUseExplicitProjectionTransformMatrix()),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arrays that are drawn as they are, and that a program may change."""
+"""Detects changes of arrays that are drawn without a copy."""
 from __future__ import annotations
 
 import numpy as np
@@ -21,9 +21,9 @@ def can_be_written(array: np.ndarray) -> bool:
 
 
 class Watched:
-    """Tells whether an array was changed. Each time it looks at a 16th of the array's lines of 64 bytes, from all over it:
-    a contiguous change of 2 KiB is seen at once, a smaller one within 16 times. Of arrays above 64 MiB it looks at 4 MiB
-    each time, and a small change may not be seen."""
+    """Tells whether an array was changed. Each time it looks at one cache line (64 bytes) of each 16, another one each
+    time: a contiguous change of 2 KiB is seen at once, a smaller one within 16 times. Of arrays above 64 MiB it looks
+    at no more than 4 MiB each time, and a small change may not be seen. Of arrays up to 64 KiB it looks at all."""
 
     def __init__(self, array: np.ndarray) -> None:
         self._array, self._next = array, 0

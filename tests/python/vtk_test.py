@@ -306,7 +306,7 @@ def window_center(renderer, volume):
     (projection, "found the blend mode 1"), (second_volume, "found the visible props vtkOpenGLGPU|visible props vtk"),
     (sphere, "vtkVolume, vtkOpenGLActor|vtkVolume, vtk"), (no_volume, "visible props none"),
     (components, "found 2 components"), (gradient_background, "background of several colours"),
-    (window_center, "window centre"),
+    (window_center, "off-centre window"),
 ])
 def test_what_lamina_draws_otherwise_is_refused(renderer, change, message):
     change(*renderer)
