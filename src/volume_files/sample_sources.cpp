@@ -143,25 +143,23 @@ FileSource::FileSource(const StoredData& data, const std::array<std::int64_t, 3>
 
 // Finds a sparse file's extents of data: one if the file system does not know of holes.
 void FileSource::find_extents() {
+    const Extent all{0, files_[0].bytes};
+    extents_ = {all};
     const int file = open(files_[0].path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return;
-    const auto size = static_cast<off_t>(files_[0].bytes);
-    for (off_t at = 0; at < size && extents_.size() < most_extents;) {
+    std::vector<Extent> found;
+    bool known = true;  // false if the file system does not tell
+    for (off_t at = 0; at < static_cast<off_t>(all.end) && found.size() < most_extents;) {
         const off_t begin = lseek(file, at, SEEK_DATA);
-        if (begin < 0 && errno != ENXIO) break;
         if (begin < 0) {
-            at = size;
+            known = errno == ENXIO;  // a hole up to the end
             break;
         }
-        const off_t end = std::max(lseek(file, begin, SEEK_HOLE), begin + 1);
-        extents_.push_back({static_cast<std::uint64_t>(begin), static_cast<std::uint64_t>(end)});
-        at = end;
+        at = std::max(lseek(file, begin, SEEK_HOLE), begin + 1);
+        found.push_back({static_cast<std::uint64_t>(begin), static_cast<std::uint64_t>(at)});
     }
     close(file);
-    const bool whole =
-        extents_.size() == 1 && extents_[0].begin == 0 && extents_[0].end >= files_[0].bytes;
-    const bool known = extents_.size() < most_extents;
-    if (!known || whole) extents_ = {{0, files_[0].bytes}};
+    if (known && found.size() < most_extents) extents_ = std::move(found);
     std::uint64_t data = 0;
     for (const Extent& extent : extents_) data += extent.end - extent.begin;
     mostly_holes_ = data < files_[0].bytes / 2;

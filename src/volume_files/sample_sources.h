@@ -85,7 +85,7 @@ class FileSource : public SampleSource {
     std::uint64_t first_ = 0;              // byte of the data with the volume's first sample
     std::array<std::uint64_t, 3> step_{};  // bytes between neighbours along x, y, z
     bool swap_;
-    std::vector<Extent> extents_;  // the data of the only file; empty: unknown
+    std::vector<Extent> extents_;  // the data of the only file; empty: it is a hole
     bool mostly_holes_ = false;
 };
 
