@@ -15,15 +15,14 @@ void for_each_member(std::size_t first, std::uint64_t word, const Visit& visit) 
         visit(first + static_cast<std::size_t>(std::countr_zero(left)));
 }
 
-// Projected cell fragments (CellFragment) in visibility order, and for each tile of the picture
-// those that it draws. Each thread fills a chunk of its own. The memory does not depend on the
-// view.
+// A batch of projected cell fragments (CellFragment) in visibility order, and for each tile of the
+// picture the set of those that it draws. Each thread fills a chunk of its own.
 class TileBatch {
   public:
     // The cell fragments (or triangles) of chunk i have numbers from i * chunk_size on.
     static constexpr std::size_t chunk_size = 512, most_chunks = 12;
 
-    // `triangles`: holds triangles instead of cell fragments. `lit`: these have gradients.
+    // `triangles`: it holds TriangleRecords, not SilhouetteRecords. `lit`: it has GradientRecords.
     TileBatch(std::size_t chunks, int tiles, bool triangles, bool lit)
         : records_(triangles ? 0 : chunks * chunk_size),
           gradients_(lit ? chunks * chunk_size : 0),
@@ -86,7 +85,7 @@ class TileBatch {
         }
 
         bool empty() const { return count_ == 0; }
-        std::int64_t tets() const { return tets_; }  // of which it has cell fragments
+        std::int64_t tets() const { return tets_; }  // tets to which its fragments belong
         std::int32_t first_tet() const { return first_tet_; }
         std::int32_t last_tet() const { return last_tet_; }
         bool is_drawn_by(std::size_t tile) const {
@@ -104,7 +103,7 @@ class TileBatch {
         std::size_t number_, count_ = 0;
         std::int64_t tets_ = 0;
         std::int32_t first_tet_ = -1, last_tet_ = -1;
-        std::vector<Set> tiles_;  // tiles that draw the chunk, chunk_size a set
+        std::vector<Set> tiles_;  // tiles that draw the chunk; each set has chunk_size tiles
     };
 
     std::size_t chunk_count() const { return chunks_.size(); }
@@ -145,10 +144,10 @@ class TileBatch {
 
   private:
     std::vector<SilhouetteRecord> records_;
-    std::vector<GradientRecord> gradients_;  // of the records; empty if nothing is lit
+    std::vector<GradientRecord> gradients_;  // one for each record; empty if nothing is lit
     std::vector<TriangleRecord> triangles_;
     std::vector<CoveredArea> areas_;
-    std::vector<Set> sets_;  // by tile and chunk, so that those of a tile follow each other
+    std::vector<Set> sets_;  // sets of all chunks for tile 0, then for tile 1, ...
     std::vector<Chunk> chunks_;
 };
 

@@ -27,7 +27,7 @@ struct CellFragmentShader {
     }
 };
 
-// draw_tets() for these plans.
+// Implements draw_tets() for these plans.
 std::int64_t draw_colored_cell_fragments(const TetFragments& fragments, const TileBatch& batch,
                                          const TetTile& tile) {
     TetDrawing drawing(fragments, batch, tile);

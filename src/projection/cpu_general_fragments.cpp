@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// Draws all plans without a shader of their own: whole tets and cell fragments by GeneralShader,
+// the triangles of Kraus 2004 by TriangleDrawing. For each triangle and vector of pixels:
+//   1. Find the weights of its corners from its edge functions; they are 0 outside.
+//   2. Interpolate scalars or optics at the ray's entry and exit, and the length between them.
+//   3. Find the segment's colour and opacity, and composite them onto the tile.
 #include "projection/cpu_fragments.h"
 
 #undef LAMINA_TARGET_FILE

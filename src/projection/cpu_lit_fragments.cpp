@@ -15,8 +15,8 @@ LAMINA_SIMD_BEGIN
 // A segment, or the piece of one on which the transfer function is linear.
 struct LitSegment {
     Float front_depth, back_depth;  // extinction at both ends, times the length
-    Float gradient[3], turn[3];     // at the front, and from there to the back
-    Float to_eye[3];
+    Float gradient[3], turn[3];     // gradient at the front; its change to the back
+    Float to_eye[3];                // unit vector
 };
 
 // The contribution of light: with the colour f at the front of a segment and b at its back, light
@@ -33,15 +33,13 @@ struct LightSums {
 
 // Adds up the contribution of light to segments, piece by piece from the front, by Gauss' rule with
 // three nodes, whose weights add up to the piece's opacity. Pieces end at kinks, where the gradient
-// is perpendicular to a light. In each lane a piece is as long as its optical depth and the bend of
-// light allow. The bend is the second difference of light at the three nodes, of which the rule
-// misses less than .045.
+// is perpendicular to a light. In each lane a piece is as long as its optical depth and its bend
+// allow: the second difference of light at the nodes. The rule's error is below .045 of the bend.
 template <std::size_t channels>
 class LightAlong {
   public:
     LightAlong(const CpuLight& light, float smallest_square, const LitSegment& segment)
         : light_(light), smallest_square_(smallest_square), segment_(segment) {
-        // Limited depths have finite products.
         segment_.front_depth = min(segment.front_depth, deepest);
         change_ = min(segment.back_depth, deepest) - segment_.front_depth;
         find_kinks();
@@ -64,14 +62,14 @@ class LightAlong {
     }
 
   private:
-    // Optical depth to which extinctions times length are limited.
+    // Limit of extinctions times length, so that their products are finite.
     static constexpr float deepest = 1e12f;
-    // Transmittance behind which nothing is visible.
+    // The sum ends at this transmittance: light behind it is not visible.
     static constexpr float least_transmittance = 1e-5f;
     // Shortest piece, as a share of the segment; it counts as one colour, whatever its depth.
     static constexpr float shortest = 1e-6f;
 
-    // Finds where the gradient is perpendicular to a light; beyond the segment if nowhere.
+    // Finds for each light the place (0 to 1) where the gradient is perpendicular to it, or 2.
     LAMINA_INLINE void find_kinks() {
         for (std::size_t i = 0; i < light_.directions.size(); ++i) {
             const CpuLight::Direction& direction = light_.directions[i];
@@ -87,9 +85,9 @@ class LightAlong {
         }
     }
 
-    // The next piece of the segment in each lane. `last`: it ends at the segment's end.
+    // The next piece of the segment in each lane. `last`: the piece reaches the segment's end.
     struct Piece {
-        Float extent;
+        Float extent;  // share of the segment
         FloatMask last;
         Float front, depth, opacity;  // front: extinction there times the segment's length
     };
@@ -176,6 +174,7 @@ class LightAlong {
     LitSegment segment_;
     Float change_;  // change of extinction from front to back, times the length
     LightSums<channels> sums_;
+    // The walk's place on the segment, the longest next piece, and the transmittance before it.
     Float at_, longest_, in_front_;
     Float kinks_[Lighting::most_lights];
 };
@@ -184,7 +183,7 @@ class LightAlong {
 struct SegmentGradients {
     Float front[3], back[3], to_eye[3];
 
-    // Returns the segment between two of its places, 0 to 1.
+    // Returns the piece between two places, each a share (0 to 1) of the segment.
     LAMINA_INLINE LitSegment between(Float from, Float to, Float front_depth,
                                      Float back_depth) const {
         LitSegment segment;
@@ -290,8 +289,7 @@ struct LitShader {
             const Float aside = column * of.per_column + row * of.per_row;
             const auto at = [&](const TetSpanEnd& end) LAMINA_LAMBDA {
                 const Float sum = of.at_center + end.from_center * of.per_z + end.z * aside;
-                // A gradient inside a tet is no longer than those at the corners, but for rounding
-                // in slivers.
+                // Only rounding in slivers makes a gradient longer than those at the corners.
                 return clamp(sum, -1, 1);
             };
             gradient.front[axis] = at(ends.front);

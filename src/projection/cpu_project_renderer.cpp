@@ -2,8 +2,8 @@
 // Draws a frame of a mesh on the CPU:
 //   1. Sort the visible cell fragments into visibility order, and cut them into batches.
 //   2. For each batch: project its cell fragments onto the window, in chunks, and list in which
-//      tiles each chunk lies. Cell fragments are set up in vectors (TetSetup). TetProjector takes
-//      unclear ones and all of plans that are not `plain`, FanGeometry those of plans with fans.
+//      tiles each chunk lies. TetSetup projects clear cases in vectors, TetProjector the others and
+//      all of plans that are not `plain`, and FanGeometry makes the triangles of Kraus 2004.
 //   3. While the next batch is projected: for each tile, composite the fragments of this batch's
 //      chunks in order (cpu_fragments.h).
 // With a compositing tree, steps 2 and 3 draw each leaf, and the leaves' opacities are composited.
@@ -28,8 +28,7 @@
 namespace lamina {
 namespace {
 
-// Distance from a tet's outline, in pixels, within which pixels are examined. It exceeds the
-// outline's rounding errors.
+// Pixels by which tets' outlines are enlarged, which exceeds the outlines' rounding errors.
 constexpr double margin = 1e-3;
 
 FragmentOutput output_of(const ProjectPlan& plan) {
@@ -229,8 +228,7 @@ void CpuProjectRenderer::set_view(const View& view) {
     const auto& [min, max] = mesh_.mesh.bounds();
     const double farthest =
         glm::length(glm::max(glm::abs(min - view.eye), glm::abs(max - view.eye)));
-    // Both ends of a segment can share one division if the squares of all depths are finite in
-    // float32.
+    // A segment's ends can share a division if the squares of all depths are finite in float32.
     fragments_.shares_division =
         !is_fixed_point(plan_.target) && plan_.near_depth > 1e-18 && plan_.unit * farthest < 1e18;
     if (fragments_.perspective && plan_.thickness != Thickness::dz && !light_ &&
@@ -437,7 +435,7 @@ void CpuTetTree::evaluate(int level, const SampleSpan& span, const DrawLeaf& dra
     }
 }
 
-// Skips tiles in which the child has no opacity, because 0 is not changed by any rounding.
+// Skips tiles in which the child's opacity is 0: compositing it changes nothing.
 void CpuTetTree::put_into_parent(int level, const SampleSpan& child, const SampleSpan& parent) {
     const Node& from = nodes_[static_cast<std::size_t>(level) + 1];
     Node& to = nodes_[static_cast<std::size_t>(level)];

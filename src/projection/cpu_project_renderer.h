@@ -12,8 +12,8 @@
 
 namespace lamina {
 
-// A compositing tree of fixed-point nodes, evaluated for all tiles together. It keeps one plane for
-// each tile and level, and takes its memory once.
+// A compositing tree of fixed-point nodes, evaluated for all tiles together. It keeps one node, an
+// opacity plane for each tile, for each level of the tree.
 class CpuTetTree {
   public:
     // The opacity of one node, and the tiles with opacity above 0.
@@ -21,7 +21,7 @@ class CpuTetTree {
         std::vector<TilePlane> opacity;
         std::vector<std::uint8_t> touched;
     };
-    // Composites samples, for all tiles, onto a node of opacity 0, as TileLeaves::draw does.
+    // Composites a leaf's samples, in all tiles, onto a node whose opacity is 0.
     using DrawLeaf = std::function<void(const SampleSpan&, double depth_scale, Node&)>;
 
     // `plan`: how the nodes are composited. Leaves may be drawn in another format.
@@ -29,7 +29,7 @@ class CpuTetTree {
                const std::array<float, 3>& single_color, const TileGrid& grid);
 
     int step_count() const { return static_cast<int>(shape_.leaf_count()); }
-    // Replaces the picture by that of the leaves. Ctrl-C ends it between leaves.
+    // Draws the leaves and composites them into `image`. Ctrl-C ends it between leaves.
     void draw(const DrawLeaf& draw_leaf, TileImage& image, Progress* progress);
     std::int64_t byte_count() const;
 
@@ -46,11 +46,11 @@ class CpuTetTree {
 };
 
 // Draws a mesh on the CPU. Cell fragments are projected in batches, in visibility order, while the
-// tiles draw the batch before. The picture does not depend on the number of threads.
+// tiles draw the previous one. The picture does not depend on the number of threads.
 class CpuProjectRenderer : public ProjectRenderer {
   public:
-    // Builds tables. Takes `order`, that of another renderer, if it fits, and otherwise builds its
-    // own. The mesh must outlive the renderer.
+    // Builds tables, and an order unless `order`, from another renderer of the mesh, has the plan's
+    // method. The mesh must outlive the renderer.
     CpuProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                        const ProjectPlan& plan, int width, int height,
                        std::shared_ptr<VisibilityOrder> order = nullptr);
@@ -107,13 +107,13 @@ class CpuProjectRenderer : public ProjectRenderer {
     std::optional<CpuLight> light_;        // none if nothing is lit
     TetFragments fragments_{};
     TileImage image_;
-    // Slant: length along a pixel's ray per unit of z; for each tile, empty if all are 1.
+    // For each tile: world length along each pixel's ray per unit of z. Empty if all are 1.
     std::vector<TilePixels::Plane> slants_;
     double slant_pixel_ = 0;  // View::pixel that the slants were computed for
     // Two batches: one is projected while the other is drawn.
     std::array<std::unique_ptr<TileBatch>, 2> batches_;
     std::vector<std::int64_t> fragment_counts_;  // for each tile
-    std::int32_t last_tet_ = -1;
+    std::int32_t last_tet_ = -1;                 // last tet drawn in this frame
 };
 
 }  // namespace lamina

@@ -14,7 +14,7 @@
 namespace lamina {
 namespace {
 
-// Polygons reach this far beyond the picture: rounded corners leave no pixel centre uncovered.
+// Polygons reach this far beyond the picture, so that rounding uncovers no pixel centre in it.
 constexpr double guard = 2;  // pixels
 
 // Distance below which two corners count as one.
@@ -27,12 +27,12 @@ constexpr glm::dvec3 nowhere(0, 0, -1);
 // sub-pixel digits of float32 and of rasterisers.
 constexpr double farthest_beyond = 1024;
 
-// Steps of the grid to which corners are rounded, a pixel: sixteen times those of most rasterisers.
+// Steps per pixel of the grid to which corners are rounded: 16 times those of most rasterisers.
 constexpr double grid_steps = 4096;
 
-// Returns the edge from a to b of a triangle on the side of `inside`, from its lesser corner, so
-// that both of its triangles compute the same numbers. A point on an edge belongs to the triangle
-// on the right, on horizontal edges to the one above (the top-left rule with rows running upwards).
+// Returns the edge a, b of a triangle on the side of `inside`. It begins at the lesser corner, so
+// that both triangles of the edge compute the same numbers. Points on an edge belong to its right
+// triangle, on horizontal edges to the upper one (the top-left rule with rows running upwards).
 TriangleRecord::Edge edge_of(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& inside) {
     if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
     const glm::dvec2 along = b - a;
@@ -41,7 +41,7 @@ TriangleRecord::Edge edge_of(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& insid
     return {a.x, a.y, -sign * along.y, sign * along.x, along.y > 0 ? !left : left};
 }
 
-// Returns the share of the corner opposite the edge a, b. `area`: twice the triangle's, signed.
+// Returns the share of the corner opposite the edge a, b. `area`: twice the triangle's signed area.
 TriangleRecord::Share share_of(const glm::dvec2& a, const glm::dvec2& b, double area) {
     const glm::dvec2 along = (b - a) / area;
     return {a.x, a.y, -along.y, along.x};
@@ -130,7 +130,7 @@ FacePairs::Linear FacePairs::depth_of(std::size_t face) const {
     return depth;
 }
 
-// Returns the polygon's region in which rays meet the face behind the near plane, or before it.
+// Returns the polygon's region in which rays meet the face behind (or before) the near plane.
 FacePairs::Polygon FacePairs::limited(const Polygon& polygon, std::size_t face,
                                       bool behind_near) const {
     if (!cut_ || polygon.count == 0) return polygon;
@@ -386,8 +386,8 @@ TetGeometry::Written FanGeometry::write(const CellFragment& cell_fragment,
     if (behind > 0) return write_pairs(owner, corners, place);
     const glm::dvec2 size = 2.0 * window_.middle();
     if (hi.x < 0 || hi.y < 0 || lo.x > size.x || lo.y > size.y) return {};
-    // If it draws exact pictures, a tet that reaches far beyond the picture is cut to it. Linear
-    // interpolation in perspective views must have the corners of whole tets, as in the paper.
+    // A tet that reaches far beyond the picture is cut to it, unless that changes the picture:
+    // linear interpolation in perspective views needs the corners of whole tets, as in the paper.
     const glm::dvec2 beyond = glm::max(-lo, hi - size);
     const bool exact = divided_ || !window_.perspective();
     if (exact && std::max(beyond.x, beyond.y) > farthest_beyond)

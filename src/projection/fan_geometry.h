@@ -16,17 +16,17 @@ namespace lamina {
 // the picture, because there float32 resolves window coordinates only to whole pixels.
 class FacePairs {
   public:
-    using Fronts = std::array<bool, 4>;  // for each corner: the face opposite is a front face
+    using Fronts = std::array<bool, 4>;  // for each corner: is the opposite face a front face?
 
     // `seen`: the corners relative to the eye, along right, up and forward.
     FacePairs(const WindowView& window, double near_depth, const Tet& tet,
               const std::array<glm::dvec3, 4>& seen, const Fronts& fronts);
 
-    // The picture's rectangle, cut by at most three edges of either face and by the near plane.
+    // A part of the picture's rectangle, cut by the edges of two faces and by the near plane.
     using Polygon = FewPoints<glm::dvec2, 12>;  // window coordinates
 
-    // Barycentric coordinates in the tet of the point where a ray meets a face or the near plane;
-    // in perspective divided by z, so that they are linear in the picture.
+    // Barycentric coordinates in the tet of the point where a ray meets a face or the near plane.
+    // In perspective views they are divided by z, which makes them linear in the picture.
     using Shares = std::array<double, 4>;
     struct Hit {
         double inverse_z;  // 1 in orthographic views
@@ -79,7 +79,7 @@ class FacePairs {
     bool cut_ = false, any_front_ = false;
     std::array<glm::dvec3, 4> seen_;
     Fronts fronts_;
-    std::array<std::array<Linear, 3>, 4> shares_;  // of the corners of each face
+    std::array<std::array<Linear, 3>, 4> shares_;  // of each face's corners
     // The shares in space: their change per x, y, z, and their values at the eye.
     std::array<glm::dvec3, 4> inside_;
     std::array<double, 4> inside_at_eye_;

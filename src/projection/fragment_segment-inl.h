@@ -28,7 +28,7 @@ struct SlantedRay {
     InsideSpan<Float> span;
     Float aside, slant;
 };
-// A ray inside a cell fragment with its pixel from the record's center: for lit or exact segments.
+// A ray inside a cell fragment and its pixel relative to the center, for lit or exact segments.
 struct PlacedRay {
     InsideSpan<Float> span;
     Float column, row;
@@ -40,9 +40,8 @@ struct FragmentSegment {
     Float front, back, world_length;
 };
 
-// These two compute a linear function of the pixel, rounded as in
-// shaders/projection/silhouette.glsl: its value at a column, counted from the record's center, and
-// then at a row.
+// These two compute a linear function of the pixel at a column and then at a row, both relative to
+// the record's center. They round as shaders/projection/silhouette.glsl does.
 LAMINA_INLINE Float at_column(float at_center, float per_column, Float column) {
     return at_center + per_column * column;
 }
@@ -64,7 +63,7 @@ LAMINA_INLINE InsideSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2,
     }
 }
 
-// Returns these depths for 0 to 3 front faces, the entry not before the near plane, `nearest`.
+// Returns the same depths for 0 to 3 front faces. No ray enters before `nearest`, the near plane.
 template <class V>
 LAMINA_INLINE InsideSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V d0, V d1, V d2,
                                               V d3) {
@@ -73,7 +72,7 @@ LAMINA_INLINE InsideSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V
     return {max(nearest, span.enter), span.leave};
 }
 
-// Depths on faces in float32.
+// Finds the depths on faces in float32.
 class PlainDepths {
   public:
     LAMINA_INLINE PlainDepths(const TetFragments&, const SilhouetteRecord& record)
@@ -100,7 +99,7 @@ class PlainDepths {
     std::uint32_t fronts_;
 };
 
-// Depths in double precision: for faces nearly edge-on, the near plane, and if the eye is inside.
+// Finds the depths on faces in double precision, for FragmentKind::careful.
 class CarefulDepths {
   public:
     LAMINA_INLINE CarefulDepths(const TetFragments& fragments, const SilhouetteRecord& record)
@@ -156,7 +155,7 @@ class CarefulDepths {
         return sum(seen_.depth) + sum(seen_.depth_per_column) * x + sum(seen_.depth_per_row) * y;
     }
 
-    // These return a pixel's place with the ray perturbation, but not its component along the ray.
+    // These move a pixel's place by the ray perturbation, less its component along the ray.
     LAMINA_INLINE Float64 moved_column(Float64 column) const {
         return moved(column, seen_.center[0], fragments_.image_middle.x,
                      fragments_.ray_perturbation.x);
@@ -176,8 +175,8 @@ class CarefulDepths {
     const SeenTet& seen_;
 };
 
-// The cuts of a cell fragment, planes on which the scalar is its least or its largest, without
-// those in front of everything, which no ray meets.
+// The planes that cut a cell fragment, on which the scalar is its least or its largest. Planes in
+// front of everything (FragmentRecord) cut nothing and are left out.
 class FragmentCuts {
   public:
     // `cut`: false if the record is that of a whole tet, without cuts.

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// Draws a frame of a mesh with OpenGL:
+//   1. Sort the visible cell fragments into visibility order.
+//   2. For each batch (GlTetStream): write triangles that cover the cell fragments, on all cores.
+//   3. Draw them: projection/tet.frag finds each pixel's colour and opacity, in the program of the
+//      FragmentKind, and blending composites them in order. Meanwhile the next batch is written.
+// With a compositing tree, steps 2 and 3 draw each leaf, and GlFixedTree composites the leaves.
 #include "projection/gl_project_renderer.h"
 
 #include <glad/gl.h>
@@ -22,8 +28,7 @@
 namespace lamina {
 namespace {
 
-// Distance, in steps of the rasteriser's grid, by which corners of silhouettes lie outside
-// (screen_polygon.h).
+// Steps of the rasteriser's sub-pixel grid by which surround() enlarges silhouettes.
 constexpr double margin_steps = 2;
 
 // The attributes of the vertex shaders, in the order of their locations.

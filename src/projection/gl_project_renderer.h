@@ -41,8 +41,8 @@ class GlProjectTables {
 // Draws a mesh as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlProjectRenderer : public ProjectRenderer {
   public:
-    // Takes `order` and `stream`, those of another renderer, if they fit, and otherwise builds its
-    // own. Errors of OpenGL are Errors. The mesh must outlive the renderer.
+    // Uses `order` and `stream`, from another renderer of the mesh, if they fit, or else builds its
+    // own. Throws Error if OpenGL fails. The mesh must outlive the renderer.
     GlProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                       const ProjectPlan& plan, const Capabilities& capabilities, int width,
                       int height, std::shared_ptr<VisibilityOrder> order = nullptr,
@@ -61,7 +61,7 @@ class GlProjectRenderer : public ProjectRenderer {
     void draw_cell_fragments(const DrawOrder<CellFragment>& cell_fragments, const View& view,
                              Progress* progress);
 
-    double margin_;
+    double margin_;  // pixels by which silhouettes are enlarged
     gl::Framebuffer target_;
     std::optional<GlProjectTables> tables_;                            // none if nothing is visible
     StoredGradients gradients_;                                        // empty if nothing is lit

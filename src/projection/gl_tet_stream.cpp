@@ -30,7 +30,7 @@ const void* offset_of(std::size_t index) {
     return reinterpret_cast<const void*>(index * sizeof(std::uint32_t));
 }
 
-// Limits drawing to some pixels; null: no limit. `rows`: of the picture.
+// Limits drawing to some pixels; null: no limit. `rows`: the picture's rows.
 void set_scissor(const PixelArea* pixels, int rows) {
     const auto& api = gl::api();
     if (pixels == nullptr) {

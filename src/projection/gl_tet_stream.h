@@ -26,19 +26,17 @@ class GlTetStream {
     GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
                 std::size_t cell_fragments);
 
-    // Tells whether this stream can be used in place of a new one made from these arguments, given
-    // equal kinds of geometry.
+    // Tells whether this stream can replace a new one with these arguments and equal attributes.
     bool can_replace(const TetGeometry::Size& size, std::size_t cell_fragments) const;
 
-    // Sets whether draw() waits between cell fragments, for programs that read the target as a
-    // texture.
+    // Sets whether draw() puts a texture barrier after each cell fragment (Blending::barrier).
     void set_barriers(bool barriers);
 
     using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; several may be
                                                                 // the same program
     // Draws cell fragments in order with the bound state; the viewport is the picture. Ctrl-C ends
     // it between batches, and `batch_done` is called after each. Returns the number of tets drawn,
-    // that is, that cover a pixel centre. `rows`: of the picture.
+    // that is, that cover a pixel centre. `rows`: the picture's number of rows.
     std::int64_t draw(const TetGeometry& geometry, const DrawOrder<CellFragment>& cell_fragments,
                       int rows, const Programs& programs, const std::function<void()>& batch_done);
 
@@ -60,7 +58,7 @@ class GlTetStream {
         // Tets that are drawn; consecutive cell fragments of one tet count once.
         std::int64_t tets = 0;
         std::int32_t first_tet = none, last_tet = none;  // of the drawn tets
-        // The latest kind that one of its cell fragments needs.
+        // The last FragmentKind, in the enum's order, that one of its cell fragments needs.
         FragmentKind kind = FragmentKind::thin;
     };
     void write_chunk(const TetGeometry& geometry, std::span<const CellFragment> cell_fragments,
@@ -73,8 +71,8 @@ class GlTetStream {
     bool barriers_ = false;
     std::size_t batch_size_;
     std::array<Batch, 3> batches_;
-    // The batch that is written next. It goes on from draw to draw, so that a draw of few tets does
-    // not wait for the one before.
+    // The batch that is written next. It is not reset between draws, so that a draw of few tets
+    // need not wait for the buffers of the previous draw.
     std::size_t next_batch_ = 0;
     std::vector<Chunk> chunks_;
     // Number of indices of each cell fragment of the batch; empty unless these are submitted one by

@@ -21,14 +21,14 @@ struct ProjectReuse {
     std::shared_ptr<GlTetStream> stream;  // buffers of OpenGL
 };
 
-// Draws frames of a mesh.
+// Draws frames of a mesh by projecting its tets: the base of the CPU's and OpenGL's renderers.
 class ProjectRenderer : public FrameRenderer {
   public:
     bool try_switch_to(const Plan& plan) override {
         return plan.project.picture() == plan_.picture();
     }
     virtual ProjectReuse reusable() const = 0;
-    // These two describe the last frame.
+    // The next two functions describe the last frame.
     const OrderReport& order_report() const { return order_->report(); }
     std::int64_t tets_drawn() const { return tets_drawn_; }  // tets that cover a pixel centre
 
@@ -42,7 +42,7 @@ class ProjectRenderer : public FrameRenderer {
   protected:
     ProjectRenderer(const ProjectRenderer&) = delete;
     ProjectRenderer& operator=(const ProjectRenderer&) = delete;
-    // Takes the order `ready` (or null) if it is of the plan's method, and otherwise makes one.
+    // Uses the order `ready` if it is not null and has the plan's method, or else makes one.
     ProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                     const ProjectPlan& plan, std::shared_ptr<VisibilityOrder> ready);
     void find_visible_cell_fragments();
@@ -55,13 +55,13 @@ class ProjectRenderer : public FrameRenderer {
     std::shared_ptr<VisibilityOrder> order_;
     std::optional<VisibleCellFragments> visible_;  // none if nothing is visible
     std::int64_t tets_drawn_ = 0;
-    double table_ms_ = 0;                // of building tables
-    double order_ms_ = 0, draw_ms_ = 0;  // of the last frame
+    double table_ms_ = 0;                // time to build tables
+    double order_ms_ = 0, draw_ms_ = 0;  // times in the last frame
 };
 
-// Makes a renderer that draws a mesh as the plan says: by the cpu engine or in the current OpenGL
-// context, as the capabilities say. The mesh and the context must outlive it. `ready`: objects of a
-// renderer of the same mesh and capabilities that draws no more; may be empty.
+// Makes a CpuProjectRenderer if capabilities.cpu is true, or else a GlProjectRenderer in the
+// current OpenGL context. The mesh and the context must outlive it. `ready`: objects of a renderer
+// of the same mesh and capabilities that draws no more; may be empty.
 std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const TransferFunction& transfer_function,
                                                        const ProjectPlan& plan,

@@ -12,7 +12,7 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t most_points = 8;  // of surround()
+constexpr std::size_t most_points = 8;  // that surround() takes
 
 // Polygons are cut off this far from the picture, so that rasterisers keep sub-pixel digits.
 constexpr double picture_margin = 2;  // pixels
@@ -20,8 +20,8 @@ constexpr double picture_margin = 2;  // pixels
 // Distance below which two corners count as one.
 constexpr double coincident = 1e-9;  // pixels
 
-// Cosine of the sharpest corner c that is kept; sharper ones are cut off square. So corners of the
-// enlarged polygon stick out by at most 1 / sqrt((1 + c) / 2) margins.
+// Corners are cut off square if the directions of their edges have a cosine c below this. Corners
+// of the enlarged polygon thus stick out by at most 1 / sqrt((1 + c) / 2) margins.
 constexpr double sharpest = -0.96;
 
 bool are_same(const glm::dvec2& a, const glm::dvec2& b) {
@@ -30,8 +30,7 @@ bool are_same(const glm::dvec2& a, const glm::dvec2& b) {
 
 using Hull = FewPoints<glm::dvec2, most_points + 5>;
 
-// Returns the convex hull by Andrew's monotone chain: counter-clockwise, without corners on
-// straight edges.
+// Returns the convex hull, counter-clockwise, by Andrew's monotone chain. No corner is straight.
 Hull convex_hull(std::span<const glm::dvec2> points) {
     std::array<glm::dvec2, most_points> sorted;
     const std::size_t count = points.size();

@@ -44,10 +44,10 @@ class FragmentQueue {
     // A vector of pixels that a cell fragment covers, at least in part.
     struct Place {
         std::uint16_t place;   // TileGrid::place() of the first pixel
-        std::uint16_t number;  // of the cell fragment in the TileBatch
+        std::uint16_t number;  // index of the cell fragment in the TileBatch
     };
 
-    bool is_full() const { return end_ >= enough; }  // there may be no room for one that covers all
+    bool is_full() const { return end_ >= enough; }  // may not hold one that covers the tile
     void clear() { end_ = place_count_ = 0; }
 
     // Adds the fragments of one cell fragment to the queue.
@@ -129,8 +129,7 @@ class FragmentQueue {
     LAMINA_INLINE void for_each_vector(const Visit& visit) const {
         for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{numbers_[i / lanes]}, i);
     }
-    // Calls visit(Place, color) for each vector of pixels; those that are not covered have colour
-    // 0.
+    // Calls visit(Place, color) for each vector of pixels. Pixels not covered have colour 0.
     template <class Visit>
     LAMINA_INLINE void for_each_place(const Visit& visit) const {
         for (std::size_t i = 0; i < place_count_; ++i) {
@@ -139,9 +138,8 @@ class FragmentQueue {
         }
     }
 
-    // The queue has four values for each fragment. Each step of shading replaces them by its
-    // result: a SlantedRay or PlacedRay becomes a FragmentSegment (unless it is lit), which becomes
-    // a colour.
+    // The queue has four values for each fragment. Each step of shading replaces them: a SlantedRay
+    // or PlacedRay becomes a FragmentSegment (unless it is lit), and this becomes a colour.
     LAMINA_INLINE SlantedRay slanted(std::size_t i) const {
         return {{value(0, i), value(1, i)}, value(2, i), value(3, i)};
     }
@@ -293,8 +291,7 @@ class TetCoverage {
         store(zero_unless(is_least, per_row), least_per_row);
         store(select(is_least, beyond, bound), greatest);
         store(zero_if(is_least, per_row), greatest_per_row);
-        // Floats from 2^23 on are whole numbers: adding 2^23 rounds, and leaves the number in the
-        // low bits.
+        // Floats from 2^23 on are whole: adding 2^23 rounds, and puts the number in the low bits.
         const auto whole = [](Float8 v) LAMINA_LAMBDA { return bits_as<Word8>(v + 0x1p23f); };
         // Returns 2^v, by making v the exponent of a float.
         const auto power = [&](Float8 v) LAMINA_LAMBDA {

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// TetProjector::project(), for a whole tet or a cell fragment, in double precision:
+//   1. Transform the corners to eye space, and clip the tet at the near plane.
+//   2. Place the center (tet_view-inl.h), and drop the tet if its outline covers no pixel centre.
+//   3. For each face: its depth as a linear function of the pixel, front faces first.
+//   4. The scalar, the planes that cut a cell fragment, and gradients, relative to the center.
+//   5. Choose the FragmentKind: careful if float32 does not suffice.
 #include "projection/tet_projector.h"
 
 #include <algorithm>
@@ -101,8 +107,7 @@ double largest(const glm::dvec3& v) {
 
 // Smallest width, as a share of the distance from the eye, of a tet that is drawn. In eye space its
 // corners have rounding errors of about a 1000th of this width. Planes through the corners of a
-// thinner tet, a needle, could lie anywhere around it. A ray hardly ever meets one: the probability
-// is about this share.
+// thinner tet, a needle, could lie anywhere. A ray meets one with about this probability.
 constexpr double least_width = 0x1p-42;
 
 bool is_needle(const std::array<glm::dvec3, 4>& corners) {
@@ -184,7 +189,7 @@ bool set_depths(const OneTet& view, const Tet& tet, FaceSigns signs, bool cut,
                 const std::array<glm::dvec3, 4>& corners, SilhouetteRecord& record) {
     SeenTet& seen = record.seen();
     std::size_t next_front = 0, next_back = 3;  // front faces come first
-    double largest_term = 0;                    // of the sums whose rounding affects depths
+    double largest_term = 0;                    // of the terms whose rounding affects depths
     for (std::size_t face = 0; face < 4; ++face) {
         const bool front = is_front(tet, face, signs);
         const OneTet::DepthPlane plane = depth_plane(view, tet, face, front, corners);
@@ -201,8 +206,7 @@ bool set_depths(const OneTet& view, const Tet& tet, FaceSigns signs, bool cut,
     return !(inexact || eye_inside || cut);
 }
 
-// Sets the scalars of a whole tet, normalised to `range`. Returns true if fragments may compute
-// them in float32.
+// Sets a whole tet's scalars, normalised to `range`. Returns true if float32 suffices for them.
 bool set_whole(const OneTet& view, const TetField& field, const ValueRange& range,
                TetRecord& record) {
     const double width = range.hi - range.lo;

@@ -84,11 +84,11 @@ struct StoredGradients {
 struct TetsInView {
     const TetMesh& mesh;
     std::span<const double> scalar;  // one value for each point
-    ValueRange range;                // normalised to [0, 1] in the records of whole tets
+    ValueRange range;                // scalars that whole tets' records map to [0, 1]
     const TetPieces& pieces;         // CellFragment::piece is an index into pieces.pieces()
     WindowView window;
     double near_depth;                     // eye-space depth of the near plane
-    double margin;                         // pixels around an outline: pixel_bounds()
+    double margin;                         // pixels by which outlines are enlarged (pixel_bounds())
     std::span<const glm::vec3> gradients;  // one for each point; empty if nothing is lit
 
     const View& view() const { return window.view(); }
@@ -159,8 +159,8 @@ class TetGeometry {
 
 // A corner of the polygon around a tet (shaders/projection/silhouette.vert).
 struct SilhouetteVertex {
-    glm::vec2 position;  // window coordinates
-    std::uint32_t record;
+    glm::vec2 position;    // window coordinates
+    std::uint32_t record;  // index of its SilhouetteRecord
 };
 
 // Draws the silhouette of each tet as one polygon. The fragment program finds at which depths the

@@ -67,8 +67,7 @@ struct TetRecord {
     std::uint32_t fronts;  // the number of front faces, 0 (the eye is inside) to 3
     std::uint32_t number;  // for dithering
     std::array<float, 4> unused;
-    // The remainders of `scalar` and the three members behind it that float does not hold. Only
-    // TetProjector sets them.
+    // Remainders of `scalar` and the next three members in float. Only TetProjector sets them.
     std::array<float, 4> scalar_rest;
     std::array<float, 4> also_unused;
 };
@@ -137,9 +136,9 @@ inline constexpr double beyond_all = -double{FragmentRecord::in_front_of_all};
 
 // The blocks of TileGrid::block x TileGrid::block pixels that a tet may cover. Rays meet the tet if
 // the depths on all its front faces are less than those on all its back faces: inside three or four
-// lines, the silhouette, on which a front and a back depth are equal. Each line bounds the columns
-// of the first pixels of blocks: to `at_first`, in pixels from the area's first column, for blocks
-// that begin in the area's first row, and to `per_row` more for each row below.
+// lines, the silhouette, on which a front and a back depth are equal. Each line bounds the column
+// of a block's first pixel, relative to the area's first column: by `at_first` for blocks that
+// begin in the area's first row, and by `per_row` more for each row below.
 struct TetOutline {
     static constexpr float none = std::numeric_limits<float>::infinity();
 
@@ -156,7 +155,7 @@ enum class DepthBound : std::uint8_t { any, thin, faint };
 struct alignas(64) CoveredArea : PixelArea {
     bool careful;      // depths on its faces are found in double precision (FragmentKind::careful)
     DepthBound depth;  // bound for any segment through it
-    // True: pixels outside these columns and rows are not drawn, and no segment ends beyond
+    // If true, pixels outside these columns and rows are not drawn, and no segment ends beyond
     // `farthest`, a depth relative to the record's center. Outside a tet the planes of its faces
     // meet at any depth, where rounding alone may make segments of length above 0.
     bool bounded = true;

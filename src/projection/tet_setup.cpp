@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// Projects up to 8 cell fragments at a time, each in one lane of vectors of doubles:
+//   1. load() gathers corners, scalars and pieces of the transfer function into SetupLanes.
+//   2. TetVectors does what TetProjector::project() does, and finds in which lanes it is certain.
+//   3. write_records() transposes the lanes into the records.
+//   4. store() sets outcomes and areas.
 #include "projection/tet_setup.h"
 
 #undef LAMINA_TARGET_FILE
@@ -17,8 +22,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// Collects the planes of a tet's faces: those of front faces from the first place on, the others
-// from the last place backwards.
+// The planes of a tet's faces: front faces from place 0 on, the others from place 3 backwards.
 struct FacePlanes {
     Double depth[4], per_column[4], per_row[4];
     Double fronts;  // number of front faces so far
@@ -195,7 +199,7 @@ class TetVectors {
         for (const auto& corners : lanes_.gradient) {
             for (const Row& corner : corners) largest = max(largest, abs(get(corner)));
         }
-        // as StoredGradients::scale_of_tet() does
+        // Computed as by StoredGradients::scale_of_tet().
         constexpr double most = StoredGradients::largest_in_tet;
         const Double scale = select(largest > most, most / largest, 1);
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -22,8 +22,7 @@ struct TetSetup {
 
 // Sets up at most `most_cell_fragments` cell fragments: all whole tets, or none. Records and areas
 // are arbitrary unless the outcome is `done`. `records`, and `lit` unless null (nothing is lit),
-// have an element for each cell fragment. `next`: cell fragments that will follow, to be
-// prefetched.
+// have an element for each cell fragment. `next`: those that follow, which are prefetched.
 void set_up_tets(const TetsInView& tets, std::span<const CellFragment> cell_fragments,
                  std::span<const CellFragment> next, SilhouetteRecord* records, GradientRecord* lit,
                  TetSetup& result);
@@ -36,23 +35,23 @@ struct SetupLanes {
     // Four numbers that lie side by side in a record.
     using Group = std::array<FloatRow, 4>;
 
-    std::array<Row, 4> x, y, z, value;  // in
-    Row piece_from, piece_to;           // scalars at the ends of its piece
-    std::array<Row, 4> at_from, at_to;  // colour and extinction at these
-    // The gradient at each corner, component by component; for lit ones alone.
+    std::array<Row, 4> x, y, z, value;  // input: corners, and the scalars there
+    Row piece_from, piece_to;           // input: scalars at the ends of the piece
+    std::array<Row, 4> at_from, at_to;  // input: colour and extinction at these scalars
+    // Input, if lit: the components of the gradient, for each corner.
     std::array<std::array<Row, 4>, 3> gradient;
-    Row good, visible, bounded;  // out: 1 or 0
-    Row farthest;                // CoveredArea::farthest
-    Row largest_depth;
+    Row good, visible, bounded;        // output: 1 or 0
+    Row farthest;                      // CoveredArea::farthest
+    Row largest_depth;                 // bound on the optical depth of a segment
     Group pixels;                      // PixelArea, in the bits of integers
     Group depth, per_column, per_row;  // of the faces, as in SeenTet
     Group center;                      // column, row, depth and z
     Group scalar;                      // at the center, per z, per column and per row
     // Least and largest scalar of a whole tet, or the upper cut of a fragment per column and per
-    // row; then in the bits of integers the fronts and (in) the number.
+    // row; then, in the bits of integers, TetRecord::fronts and (input) ::number.
     Group limits;
-    Group cuts;  // lower: depth, per column, per row; upper: depth
-    Group low, high;
+    Group cuts;                // lower: depth, per column, per row; upper: depth
+    Group low, high;           // as in FragmentRecord
     std::array<Group, 3> lit;  // the components of GradientRecord
 };
 

@@ -29,7 +29,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// Points of several tets.
+// One point of each tet of a vector.
 struct SeenPoints {
     Double x, y, z;
 };
@@ -66,7 +66,7 @@ LAMINA_INLINE auto largest_of(const Point& a) {
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// Gradients of linear functions in a tet: a numerator over this determinant, six times its volume.
+// Gradients of linear functions in a tet: numerator() over `determinant`, six times its volume.
 template <typename Number>
 struct TetSlopes {
     using Point = PointOf<Number>;
@@ -208,8 +208,8 @@ class TetView {
   private:
     const View& view_;
     bool perspective_;
-    Number columns_, rows_;  // the size of the corners' bounds in the picture
-    Number column_, row_;    // the center relative to the picture's middle
+    Number columns_, rows_;  // size of the corners' bounds in the picture, in pixels
+    Number column_, row_;    // the center relative to the picture's middle, in pixels
 };
 
 template <typename Number>

@@ -45,7 +45,7 @@ VisibleCellFragments::VisibleCellFragments(const TetMesh& mesh, std::span<const 
     firsts_.reserve(tets.size() / block + 2);
 }
 
-// Visits the tets in the mesh's own order, in which corners lie near one another in memory.
+// Finds nearest pieces, in the mesh's own order: there, corners lie near one another in memory.
 void VisibleCellFragments::look_from(const Eye& eye) {
     if (!cut_) return;
     parallel_for(static_cast<std::int64_t>(spans_.size()), block, [&](std::int64_t index) {
@@ -107,7 +107,7 @@ DrawOrder<CellFragment> VisibleCellFragments::sorted(VisibilityOrder& order, con
 // Translates the limited ranges of the list of tets into ranges of the list of cell fragments.
 void VisibleCellFragments::limit(const DrawOrder<std::int32_t>& order) {
     limited_.clear();
-    std::size_t place = 0, cell_fragments = 0;  // of a tet in the order; cell fragments before it
+    std::size_t place = 0, cell_fragments = 0;  // next tet in the order; cell fragments before it
     const auto go_to = [&](std::size_t end) {
         while (place < end) cell_fragments += count_in_tet(order.items[place++]);
         return cell_fragments;

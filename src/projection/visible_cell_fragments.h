@@ -20,7 +20,7 @@ namespace lamina {
 class VisibleCellFragments {
   public:
     // `cut`: tets are cut into cell fragments at the transfer function's points, or else drawn
-    // whole. `draw_transparent`: lists invisible ones, too. All arguments must outlive it.
+    // whole. `draw_transparent`: invisible ones are listed, too. All arguments must outlive it.
     VisibleCellFragments(const TetMesh& mesh, std::span<const double> scalar,
                          const TetPieces& pieces, bool cut, bool draw_transparent);
 
