@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// OpenFaceConstraints::find(), for each eye:
+//   1. For each open face: find whether it is an exit or an entry, and the box that it is seen in.
+//   2. For each node of the tree: find the boxes around the entries below it.
+//   3. For each exit, in parallel: search the tree for entries that may be seen through it, and
+//      decide exactly for each of these (SeenTriangle::shows()).
 #include "visibility/open_face_constraints.h"
 
 #include <atomic>
@@ -56,9 +61,8 @@ Polygon from_eye(const Eye& eye, const Triangle& triangle, const glm::dvec3& ori
     return polygon;
 }
 
-// Makes boxes around triangles on one side of the eye: two axes across the rays, one along them.
-// Disjoint boxes do not hide each other. A triangle that is not clearly on that side gets an
-// infinite box.
+// Makes boxes around triangles as seen from the eye: two axes across the rays, one along them, for
+// may_show(). A triangle that is not clearly in front of the eye gets an infinite box.
 class SeenBoxes {
   public:
     // Makes boxes for the side of the eye towards `center`.
@@ -80,7 +84,7 @@ inline bool may_show(const FaceTree::Box& exit, const FaceTree::Box& entry) {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// Tangent of the angle from the middle of the view, above which points count as behind the eye.
+// Largest ratio of distance (1-norm) and depth of a point that counts as in front of the eye.
 constexpr double widest = 1e3;
 
 SeenBoxes::SeenBoxes(const Eye& eye, const glm::dvec3& center)
@@ -94,7 +98,7 @@ SeenBoxes::SeenBoxes(const Eye& eye, const glm::dvec3& center)
     axes_ = {across, glm::cross(along, across), along};
 }
 
-// Bounds of the rounding: a coordinate is off by at most 4 epsilon of the distance (1-norm; axes
+// `slack` bounds rounding: a coordinate is off by at most 4 epsilon of the distance (1-norm; axes
 // may be not quite orthogonal), a quotient by the errors of both numbers as a share of the depth.
 FaceTree::Box SeenBoxes::of(const Triangle& triangle) const {
     FaceTree::Box box = FaceTree::nothing();
@@ -197,16 +201,15 @@ class Search {
     const TetMesh& mesh_;
     FaceTree tree_;
     FaceTree::Box bounds_;
-    std::size_t left_;  // number of faces that may still be examined
-    glm::dvec3
-        outside_;  // a point of the mesh that lay outside of the last face that is not outermost
+    std::size_t left_;    // number of faces that may still be examined
+    glm::dvec3 outside_;  // a point outside of the last face that was not outermost
     std::vector<std::int32_t> in_plane_;
 };
 
 constexpr std::int64_t faces_per_task = 256;
-constexpr std::size_t exits_per_task = 32;      // number of exits that one task searches from
-constexpr std::size_t most_pairs = 10'000'000;  // some seconds, and 200 MB with the order's lists
-constexpr std::size_t most_looks = 200'000'000;
+constexpr std::size_t exits_per_task = 32;       // number of exits that one task searches from
+constexpr std::size_t most_pairs = 10'000'000;   // some seconds, and 200 MB with the order's lists
+constexpr std::size_t most_looks = 200'000'000;  // entries that all searches look at
 
 std::vector<TetFace> faces_of(const TetMesh& mesh, std::span<const std::int32_t> open_faces) {
     std::vector<TetFace> faces;
@@ -307,9 +310,8 @@ bool SeenTriangle::shows(const Eye& eye, const SeenTriangle& entry) const {
     return of_exit != 0 ? of_exit > 0 : overlap_is_behind(eye, entry);
 }
 
-// Tells whether, for triangles that intersect, some part of the entry is seen behind the exit. The
-// corners of the overlap are corners of one triangle inside the other and crossings of edges; one
-// behind the exit suffices.
+// Tells whether some part of an entry that intersects the exit is seen behind it: a corner of their
+// overlap, which is a corner of one triangle inside the other or a crossing of edges.
 bool SeenTriangle::overlap_is_behind(const Eye& eye, const SeenTriangle& entry) const {
     const auto inside = [&](const SeenTriangle& triangle, const glm::dvec3& point) {
         for (std::size_t i = 0; i < 3; ++i) {

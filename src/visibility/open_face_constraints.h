@@ -29,7 +29,7 @@ class SeenTriangle {
     SeenTriangle() = default;
     SeenTriangle(const Eye& eye, const Triangle& corners);
 
-    // Returns 1 if rays leave the triangle's tet by it (an exit), -1 if they enter, 0 if edge-on.
+    // Returns 1 if rays leave the tet by this face (an exit), -1 if they enter, 0 if edge-on.
     int sign() const { return sign_; }
 
     // Tells whether `entry`, behind or on this exit, is seen through it with an area > 0. If the
@@ -75,11 +75,11 @@ double seen_area(const Eye& eye, const Triangle& triangle);
 double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry);
 
 // Returns the indices, ascending, of open faces where gaps may begin or end: another part of the
-// mesh lies outside of their plane, or touches it from outside. Of finely faceted surfaces that are
-// flat up to rounding it may return more: deciding would take too long.
+// mesh lies outside of their plane, or touches it from outside. It may return more faces if finely
+// faceted surfaces are flat up to rounding: deciding would take too long.
 std::vector<std::int32_t> gap_faces(const TetMesh& mesh);
 
-// Open faces, by index: some ray leaves by `exit`, whose tet is nearer, and comes back by `entry`.
+// Two open faces, by index: some ray leaves a tet by `exit`, then enters a farther one by `entry`.
 struct OpenFaceConstraint {
     std::int32_t exit, entry;
 };
@@ -108,7 +108,7 @@ class OpenFaceConstraints {
                           std::vector<OpenFaceConstraint>& found) const;
 
     const TetMesh& mesh_;
-    // The result of gap_faces(). Members below have an entry for each of these, or tree node.
+    // Result of gap_faces(). Members below have an entry for each of these faces, or each node.
     std::vector<std::int32_t> open_faces_;
     FaceTree tree_;
     FaceTree::Box bounds_;

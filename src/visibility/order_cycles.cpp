@@ -58,8 +58,8 @@ void CycleBreaker::list_entering() {
     nodes_[0].in = 0;
 }
 
-// Searches for cycles depth first. Subtracts from all links of one their smallest `left`, and drops
-// links with nothing left. A node gets its place, the nearest first, when all nearer ones have one.
+// Searches for cycles depth first. Subtracts the smallest `left` of a cycle's links from all of
+// them, and drops links with nothing left. A node gets its place when all nearer nodes have theirs.
 void CycleBreaker::drop_links() {
     dropped_.clear();
     path_.clear();
@@ -97,7 +97,7 @@ void CycleBreaker::push(std::int32_t index) {
     path_.push_back(index);
 }
 
-// Cuts the path, which closes a cycle from depth `first` on, at the first link that is dropped.
+// Thins the cycle that the path closes from depth `first` on, and cuts the path at a dropped link.
 void CycleBreaker::thin_cycle(std::int32_t first) {
     const auto begin = path_.begin() + first;
     work_ += path_.end() - begin;
@@ -117,7 +117,7 @@ void CycleBreaker::thin_cycle(std::int32_t first) {
     path_.erase(cut + 1, path_.end());
 }
 
-// Keeps dropped links again, the largest first, if they close no cycle.
+// Keeps dropped links again, those of the largest area first, if they close no cycle.
 void CycleBreaker::take_back() {
     std::sort(dropped_.begin(), dropped_.end(), [&](std::int32_t a, std::int32_t b) {
         return link(a).area != link(b).area ? link(a).area > link(b).area : a < b;
@@ -154,7 +154,7 @@ bool CycleBreaker::keep(const Link& kept) {
     return true;
 }
 
-// Collects in nearer_ the nodes that kept links from `from` reach before `end`, false if `end` too.
+// Collects in nearer_ the nodes before `end` that kept links reach; false if they reach `end`.
 bool CycleBreaker::mark_nearer(std::int32_t from, std::int32_t end) {
     nearer_.push_back(from);
     node(from).marked = true;
@@ -172,6 +172,7 @@ bool CycleBreaker::mark_nearer(std::int32_t from, std::int32_t end) {
     return true;
 }
 
+// Collects in farther_ the nodes from place `end` on whose kept links lead to `from`.
 void CycleBreaker::mark_farther(std::int32_t from, std::int32_t end) {
     farther_.push_back(from);
     node(from).marked = true;
@@ -190,10 +191,10 @@ void CycleBreaker::mark_farther(std::int32_t from, std::int32_t end) {
 
 namespace {
 
-// Limits the edges visited to break a component: some seconds. Overlaps may make more cycles.
+// Limit on edges visited in one component: some seconds. Overlapping tets may make more cycles.
 constexpr std::int64_t most_work = 200'000'000;
 
-// Number of tets whose component is complete: larger than all others.
+// Value in numbers_ of tets whose component is complete: larger than all others.
 constexpr std::int32_t complete = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
@@ -238,7 +239,7 @@ OrderCycles::Found OrderCycles::order(const OrderGraph& graph, bool break_rings)
     return found;
 }
 
-// Reorders a component's tets. The search is over: numbers_ may hold their indices in members_.
+// Reorders a component's tets. The search is over, so numbers_ can hold indices in members_.
 CycleBreaker::Broken OrderCycles::break_ring(const OrderGraph& graph, std::int32_t component) {
     const auto [first, end] = cyclic_[component];
     const auto members = std::span(memory_).subspan(first, end - first);
@@ -262,6 +263,7 @@ CycleBreaker::Broken OrderCycles::break_ring(const OrderGraph& graph, std::int32
     return order.broken;
 }
 
+// Tarjan's algorithm from one root, without recursion.
 void OrderCycles::search(const OrderGraph& graph, std::int32_t root) {
     visit(graph, root);
     while (!path_.empty()) {

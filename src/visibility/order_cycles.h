@@ -7,12 +7,12 @@ namespace lamina {
 
 // Orders the nodes of a graph with cycles so that broken edges have a small area: a feedback arc
 // set (Demetrescu and Finocchi, Combinatorial algorithms for feedback problems in directed graphs,
-// 2003). Optimal for a single ring; otherwise no broken edge fits in without breaking another.
+// 2003). It is optimal for a single ring; else no broken edge can be kept without breaking another.
 class CycleBreaker {
   public:
     struct Edge {
-        std::int32_t from, to;
-        double area;
+        std::int32_t from, to;  // `from` is farther
+        double area;            // the cost of breaking it
     };
     struct Broken {
         std::int64_t edges = 0;  // pairs of nodes
@@ -22,8 +22,8 @@ class CycleBreaker {
         std::span<const std::int32_t> places;  // place of each node; 0 is the farthest
         Broken broken;
     };
-    // `edges`: by ascending `from`; areas of parallel edges are summed. `work`: most edges visited
-    // to find cycles, and again to take broken edges back. The result is valid until the next call.
+    // `edges`: by ascending `from`; areas of parallel edges are summed. `work`: limit on the edges
+    // visited to find cycles, and again to take edges back. The result lasts until the next call.
     Order order(std::size_t nodes, std::span<const Edge> edges, std::int64_t work);
 
   private:
@@ -61,7 +61,7 @@ class CycleBreaker {
     std::vector<Node> nodes_;             // with one more at the end
     std::vector<std::int32_t> path_;
     std::vector<std::int32_t> dropped_;
-    std::vector<std::int32_t> nearer_, farther_, free_;  // scratch of taking one link back
+    std::vector<std::int32_t> nearer_, farther_, free_;  // working memory of keep()
     std::vector<std::int32_t> places_;
     std::int64_t work_ = 0, most_work_ = 0;  // links visited, and the limit
 };

@@ -14,7 +14,7 @@ double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// A tet's states in FarthestFirst: not met; on the path, next across `state - first_face`; drawn.
+// A tet's state in FarthestFirst: unmet; on the path (face `state - first_face` is next); drawn.
 constexpr std::uint8_t unmet = 0, first_face = 1, drawn = 6;
 
 }  // namespace
@@ -47,7 +47,7 @@ FaceSigner::Rounded FaceSigner::rounded_at_infinity(const Tet& tet) const {
     return {{d12 + d23 - d13, -d23, d13, -d12}, 4 * error_bound * largest(d) * reach * reach};
 }
 
-// Has no branches on the signs, because they could not be predicted.
+// Avoids branches on signs, which could not be predicted.
 FaceSigns FaceSigner::signs(std::size_t index) const {
     const Tet& tet = tets_[index];
     const Rounded seen = eye_.at_infinity ? rounded_at_infinity(tet) : rounded(tet);

@@ -20,13 +20,13 @@ constexpr FaceSigns farther_bit(std::size_t face) {
     return FaceSigns{16} << face;
 }
 
-// Tells whether sorting the corners by index turns the face: true for exactly one of its two tets.
+// Tells whether sorting a face's corners reverses its orientation: true for one of its two tets.
 inline bool turned_by_sorting(const Tet& tet, std::size_t face) {
     const auto [a, b, c] = corners_of_face(tet, face);
     return (a > b) != ((b > c) != (a > c));
 }
 
-// Tells whether a face is on the eye's side of its tet: if edge-on, for just one of its two tets.
+// Tells whether the eye is in front of a tet's face. Edge-on faces are front faces of one tet only.
 inline bool is_front(const Tet& tet, std::size_t face, FaceSigns signs) {
     const bool nearer = (signs & nearer_bit(face)) != 0, farther = (signs & farther_bit(face)) != 0;
     return nearer || (!farther && turned_by_sorting(tet, face));
@@ -61,8 +61,8 @@ class FaceSigner {
     Eye eye_;
 };
 
-// The graph of which tets hide which. An edge leads from a tet to every nearer tet drawn after it:
-// across a shared face, or across a gap if wanted. The mesh must outlive this object.
+// The graph of which tets hide which. An edge leads from a tet to a nearer one, to be drawn after
+// it: across a shared face or, if `across_gaps`, across a gap. The mesh must outlive this object.
 class OrderGraph {
   public:
     OrderGraph(const TetMesh& mesh, bool across_gaps);
@@ -96,7 +96,7 @@ class OrderGraph {
     }
     // Returns the seen area of the shared face, or of the overlap of the gap's two open faces.
     double area(std::int32_t tet, std::int32_t edge) const;
-    // The exit of the nearer tet and the entry of the farther one: one face twice if it is shared.
+    // The exit of the nearer tet and the entry of the farther one. A shared face is both.
     struct Passage {
         Triangle exit, entry;
         bool shared;
@@ -124,7 +124,7 @@ class OrderGraph {
     std::vector<std::int32_t> next_gap_;   // next gap edge of the same tet, or -1
 };
 
-// Returns a number that grows with the distance from the eye: its square, or that along the view.
+// Returns a number that grows with distance: its square or, at infinity, the place along the view.
 inline double view_distance(const Eye& eye, const glm::dvec3& point) {
     if (eye.at_infinity) return glm::dot(eye.position, point);
     const glm::dvec3 ray = point - eye.position;
@@ -132,8 +132,8 @@ inline double view_distance(const Eye& eye, const glm::dvec3& point) {
 }
 
 // MPVO for nonconvex meshes (Williams, Visibility ordering meshed polyhedra, 1992; Kraus et al.
-// 2004): draws a tet when all behind it across shared faces are drawn. Starts from open faces
-// towards the eye, the farthest centroid first, which is a guess at the order across gaps.
+// 2004): draws a tet when all behind it across shared faces are drawn. Starts at open faces that
+// look towards the eye, the farthest centroid first, which is a guess at the order across gaps.
 class FarthestFirst {
   public:
     explicit FarthestFirst(const TetMesh& mesh);

@@ -95,12 +95,12 @@ bool covers_some(const SeenPolygon& polygon, const PixelArea& area) {
     });
     return some;
 }
-// Edges that CycleBreaker may visit for a constraint; smaller rectangles solve what it breaks.
+// Edges that CycleBreaker may visit, per constraint: what it breaks, smaller rectangles solve.
 constexpr std::int64_t work_a_constraint = 16;
 
-// Tets overlap on a ray if they share more than these parts: of the shorter one's length, and of
-// the depth. Both are far above rounding (1e-16 of the depth, over a face's slope of >= 1e-7). A
-// smaller overlap changes the picture by that share of one tet's opacity.
+// Two tets overlap on a ray if they share more than the sum of these parts of the shorter tet's
+// length and of the depth. Both are far above rounding (1e-16 of the depth, over a face's slope of
+// at least 1e-7). A smaller overlap changes the picture by that share of one tet's opacity.
 constexpr double overlap_share = 1e-3, overlap_of_depth = 1e-9;
 
 // The parameters of a ray between which it is inside a tet; it misses the tet if in > out.
@@ -324,7 +324,7 @@ void RingOrder::draw_pixel(const Problem& problem, const PixelArea& pixel) {
         return span_of(a).middle() > span_of(b).middle();
     });
     draw(problem, order, pixel);
-    const Member* before = nullptr;  // of the tets so far, the one that the ray enters first
+    const Member* before = nullptr;  // the tet so far that the ray enters first
     RaySpan reached{INFINITY, INFINITY};
     for (const std::int32_t index : order) {
         const RaySpan& span = span_of(index);

@@ -55,7 +55,7 @@ struct SeenPolygon {
     }
 };
 
-// Projects triangles and points to pixels; in perspective from `near` on. Never loses a pixel.
+// Projects triangles and points to pixels, in perspective from z = `near` on; no pixel is lost.
 class PixelFinder {
   public:
     PixelFinder(const View& view, double near) : window_(view), near_(near) {}
@@ -87,7 +87,7 @@ class RingOrder {
     // The graph must outlive this object.
     RingOrder(const OrderGraph& graph, const View& view, double near);
 
-    // Appends tets that are in no ring, in their order.
+    // Appends tets that are in no ring and already in visibility order.
     void add(std::span<const std::int32_t> tets) {
         tets_.insert(tets_.end(), tets.begin(), tets.end());
     }

@@ -14,7 +14,7 @@
 namespace lamina {
 namespace {
 
-// Distance of `near`, as a share of the diagonal: half the renderer's (plan/project_planner.cpp).
+// Near plane of RingOrder, a share of the diagonal: half the renderer's (plan/project_planner.cpp).
 constexpr double near_share = 0.5e-6;
 
 }  // namespace
@@ -95,7 +95,7 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
     return order_;
 }
 
-// In order_, draw_free()'s tets come first, then rings and tets between (sort_topologically()).
+// Splits order_ into runs of tets of one ring, and of tets in no ring (sort_topologically()).
 void VisibilityOrder::solve_rings(const View& view) {
     const Stage solving("rings");
     rings_.emplace(*graph_, view,
@@ -140,8 +140,8 @@ void VisibilityOrder::sort_topologically(bool break_rings) {
     std::copy(rest.begin(), rest.end(), order_.begin() + static_cast<std::ptrdiff_t>(drawn));
 }
 
-// Orders tets by Kahn's algorithm (1962) and returns how many: all, unless there are cycles. Those
-// whose farther ones are drawn wait on a stack at order_'s end: the next is mostly a neighbour.
+// Orders tets by Kahn's algorithm (1962) and returns how many: all, unless there are cycles. Tets
+// whose farther tets are drawn wait on a stack at the end of order_: its top is mostly a neighbour.
 std::size_t VisibilityOrder::draw_free() {
     const auto counts = graph_->farther_counts();
     const auto neighbors = mesh_.neighbors();
@@ -157,7 +157,6 @@ std::size_t VisibilityOrder::draw_free() {
         const std::int32_t tet = order_[top++];
         order_[drawn++] = tet;
         const auto& across = neighbors[tet];
-        // Visits the bits of the nearer faces, one after the other.
         for (FaceSigns left = graph_->signs(tet) & 0xf; left != 0; left &= left - 1)
             count_down(across[std::countr_zero(left)]);
         for (std::int32_t edge = graph_->first_gap_edge(tet); edge != OrderGraph::no_edge;

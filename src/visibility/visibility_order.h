@@ -13,7 +13,7 @@
 
 namespace lamina {
 
-// Counts shared faces whose tets `order` reverses. Throws Error unless it has every tet once.
+// Counts shared faces with tets in wrong order. Throws Error unless `order` has each tet once.
 std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
                              std::span<const std::int32_t> order);
 
@@ -29,15 +29,16 @@ const char* name_of(OrderMethod method);
 struct OrderReport {
     std::int64_t cycles = 0;       // number of sets of tets that hide one another in a ring
     std::int64_t cyclic_tets = 0;  // number of tets in these
-    // For `exact`, pairs of tets in a wrong order; for mpvo of a nonconvex mesh, such faces. After
-    // sort_pixels(): pairs of tets that overlap.
+    // Number of pairs of tets in the wrong order (mpvo of a nonconvex mesh: of shared faces whose
+    // tets are) or, after sort_pixels(), of pairs of tets that overlap.
     std::int64_t broken = 0;
     // Seen area of the pairs of `broken` for `exact`: bounds the area with a wrong order.
     double broken_area = 0;
 };
 
-// Sorts tets for compositing. Takes some 10 bytes a tet, and 28 more at the first view with cycles.
-// The order depends only on mesh, method and eye. The mesh must outlive this object.
+// Sorts tets for compositing. Kahn's algorithm orders the tets of an OrderGraph that no cycle holds
+// back, and OrderCycles or RingOrder orders the others; FarthestFirst guesses across gaps (mpvo).
+// The order depends on mesh, method and eye alone. The mesh must outlive this object.
 class VisibilityOrder {
   public:
     VisibilityOrder(const TetMesh& mesh, OrderMethod method);
