@@ -23,6 +23,7 @@ FaceTree::FaceTree(const TetMesh& mesh, std::span<const TetFace> faces) : order_
     if (!faces.empty()) build(boxes, 0, static_cast<std::int32_t>(faces.size()));
 }
 
+// Splits at the median of the boxes' centers, along the axis on which these extend most.
 void FaceTree::build(std::span<const Box> boxes, std::int32_t first, std::int32_t end) {
     Box box = nothing(), centers = box;
     for (std::int32_t i = first; i < end; ++i) {

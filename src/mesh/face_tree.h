@@ -29,13 +29,14 @@ class FaceTree {
 
     FaceTree(const TetMesh& mesh, std::span<const TetFace> faces);
 
-    // Calls visit(face index) for the faces of each leaf that meets(), as do all nodes above it.
+    // Calls visit(face index) for the faces of each leaf if meets(box) holds in it and all nodes
+    // above.
     template <typename Meets, typename Visit>
     void visit(const Meets& meets, const Visit& visit) const {
         visit_nodes([&](std::size_t node) { return meets(nodes_[node].box); }, visit);
     }
 
-    // Does what visit() does, but calls meets() with the number of a node.
+    // Does what visit() does, but calls meets() with the node's number instead of its box.
     template <typename Meets, typename Visit>
     void visit_nodes(const Meets& meets, const Visit& visit) const {
         std::array<std::int32_t, 64> stack;  // the tree is balanced: its height is below 32
@@ -86,9 +87,10 @@ class FaceTree {
 
 using Triangle = std::array<glm::dvec3, 3>;
 
+// The plane through an origin that two vectors span; its normal is rounded.
 struct RoundedPlane {
     RoundedPlane() = default;
-    RoundedPlane(const glm::dvec3& u, const glm::dvec3& v);  // spanned by these two vectors
+    RoundedPlane(const glm::dvec3& u, const glm::dvec3& v);
 
     glm::dvec3 normal{0};
     double error = 0;  // error of dot(normal, point - origin), per unit (1-norm) of distance

@@ -9,12 +9,12 @@ namespace lamina {
 namespace {
 
 constexpr int room = 8;  // pixels around and between the panels
-// In panels whose faces or tets cover fewer pixels on average, no edges are drawn.
+// No edges are drawn in panels whose faces or tets cover fewer pixels than this on average.
 constexpr double pixels_for_edges = 40;
 constexpr std::array<std::uint16_t, 3> paper{255, 255, 255};
 constexpr glm::dvec3 no_value(200, 30, 30);
 
-// Purple over green to yellow: five colours of matplotlib's viridis.
+// Maps values to purple over green to yellow, by five colours of matplotlib's viridis.
 glm::dvec3 color_of(double value, const ValueRange& range) {
     static const std::array<glm::dvec3, 5> colors{glm::dvec3(68, 1, 84), glm::dvec3(59, 82, 139),
                                                   glm::dvec3(33, 145, 140), glm::dvec3(94, 201, 98),
@@ -29,7 +29,7 @@ glm::dvec3 color_of(double value, const ValueRange& range) {
 // One of the four panels: for each pixel, the face or tet (piece) that it shows, and its colour.
 class Panel {
   public:
-    // Looks along right x up = towards the eye; the mesh's box fits into the panel.
+    // The vector right x up points towards the eye. The mesh's box fits into the panel.
     Panel(const TetMesh& mesh, const glm::dvec3& right, const glm::dvec3& up, int side)
         : right_(right),
           up_(up),
@@ -122,7 +122,7 @@ class Panel {
     glm::dvec3 center_;
     double scale_;
     std::vector<std::int32_t> piece_;
-    std::vector<double> height_;  // towards the eye
+    std::vector<double> height_;  // coordinate towards the eye
     std::vector<glm::dvec3> color_;
 };
 

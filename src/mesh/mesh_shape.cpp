@@ -54,7 +54,7 @@ std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
     return edges;
 }
 
-// Tells how convex the edge between two faces is, from the side of `first`'s apex.
+// Tells how convex the edge of two faces is: on which side of `first`'s plane `second`'s apex lies.
 Convexity bend(const TetMesh& mesh, const BoundaryEdge& first, const BoundaryEdge& second,
                double tolerance) {
     const auto point = [&](std::int32_t index) -> const glm::dvec3& {
@@ -102,10 +102,10 @@ class FaceSets {
 
 constexpr std::int64_t faces_per_task = 64;
 
-// Limits the pairs of faces examined: average for each face. Real meshes need far fewer.
+// Limit on the pairs of faces examined, per face on average. Real meshes need far fewer.
 constexpr std::int64_t max_tests_per_face = 60;
 
-constexpr std::int64_t most_lines = 500, lines_per_task = 8;
+constexpr std::int64_t most_lines = 500, lines_per_task = 8;  // one line tests one component
 
 bool meet(const FaceTree::Box& a, const FaceTree::Box& b) {
     return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));

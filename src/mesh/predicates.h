@@ -35,7 +35,7 @@ struct Eye {
 int sign_of_determinant(const glm::dvec3& a, const glm::dvec3& a0, const glm::dvec3& b,
                         const glm::dvec3& b0, const glm::dvec3& c, const glm::dvec3& c0);
 
-// Returns the exact side of d: 1 where a, b, c look counter-clockwise, -1 opposite, 0 coplanar.
+// Returns, exactly: 1 if a, b, c look counter-clockwise from d, -1 if clockwise, 0 if coplanar.
 inline int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                        const glm::dvec3& d) {
     return sign_of_determinant(b, a, c, a, d, a);

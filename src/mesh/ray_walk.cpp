@@ -20,7 +20,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// Distance behind an exit, as a share of the line's parameters, up to which an entry does not count
+// Distance before an exit, as a share of the line's parameters, up to which an entry does not count
 // as an overlap: crossings have errors of some epsilon, and meshes may touch themselves.
 constexpr double touching = 1e-12;
 
@@ -30,6 +30,7 @@ LAMINA_IN_CLONES double difference_of_products(double a, double b, double c, dou
     return std::fma(a, b, -cd) + std::fma(-c, d, cd);
 }
 
+// The point of an edge from a to b that is nearest to 0.
 struct Nearest {
     double share;  // weight of b
     double distance;
@@ -205,8 +206,8 @@ void RayWalk::sort_crossings() {
     }
 }
 
-// The line leaves by the fourth corner (top) and the corners i and j of the front between which the
-// side of the edge to the top turns from - to +. The top replaces the third corner k.
+// The line leaves by the face of the fourth corner (top) and those corners i and j of the front
+// between which the sign of the edge to the top turns from - to +. The top replaces corner k.
 LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, RayFront& front) const {
     const Tet& tet = mesh_.tets()[segment.tet];
     auto& [p, areas] = front;

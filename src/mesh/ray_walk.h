@@ -23,7 +23,7 @@ struct RayFront {
         double reach;  // bounds the rounding of x and y
     };
     std::array<Corner, 3> corners;  // counter-clockwise
-    // Twice the areas of the triangles of the line and the edges 01, 12, 20: >= 0, up to rounding.
+    // Twice the areas of the triangles of the line's place (0, 0) and edges 01, 12, 20; >= 0.
     std::array<double, 3> areas;
 };
 
@@ -78,6 +78,7 @@ class RayWalk {
     // Tells whether the mesh overlaps itself on the line: it enters again before it has left.
     bool overlapping() const { return overlapping_; }
 
+    // Calls visit(TetSegment) for each tet from an entry to the next exit, until it returns false.
     template <typename Visit>
     void follow(const Entry& entry, const Visit& visit) const {
         RayFront front = front_of(entry.face);

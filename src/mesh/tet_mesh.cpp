@@ -112,7 +112,7 @@ class Matcher {
   private:
     std::int32_t& across(const FaceKey& key) { return matching_.neighbors[key.tet()][key.face()]; }
     std::int32_t opposite(const FaceKey& key) const { return tets_[key.tet()][key.face()]; }
-    // Marks tets that have the same corners as an earlier one. Each is marked only where its face
+    // Marks tets that have the same corners as an earlier one. Each is marked only when its face
     // opposite its largest corner is matched, so no two tasks write one mark.
     void mark_duplicates(std::span<const FaceKey> group) {
         std::vector<FaceKey> by_apex(group.begin(), group.end());
@@ -133,7 +133,7 @@ class Matcher {
     std::vector<char> duplicate_;
 };
 
-constexpr std::int64_t grain = 4096;                     // tets a task
+constexpr std::int64_t grain = 4096;                     // tets per task
 constexpr std::size_t most_tets = std::size_t{1} << 29;  // four faces each must fit 32 bits
 
 // Limits coordinates, so that products of three of them are finite (mesh/predicates.h).
@@ -169,7 +169,7 @@ struct Weighted {
     double weight = 0;
 };
 
-// Returns a tet's gradient times six volumes, which are tiny for slivers, in lengths of `unit`.
+// Returns a tet's gradient, weighted by six times its volume, with lengths in units of `unit`.
 Weighted weighted_gradient(const TetMesh& mesh, std::span<const double> scalar, const Tet& tet,
                            double unit) {
     const auto point = [&](std::size_t i) { return mesh.points()[tet[i]]; };
@@ -185,7 +185,7 @@ Weighted weighted_gradient(const TetMesh& mesh, std::span<const double> scalar, 
     return {sum, weight};
 }
 
-// Finds all tets across faces by sorting the faces: 48 bytes a tet. A tet's corners must differ.
+// Finds the tets across all faces by sorting faces: 48 bytes a tet. A tet's corners must differ.
 FaceMatching match_faces(std::span<const Tet> tets, std::size_t point_count) {
     FaceMatching matching;
     matching.neighbors.assign(tets.size(), {-1, -1, -1, -1});

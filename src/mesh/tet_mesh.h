@@ -21,7 +21,7 @@ struct MeshFindings {
     std::int64_t nonmanifold_faces = 0;  // faces of three or more tets
     std::int64_t folded_faces = 0;       // faces of two tets that lie on the same side of it
     std::int64_t unused_points = 0;
-    CellCounts cells;  // what the file's cells were
+    CellCounts cells;  // the file's cells and points that were changed or left out
 
     bool conforming() const { return nonmanifold_faces == 0; }
 };
@@ -37,7 +37,7 @@ class TetMesh {
 
     std::span<const glm::dvec3> points() const { return points_; }
     std::span<const Tet> tets() const { return tets_; }
-    // Returns the tets across each tet's faces; no_neighbor: boundary, folded, nonmanifold.
+    // Returns the tets across each tet's faces; no_neighbor: it is boundary, folded or nonmanifold.
     std::span<const std::array<std::int32_t, 4>> neighbors() const { return neighbors_; }
     std::span<const TetFace> open_faces() const { return open_faces_; }
     // Returns the corners of a face, counter-clockwise as seen from outside of its tet.
@@ -75,7 +75,7 @@ class TetMesh {
     Bounds bounds_;
 };
 
-// Converts cell data to point data: the plain mean over the tets around a point, as
+// Converts cell data to point data: the plain mean over the tets around a point, as in VTK's
 // vtkCellDataToPointData. The mean by volume would be off by slope * (H - h) / 2 in a linear field
 // between cells of lengths h < H, the plain mean by half of that. A NaN reaches all points of its
 // tet. Points without tets get the first finite value of all.
