@@ -124,6 +124,7 @@ bool edge_pierces(const Triangle& edges, const Triangle& triangle) {
            pierces(edges[2], edges[0], triangle);
 }
 
+// Implements count_overlapping_tets(): marks tets in three searches, and counts the marks.
 class OverlapSearch {
   public:
     explicit OverlapSearch(const TetMesh& mesh)

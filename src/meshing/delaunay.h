@@ -12,7 +12,7 @@
 
 namespace lamina {
 
-// Positive tets that fill some points' convex hull, and those opposite their corners (-1: hull).
+// Positive tets that fill points' convex hull. Neighbour i lies opposite corner i (-1: none).
 struct DelaunayTets {
     std::vector<Tet> tets;
     std::vector<std::array<std::int32_t, 4>> neighbors;

@@ -26,7 +26,7 @@ constexpr int deepest = 60;  // halvings of a piece: its size is then far below 
 // Largest number of pieces that are examined in one cell. Further pieces count with their bounds.
 constexpr int most_pieces = 20000;
 
-// Flatness (longest edge / least height) above which the linear function bounds nothing outside.
+// Flatness (MeasuredTet) above which the linear function, extrapolated, gives no useful bound.
 constexpr double flattest = 1e4;
 
 glm::dvec3 corner_of(const Box& box, std::size_t corner) {
@@ -45,14 +45,14 @@ struct Affine {
     }
 };
 
-// A tet and its linear function. Places are relative to corner 0: rounding ignores the grid's size.
+// A tet and its linear function. Places are relative to corner 0, to keep their digits.
 struct MeasuredTet {
     glm::dvec3 origin{0};
-    std::array<Affine, 4> barycentric;
+    std::array<Affine, 4> barycentric;  // weights of the corners
     Affine value;
-    ValueRange values;
+    ValueRange values;  // range of the corners' values
     Box bounds;
-    double flatness = infinity;  // infinite: no volume
+    double flatness = infinity;  // diagonal of bounds / least height; infinite: no volume
 
     MeasuredTet(const std::array<glm::dvec3, 4>& p, const std::array<double, 4>& f)
         : origin(p[0]), bounds{p[0], p[0]} {
@@ -99,12 +99,12 @@ struct MeasuredTet {
 };
 
 struct OpenCell {
-    double bound;
+    double bound;  // of the difference in the cell
     Cell cell;
 };
 struct OpenPiece {
     CellPiece piece;
-    int depth;
+    int depth;  // number of halvings
 };
 struct WorkingSpace {
     std::vector<OpenCell> cells;
@@ -113,6 +113,8 @@ struct WorkingSpace {
     std::vector<OpenPiece> pieces;
 };
 
+// Measures one tet. look_into_blocks() collects the cells that ranges do not decide. Then
+// look_into_cell() bounds the difference in each, the cell of the largest bound first.
 class Measurement {
   public:
     Measurement(const TrilinearField& field, const CellRanges& ranges,
@@ -157,7 +159,7 @@ class Measurement {
     bool invisible(double lo, double hi) const {
         return transfer_function_ && transfer_function_->transparent(lo, hi);
     }
-    // Notes a difference. Places where the value is nearly visible count, too: bounds need not
+    // Records a difference. Places where the value is nearly visible count, too: bounds need not
     // follow exactly where visibility begins.
     void found(double trilinear, double linear, const glm::dvec3& place) {
         const double difference = std::abs(trilinear - linear);

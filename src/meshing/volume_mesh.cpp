@@ -42,10 +42,10 @@ void check_size(const TrilinearField& field, std::int64_t max_tets) {
 }
 
 constexpr double finest_lattice = 256;  // places for points along an axis, per sample
-// Points nearer to the box's surface than this share of their tet's extent are moved onto it: flat
-// tets between them and the surface would remain.
+// Points nearer to the box's surface than this share of their tet's extent are moved onto it, since
+// flat tets between them and the surface would remain otherwise.
 constexpr double surface_share = 0.125;
-// Tets that a point adds: above the average (6.77 for random points).
+// Number of tets that a point adds, a little above the average (6.77 for random points).
 constexpr double tets_per_point = 7;
 constexpr std::int64_t tets_per_task = 16;
 // Share of max_tets below which the tets still allowed are not worth a round.
@@ -66,7 +66,7 @@ glm::dvec3 snapped(const glm::dvec3& place, double per_sample) {
     return glm::floor(place * per_sample + 0.5) / per_sample;
 }
 
-// The points of the mesh, all different, and the field's values. The last can be removed again.
+// The points of the mesh, all different, with the field's values. shrink() removes the last ones.
 class Points {
   public:
     explicit Points(const TrilinearField& field) : field_(field) {}
@@ -124,8 +124,8 @@ std::vector<NamedTet> by_name(const std::vector<Tet>& tets) {
 
 struct Round {
     DelaunayTets mesh;
-    std::vector<NamedTet> names;
-    std::vector<TetError> errors;
+    std::vector<NamedTet> names;   // sorted by corners
+    std::vector<TetError> errors;  // of each tet
 };
 
 double volume_of(const std::array<glm::dvec3, 4>& p) {
@@ -271,7 +271,7 @@ class Refinement {
         return list;
     }
 
-    // Adds points, at most one for each cavity: the tets with the new point in their circumspheres.
+    // Adds points, at most one in each cavity: the tets with a new point in their circumspheres.
     void add_points(const std::vector<std::int32_t>& violators, std::size_t most) {
         destroyed_.assign(round_.mesh.tets.size(), false);
         const std::size_t before = points_.size();
@@ -281,7 +281,7 @@ class Refinement {
         }
     }
 
-    // Adds a point that destroys the tet, at a free place on the coarsest lattice that has one:
+    // Adds a point in the tet's circumsphere, at a free place on the coarsest lattice that has one:
     // points at samples, and halfway between them, serve neighbouring tets, too.
     bool add_point_in(std::int32_t tet) {
         const auto corners = points_.corners(round_.mesh.tets[tet]);
@@ -353,7 +353,7 @@ class Refinement {
     int rounds_ = 0;
 };
 
-// Tolerance of a Kuhn mesh's measured error, a share of the range: smaller ones are not told apart.
+// Tolerance, as a share of the range, to which the error of a Kuhn mesh is measured.
 constexpr double kuhn_error_floor = 1e-4;
 
 }  // namespace

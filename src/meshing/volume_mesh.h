@@ -26,9 +26,9 @@ MeshData make_adaptive_mesh(const TrilinearField& field, const InterpolationErro
 // Converts the points from index space to world space, and keeps tets positive.
 void place_in_world(MeshData& mesh, const Grid& grid);
 
-// Makes the Kuhn or the adaptive mesh of a volume, in world space. `transfer_function`: where it
-// shows nothing, the mesh may stay coarse; null: everything counts. Throws Error for samples that
-// are not finite, Kuhn meshes above max_tets, and without lamina-tetrahedralize.
+// Makes the Kuhn or the adaptive mesh of a volume, in world space. The mesh may stay coarse where
+// `transfer_function` shows nothing; if it is null, everything counts. Throws Error for samples
+// that are not finite, Kuhn meshes above max_tets, and without lamina-tetrahedralize.
 MeshData make_volume_mesh(const Volume& volume, const MeshSettings& settings,
                           const TransferFunction* transfer_function, MeshReport& report);
 

@@ -49,8 +49,7 @@ class CpuTetTree {
 // tiles draw the previous one. The picture does not depend on the number of threads.
 class CpuProjectRenderer : public ProjectRenderer {
   public:
-    // Builds tables, and an order unless `order`, from another renderer of the mesh, has the plan's
-    // method. The mesh must outlive the renderer.
+    // Builds tables, and an order unless `order` has the plan's method. The mesh must outlive it.
     CpuProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                        const ProjectPlan& plan, int width, int height,
                        std::shared_ptr<VisibilityOrder> order = nullptr);

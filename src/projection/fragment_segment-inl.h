@@ -209,8 +209,7 @@ class FragmentCuts {
     bool lower_, upper_, lower_is_front_, upper_is_front_;
 };
 
-// A point at which a ray enters or leaves: its z (1 in orthographic views), and its distance along
-// z behind the record's center.
+// The point where a ray enters or leaves: its z (1 if orthographic), and z minus the center's.
 struct TetSpanEnd {
     Float z, from_center;
 };
@@ -338,8 +337,7 @@ LAMINA_INLINE Fragment cell_fragment_color(bool colored, DepthBound most_depth,
                    : front_weight(fragments.front_weights, FrontWeightTable::nodes, p, q);
     }
     const Float weight = min(most, opacity);
-    // This is opacity * back + weight * (front - back), written with the colours at the cell
-    // fragment's ends so that no term is negative.
+    // This is opacity * back + weight * (front - back), written so that no term is negative.
     const Float of_high = (opacity - weight) * segment.back + weight * segment.front;
     const Float of_low = opacity - of_high;
     const auto channel = [&](std::size_t i) LAMINA_LAMBDA {

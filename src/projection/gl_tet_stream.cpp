@@ -13,7 +13,7 @@
 namespace lamina {
 namespace {
 
-// Cell fragments in a batch and in a chunk. Batches are small enough that drawing starts soon, and
+// Cell fragments per batch and per chunk. Batches are small enough that drawing starts soon, and
 // large enough that a draw call costs little.
 constexpr std::size_t most_in_batch = 32768;
 constexpr std::size_t chunk_size = 64;

@@ -32,8 +32,7 @@ class GlTetStream {
     // Sets whether draw() puts a texture barrier after each cell fragment (Blending::barrier).
     void set_barriers(bool barriers);
 
-    using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; several may be
-                                                                // the same program
+    using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; may repeat
     // Draws cell fragments in order with the bound state; the viewport is the picture. Ctrl-C ends
     // it between batches, and `batch_done` is called after each. Returns the number of tets drawn,
     // that is, that cover a pixel centre. `rows`: the picture's number of rows.

@@ -238,9 +238,8 @@ class TetCoverage {
         return blocks_of(area, area_) & blocks_within(area);
     }
 
-    // Adds the pixels of `blocks` that a cell fragment covers to the queue. `number`: that of the
-    // cell fragment in the batch; `cut`: it may end at planes of constant scalar (FragmentCuts);
-    // `lit`: its fragments are lit.
+    // Adds the pixels of `blocks` that a cell fragment covers to the queue. `number`: its index in
+    // the batch. `cut`: it may end at planes of constant scalar (FragmentCuts). `lit`: it is lit.
     template <bool lit>
     LAMINA_INLINE void find(bool cut, const SilhouetteRecord& record, const CoveredArea& area,
                             std::uint64_t blocks, std::size_t number, FragmentQueue& found) {

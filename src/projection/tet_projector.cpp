@@ -30,8 +30,7 @@ alignas(16) constexpr std::int32_t back_of[4][4] = {
 // of float32, because no visible pixel may lie outside the outline.
 constexpr float rounding = 1e-6f, least_slack = 1e-3f;
 
-// Smallest ratio of |c| to |r| in find_outline(). Lines nearly along rows are tilted to it, so that
-// they, too, can be given as bounds on columns.
+// Smallest |c| / |r| in find_outline(). Flatter lines are tilted to it, so that they bound columns.
 constexpr float oblique = 1e-4f;
 
 }  // namespace
@@ -88,16 +87,14 @@ namespace {
 // is about 2^-80; float32 then still holds the squares of gradients that are 2^20 times as short.
 constexpr int smallest_exponent = -40;
 
-// Largest component of a gradient after StoredGradients::scale; larger ones, which float32 might
-// not hold, are shortened to it.
+// Limit of a gradient's components after StoredGradients::scale; longer gradients are shortened.
 constexpr double longest_stored = 0x1p120;
 
 using LAMINA_LEAST(finite);
 using OneTet = LAMINA_LEAST(TetView)<double>;
 
 // Smallest angle, in radians, between a face and the rays. Faces seen edge-on are tilted to it, so
-// that their change of depth per pixel is finite. It is far smaller than the angle by which
-// ray_perturbation() moves rays off faces.
+// that depth per pixel is finite. ray_perturbation() moves rays by a far larger angle.
 constexpr double least_inclination = 1e-16;
 
 // Returns the largest size of a component.
@@ -183,8 +180,7 @@ OneTet::DepthPlane depth_plane(const OneTet& view, const Tet& tet, std::size_t f
     return view.plane(normal, distance, sign * std::max(sign * divisor, std::max(least, 1e-300)));
 }
 
-// Sets the planes of the faces. Returns true if fragments may compute depths on them in float32.
-// `cut`: the near plane cuts the tet.
+// Sets the faces' planes; returns true if float32 suffices for them. `cut`: the near plane cuts it.
 bool set_depths(const OneTet& view, const Tet& tet, FaceSigns signs, bool cut,
                 const std::array<glm::dvec3, 4>& corners, SilhouetteRecord& record) {
     SeenTet& seen = record.seen();
@@ -232,8 +228,7 @@ OneTet::Level cut_at(const OneTet& view, const TetField& field, double level, bo
     return view.level(field.gradient(), level - field.at(glm::dvec3(0)));
 }
 
-// Sets the scalars of a cell fragment, normalised to its own range, the two planes that bound it,
-// and the optics at their scalars.
+// Sets a cell fragment's scalars, normalised to its own range, its two cuts, and the optics there.
 void set_fragment(const OneTet& view, const TetField& field, const LinearPiece& piece,
                   FragmentRecord& record) {
     const double width = field.largest() - field.least();

@@ -17,7 +17,6 @@
 namespace lamina {
 
 // A cell fragment: the region of a tet on which the transfer function is linear, or the whole tet.
-// Cell fragments are projected one by one.
 struct CellFragment {
     static constexpr std::int32_t whole = -1;
 
@@ -31,8 +30,7 @@ inline std::uint32_t cell_fragment_number(const CellFragment& cell_fragment, std
            static_cast<std::uint32_t>(cell_fragment.piece + 1) * static_cast<std::uint32_t>(tets);
 }
 
-// How the fragments of a cell fragment (CellFragment) are computed. A later kind is also right for
-// the fragments of an earlier one, but slower.
+// How a CellFragment's fragments are computed. Later kinds are slower, but right for earlier ones.
 enum class FragmentKind {
     thin,    // optical depth at most thin_depth (optics/segment_integral.h); depths on faces in
              // float32

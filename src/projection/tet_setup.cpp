@@ -154,8 +154,7 @@ class TetVectors {
                      tolerance = float_tolerance * tet_.depth_range;
         put(lanes_.farthest, tet_.inverted(farthest_) - tet_.center_depth + tolerance);
         good = good & (float_rounding <= tolerance);
-        // Outside the tet, rounding alone may make segments if its error in depth is not small, or
-        // if the horizon (depth 0) is near.
+        // Outside the tet, rounding may make segments if it is not small, or depth 0 is near.
         DoubleMask bounded = 100 * float_rounding > tolerance;
         if (tet_.perspective()) bounded = bounded | (16 * steepest > abs(tet_.center_depth));
         put(lanes_.bounded, zero_unless(bounded, Double(1)));
@@ -281,8 +280,7 @@ class TetVectors {
     DoubleMask visible_;
 };
 
-// Writes a group of four numbers to some records, from `offset` bytes after the start of each. They
-// are copied as bytes: some are integers.
+// Writes a group's numbers `offset` bytes into the records, as bytes because some are integers.
 template <std::size_t offset, typename Record>
 LAMINA_INLINE void write_group(const SetupLanes::Group& rows, std::size_t count, Record* records) {
     static_assert(offset % 16 == 0 && sizeof(Record) % 16 == 0);
@@ -335,8 +333,7 @@ LAMINA_INLINE void write_gradients(const SetupLanes& lanes, std::size_t count,
     write_group<2 * component>(lanes.lit[2], count, lit);
 }
 
-// Sets up one vector after the other, and writes `count` records, their gradients if `lit` is not
-// null, and the pixels of areas.
+// Sets up all vectors; writes `count` records, gradients unless `lit` is null, and areas' pixels.
 void set_up_vectors(const TetsInView& tets, bool cell_fragments, SetupLanes& lanes,
                     std::size_t count, SilhouetteRecord* records, GradientRecord* lit,
                     CoveredArea* areas) {

@@ -141,8 +141,7 @@ class TetView {
         return bounds;
     }
 
-    // A depth as a linear function of window coordinates: at the center, minus the center's depth,
-    // and its change per column and per row.
+    // A depth, minus the center's, on a plane: at the center, and its change per column and row.
     struct DepthPlane {
         Number depth, per_column, per_row;
     };

@@ -24,8 +24,7 @@ class VisibleCellFragments {
     VisibleCellFragments(const TetMesh& mesh, std::span<const double> scalar,
                          const TetPieces& pieces, bool cut, bool draw_transparent);
 
-    // Lists the cell fragments of tets that are in visibility order. The list is valid until the
-    // next call, which takes no memory. Parallel.
+    // Lists the cell fragments of tets in visibility order, until the next call. Parallel.
     std::span<const CellFragment> list(std::span<const std::int32_t> order, const Eye& eye);
     // Sorts the tets for this view, then lists their cell fragments. `scattered` (equal in every
     // call): lists them in a random order instead, equal for every view, so that cell fragments of
