@@ -99,7 +99,7 @@ struct MeasuredTet {
 };
 
 struct OpenCell {
-    double bound;  // of the difference in the cell
+    double bound;  // on the difference in the cell
     Cell cell;
 };
 struct OpenPiece {

@@ -125,7 +125,7 @@ std::vector<NamedTet> by_name(const std::vector<Tet>& tets) {
 struct Round {
     DelaunayTets mesh;
     std::vector<NamedTet> names;   // sorted by corners
-    std::vector<TetError> errors;  // of each tet
+    std::vector<TetError> errors;  // error of each tet
 };
 
 double volume_of(const std::array<glm::dvec3, 4>& p) {

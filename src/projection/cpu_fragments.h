@@ -44,8 +44,8 @@ struct TetFragments {
     float inverse_first_length = 0;         // UniformTable::inverse_first_length()
     const CpuTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
     // The members below are set if something is lit.
-    const CpuLight* light = nullptr;  // in the axes of the world
-    float smallest_square = 0;        // of the smallest gradient, in the unit of GradientRecord
+    const CpuLight* light = nullptr;  // directions in world axes
+    float smallest_square = 0;        // smallest gradient squared, in GradientRecord's unit
     std::array<glm::vec3, 3> axes;    // unit vectors to the right, up and forward
     bool slanted = false;             // lengths along rays are longer than differences of z
 };

@@ -69,7 +69,7 @@ class LightAlong {
     // Shortest piece, as a share of the segment; it counts as one colour, whatever its depth.
     static constexpr float shortest = 1e-6f;
 
-    // Finds for each light the place (0 to 1) where the gradient is perpendicular to it, or 2.
+    // Finds for each light the place (0 to 1) where the gradient is perpendicular to it; else 2.
     LAMINA_INLINE void find_kinks() {
         for (std::size_t i = 0; i < light_.directions.size(); ++i) {
             const CpuLight::Direction& direction = light_.directions[i];

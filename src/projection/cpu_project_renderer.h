@@ -40,7 +40,7 @@ class CpuTetTree {
     TreeShape shape_;
     CpuFixedTree tree_;
     TileGrid grid_;
-    std::vector<Node> nodes_;  // by level
+    std::vector<Node> nodes_;  // one for each level, the root first
     // Number of nodes that were put into their parents in this frame; it seeds stochastic rounding.
     std::uint32_t inserted_nodes_ = 0;
 };
@@ -101,7 +101,7 @@ class CpuProjectRenderer : public ProjectRenderer {
     // The transfer function in the form that fragments read; fragments_ points to these members.
     std::shared_ptr<const UniformTable> table_;
     std::optional<CpuTransfer> transfer_;  // for SegmentSource::cut_table and ::analytic
-    std::optional<CpuTetTree> tree_;       // if the plan has one
+    std::optional<CpuTetTree> tree_;       // none if the plan has none
     StoredGradients gradients_;            // empty if nothing is lit
     std::optional<CpuLight> light_;        // none if nothing is lit
     TetFragments fragments_{};
@@ -111,7 +111,7 @@ class CpuProjectRenderer : public ProjectRenderer {
     double slant_pixel_ = 0;  // View::pixel that the slants were computed for
     // Two batches: one is projected while the other is drawn.
     std::array<std::unique_ptr<TileBatch>, 2> batches_;
-    std::vector<std::int64_t> fragment_counts_;  // for each tile
+    std::vector<std::int64_t> fragment_counts_;  // fragments drawn in each tile
     std::int32_t last_tet_ = -1;                 // last tet drawn in this frame
 };
 

@@ -79,7 +79,7 @@ class FacePairs {
     bool cut_ = false, any_front_ = false;
     std::array<glm::dvec3, 4> seen_;
     Fronts fronts_;
-    std::array<std::array<Linear, 3>, 4> shares_;  // of each face's corners
+    std::array<std::array<Linear, 3>, 4> shares_;  // shares of each face's corners
     // The shares in space: their change per x, y, z, and their values at the eye.
     std::array<glm::dvec3, 4> inside_;
     std::array<double, 4> inside_at_eye_;
@@ -124,7 +124,7 @@ class FanGeometry : public TetGeometry {
     struct Corner {
         glm::dvec3 seen;    // relative to the eye: along right, up and forward
         glm::dvec2 window;  // window coordinates
-        glm::dvec4 values;  // as in FanVertex, not divided
+        glm::dvec4 values;  // as FanVertex::front, but not divided by z
     };
     using Corners = std::array<Corner, 4>;
     // Values that all vertices of a tet share.

@@ -115,7 +115,7 @@ struct AnalyticPiece {
     FloatMask counted;  // lanes that have such a piece; the depth of others is 0
     FloatMask last;     // it ends at the end of the segment
     Int interval;
-    Float share, next_share;    // of the interval, at the front and at the back
+    Float share, next_share;    // shares of the interval, at the front and back
     Float scalar, next_scalar;  // at the front and at the back
     Float p, q, depth;          // extinction at the front and at the back times the piece's length;
                                 // optical depth

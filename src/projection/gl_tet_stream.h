@@ -56,7 +56,7 @@ class GlTetStream {
         int indices = 0;
         // Tets that are drawn; consecutive cell fragments of one tet count once.
         std::int64_t tets = 0;
-        std::int32_t first_tet = none, last_tet = none;  // of the drawn tets
+        std::int32_t first_tet = none, last_tet = none;  // first and last tet drawn
         // The last FragmentKind, in the enum's order, that one of its cell fragments needs.
         FragmentKind kind = FragmentKind::thin;
     };

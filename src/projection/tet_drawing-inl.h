@@ -431,7 +431,7 @@ class TetDrawing {
     // A cell fragment and the set of the tile's blocks that it may cover.
     struct Blocks {
         std::uint64_t blocks;
-        std::size_t number;  // of the cell fragment in the batch
+        std::size_t number;  // index of the cell fragment in the batch
     };
 
     // Draws up to 64 cell fragments. `first`, `word`: as in TileBatch::for_each_word().
@@ -493,7 +493,7 @@ class TetDrawing {
     const TileBatch& batch_;
     const TetTile& tile_;
     TetCoverage coverage_;
-    Blocks blocks_[64];  // of the cell fragments that draw_word() draws
+    Blocks blocks_[64];  // for the cell fragments that draw_word() draws
     FragmentQueue queue_;
 };
 

@@ -61,9 +61,9 @@ struct alignas(16) SeenTet {
 // A whole tet.
 struct TetRecord {
     SeenTet seen;
-    float least, largest;  // scalars of its corners
+    float least, largest;  // scalars of its corners, normalised
     std::uint32_t fronts;  // the number of front faces, 0 (the eye is inside) to 3
-    std::uint32_t number;  // for dithering
+    std::uint32_t number;  // cell_fragment_number(), for dithering
     std::array<float, 4> unused;
     // Remainders of `scalar` and the next three members in float. Only TetProjector sets them.
     std::array<float, 4> scalar_rest;
@@ -77,7 +77,7 @@ struct FragmentRecord {
     SeenTet seen;
     float upper_cut_per_column, upper_cut_per_row;
     std::uint32_t fronts;            // as in TetRecord, and bits for cuts that are fronts
-    std::uint32_t number;            // for dithering
+    std::uint32_t number;            // cell_fragment_number(), for dithering
     std::array<float, 3> lower_cut;  // depth, per column, per row
     float upper_cut;                 // depth
     std::array<float, 4> low, high;  // colour and extinction at these scalars

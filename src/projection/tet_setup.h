@@ -44,7 +44,7 @@ struct SetupLanes {
     Row farthest;                      // CoveredArea::farthest
     Row largest_depth;                 // bound on the optical depth of a segment
     Group pixels;                      // PixelArea, in the bits of integers
-    Group depth, per_column, per_row;  // of the faces, as in SeenTet
+    Group depth, per_column, per_row;  // planes of the faces, as in SeenTet
     Group center;                      // column, row, depth and z
     Group scalar;                      // at the center, per z, per column and per row
     // Least and largest scalar of a whole tet, or the upper cut of a fragment per column and per

@@ -62,7 +62,7 @@ class VisibleCellFragments {
     std::vector<CellFragment> cell_fragments_;
     // Index in cell_fragments_ of the first cell fragment of each block of tets, and the end.
     std::vector<std::size_t> firsts_;
-    std::vector<LimitedItems> limited_;  // of the last list
+    std::vector<LimitedItems> limited_;  // limited ranges of the last list
     bool is_scattered_ = false;
 };
 

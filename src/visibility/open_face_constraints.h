@@ -117,7 +117,7 @@ class OpenFaceConstraints {
     std::vector<FaceTree::Box> seen_boxes_;
     std::vector<SeenTriangle> seen_;
     std::vector<std::int8_t> signs_;                      // signs of seen_, packed
-    std::vector<std::vector<OpenFaceConstraint>> found_;  // by each task of find()
+    std::vector<std::vector<OpenFaceConstraint>> found_;  // pairs that each task of find() found
     std::vector<OpenFaceConstraint> all_;
 };
 

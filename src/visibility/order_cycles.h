@@ -58,7 +58,7 @@ class CycleBreaker {
 
     std::vector<Link> links_;             // sorted by `from`
     std::vector<std::int32_t> entering_;  // numbers of links, sorted by `to`
-    std::vector<Node> nodes_;             // with one more at the end
+    std::vector<Node> nodes_;             // and one more, which ends the lists of the last
     std::vector<std::int32_t> path_;
     std::vector<std::int32_t> dropped_;
     std::vector<std::int32_t> nearer_, farther_, free_;  // working memory of keep()

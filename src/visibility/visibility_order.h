@@ -13,7 +13,7 @@
 
 namespace lamina {
 
-// Counts shared faces with tets in wrong order. Throws Error unless `order` has each tet once.
+// Counts shared faces whose tets `order` reverses. Throws Error unless it has each tet once.
 std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
                              std::span<const std::int32_t> order);
 
@@ -21,16 +21,16 @@ enum class OrderMethod {
     // Keeps the order across shared faces (Williams 1992); guesses it across gaps (FarthestFirst).
     mpvo,
     exact,     // also keeps the order across gaps (open_face_constraints.h)
-    centroid,  // by the distance of centroids, as VTK does; often wrong, for comparison
-    none       // in the order of the mesh
+    centroid,  // sorts by the distance of centroids, as VTK does; often wrong, for comparison
+    none       // keeps the order of the mesh
 };
 const char* name_of(OrderMethod method);
 
 struct OrderReport {
     std::int64_t cycles = 0;       // number of sets of tets that hide one another in a ring
     std::int64_t cyclic_tets = 0;  // number of tets in these
-    // Number of pairs of tets in the wrong order (mpvo of a nonconvex mesh: of shared faces whose
-    // tets are) or, after sort_pixels(), of pairs of tets that overlap.
+    // Number of pairs of tets in the wrong order; for mpvo of a nonconvex mesh, only of pairs that
+    // share a face. After sort_pixels(), number of pairs that overlap.
     std::int64_t broken = 0;
     // Seen area of the pairs of `broken` for `exact`: bounds the area with a wrong order.
     double broken_area = 0;
