@@ -85,7 +85,7 @@ class TileBatch {
         }
 
         bool empty() const { return count_ == 0; }
-        std::int64_t tets() const { return tets_; }  // tets to which its fragments belong
+        std::int64_t tets() const { return tets_; }  // tets of its cell fragments
         std::int32_t first_tet() const { return first_tet_; }
         std::int32_t last_tet() const { return last_tet_; }
         bool is_drawn_by(std::size_t tile) const {
