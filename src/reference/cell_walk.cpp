@@ -13,7 +13,7 @@ namespace reference {
 
 constexpr auto block_edge = static_cast<double>(VisibleCells::edge);
 
-// Returns the bits of these numbers, in an array of words of 64 bits.
+// Returns the bits with the numbers `place`, in an array of 64-bit words.
 LAMINA_INLINE DoubleMask bits_at(const std::uint64_t* words, Long place) {
     const Word64 bits = bits_as<Word64>(place);  // shifts of unsigned numbers are quicker
     const Word64 word = gather(words, bits_as<Long>(shift_right<6>(bits)));
@@ -47,7 +47,7 @@ class AxisLanes {
     LAMINA_INLINE Double leaving() const { return leaving_; }
     // Returns the cell's place in its block along this axis, 0 to edge - 1.
     LAMINA_INLINE Double place_in_block() const { return cell_ - first_cell(); }
-    // Returns a step's change of a bit number; `above`: how much the upper neighbour's is higher.
+    // Returns by how much a step changes a bit's number. `above`: the change of a step upwards.
     LAMINA_INLINE Long stride(std::int64_t above) const {
         return select(falls_, Long(-above), above);
     }
@@ -59,7 +59,7 @@ class AxisLanes {
         return lanes & (cell_ == next_block_cell_);
     }
 
-    // Finds the block of the cell, in lanes that have left their block.
+    // Finds the blocks of the cells, and the parameters at which the chords leave the blocks.
     LAMINA_INLINE void begin_blocks() {
         block_ = block_of(cell_);
         leaving_ = next_leaving();
@@ -69,14 +69,14 @@ class AxisLanes {
         leaving_ = select(lanes, next_leaving(), leaving_);
     }
 
-    // Sets some lanes' cells to the chord's at the parameter `from`, which is in their block.
+    // Sets the cells of some lanes to those at the parameter `from`, inside the lanes' blocks.
     LAMINA_INLINE void find_cell(DoubleMask lanes, Double from) {
         const Double first = first_cell(), last = first + (block_edge - 1);
         const Double lo = max(first, select(falls_, last_cell_, cell_));
         const Double hi = min(last, select(falls_, cell_, last_cell_));
         const Double nearest = select(falls_, hi, lo);
-        // The rounded place may be a cell early (pass_cells() steps over it) but must not be late:
-        // cells are told apart by crossings, as in CellWalk.
+        // The rounded place may be a cell early, which pass_cells() steps over, but not late. So go
+        // back while the crossing into the cell, computed as in CellWalk, lies behind `from`.
         const Double place = floor(fma(from, direction_, entry_));
         Double cell = clamp(place, lo, hi);
         while (true) {
@@ -116,7 +116,7 @@ class AxisLanes {
     Double leaving_ = 0;  // parameter at which the chord leaves the block along this axis
 };
 
-// Which lanes step along x, y and z: along the axis of the least of the three crossings.
+// The lanes that step along x, y and z: each along the axis of the least of its three crossings.
 struct AxisMasks {
     DoubleMask x, y, z;
 

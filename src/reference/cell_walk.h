@@ -8,7 +8,11 @@
 //       end if to is the chord's length
 //       from = to; step to the next cell along the axis of the least crossing
 // Every crossing is computed from its own plane, so errors do not accumulate. If VisibleCells are
-// known, several chords walk side by side, and cross blocks of invisible cells by the same loop.
+// known, several chords walk side by side, one a lane, until a batch is complete or a chord ends:
+//   1. Lanes outside visible blocks step from block to block, by the same loop, to a visible one.
+//      There they find the cell in which the chord is.
+//   2. Lanes in visible blocks step from cell to cell, and append visible cells to their batches.
+//      When at most a quarter of the lanes is left in visible blocks, go back to 1.
 #pragma once
 
 #include "lamina/volume.h"
@@ -87,10 +91,9 @@ class CellWalk {
     CellIndex cell_;
     CellIndex final_;  // the last cell of the grid in the chord's direction
     CellIndex step_;   // -1 or 1
-    // Added to a cell's number, gives the plane through which the chord leaves the cell: 0 or 1.
-    CellIndex ahead_;
-    std::array<double, 3> crossing_;
-    std::array<double, 3> inverse_;  // of the direction
+    CellIndex ahead_;  // 0 or 1: the chord leaves the cell through the plane cell_ + ahead_
+    std::array<double, 3> crossing_;  // parameters at which the chord leaves the cell, by axis
+    std::array<double, 3> inverse_;   // 1 / direction, but finite
 };
 
 // Chords side by side, one a lane. Each passes the cells of CellWalk that may be visible.
@@ -106,8 +109,7 @@ struct CellLanes {
 
     std::array<Axis, 3> axes;
     LaneRow from, length;  // the chord's parameter where it enters the cell, and its length
-    // Lanes whose chord has not ended.
-    LaneSet walking = 0;
+    LaneSet walking = 0;   // lanes whose chord has not ended
     LaneSet in_block = 0;  // lanes whose cell is in a block that may be visible
 
     void stop(std::size_t lane) { walking &= ~lane_bit(lane); }

@@ -109,7 +109,7 @@ namespace {
 // Number of ranges of visible values above which one range, first to last, replaces them.
 constexpr std::size_t most_ranges = 8;
 
-// A range of values, converted to the type of the samples; it is never smaller than the original.
+// A range of values, converted to the type of the samples. Samples inside it stay inside.
 template <typename Sample>
 class SampleRange {
   public:
@@ -129,7 +129,7 @@ class SampleRange {
         }
     }
 
-    // Tells whether no value of the type is in the range or on both sides of it: no cell meets it.
+    // Tells whether the range lies beyond all values of the type, so that no cell meets it.
     bool out_of_reach() const { return out_of_reach_; }
     // Returns bit 0 if the value is not below the range, and bit 1 if it is not above it. A cell
     // may meet the range if both bits occur among its corners.
@@ -194,8 +194,8 @@ class SampleRows {
             static_assert(std::endian::native == std::endian::little && edge == sizeof eight);
             std::memcpy(&eight, sides + x, sizeof eight);
             const std::uint64_t both = eight & eight >> 1 & 0x0101010101010101;
-            *row |= static_cast<std::uint8_t>(both * 0x0102040810204080 >>
-                                              56);  // packs the lowest bits of all bytes
+            // The product packs the lowest bits of the eight bytes into the highest byte.
+            *row |= static_cast<std::uint8_t>(both * 0x0102040810204080 >> 56);
         }
     }
 

@@ -21,7 +21,7 @@
 namespace lamina {
 
 // Numbers of a cell along the three axes. Cell i of an axis lies between samples i and i + 1. On
-// `cell` axes, -1 and size - 1 are the half voxels at the ends.
+// cell-centred axes, -1 and size - 1 are the half voxels at the ends.
 using CellIndex = std::array<std::int64_t, 3>;
 
 struct CellBatch {
@@ -181,7 +181,7 @@ class GradientSamples {
         return gradient;
     }
 
-    // Returns the scalar's difference per grid step from finite neighbours; 0 if none is.
+    // Returns the scalar's difference per grid step, by finite neighbours; 0 if none is finite.
     double difference(std::int64_t offset, std::int64_t index, std::size_t axis) const {
         const auto value = [&](std::int64_t steps) {
             return static_cast<double>(samples_[offset + steps * stride_[axis]]);

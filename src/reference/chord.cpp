@@ -54,6 +54,7 @@ LAMINA_INLINE RaySpans meet(const Coordinates& rays, double first, double second
             select(whole, met.to, to_second / rays.slope)};
 }
 
+// Clips a vector of rays to a grid's box and to half-spaces, as chord.h says.
 class RayLanes {
   public:
     LAMINA_INLINE RayLanes(const GridAxes& grid, std::span<const View::Ray> rays)
@@ -73,7 +74,8 @@ class RayLanes {
             valid_ = axis == 0 ? finite : valid_ & finite;
             steepest = max(steepest, abs(along.slope.hi));
         }
-        // Takes slopes of less than 1e-30 voxels in the box as 0, because they might overflow.
+        // Slopes count as 0 if they move less than 1e-30 voxels in the box: inverses might
+        // overflow.
         for (Coordinates& along : along_) {
             const DoubleMask none = abs(along.slope.hi) < 1e-40 * steepest;
             along.slope = select(none, DoubleDoubles(0.0), along.slope);
@@ -152,7 +154,7 @@ class RayLanes {
     }
 
   private:
-    // Returns one number of each ray. Lanes behind the last ray repeat it.
+    // Returns one number of each ray. Lanes behind the last ray hold the last ray's.
     template <typename Of>
     LAMINA_INLINE Double row(const Of& of) const {
         alignas(64) double values[longest_vector];
@@ -166,8 +168,8 @@ class RayLanes {
     Double direction_[3];
     Coordinates along_[3];
     RaySpans inside_;
-    Double entry_axis_ = -1;
-    DoubleMask valid_;
+    Double entry_axis_ = -1;  // axis of the face by which the ray enters; -1: by none
+    DoubleMask valid_;        // lanes in which a part of the ray is left
 };
 
 }  // namespace reference

@@ -38,7 +38,7 @@ struct GridAxes {
     struct Axis {
         glm::dvec3 scaled;
         DoubleDouble inverse_square;  // 1 / |scaled|^2
-        double unscale;               // the power of two that makes it grid steps again
+        double unscale;               // the power of two with scaled = unscale * step
     };
 
     explicit GridAxes(const Grid& grid);
@@ -51,11 +51,10 @@ struct GridAxes {
 // The part of a viewing ray inside a grid's box: entry + s * direction, 0 <= s <= length_z. It
 // begins at the box, so the distance of a far eye does not increase later rounding errors.
 struct Chord {
-    glm::dvec3 entry{0};  // in index space, inside the closed box
-    // per unit of z; exactly 0 along axes to which the ray is perpendicular
-    glm::dvec3 direction{0};
-    double length_z = 0;     // 0 if the ray misses the box or only touches it in a point
-    double world_per_z = 0;  // world length per unit of z
+    glm::dvec3 entry{0};      // in index space, inside the closed box
+    glm::dvec3 direction{0};  // per unit of z; exactly 0 along axes perpendicular to the ray
+    double length_z = 0;      // 0 if the ray misses the box or only touches it in a point
+    double world_per_z = 0;   // world length per unit of z
 
     double world_length() const { return length_z * world_per_z; }
     // Returns the place at `at` in coordinates (0..1) of the cell with lowest corner `corner`.

@@ -70,8 +70,7 @@ void RayIntegrator::add(const SegmentBatch& segments, const GradientOf& gradient
     std::int64_t lit_segment = -1;
     GradientAlong gradient;
     append_pieces(segments, transfer_, error_per_length_, batch_);
-    // A local variable: a member would be written to memory with every piece.
-    CompensatedSum depth = depth_;
+    CompensatedSum depth = depth_;  // local: a member would be written to memory with every piece
     for (std::size_t piece = first; piece < batch_.count; ++piece) {
         const double before = depth.value();
         const bool hidden = before >= depth_limit_;

@@ -20,6 +20,7 @@
 
 namespace lamina {
 
+// A ray whose segments are composited front to back.
 class CompositedRay {
   public:
     // Tells whether the transmittance is so small that everything behind is hidden.
@@ -31,6 +32,7 @@ class CompositedRay {
     // is below `least_transmittance`, which bounds the error.
     void begin(const TransferIntervals& transfer, const RayLights* lights,
                double least_transmittance);
+    // Returns a bound on the light that is left out behind an opaque ray; 0 for other rays.
     double hidden() const { return opaque() ? brightest_ * std::exp(-depth_.value()) : 0; }
 
     const RayLights* lights_ = nullptr;
@@ -82,7 +84,7 @@ class RayIntegrator : public CompositedRay {
 // Composites segments with linear scalars, in closed form; light to a tolerance.
 class SegmentSum : public CompositedRay {
   public:
-    // `place_error`: bound, in world units, on where segments end. `intervals`: of
+    // `place_error`: bound, in world units, on the error of segments' ends. `intervals`: those of
     // `transfer_function`; both must outlive the sum. `tolerance`: largest error of a ray's light.
     SegmentSum(const TransferFunction& transfer_function, const TransferIntervals& intervals,
                double place_error, double tolerance = 1);
@@ -125,7 +127,7 @@ class SegmentSum : public CompositedRay {
     double place_error_;
     RayIntegrator light_;                             // integrates one segment at a time
     LinearSegments waiting_;                          // segments that are not in the results yet
-    double side_errors_[LinearSegments::capacity]{};  // by a wrong side of a step, unhidden
+    double side_errors_[LinearSegments::capacity]{};  // side_error() of each, not attenuated
     bool has_side_errors_ = false;                    // one of side_errors_ is not 0
     // Number of waiting segments that finish() takes together: doubles along a ray.
     std::size_t together_ = 0;

@@ -46,6 +46,7 @@ LAMINA_INLINE void append_steps(std::size_t count, std::size_t first_segment, Pi
     }
 }
 
+// Cuts a vector of cubic segments; advance() takes one step of the loop in cut.h.
 class SegmentLanes {
   public:
     LAMINA_INLINE SegmentLanes(const SegmentBatch& segments, std::size_t first,
@@ -57,7 +58,7 @@ class SegmentLanes {
           at_(0) {
         for (std::size_t power = 0; power < 4; ++power)
             scalar_.c[power] = given(segments.scalar[power] + first);
-        // A constant scalar may be the knot of a step, where the value itself decides the side.
+        // A constant scalar may equal the interval's upper knot: aim() decides the side of a step.
         lowest_ = search_.above(lo_);
         const DoubleMask whole = (hi_ <= search_.upper(lowest_)) & !scalar_.constant();
         const Turns turns = turns_of(scalar_);
@@ -178,6 +179,7 @@ constexpr double largest_depth = 1e300;
 // Limits scalars: differences of larger ones might overflow.
 constexpr double largest_scalar = std::numeric_limits<double>::max() / 4;
 
+// Cuts a vector of linear segments, as SegmentLanes does cubic ones.
 class LinearLanes {
   public:
     LAMINA_INLINE LinearLanes(const LinearSegments& segments, std::size_t first,

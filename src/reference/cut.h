@@ -60,9 +60,8 @@ struct SegmentBatch {
     alignas(64) double scalar[4][capacity];  // Cubic, coefficient by coefficient
     alignas(64) double lo[capacity];         // the scalar stays inside [lo, hi] up to rounding
     alignas(64) double hi[capacity];
-    alignas(64) double length[capacity];  // > 0, in world units
-    // Index of the cell in the CellBatch that make_segments() got.
-    alignas(64) std::int64_t cell[capacity];
+    alignas(64) double length[capacity];      // > 0, in world units
+    alignas(64) std::int64_t cell[capacity];  // index in the CellBatch of make_segments()
     std::size_t count = 0;
 
     void add(const Cubic& cubic, double least, double most, double world_length) {
@@ -87,7 +86,7 @@ struct EmissionPiece {
     }
 };
 
-// A step of the loop: a piece in each `kept` lane. Fields: PieceColumns, PieceBatch, LinearPieces.
+// A step of the loop: a piece in each `kept` lane, with fields of PieceColumns and of the batches.
 struct CutStep {
     alignas(64) std::int64_t interval[longest_vector];
     alignas(64) double start[longest_vector];
@@ -155,7 +154,8 @@ struct PieceBatch : PieceColumns {
     }
 };
 
-// Appends the pieces that have extinction, without `before` and the results.
+// Appends the pieces that have extinction, but leaves `before` and the results unset.
+// `error_per_length`: error that a channel may have, per world unit of a piece's length.
 void append_pieces(const SegmentBatch& segments, const TransferIntervals& transfer,
                    double error_per_length, PieceBatch& pieces);
 
@@ -179,7 +179,8 @@ struct LinearPieces : PieceColumns {
     Column share;                   // the piece's length as a share of the segment's
     Column start_place, end_place;  // in the interval, 0 at its lower knot, 1 at its upper one
     Column p, q;                    // extinction * length at start and end
-    // Weight of the colour's change in the interval; `opacity` is that of the lower knot's colour.
+    // Result: weight of the interval's colour change; `opacity` is the lower knot's colour's
+    // weight.
     Column change;
 
     std::vector<LinearStep> steps;  // memory of append_linear_pieces()

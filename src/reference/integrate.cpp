@@ -176,6 +176,7 @@ LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const
     return done | faint | beyond;
 }
 
+// Integrates a piece by bisection, after the rules have missed its allowed error.
 inline void integrate_bisected(PieceBatch& batch, std::size_t i) {
     if (!(batch.color_span[i] > 0) || !(batch.transmittance[i] > 0)) return;
     const double reach = batch.transmittance[i] * batch.color_span[i];
@@ -232,7 +233,7 @@ LAMINA_INLINE WeightLanes weights_of(Double p, Double q, Double depth) {
 }
 
 LAMINA_INLINE void weigh(LinearPieces& pieces, std::size_t i) {
-    // Lanes behind the last piece hold anything.
+    // Lanes behind the last piece hold arbitrary numbers.
     const DoubleMask given = first_lanes<DoubleMask>(pieces.count - i);
     const auto row = [&](const LinearPieces::Column& column)
                          LAMINA_LAMBDA { return load_unaligned<Double>(column.data() + i); };
@@ -254,7 +255,6 @@ inline void integrate_batch(PieceBatch& batch) {
     for (std::size_t i = 0; i < batch.count; i += lanes) {
         const Double depth = load_unaligned<Double>(batch.depth.data() + i);
         const DoubleMask is_short = depth <= short_depth;
-        // Lanes behind the last piece hold anything.
         const bool all_short = all_of(is_short | !given(batch, i));
         const DoubleMask done = all_short ? integrate_lanes(batch, i, ShortDepth<most_terms>())
                                           : integrate_lanes(batch, i, MixedDepth{is_short});
@@ -301,7 +301,7 @@ class NestedIntegral {
   public:
     using Value = typename Quantity::Value;
 
-    // `most_intervals`: limits those examined. Further ones are taken with any value of f.
+    // `most_intervals` limits the intervals examined. In further ones f in the middle must do.
     NestedIntegral(const EmissionPiece& piece, const Quantity& quantity, double error_per_t,
                    double error_per_opacity, int most_intervals)
         : piece_(piece),
@@ -515,7 +515,7 @@ class LightEffect {
     const LitPiece& piece_;
     const RayLights& lights_;
     double largest_effect_;
-    double most_turn_;  // as a share of the gradient's length
+    double most_turn_;  // largest radius of a ball for rules, as a share of its centre's length
 };
 
 }  // namespace

@@ -72,7 +72,7 @@ EmissionIntegral integrate_emission(const EmissionPiece& piece, double error_per
 
 void integrate_emission(PieceBatch& batch);
 
-// Sets the weights of the pieces' colours, in vectors, to some 1e-13 (optics/segment_integral.h).
+// Computes the weights of the pieces' colours in vectors; their error is some 1e-13.
 void weigh_pieces(LinearPieces& pieces);
 
 // A piece with a gradient, whose colour is linear in x.
@@ -84,7 +84,8 @@ struct LitPiece {
 
 using LightIntegral = Integral<glm::dvec3>;
 
-// As integrate_emission(), for RayLights::Effect::on(colour) * extinction * exp(-depth) on [0, 1].
+// Integrates RayLights::Effect::on(colour) * extinction * exp(-depth) over [0, 1]. The allowed
+// errors are as for integrate_emission().
 LightIntegral integrate_light(const LitPiece& piece, const RayLights& lights, double error_per_t,
                               double error_per_opacity);
 

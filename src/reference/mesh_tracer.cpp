@@ -19,7 +19,7 @@ namespace lamina {
 namespace {
 
 // Error of the ends of segments, in epsilons of the largest distance and coordinate on the ray: 8
-// for a corner's place (mesh/ray_walk.h), and as much for weights and parameter.
+// for a corner's place (mesh/ray_walk.h), and 8 for the weights and the parameter.
 constexpr double place_epsilons = 16;
 
 class MeshTile {
@@ -29,7 +29,7 @@ class MeshTile {
         const FaceTree& open_faces;
         std::span<const double> scalar;
         std::span<const char> no_value;         // marks tets with a scalar that is not finite
-        std::span<const glm::dvec3> gradients;  // at the points; empty: nothing is lit
+        std::span<const glm::dvec3> gradients;  // at the points; empty if nothing is lit
         const TransferFunction& transfer_function;
         const TransferIntervals& intervals;
         const View& view;
@@ -137,7 +137,8 @@ class MeshTile {
         }
     }
 
-    // Adds a segment: `seen`, its visible part; segment() returns all of it, in the tet `tet`.
+    // Adds `seen`, the visible part of a segment in the tet `tet`. `length`: of `seen`, in world
+    // units. `slack`: scalar_slack(). segment() returns the whole segment.
     template <typename Segment>
     void add(std::size_t lane, std::int32_t tet, const SeenSegment& seen, double length,
              double slack, const Segment& segment) {
@@ -170,7 +171,7 @@ class MeshTile {
     const Picture& picture_;
     PreciseImage& image_;
     TileFaces faces_;
-    bool listed_ = false;  // faces_ has the tile's faces
+    bool listed_ = false;  // faces_ lists the tile's faces; otherwise rays search the tree
     PixelsInTurn pixels_;
     PacketWalk walk_;
     SeenLanes seen_{};

@@ -105,13 +105,13 @@ class PacketWalk {
     WalkLanes lanes_{};
 };
 
-// The part of a tet's segment that the clip keeps. The scalar is linear, from `front` to `back`.
-// The segment is empty unless from < to.
+// The part of a tet's segment that the clip keeps, between two parameters of the ray. The scalar is
+// linear, from `front` to `back`. The segment is empty unless from < to.
 struct SeenSegment {
     double from, to;
     double front, back;
 };
-// `whole`: the segment from the ray's entry into the tet to its exit.
+// Cuts a tet's segment, from the ray's entry into the tet to its exit, to the range `seen`.
 SeenSegment seen_segment(const SeenSegment& whole, const SeenRange& seen);
 SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
                          std::span<const double> scalar);

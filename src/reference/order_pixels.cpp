@@ -52,7 +52,8 @@ class PixelJudge {
         return !segments_.empty();
     }
 
-    // Returns whether a tet is drawn before one that lies wholly behind it.
+    // Returns whether a tet is drawn before one that lies wholly behind it. For each segment, by
+    // ascending entry, first_drawn is the first place of all segments that end in front of it.
     bool wrong(const Judged& judged) const {
         std::int32_t first_drawn = std::numeric_limits<std::int32_t>::max();
         std::size_t left = 0;

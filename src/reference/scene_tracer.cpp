@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// A pixel shows the point on its ray at which half of the ray's opacity is reached (seen_point()):
+//   1. List the ray's segments, each with the optical depths in front of its two ends.
+//   2. wanted = -ln(1 - opacity / 2), where `opacity` is the whole ray's.
+//   3. Find the first segment whose back has at least that depth, and bisect for the place in it.
 #include "reference/scene_tracer.h"
 
 #include <numeric>
@@ -49,7 +53,8 @@ double depth_of_half(double whole) {
     return -std::log1p(-opacity_from_depth(whole) / 2);
 }
 
-// Finds the point of half of the ray's opacity; value_of(segment, place) is the data's value.
+// Finds the point at which half of the ray's opacity is reached. `first_z`: the ray's parameter at
+// the steps' parameter 0. value_of(segment, place) returns the data's value.
 template <typename Segment, typename DepthOf, typename ValueOf>
 std::optional<SeenPoint> point_in(const std::vector<RayStep<Segment>>& steps, const View::Ray& ray,
                                   double first_z, const DepthOf& depth_of,
@@ -98,7 +103,7 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
         const glm::dvec3 corner(cell[0], cell[1], cell[2]);
         return samples.corners(cell).along(chord.place_in_cell(corner, place), glm::dvec3(0))(0);
     };
-    // The chord's parameter is 0 where it enters the box, the ray's at the ray's origin.
+    // A chord's parameter is 0 at its entry into the box, a ray's at the ray's origin.
     const glm::dvec3 entry = grid.to_world(chord.entry);
     const double entry_z =
         glm::dot(entry - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);

@@ -8,10 +8,10 @@
 
 namespace lamina {
 
-// Traces to the error trace_tolerance of the scene; otherwise as trace_volume().
+// Traces with the scene's trace_tolerance; everything else is as in trace_volume().
 TraceResult trace(const Scene& scene, const Volume& volume, const TileDone& tile_done = {});
 
-// `open_faces`: the tree of the mesh's open faces; without it, it is built.
+// `open_faces` is the tree of the mesh's open faces. The overload without it builds the tree.
 TraceResult trace(const Scene& scene, const SceneMesh& mesh, const TileDone& tile_done = {});
 TraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces,
                   const TileDone& tile_done = {});

@@ -17,8 +17,8 @@ namespace {
 // Tangent of the angle from the view's middle above which a point counts as seen by all pixels.
 constexpr double widest = 1e3;
 
-// Errors of projected points: coordinates, also of lines' places and directions, err by 8 epsilon
-// of the distances (1-norm) of point, eye, origin. The rest of 64, and 1e-6 pixels, are a reserve.
+// Bounds on errors of projected points. Coordinates, also of the view's axes, err by 8 epsilons of
+// the 1-norm distances of point, eye and origin. The rest of 64, and 1e-6 pixels, are a reserve.
 constexpr double place_error = 64 * std::numeric_limits<double>::epsilon(), spare_pixels = 1e-6;
 constexpr double least_error = 64 * std::numeric_limits<double>::denorm_min();
 
@@ -109,7 +109,7 @@ TileSight::TileSight(const View& view, const PictureTile& tile)
       error_(place_error + 8 * skew_of(view)),
       eye_norm_(norm1(view.eye)) {}
 
-// Points behind the eye are mirrored: points on both sides may be seen by all pixels.
+// Projection mirrors points behind the eye. If points lie on both sides, all pixels may see them.
 SeenPixels TileSight::around(std::span<const glm::dvec3> points) const {
     const SeenPixels all{{0, 0}, size_ - 1};
     const bool perspective = view_.projection == Projection::perspective;

@@ -34,8 +34,8 @@ struct TraceOptions {
 };
 
 struct TraceTotals {
-    // Estimated largest error of a channel, as a share of full scale. For volumes without rounding
-    // (1e-14); for meshes it bounds rounding of segments and crossings, and the error of lighting.
+    // Estimated largest error of a channel, as a share of full scale (1.0). For volumes it leaves
+    // out rounding (1e-14). For meshes it is the error of lighting and of rounded ends of segments.
     double error_estimate = 0;
     // Number of pieces with extinction that were integrated. For volumes a piece is the part of a
     // ray in one cell and one interval of the transfer function; for meshes, in one tet.
@@ -51,7 +51,7 @@ struct TraceResult : TraceTotals {
 
 void check(const TraceOptions& options);
 
-using RowDone = std::function<void()>;
+using RowDone = std::function<void()>;  // called after each finished row of a tile
 
 // Called with each tile that is done, by one thread at a time. Pixels of other tiles are not final.
 using TileDone = std::function<void(const PictureTile&, const PreciseImage&)>;
@@ -103,9 +103,9 @@ class TileSight {
   private:
     const View& view_;
     glm::ivec2 size_;
-    glm::dvec2 middle_;  // of the picture, in pixels from the centre of the tile's first pixel
+    glm::dvec2 middle_;  // the picture's centre, in pixels from the tile's first pixel's centre
     double error_;       // bounds the error of projected points, as a share of their distance
-    double eye_norm_;
+    double eye_norm_;    // 1-norm of the eye's position
 };
 
 // The open faces that a tile's lines may meet, listed once instead of searched for each pixel.
@@ -134,7 +134,7 @@ class TileFaces {
     PictureTile tile_{};
     std::vector<ListedFace> faces_;
     std::vector<std::int32_t> listed_;  // the lists of all pixels, one after the other
-    std::vector<std::size_t> begins_;   // of each list in listed_; last listed_.size()
+    std::vector<std::size_t> begins_;   // index in listed_ of each list; then listed_.size()
 };
 
 }  // namespace lamina

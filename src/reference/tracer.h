@@ -34,8 +34,9 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
                           const View& view, std::span<const glm::ivec2> pixels,
                           const TraceOptions& options);
 
-// Traces a picture of a mesh, otherwise as trace_volume() does. `scalar`: one value a point; tets
-// with one that is not finite are transparent. `open_faces`: the tree of the mesh's open faces.
+// Traces a picture of a mesh as trace_volume() does of a volume. `scalar`: one value for each
+// point; a tet with a value that is not finite is transparent. `open_faces`: tree of the open
+// faces.
 TraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                        std::span<const double> scalar, const TransferFunction& transfer_function,
                        const View& view, const TraceOptions& options = {},
@@ -45,7 +46,6 @@ TraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
 // reached; none if it has no opacity. The distance along the ray comes from the tracer's integrals.
 std::optional<SeenPoint> seen_point(const Scene& scene, const Volume& volume, double column,
                                     double row);
-// `open_faces`: tree of the mesh's open faces.
 std::optional<SeenPoint> seen_point(const Scene& scene, const SceneMesh& mesh,
                                     const FaceTree& open_faces, double column, double row);
 

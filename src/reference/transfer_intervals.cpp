@@ -42,7 +42,7 @@ void TransferIntervals::add(const TransferKnot& from, const TransferKnot& to) {
     colors_.push_back(color);
     columns_.lo.push_back(from.value);
     columns_.hi.push_back(to.value);
-    // A step holds no value: its inverse width never counts. Others count as >= 1e-300 wide.
+    // No value lies inside a step, so its width does not matter. Others count as >= 1e-300 wide.
     constexpr double largest_inverse = 1e300;
     columns_.inverse_width.push_back(std::min(1 / (to.value - from.value), largest_inverse));
     columns_.extinction.push_back(extinction);

@@ -40,7 +40,8 @@ struct TracedVolume {
           transfer(intervals),
           visible(visible_cells),
           options(how) {
-        // A margin for axes that are not quite orthogonal (by 1e-5, volume_files/grid_check.cpp).
+        // A margin for axes that are not quite orthogonal (by 1e-5,
+        // volume_files/volume_opening.cpp).
         const double spare =
             1e-4 * glm::distance(grid.to_world(axes.lowest), grid.to_world(axes.highest));
         glm::dvec3 steps;
@@ -180,7 +181,7 @@ class VolumeTile {
         }
     }
 
-    // Begins the next ray that meets the box in a lane, if there is such a ray.
+    // Begins in a lane the next ray that meets the box, if there is one.
     void begin(std::size_t lane) {
         while (clip_next()) {
             const std::size_t next = begun_++;
@@ -206,7 +207,7 @@ class VolumeTile {
         return clipped_count_ > 0;
     }
 
-    // Integrates a lane's complete cells; ends its ray if hidden or at the chord's end.
+    // Integrates a lane's batch. Ends the ray if all behind is hidden or its chord has ended.
     void go_on(std::size_t lane) {
         const bool walks = (lanes_.walking & lane_bit(lane)) != 0;
         if (walks && rays_[lane].integrate()) return;
@@ -237,8 +238,8 @@ class VolumeTile {
     TraceTotals totals_;
 };
 
-// Tells whether VisibleCells are worth reading every sample: if the rays meet as many cells as
-// there are samples. A ray through a cube meets about as many cells as an edge has.
+// Tells whether VisibleCells pay, which read every sample: if the rays meet at least as many cells
+// as there are samples. A ray is taken to meet as many cells as the shortest edge has samples.
 bool worth_visible_cells(const Volume& volume, const View& view) {
     const std::int64_t pixels = std::int64_t{view.width} * view.height;
     const std::int64_t cells_a_ray = std::ranges::min(volume.grid().size);
