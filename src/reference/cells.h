@@ -28,7 +28,7 @@ struct CellBatch {
     static constexpr std::size_t capacity = SegmentBatch::capacity;
 
     alignas(64) std::int64_t cell[3][capacity];
-    alignas(64) double from[capacity];  // where the chord enters the cell
+    alignas(64) double from[capacity];  // chord's parameters at entry and exit
     alignas(64) double to[capacity];
     std::size_t count = 0;
     std::size_t wanted = capacity;  // number of cells with which the batch is complete

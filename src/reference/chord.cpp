@@ -74,8 +74,7 @@ class RayLanes {
             valid_ = axis == 0 ? finite : valid_ & finite;
             steepest = max(steepest, abs(along.slope.hi));
         }
-        // Slopes count as 0 if they move less than 1e-30 voxels in the box: inverses might
-        // overflow.
+        // Slopes that move less than 1e-30 voxels count as 0: their inverses might overflow.
         for (Coordinates& along : along_) {
             const DoubleMask none = abs(along.slope.hi) < 1e-40 * steepest;
             along.slope = select(none, DoubleDoubles(0.0), along.slope);
@@ -224,7 +223,7 @@ void clip_to_box(const GridAxes& grid, std::span<const View::Ray> rays,
 
 void clip_span(std::span<const HalfSpace> clip, const View::Ray& ray, RaySpan& span) {
     for (const HalfSpace& half : clip) {
-        DoubleDouble distance, slope;  // of the ray's origin from the plane, and its change with z
+        DoubleDouble distance, slope;  // from the plane at the ray's origin; change with z
         for (int axis = 0; axis < 3; ++axis) {
             const DoubleDouble normal{half.normal[axis], 0};
             distance = distance + normal * exact_sum(ray.origin[axis], -half.point[axis]);

@@ -20,7 +20,6 @@
 
 namespace lamina {
 
-// A ray whose segments are composited front to back.
 class CompositedRay {
   public:
     // Tells whether the transmittance is so small that everything behind is hidden.
@@ -28,8 +27,8 @@ class CompositedRay {
     double alpha() const;
 
   protected:
-    // Begins a new ray. Everything is left out where the transmittance times the brightest colour
-    // is below `least_transmittance`, which bounds the error.
+    // Begins a new ray. Leaves out what lies behind a transmittance of `least_transmittance`
+    // divided by the brightest colour: the error of a colour is then at most `least_transmittance`.
     void begin(const TransferIntervals& transfer, const RayLights* lights,
                double least_transmittance);
     // Returns a bound on the light that is left out behind an opaque ray; 0 for other rays.
@@ -60,7 +59,7 @@ class RayIntegrator : public CompositedRay {
 
     glm::dvec3 color();  // associated
     double optical_depth() const { return depth_.value(); }
-    double error_estimate();  // of the worst channel, from quadrature and early termination
+    double error_estimate();  // worst channel's, by quadrature and early termination
     std::int64_t pieces() const { return pieces_; }
 
     // The share of lighting in color(), perhaps negative, and in error_estimate().

@@ -344,10 +344,10 @@ CubicTurns turns_of(const Cubic& cubic) {
 double solve_monotone(const Cubic& cubic, double value, double from, double to) {
     Cubic shifted = cubic;
     shifted.c[0] -= value;
-    double below = from, above = to;  // where the shifted cubic is negative, and where positive
+    double below = from, above = to;  // bracket: the shifted cubic is < 0, and > 0, there
     const double at_from = shifted(from), at_to = shifted(to);
     if (at_from > at_to) std::swap(below, above);
-    double t = from + (to - from) * (at_from / (at_from - at_to));  // as if it were straight
+    double t = from + (to - from) * (at_from / (at_from - at_to));  // the root if it were linear
     if (!(t > from && t < to)) t = 0.5 * (from + to);
     double step = std::abs(to - from), previous_step = step;
     const double bend = std::abs(cubic.c[2]) + 3 * std::abs(cubic.c[3]);

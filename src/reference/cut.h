@@ -104,7 +104,7 @@ struct LinearStep : CutStep {
 struct PieceColumns {
     using Column = std::vector<double>;
 
-    std::vector<std::int64_t> segment, interval;  // of each piece: indices
+    std::vector<std::int64_t> segment, interval;  // indices of each piece's segment and interval
     Column start, end;                            // the scalar at the front and at the back
     Column depth;                                 // optical depth of the piece, >= 0
     Column before;                                // optical depth in front of it, set by the caller
@@ -179,8 +179,7 @@ struct LinearPieces : PieceColumns {
     Column share;                   // the piece's length as a share of the segment's
     Column start_place, end_place;  // in the interval, 0 at its lower knot, 1 at its upper one
     Column p, q;                    // extinction * length at start and end
-    // Result: weight of the interval's colour change; `opacity` is the lower knot's colour's
-    // weight.
+    // Result: weight of the interval's change of colour. `opacity` weighs the lower knot's colour.
     Column change;
 
     std::vector<LinearStep> steps;  // memory of append_linear_pieces()

@@ -164,8 +164,7 @@ LAMINA_INLINE DoubleMask integrate_lanes(PieceBatch& batch, std::size_t i, const
         done = error <= enough;
     }
     done = done & (depth < resolvable_depth);
-    // If the opacity is negligible, any x in [0, 1] will do: the result is then off by at most
-    // `opacity`.
+    // If the opacity is negligible, any x in [0, 1] will do: it errs by at most `opacity`.
     const DoubleMask faint = opacity <= negligible_opacity * allowed;
     value = select(faint, pieces.middle() * opacity, value);
     error = select(faint, opacity, error);
@@ -191,9 +190,8 @@ struct WeightLanes {
     Double front, back;
 };
 
-// Computes the weights of both ends by the rule of quadrature_weights() in
-// optics/segment_integral.cpp, which gives the reasons for the form of the sums. p, q: extinction
-// times length at the piece's start and end.
+// Computes both ends' weights as quadrature_weights() in optics/segment_integral.cpp, which derives
+// the sums. p, q: extinction times length at the piece's start and end.
 template <typename Depth>
 LAMINA_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Double p, Double q,
                                           const Depth& kind) {
@@ -283,7 +281,7 @@ struct WeightedSum {
 };
 
 struct QuantityRange {
-    double bound;  // of |f|; if f is a vector, of each component's |f|
+    double bound;  // max |f| at most; if f is a vector, for each component
     bool smooth;   // no dip and no peak of f fits between the nodes of a rule
 };
 
@@ -451,8 +449,7 @@ GradientBall ball_of(const GradientAlong& gradient, double from, double to) {
 // length, for rules to be used: the effect's singularities are then at least half an interval away.
 constexpr double most_growth = 0.5;
 // Largest turn of the gradient on half an interval, in units of 1 / sqrt(power), the angle at which
-// a highlight falls to exp(-1/2). Of three nodes on an interval of six such units, one is within
-// 1.2 units of any peak.
+// a highlight is exp(-1/2). One of three nodes on six such units is within 1.2 units of any peak.
 constexpr double peak_widths = 3;
 
 class LightEffect {

@@ -84,8 +84,7 @@ struct LitPiece {
 
 using LightIntegral = Integral<glm::dvec3>;
 
-// Integrates RayLights::Effect::on(colour) * extinction * exp(-depth) over [0, 1]. The allowed
-// errors are as for integrate_emission().
+// Integrates RayLights::Effect::on(colour), otherwise as integrate_emission() integrates x.
 LightIntegral integrate_light(const LitPiece& piece, const RayLights& lights, double error_per_t,
                               double error_per_opacity);
 

@@ -137,8 +137,8 @@ class MeshTile {
         }
     }
 
-    // Adds `seen`, the visible part of a segment in the tet `tet`. `length`: of `seen`, in world
-    // units. `slack`: scalar_slack(). segment() returns the whole segment.
+    // Adds `seen`, the visible part, `length` world units long, of the segment that segment()
+    // returns in the tet `tet`. `slack`: scalar_slack().
     template <typename Segment>
     void add(std::size_t lane, std::int32_t tet, const SeenSegment& seen, double length,
              double slack, const Segment& segment) {

@@ -131,8 +131,7 @@ class WalkStep {
 
     WalkLanes& lanes_;
     std::size_t first_;
-    // Lanes in which rounding cannot change a sign. Without fused multiply-add no lane is trusted,
-    // because areas are then less accurate.
+    // Lanes in which rounding cannot change a sign; none without fma, as areas are less accurate.
     DoubleMask settled_ = DoubleMask(has_fma);
 };
 

@@ -10,10 +10,8 @@
 //      d. Replace the third corner of `front` by `top`, and interpolate where the line crosses.
 // If rounding leaves the sign of an area unknown in a lane, RayWalk::step() does that lane exactly.
 // A segment between two crossings is drawn only if it may be visible:
-//   1. Cut it to the range that the clip keeps, and interpolate the scalar, which is linear in a
-//      tet, at its new ends.
-//   2. It may be visible if extinction is above 0 in any interval of the transfer function between
-//      its two end scalars.
+//   1. Cut it to the range that the clip keeps; at its new ends interpolate the scalar linearly.
+//   2. It may be visible if an interval of the transfer function between its ends has extinction.
 #pragma once
 
 #include "mesh/ray_walk.h"
@@ -23,8 +21,7 @@
 
 namespace lamina {
 
-// Holds the state of all lines; column i belongs to line i. Names are those of LineFrame, RayFront
-// and FaceCrossing.
+// The state of all lines, line i in column i. Names are as in LineFrame, RayFront, FaceCrossing.
 struct WalkLanes {
     static constexpr std::size_t width = longest_vector;
     using Row = LaneRow;

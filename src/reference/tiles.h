@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture is traced in tiles, each by one thread, which leaves out pixels that see nothing:
 //   for each tile of the picture, from its middle to its edges, on all cores:
-//       find the pixels whose lines may meet the volume's box, or for each pixel the open faces of
-//           the mesh that its line may meet
+//       find the pixels whose lines may meet the volume's box or open faces of the mesh
 //       for each of these pixels, row by row:
 //           trace its ray (volume_tracer.cpp, mesh_tracer.cpp)
 //       report that the tile is done

@@ -27,16 +27,15 @@ TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_
 
 // Results of trace_pixels(): the colours of pixels (column, row), the same as in a whole picture.
 struct TracedPixels {
-    std::vector<glm::dvec4> rgba;  // as in TraceResult::image, in the order of the pixels
+    std::vector<glm::dvec4> rgba;  // associated, linear light, in the order of the pixels
     double error_estimate = 0;     // as in TraceResult
 };
 TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer_function,
                           const View& view, std::span<const glm::ivec2> pixels,
                           const TraceOptions& options);
 
-// Traces a picture of a mesh as trace_volume() does of a volume. `scalar`: one value for each
-// point; a tet with a value that is not finite is transparent. `open_faces`: tree of the open
-// faces.
+// Traces a picture of a mesh as trace_volume() does of a volume. `scalar` has one value for each
+// point; tets with a value that is not finite are transparent. `open_faces`: tree of open faces.
 TraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                        std::span<const double> scalar, const TransferFunction& transfer_function,
                        const View& view, const TraceOptions& options = {},

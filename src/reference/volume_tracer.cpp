@@ -40,8 +40,7 @@ struct TracedVolume {
           transfer(intervals),
           visible(visible_cells),
           options(how) {
-        // A margin for axes that are not quite orthogonal (by 1e-5,
-        // volume_files/volume_opening.cpp).
+        // A margin for axes not quite orthogonal (by 1e-5, volume_files/volume_opening.cpp).
         const double spare =
             1e-4 * glm::distance(grid.to_world(axes.lowest), grid.to_world(axes.highest));
         glm::dvec3 steps;
@@ -52,7 +51,7 @@ struct TracedVolume {
 
     const Grid& grid;
     GridAxes axes;
-    std::array<glm::dvec3, 8> corners;  // of a box around the volume, in world space
+    std::array<glm::dvec3, 8> corners;  // corners of a box around the volume, in world space
     CellSamples<Samples> samples;
     GradientSamples<Samples> gradients;
     const TransferIntervals& transfer;
