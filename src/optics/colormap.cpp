@@ -18,7 +18,7 @@ namespace {
 
 // Largest error of a colour component, in the wanted space: a sixteenth of 1/255.
 constexpr double preset_tolerance = 2.5e-4;
-// Limits the points between two points of a preset to 2^7.
+// Limits the intervals between two points of a preset to 2^7.
 constexpr int most_halvings = 7;
 
 nlohmann::json load(const std::filesystem::path& file) {
@@ -89,7 +89,8 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     return rows;
 }
 
-// Adds points between two of a preset, for lines in the wanted space within preset_tolerance of it.
+// Samples a preset between two of its points: halves the interval until lines in the wanted space
+// are within preset_tolerance of the colours at three places.
 class SegmentSampler {
   public:
     SegmentSampler(ColorSpace space, ImageColorSpace wanted, const std::array<double, 4>& a,
@@ -167,7 +168,7 @@ std::vector<OpacityPoint> read_opacities(const nlohmann::json& preset, const std
     return points;
 }
 
-// Returns the quantity on both sides of `value` (different at a step), by mix(a, b, share).
+// Returns the quantity just below and just above `value`, interpolated by mix(a, b, share).
 template <typename Point, typename Mix>
 auto limits(const std::vector<Point>& points, double value, const Mix& mix) {
     const auto not_below = std::ranges::lower_bound(points, value, {}, &Point::value);

@@ -38,7 +38,7 @@ std::optional<std::uint32_t> css_color(std::string_view name);
 struct ExtinctionPoint {
     double value = 0;
     double extinction = 0;  // per world unit
-    bool smooth = false;    // as in TransferKnot
+    bool smooth = false;    // TransferKnot::smooth
 };
 
 // Reads a ParaView preset: a JSON object, or the first element of an array. Keys: ColorSpace ("RGB"
@@ -49,10 +49,10 @@ Colormap read_paraview_colormap(const std::filesystem::path& file,
 // Converts a preset that is already parsed; messages call it `name`.
 Colormap colormap_of(const nlohmann::json& preset, const std::string& name, ImageColorSpace space);
 
-// Moves all points, opacities too: the first colour to lo, the last (at a higher value) to hi.
+// Maps the values of all points, also of opacities: the first colour's to lo, the last one's to hi.
 void stretch(Colormap& colormap, double lo, double hi);
 
-// Makes a point at each value with colour or extinction. A step of either becomes a step.
+// Makes a knot at each value of a point of the map or of `extinctions`. Steps of either stay steps.
 std::vector<TransferKnot> combine(const Colormap& colormap,
                                   const std::vector<ExtinctionPoint>& extinctions);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Approximates the depth f(o) = -log1p(-o) of opacity o by chords between (1 - e) f and (1 + e) f.
-// Each starts and ends on the lower curve and touches the upper one: none within e is longer.
+// Each starts and ends on the lower curve and touches the upper one: longer ones leave the band.
 #include "optics/opacity.h"
 
 #include <algorithm>

@@ -45,7 +45,7 @@ struct GivenPoint {
     glm::dvec3 color{0};
     Density given_as = Density::extinction;
     double density = 0;   // extinction per world unit, or opacity (0..1) over a unit length
-    bool smooth = false;  // as in TransferKnot; for points given by extinction
+    bool smooth = false;  // TransferKnot::smooth, for points given by extinction
 };
 
 // Converts each point's opacity to extinction. Between points extinction is linear, not opacity.

@@ -28,7 +28,7 @@ struct LinearPiece {
     OpticalProperties at_from, at_to;
 };
 
-// Calls visit(piece) for the pieces from `front` to `back`; if equal, once for a piece of no width.
+// Visits the pieces from `front` to `back` in order; if both are equal, one piece of no width.
 template <typename Visit>
 void for_each_linear_piece(std::span<const TransferKnot> knots, double front, double back,
                            const Visit& visit) {
@@ -62,7 +62,7 @@ void for_each_linear_piece(std::span<const TransferKnot> knots, double front, do
     }
 }
 
-// Returns the colour at the lowest value in [lo, hi] with extinction above; black if there is none.
+// Returns the colour at the lower end of the first piece in [lo, hi] with extinction, or black.
 inline glm::dvec3 first_color(const TransferFunction& transfer_function, double lo, double hi) {
     glm::dvec3 color(0);
     bool found = false;
@@ -75,7 +75,7 @@ inline glm::dvec3 first_color(const TransferFunction& transfer_function, double 
 }
 
 // Largest distance of a cubic from the straight pieces that it replaces, as a share of extinction:
-// fits pieces that stand for slopes of opacity (themselves within opacity_slope_tolerance).
+// large enough for pieces that stand for opacity slopes (within opacity_slope_tolerance of these).
 inline constexpr double curve_tolerance = 1.3e-3;
 // Largest error by such a curve, in 1/255 (docs/precision.md, "Opacity that is linear").
 inline constexpr double largest_curve_error = 255 * curve_tolerance / 2;
@@ -86,8 +86,8 @@ struct CurvedPiece : LinearPiece {
     double bend[2] = {0, 0};
 };
 
-// Returns the pieces between the scalars lo and hi. `curved`: a cubic replaces pieces that meet at
-// smooth points if it stays within curve_tolerance.
+// Returns the pieces between the scalars lo and hi. `curved`: from lo on, one cubic replaces as
+// many pieces joined at smooth points as it follows within curve_tolerance.
 std::vector<CurvedPiece> pieces_between(const TransferFunction& transfer_function, double lo,
                                         double hi, bool curved);
 

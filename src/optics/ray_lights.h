@@ -26,7 +26,7 @@ class RayLights {
     // `gradient`: in scalar units per world unit.
     Effect effect(const glm::dvec3& gradient) const;
 
-    // Returns a bound, divided by the weight, on light's effect on components up to `brightest`.
+    // Returns a bound on |Effect::on(c)| at weight 1, for colours c with components <= `brightest`.
     double largest_effect(double brightest) const;
     // Returns the span of what light can add to a component of colours up to 1.
     double effect_span() const;

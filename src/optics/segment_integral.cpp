@@ -77,7 +77,7 @@ PieceWeights piece_weights(double p, double q) {
     return {1 - g, g - std::exp(-depth)};
 }
 
-// Integrates 2 (1 - x) (1 - exp(-u)): by parts. exp(-u) is below 2e-9 where u exceeds 20.
+// By parts it is the integral of 2 (1 - x) (1 - exp(-u)). If u > 20, exp(-u) < 2.1e-9 counts as 0.
 double front_moment(double p, double q) {
     constexpr double deep = 20;
     const double depth = p / 2 + q / 2;

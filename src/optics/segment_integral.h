@@ -68,21 +68,20 @@ inline const GaussRule& gauss_rule(double depth) {
 
 struct SegmentIntegral {
     double optical_depth = 0;
-    double alpha = 0;  // 1 - exp(-optical_depth)
-    // associated colour as seen from the front, attenuated by the segment itself
-    glm::dvec3 color{0};
+    double alpha = 0;     // 1 - exp(-optical_depth)
+    glm::dvec3 color{0};  // associated, seen from the front: attenuated by the segment itself
 };
 
-// Weights (>= 0) of the colours at the ends of a piece with linear colour and extinction, which
-// times the length is p at the front, q at the back (>= 0, finite). Sum: 1 - exp(-(p + q) / 2).
+// Weights (>= 0) of the colours at both ends of a piece with linear colour and extinction; their
+// sum is the opacity. p, q: extinction times length at front and back, >= 0 and finite.
 struct PieceWeights {
     double front = 0;
     double back = 0;
 };
 PieceWeights piece_weights(double p, double q);
 
-// Integrates a segment with linear scalar from `front` (near the eye) to `back`, over `length` >= 0
-// world units (docs/numerics.md, section 5). Relative error some 1e-13, depths 1e-300 to 1e300.
+// Integrates a segment with linear scalar from `front` (near the eye) to `back`, `length` >= 0
+// world units long (docs/numerics.md, section 5). Relative error: 1e-13 for depths 1e-300 to 1e300.
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length);
 
@@ -97,7 +96,7 @@ struct FrontParts {
     glm::dvec3 color{0};
 };
 
-// A segment without light, and under FrontParts' light: from both follows that of any linear light.
+// A segment without light, and its FrontParts: together they give it under any linear light factor.
 struct LitIntegral {
     SegmentIntegral whole;
     FrontParts front;
@@ -127,8 +126,8 @@ double thin_front_weight(double p, double q);
 inline constexpr double faint_depth = 0.2;
 double faint_front_weight(double p, double q);
 
-// Front weights, interpolated bilinearly; nodes are equally spaced in p / (1 + p), 1 - 1 / sqrt(1 +
-// q). Error <= 2e-5 for p, q < 20, 5e-4 anywhere; for faint pieces 2.2e-3 of their opacity.
+// Front weights, interpolated bilinearly between nodes equally spaced in p / (1 + p) and 1 - 1 /
+// sqrt(1 + q). Error <= 2e-5 for p, q < 20, 5e-4 anywhere; for faint pieces 2.2e-3 of opacity.
 class FrontWeightTable {
   public:
     static constexpr int nodes = 256;

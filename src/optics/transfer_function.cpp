@@ -79,7 +79,7 @@ void for_each_part(std::span<const TransferKnot> knots, double lo, double hi, co
     if (hi > knots.back().value) visit(knots.back().optics, knots.back().optics);
 }
 
-// Tells whether key(optics) is the same in [lo, hi], apart from pieces without counts(a, b).
+// Tells whether key(optics) is constant in [lo, hi], leaving out pieces for which !counts(a, b).
 template <typename Key, typename Counts>
 bool same_everywhere(std::span<const TransferKnot> knots, double lo, double hi, const Key& key,
                      const Counts& counts) {
