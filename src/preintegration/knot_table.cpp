@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// Builds and looks up tables whose nodes are aligned with the transfer function's knots:
+//   1. Place nodes ("anchors") on the knots, and equally spaced nodes between two anchors.
+//   2. For each pair of nodes, find the means over the scalars between them by running sums.
+//   3. If look-ups use the pair, integrate the pieces between the nodes for each length > 0.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -19,15 +23,14 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t most_knots = 1022;  // two nodes an interval: textures of 2048 hold them
+constexpr std::size_t most_knots = 1022;  // with two nodes an interval, textures of 2048 hold them
 
-// A node of the table, with the transfer function's optics there (at a step, those of the node's
-// side), and the next anchors above and below.
+// A node of the table, the optics there (at a step, on the node's side), and the next anchors.
 struct Node {
     double value;
     OpticalProperties optics;
     int next_anchor;      // the nearest anchor's node above this one (the last node: itself)
-    int previous_anchor;  // below
+    int previous_anchor;  // the nearest anchor's node below (the first node: itself)
     bool anchor;
 };
 
@@ -81,8 +84,7 @@ std::vector<Node> place_nodes(const TransferFunction& transfer_function,
         return builder.finish();
     }
     const double width = request.hi - request.lo;
-    // Emission is the product of two linear functions even within a linear piece, so narrow pieces
-    // need inner nodes, too.
+    // Emission is quadratic even within a linear piece, so narrow pieces need inner nodes, too.
     int intervals = 0;
     for_each_linear_piece(transfer_function.knots(), request.lo, request.hi,
                           [&](const LinearPiece&) { ++intervals; });
@@ -204,7 +206,7 @@ struct TableBuilder {
     }
 
     // Tells whether look-ups use an entry. They cut segments at the first and at the last anchor
-    // between their ends, so only rounding leads them to other entries, with next to no weight.
+    // between the ends, so only rounding leads to other entries, whose weight is then next to 0.
     bool is_looked_up(int front, int back) const {
         const int lower = std::min(front, back), upper = std::max(front, back);
         return upper <= nodes[lower].next_anchor || (nodes[lower].anchor && nodes[upper].anchor);
@@ -220,13 +222,12 @@ struct TableBuilder {
     }
 
     // Calls visit(from, to, begin, end, share) for the linear pieces of a segment from the front
-    // on: its nodes `from` and `to`, their places in the segment, 0 to 1, and the piece's share of
-    // the segment's length. Ends when visit() returns false. Unlike integrate_segment(), it does
-    // not search for pieces, because both ends of every piece are nodes.
+    // on, until it returns false. from, to: the piece's nodes; begin, end: their places in the
+    // segment, 0 to 1; share: the piece's share of the segment's length.
     template <typename Visit>
     void for_each_piece(int front, int back, const Visit& visit) const {
         const double start = nodes[front].value, width = nodes[back].value - start;
-        if (width == 0) {  // the same value, or both sides of a step, half the length on each
+        if (width == 0) {  // one value, or a step's two sides, each with half the length
             if (visit(front, front, 0, .5, .5)) visit(back, back, .5, 1, .5);
             return;
         }
@@ -361,7 +362,7 @@ double coordinate_between(const KnotTable::Anchor& a, const KnotTable::Anchor& b
     return a.node + (value - a.value) / (b.value - a.value) * (b.node - a.node);
 }
 
-// Returns coordinate(), but the left node at a step.
+// Returns coordinate(), but for a step's value the left node.
 double left_coordinate(const KnotTable& table, double value) {
     const auto& anchors = table.anchors;
     const auto at = std::ranges::lower_bound(anchors, value, {}, &KnotTable::Anchor::value);

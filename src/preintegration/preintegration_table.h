@@ -25,13 +25,12 @@ enum class TableKind { knots, uniform };
 // Says which table of a transfer function is wanted.
 struct TableRequest {
     double lo = 0, hi = 1;  // scalars, lo <= hi, both finite
-    // Longest segment in the transfer function's unit of length, finite, >= 0. A KnotTable of one
-    // layer does not depend on it.
+    // Longest segment in the transfer function's unit, >= 0; unused by a one-layer KnotTable.
     double max_length = 1;
-    int scalar_nodes = 256;  // >= 2; a KnotTable has about so many; a UniformTable at most 4096
+    int scalar_nodes = 256;  // >= 2, of a UniformTable <= 4096; a KnotTable has about as many nodes
     int length_layers = 1;   // >= 1, of a UniformTable at most 64
     bool colored = true;     // may be false if transfer_function.single_color(lo, hi)
-    bool lit = false;  // with front parts (optics/segment_integral.h): KnotTable, if `colored`
+    bool lit = false;        // adds front parts (optics/segment_integral.h) to a coloured KnotTable
     TableKind kind = TableKind::knots;
     // UniformTable alone: the variants of Kraus, Qiao, Ebert 2004, section 3.
     LengthMapping mapping = LengthMapping::octave;
@@ -42,7 +41,7 @@ struct TableRequest {
     friend bool operator==(const TableRequest&, const TableRequest&) = default;
 };
 
-// A table, as the request that it was built for and its numbers.
+// A table: the request that it was built for, and its numbers.
 struct PreintegrationTable {
     TableRequest request;
     glm::dvec3 single_color{0};  // the colour if the request is not coloured
@@ -67,8 +66,7 @@ struct KnotTable : PreintegrationTable {
         int node;
     };
 
-    // The S scalars of the nodes over [lo, hi], in non-decreasing order. A step's value occurs
-    // twice (left, right).
+    // The S scalars of the nodes over [lo, hi], ascending. A step's value occurs twice.
     std::vector<double> nodes;
     // The nodes at lo, at the knots in (lo, hi) (steps twice), and at hi. Between two anchors are
     // one or more equally spaced cells. If lo == hi there is one node and one anchor.
@@ -90,8 +88,7 @@ struct KnotTable : PreintegrationTable {
     // exceed 1 GiB. Extinctions beyond the largest float are clamped to it.
     KnotTable(const TransferFunction& transfer_function, const TableRequest& asked);
 
-    // Returns the node coordinate of a scalar (clamped to [lo, hi]): whole numbers are nodes. At a
-    // step it is the right node.
+    // Returns the node coordinate (whole at nodes) of a scalar, clamped; at a step the right node.
     double coordinate(double value) const;
 
     // Twin of shaders/preintegration/knot_table.glsl. It interpolates bilinearly in the scalars and
@@ -110,7 +107,7 @@ struct KnotTable : PreintegrationTable {
 
 // A table with equally spaced scalars (Kraus, Qiao, Ebert 2004); tbar and alpha: as in KnotTable.
 struct UniformTable : PreintegrationTable {
-    int channels = 4;  // of a texel: 4 (rgb, then tbar or alpha) or 1 (tbar or alpha)
+    int channels = 4;  // a texel's numbers: 4 (rgb, tbar or alpha) or 1 (tbar or alpha)
     // Layers that are stored: 1 for mean extinction without colour, independent of length.
     int layers = 1;
     // Value = stored * scale; fixed formats store [0, 1], float16 stores values below 32768.
@@ -141,11 +138,10 @@ struct UniformTable : PreintegrationTable {
 std::shared_ptr<const PreintegrationTable> build_table(const TransferFunction& transfer_function,
                                                        const TableRequest& request);
 
-// A plan's table. The request and the transfer function determine it, so plans are compared by the
-// request (and the error) alone.
+// A plan's table. Request and transfer function determine it, so == leaves out the built table.
 struct TablePlan {
     TableRequest request;  // lengths in the plan's units
-    double error = 0;      // that it was found to add to the picture, in 1/255
+    double error = 0;      // that the table was found to add to the picture, in 1/255
     // Null if nothing looks it up; otherwise a table of the request's kind.
     std::shared_ptr<const PreintegrationTable> built = nullptr;
 

@@ -22,7 +22,7 @@ inline float as_float(double x) {
 // The two neighbours of a coordinate on one axis of a table.
 struct TableNeighbors {
     std::size_t first, second;
-    double weight;  // of the second
+    double weight;  // weight of the second; the first has 1 - weight
 };
 
 // Returns the neighbours of a coordinate among `count` nodes, 0 .. count - 1.

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// Builds and looks up tables with equally spaced scalars (Kraus, Qiao, Ebert 2004):
+//   1. Integrate segments of each pair of scalars and each length (incremental: the first two).
+//   2. If incremental: composite longer segments from two shorter ones, layer by layer.
+//   3. Round the texels to the format.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -20,7 +24,7 @@
 namespace lamina {
 namespace {
 
-constexpr double largest_depth = 1e30;  // optical depth
+constexpr double largest_depth = 1e30;  // optical depth: opaque, with finite products in float
 
 TransferFunction with_finite_depths(const TransferFunction& transfer_function, double max_length) {
     const double largest = largest_depth / std::max(1.0, max_length);
@@ -73,7 +77,7 @@ std::vector<double> nodes_of(const TableRequest& request) {
     return nodes;
 }
 
-// Integrals over the scalars.
+// Integrals of a segment's linear pieces over the scalar.
 struct Sums {
     double extinction = 0;
     glm::dvec3 emission{0};  // extinction times colour
@@ -207,9 +211,9 @@ struct IncrementalLayers {
     UniformTable& table;
     std::size_t nodes;
 
-    // Fills in a row as Weiler, Kraus, Merz, Ertl 2003, adapted by Kraus 2004, section 3: a segment
-    // of length 2 l from its two halves; with LengthMapping::linear one of length n l from pieces
-    // of length l and (n - 1) l. The scalar between the two lies between two nodes.
+    // Fills in a row after Weiler, Kraus, Merz, Ertl 2003, adapted by Kraus 2004, section 3:
+    // composites segments of length 2 l from halves or, with LengthMapping::linear, of n l from l
+    // and (n - 1) l. Texels are interpolated at the scalar between the two pieces.
     void fill_row(int layer, std::size_t back) {
         const bool doubling = table.request.mapping != LengthMapping::linear;
         const double share = doubling ? 0.5 : 1.0 / layer;
@@ -312,7 +316,6 @@ UniformTable::UniformTable(const TransferFunction& transfer_function, const Tabl
             progress.advance();
         });
     }
-    // Longer segments come from shorter ones.
     IncrementalLayers others{*this, static_cast<std::size_t>(nodes)};
     for (int layer = exact_layers; layer < layers; ++layer) {
         parallel_for(nodes, 4, [&](std::int64_t back) {
