@@ -93,7 +93,7 @@ struct Dither {
     int period = 16;         // slabs after which the pattern repeats
     std::uint32_t seed = 1;  // seed of the permutation
     bool color = false;      // dithers colour codes, too, with their own permutation (seed + 1)
-    int increment = 1;       // step between the two codes (section 5.2); codes are multiples of it
+    int increment = 1;       // codes are its multiples (LaMar 2004, section 5.2)
 
     friend bool operator==(const Dither&, const Dither&) = default;
 };
@@ -160,11 +160,10 @@ constexpr std::uint32_t under(OverRounding rounding, std::uint32_t color, std::u
     return above + static_cast<std::uint32_t>((product + (square - 1) / 2) / square);
 }
 
-// Computes OVER in real arithmetic on a stored code, and rounds the result up with the probability
-// of its rest. So its mean is right for any number of fragments; rounding only the fragments at
-// random would not suffice, because the blending unit rounds again (docs/numerics.md, section 8).
-// `source`: associated and in [0, 1], like `alpha`. `random`: 32 bits. Twin of
-// shaders/compositing/stochastic_over.glsl, bit for bit.
+// Computes OVER in real arithmetic on a stored code, and rounds up with a probability equal to the
+// result's fraction, so the mean is right for any number of fragments. Rounding only fragments
+// would not do: the blending unit rounds again (docs/numerics.md, section 8). `source`: associated,
+// 0..1 like `alpha`. `random`: 32 bits. Bitwise twin of shaders/compositing/stochastic_over.glsl.
 inline std::uint32_t over_stochastic(double source, double alpha, std::uint32_t below,
                                      std::uint32_t random, std::uint32_t largest) {
     const ScaledValue value = split_scaled(largest * source + below * (1 - alpha));

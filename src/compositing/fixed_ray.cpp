@@ -50,7 +50,8 @@ class Coder {
     std::vector<std::uint32_t> alpha_ranks_, color_ranks_;
 };
 
-// Evaluates a compositing tree on one ray.
+// Evaluates a compositing tree on one ray: composites a node's children in order, each with its
+// transmittance raised to the power of its share of the node's samples (exponent-factoring).
 struct TreeCompositor {
     std::span<const double> unit_opacities;
     const TreeShape& tree;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point compositing of one ray on the CPU, as in an emulated target and plots of LaMar 2004.
+// Fixed-point compositing of one ray on the CPU, for emulated targets and the plots of LaMar 2004.
 #pragma once
 
 #include <cstdint>

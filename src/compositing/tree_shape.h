@@ -7,8 +7,7 @@
 
 namespace lamina {
 
-// Consecutive samples of a ray, or slabs of a volume: numbers first .. first + count - 1. Number 0
-// is the nearest to the eye.
+// Consecutive samples of a ray, or slabs of a volume. Number 0 is the nearest to the eye.
 struct SampleSpan {
     int first = 0;
     int count = 0;
