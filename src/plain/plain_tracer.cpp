@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Cuts each ray at all planes of samples, or by all tets (meet()), and at knots, turns and kinks
+// (PlainRay::cuts()). Integrates each part by a Gauss rule, halved until halves agree (add()).
 #include "plain/plain_tracer.h"
 
 #include <algorithm>
@@ -51,7 +53,7 @@ void append_crossings(const Cubic<double>& p, std::vector<double>& places) {
     }
 }
 
-// Returns the distance of a place inside, times the length of the normal.
+// Returns a place's distance from the plane, > 0 inside, times the length of the normal.
 double depth_in(const HalfSpace& half, const glm::dvec3& place) {
     return glm::dot(half.normal, place - half.point);
 }
@@ -85,7 +87,7 @@ double scalar_at(const Volume& volume, const glm::dvec3& index) {
     return visit_samples(volume, [&](const auto& all) { return static_cast<double>(all[n]); });
 }
 
-// Returns the field at a sample; outside the samples the border's repeats. Gradients are
+// Returns the field at a sample; samples outside the grid repeat the border's. Gradients are
 // differences of neighbours that exist and are finite (docs/numerics.md, section 10).
 Field field_at(const Volume& volume, const glm::dvec3& place) {
     const glm::dvec3 last = glm::floor(volume.grid().index_max());
@@ -160,7 +162,7 @@ struct PlainMesh {
         const glm::dvec3 a = points[face[0]];
         return {a, glm::cross(points[face[2]] - a, points[face[1]] - a)};
     }
-    // The barycentric coordinate of a corner is the share of its height over the face opposite.
+    // Interpolates. A corner's weight is the height over its opposite face, as a share of its own.
     Field field(const Tet& tet, const glm::dvec3& place) const {
         Field sum = fields[tet[0]];
         for (int i = 1; i < 4; ++i) {
@@ -276,7 +278,6 @@ class PlainRay {
         const double half = 0.5 * (to - from), first = half * (1 - 1 / std::sqrt(3.));
         return half * (optics(segment, from + first).w + optics(segment, to - first).w);
     }
-    // Returns the lit colour of a place.
     glm::dvec3 shade(const Segment& segment, double t) const {
         const glm::dvec3 c(optics(segment, t)), gradient(segment.field.at(t));
         const double steepness = glm::length(gradient);
@@ -305,9 +306,8 @@ class PlainRay {
         }
         return sum;
     }
-    // Adds a part of a segment, or its halves until Gauss' rule on it and on its halves agree. A
-    // part that is deep, or whose gradient turns (by Taylor's series), is halved first: a peak may
-    // lie between the points. If halving ends, the error is the whole colour of the part.
+    // Adds a part of a segment, halved until Gauss' rule on it and on its halves agree. Deep parts
+    // and those on which the gradient turns are halved first: peaks may lie between nodes.
     void add(const Segment& segment, double from, double to, int halvings) {
         constexpr double tolerance = 1e-7, rounding = 1e-14;  // shares of opacity, of full scale
         const double middle = 0.5 * (from + to), here = thickness(segment, from, to);

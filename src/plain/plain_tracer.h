@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plain twin of the reference tracer, to judge the judge. It shares no code with the tracer,
+// A plain second reference tracer, with which the first is checked. It shares no code with that,
 // intersects each ray with all planes of a grid or all tets, and is slow.
 #pragma once
 
