@@ -18,8 +18,8 @@ namespace lamina {
 // coordinates x(i), y(j). A point of a ray is origin + z * direction; z >= 0 is eye-space depth,
 // the distance from the eye's plane, so the forward component of the direction is 1.
 struct View {
-    View(const Camera& camera, int width_pixels,
-         int height_pixels);  // throws Error if the camera is singular
+    // Throws Error if the camera is singular.
+    View(const Camera& camera, int width_pixels, int height_pixels);
 
     struct Ray {
         glm::dvec3 origin, direction;  // |direction| >= 1: world length per unit of z
@@ -84,8 +84,8 @@ inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
 }
 
 // Pixels by which ray_perturbation() moves rays off faces. More would change pictures of thin
-// opaque tets (this changes a needle of optical depth 1e4 by .03 / 255); less is lost in rounding:
-// along the world's z it is 3e-12 pixels; two floats resolve 3.5e-15 of a pixel's number.
+// opaque tets (this changes a needle of optical depth 1e4 by .03 / 255). Less is lost in rounding:
+// along the world's z it is 3e-12 pixels, and two floats resolve 3.5e-15 of a pixel's number.
 inline constexpr double tie_pixels = 3e-8;
 
 // Returns the perturbation of rays along right, up, forward, directed as in the reference tracer
@@ -117,7 +117,6 @@ struct PixelArea {
     }
 };
 
-// Returns the pixels that two areas have in common.
 inline PixelArea common_pixels(const PixelArea& a, const PixelArea& b) {
     return {std::max(a.first_column, b.first_column), std::min(a.last_column, b.last_column),
             std::max(a.first_row, b.first_row), std::min(a.last_row, b.last_row)};

@@ -28,11 +28,14 @@ constexpr double near_of_diagonal = 1e-10, near_of_coordinates = 0x1p-46;
 // 2-5. Seen from corner 3, the corners 0, 1, 2 go counter-clockwise.
 using Prism = std::array<std::int32_t, 6>;
 
-// Cuts a mesh by one half-space after the other.
+// Cuts a mesh by one half-space after the other:
+//   1. Measure each point's distance from the plane: > 0 inside, 0 on it, < 0 outside.
+//   2. Drop tets without a corner inside, and keep other tets without a corner outside.
+//   3. Cut the others: one corner inside leaves a tet, two or three leave a prism of tets.
 struct MeshCutter {
     MeshData& mesh;
     double diagonal;
-    std::vector<double> distances = {};  // of the points from the plane: > 0 inside, 0 on it
+    std::vector<double> distances = {};  // points' distances from the plane: > 0 inside, 0 on it
     // Numbers of the points at which edges are cut; the key holds the numbers of an edge's ends.
     std::unordered_map<std::uint64_t, std::int32_t> cut_points = {};
 
@@ -126,9 +129,8 @@ struct MeshCutter {
         values.push_back(first + share * (values[static_cast<std::size_t>(b)] - first));
     }
 
-    // Adds a prism as tets. Each quadrilateral side is split by the diagonal from its corner of the
-    // least number, so that neighbours agree (Dompierre et al. 1999). Tets with the same corner
-    // twice, which happens on the plane, are left out.
+    // Adds a prism as tets. Each quadrilateral's diagonal begins at its corner of least number: so
+    // neighbours agree (Dompierre et al. 1999). Leaves out tets with a corner twice (on the plane).
     void add_prism(const Prism& prism) {
         const auto least =
             static_cast<std::size_t>(std::ranges::min_element(prism) - prism.begin());

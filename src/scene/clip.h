@@ -19,18 +19,18 @@ struct HalfSpace {
     glm::dvec3 point, normal;
 };
 
-// Returns the half-spaces that a clip keeps: of the planes, then the box's six, their normals
-// scaled by powers of two, without rounding. Throws Error for zero normals, NaN and infinity.
+// Returns half-spaces whose intersection is kept: the planes', with normals scaled by powers of
+// two, without rounding, then the box's six. Throws Error for zero normals, NaN and infinity.
 std::vector<HalfSpace> half_spaces(const Clip& clip);
 
 // Returns the part of a mesh (without cell scalars) in all half-spaces. A tet that a plane crosses
-// becomes up to three of the same orientation; conforming meshes stay so, scalars are interpolated
-// linearly. Corners within 1e-10 of the mesh's diagonal, or the rounding of large coordinates,
-// count as on the plane. Unused points are dropped.
+// becomes up to three of the same orientation. Conforming meshes stay conforming, and scalars are
+// interpolated linearly. Corners within 1e-10 of the mesh's diagonal, or the rounding of large
+// coordinates, count as on the plane. Unused points are dropped.
 MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip);
 
-// Cuts a scene's mesh; returns it unchanged if nothing is cut away, null if nothing is left. `lit`:
-// keeps the gradients before the cut (gradients_before_clip), linear at new points.
+// Cuts a scene's mesh. Returns it unchanged if nothing is cut away, null if nothing is left. `lit`:
+// keeps gradients of the uncut mesh, interpolated at new points (gradients_before_clip).
 std::shared_ptr<const SceneMesh> clipped_mesh(const std::shared_ptr<const SceneMesh>& mesh,
                                               const Clip& clip, bool lit, const std::string& name);
 

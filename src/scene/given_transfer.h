@@ -16,9 +16,8 @@
 
 namespace lamina {
 
-// Function between two points (docs/scene.md, "Transfer function"). linear: opacity is linear if
-// both points give opacity, else extinction is. extinction: extinction is linear. nearest: each
-// value has what the nearest point has.
+// Function between two points (docs/scene.md). linear: opacity is linear if both points give it,
+// else extinction is. extinction: extinction is linear. nearest: as at the nearest point.
 enum class PointInterpolation { linear, extinction, nearest };
 const char* name_of(PointInterpolation interpolation);
 
@@ -60,11 +59,9 @@ bool has_open_colormap(const Scene& scene);
 // Stretches an open colour map over data of this range. Throws Error, which names file and key.
 void close_colormap(Scene& scene, const ValueRange& data);
 
-// Returns the file of the scene's colour map; empty if there is none.
 std::filesystem::path colormap_file_of(const Scene& scene);
 
-// Returns a warning if a point has opacity 1, for which a finite optical depth was taken, and
-// extinction rises linearly to it; else nothing.
+// Returns a warning if extinction runs linearly to a point of opacity 1, of finite optical depth.
 std::optional<std::string> opaque_ramp(const Scene& scene);
 std::optional<std::string> opaque_ramp(const GivenTransfer& given);
 

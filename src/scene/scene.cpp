@@ -114,7 +114,6 @@ MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
 
 }  // namespace
 
-// The functions name_of() return the words of scene files and messages.
 const char* name_of(Method method) {
     return word_of(method, {"slice", "project", "trace"});
 }

@@ -42,7 +42,7 @@ inline bool mixes_colors(Coloring coloring) {
     unreachable_enum();
 }
 
-// As load_volume(), but a volume beyond the memory limit stays in its files. Throws Error.
+// Loads as load_volume() does, but leaves volumes beyond the memory limit in files. Throws Error.
 Volume open_volume(const Scene& scene);
 
 // The mesh that a scene draws, and the one scalar of it that is drawn.
