@@ -14,7 +14,7 @@ constexpr double low_end = 1 - 1 / e;
 
 double encode_minimax(double depth, double share) {
     const double sigma = depth / share, log_part = -std::log(share) / e;
-    const double full = 1 + log_part;
+    const double full = 1 + log_part;  // Y in docs/numerics.md, section 4
     if (sigma <= 1) return -std::expm1(-sigma) / full;
     if (depth <= 1) return (low_end + std::log(sigma) / e) / full;
     return (low_end + log_part - std::expm1(1 - depth) / e) / full;
@@ -22,7 +22,7 @@ double encode_minimax(double depth, double share) {
 
 double decode_minimax(double value, double share) {
     const double log_part = -std::log(share) / e;
-    const double u = value * (1 + log_part);
+    const double u = value * (1 + log_part);  // the code before the division by Y
     if (u <= low_end) return -share * std::log1p(-u);
     if (u <= low_end + log_part) return share * std::exp(e * u - e + 1);
     return 1 - std::log1p(-std::min(e * (u - low_end - log_part), 1.0));

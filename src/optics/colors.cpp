@@ -85,7 +85,7 @@ glm::dvec3 interpolate_hsv(const glm::dvec3& a, const glm::dvec3& b, double shar
 
 // Polar coordinates of CIELAB: Moreland 2009, section 4.2.
 struct Msh {
-    double magnitude, saturation, hue;
+    double magnitude, saturation, hue;  // saturation and hue are angles in radians
 };
 
 Msh msh_from_srgb(const glm::dvec3& srgb) {

@@ -71,9 +71,9 @@ class Chain {
         touch_ = at_.opacity + clear * x / (1 + x);
     }
 
-    double lower_, upper_;
-    Place at_;
-    double slope_ = 0, touch_ = 0;
+    double lower_, upper_;          // factors of f on the two curves
+    Place at_;                      // start of the current chord
+    double slope_ = 0, touch_ = 0;  // the chord's slope, and the opacity at which it touches
 };
 
 // Writes the chords' ends in [from, to). Returns false if there are more than `most` chords.

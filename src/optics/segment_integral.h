@@ -9,7 +9,7 @@ namespace lamina {
 
 // A Gauss-Legendre rule on [0, 1], computed with 40 digits.
 struct GaussRule {
-    std::size_t points;
+    std::size_t points;  // number of entries of x and weight
     const double* x;
     const double* weight;
 };

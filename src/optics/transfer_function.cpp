@@ -148,7 +148,7 @@ std::optional<CurvedPiece> merged(Pieces pieces) {
     if (std::max(all.at_from.extinction, all.at_to.extinction) > largest_extinction) return {};
     if (!colors_are_linear(pieces, all)) return {};
     const double left = all.at_from.extinction, change = all.at_to.extinction - left;
-    double a = 0, b = 0, c = 0, d = 0, e = 0;
+    double a = 0, b = 0, c = 0, d = 0, e = 0;  // normal equations: [a b; b c] bend = [d e]
     for_each_place(pieces, all, [&](double u, double extinction) {
         if (!(extinction > 0)) return;
         const double p = u * (1 - u) / extinction, q = p * u;

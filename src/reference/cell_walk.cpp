@@ -110,9 +110,9 @@ class AxisLanes {
 
     Double entry_, direction_, inverse_, last_cell_;
     Double cell_, crossing_;
-    DoubleMask falls_;
-    Double step_, ahead_;
-    Double block_, next_block_cell_;
+    DoubleMask falls_;     // lanes whose chord runs down the axis
+    Double step_, ahead_;  // the next cell is cell_ + step_, behind the plane cell_ + ahead_
+    Double block_, next_block_cell_;  // number of the cell's block; first cell behind the block
     Double leaving_ = 0;  // parameter at which the chord leaves the block along this axis
 };
 
@@ -259,7 +259,7 @@ class ChordWalk {
     const VisibleCells& visible_;
     CellBatch* const* batches_;
     AxisLanes x_, y_, z_;
-    Double from_, length_;
+    Double from_, length_;  // the chord's parameter at which it enters the cell, and its length
     DoubleMask walking_, in_block_;
     Long place_;  // number of the cell's bit in VisibleCells::cells()
 };

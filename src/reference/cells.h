@@ -223,8 +223,8 @@ class VisibleCells {
     static constexpr std::size_t words_of_block = edge * edge * edge / 64;
     static std::array<std::int64_t, 3> blocks_of(const Grid& grid);
 
-    std::array<std::int64_t, 3> count_{};
-    std::int64_t line_words_ = 0;
+    std::array<std::int64_t, 3> count_{};  // number of blocks along each axis
+    std::int64_t line_words_ = 0;          // 64-bit words that hold a line of blocks along x
     std::vector<std::uint64_t> blocks_;
     std::vector<std::uint64_t> cells_;
 };

@@ -72,8 +72,8 @@ class RayIntegrator : public CompositedRay {
 
     const TransferIntervals& transfer_;
     double tolerance_;
-    double error_per_opacity_;
-    double error_per_length_ = 0;
+    double error_per_opacity_;     // allowed error per visible opacity
+    double error_per_length_ = 0;  // allowed error per world unit of length
     glm::dvec3 light_{0};
     double light_error_ = 0;
     std::int64_t pieces_ = 0;

@@ -281,7 +281,7 @@ struct WeightedSum {
 };
 
 struct QuantityRange {
-    double bound;  // max |f| at most; if f is a vector, for each component
+    double bound;  // bound on |f|; if f is a vector, on each component's
     bool smooth;   // no dip and no peak of f fits between the nodes of a rule
 };
 
@@ -387,7 +387,7 @@ class NestedIntegral {
     const EmissionPiece& piece_;
     const Quantity& quantity_;
     double error_per_t_, error_per_opacity_;
-    int budget_;  // intervals
+    int budget_;  // number of intervals that may still be examined
     Integral<Value> result_;
 };
 

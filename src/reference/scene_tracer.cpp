@@ -31,7 +31,7 @@ TraceOptions options_of(const Scene& scene) {
 template <typename Segment>
 struct RayStep {
     Segment segment;
-    double from, to;
+    double from, to;  // parameters of the segment's ends
     double depth_before, depth_after;
 };
 

@@ -111,7 +111,7 @@ class VolumeRay {
     }
 
   private:
-    static constexpr std::size_t first_together = 8;
+    static constexpr std::size_t first_together = 8;  // cells in a ray's first batch
 
     GradientAlong gradient(std::size_t number) const {
         const CellIndex cell{cells_.cell[0][number], cells_.cell[1][number],
@@ -277,7 +277,7 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
     visit_samples(volume, [&](const auto& first_sample) {
         const VisibleCells all;
         const TracedVolume traced(volume, first_sample, transfer, all, options);
-        constexpr std::size_t together = 64;
+        constexpr std::size_t together = 64;  // rays of one task
         const std::size_t batches = (pixels.size() + together - 1) / together;
         parallel_for(static_cast<std::int64_t>(batches), 1, [&](std::int64_t batch) {
             const std::size_t first = static_cast<std::size_t>(batch) * together;

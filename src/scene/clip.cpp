@@ -34,7 +34,7 @@ using Prism = std::array<std::int32_t, 6>;
 //   3. Cut the others: one corner inside leaves a tet, two or three leave a prism of tets.
 struct MeshCutter {
     MeshData& mesh;
-    double diagonal;
+    double diagonal;                     // length of the diagonal of the mesh's bounding box
     std::vector<double> distances = {};  // points' distances from the plane: > 0 inside, 0 on it
     // Numbers of the points at which edges are cut; the key holds the numbers of an edge's ends.
     std::unordered_map<std::uint64_t, std::int32_t> cut_points = {};
