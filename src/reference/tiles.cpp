@@ -17,8 +17,8 @@ namespace {
 // Tangent of the angle from the view's middle above which a point counts as seen by all pixels.
 constexpr double widest = 1e3;
 
-// Bounds on errors of projected points. Coordinates, also of the view's axes, err by 8 epsilons of
-// the 1-norm distances of point, eye and origin. The rest of 64, and 1e-6 pixels, are a reserve.
+// Bounds on errors of projected points. Points, and origins and directions of lines, err by 8
+// epsilons of the 1-norms of point, eye, origin. The rest of 64, and 1e-6 pixels, are a reserve.
 constexpr double place_error = 64 * std::numeric_limits<double>::epsilon(), spare_pixels = 1e-6;
 constexpr double least_error = 64 * std::numeric_limits<double>::denorm_min();
 
