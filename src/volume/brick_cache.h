@@ -24,7 +24,7 @@ namespace lamina {
 class BrickCache {
   public:
     static constexpr std::int64_t edge = 32, shift = 5;
-    static constexpr std::int64_t samples = edge + 1;  // along each axis
+    static constexpr std::int64_t samples = edge + 1;  // of a brick along each axis
     static constexpr std::int64_t row = samples, slice = samples * samples;
     static constexpr std::int64_t sample_count = samples * samples * samples;
 
@@ -88,12 +88,13 @@ class BrickCache {
     }
 
     void clear();  // forgets all bricks, and gives their memory back; nobody may hold any
-    // Sets the bricks, ascending, that will be used: a missing one is read with its neighbours
-    // along x among these (near it in files). Without this call, all neighbours are read.
+    // Tells the cache which bricks, in ascending order, will be used. A missing brick is then read
+    // together with its neighbours along x in this list, because they lie near it in files. Without
+    // this call it is read with all its neighbours along x.
     void expect(std::span<const std::uint32_t> bricks);
     // Returns the bricks that are not in memory, ascending.
     std::vector<std::uint32_t> missing(std::span<const std::uint32_t> bricks) const;
-    // Reads those that are not in memory, ascending, on all cores. All must fit in memory.
+    // Reads the bricks that are not in memory, on all cores. All must fit in memory (fits()).
     void load_ahead(std::span<const std::uint32_t> bricks) const;
     std::int64_t bricks_read() const { return bricks_read_.load(); }
 
@@ -135,7 +136,7 @@ class BrickCache {
 // The places of bricks in a volume.
 struct BrickPlaces {
     std::array<std::int64_t, 3> size;    // samples of the volume
-    std::array<std::int64_t, 3> count;   // of bricks
+    std::array<std::int64_t, 3> count;   // bricks along each axis
     std::array<std::int64_t, 3> origin;  // the volume's sample with which brick 0 begins
 
     std::array<std::int64_t, 3> first_sample(std::uint32_t brick) const {
@@ -145,7 +146,7 @@ struct BrickPlaces {
                 origin[2] + number / (count[0] * count[1]) * BrickCache::edge};
     }
 
-    // Returns the samples of bricks beside each other along x, with `margin` more on each side.
+    // Returns the samples of neighbours along x and `margin` more on each side, within the volume.
     SampleBox box_of(std::uint32_t first_brick, std::uint32_t last_brick,
                      std::int64_t margin) const {
         const auto first = first_sample(first_brick), last = first_sample(last_brick);
@@ -163,8 +164,8 @@ struct BrickPlaces {
     }
 };
 
-// Reads the samples, of type T, of bricks, with `margin` more on each side, those beside each other
-// along x at once. Calls make(brick, its first sample, window with the samples) for each.
+// Reads the samples (type T) of bricks, with `margin` more samples on each side, in one read for
+// neighbours along x. Calls make(brick, its first sample, window of samples) for each brick.
 template <typename T, typename Make>
 void read_adjacent_bricks(const SampleSource& source, const BrickPlaces& places,
                           std::span<const BrickCache::Wanted> wanted, std::int64_t margin,

@@ -22,7 +22,8 @@
 namespace lamina {
 
 double portable_exp(double x) {
-    // x = n ln 2 + r, |r| <= ln 2 / 2; ln 2 in two parts, of which n times the first is exact.
+    // exp(x) = 2^n exp(r) with x = n ln 2 + r, |r| <= ln 2 / 2. ln 2 is the sum of two parts, so
+    // that n times the high part is exact.
     constexpr double ln2_high = 0x1.62e42feep-1;
     constexpr double ln2_low = 0x1.a39ef35793c76p-33;
     const double n = std::floor(x / std::numbers::ln2 + 0.5);
@@ -62,7 +63,7 @@ class Generator {
     virtual void row(std::int64_t y, std::int64_t z, double* values) const = 0;
 };
 
-// Returns the place of sample i of n in the unit box, from 0 to 1, or 1/2 of a single one.
+// Returns the position of sample i of n in the unit box: 0 to 1, or 1/2 if there is only one.
 double unit_position(std::int64_t i, std::int64_t n) {
     return n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);
 }
@@ -188,7 +189,6 @@ class Ramp final : public Generator {
     std::int64_t size_x_;
 };
 
-// The value 1/2 everywhere.
 class Constant final : public Generator {
   public:
     explicit Constant(const GridSize& size) : size_x_(size[0]) {}
@@ -309,14 +309,14 @@ class Gaussians final : public Generator {
     }
 
   private:
-    using Factors =
-        std::array<std::vector<double>, 3>;  // a Gaussian is a product of three, one an axis
+    // The factors of a Gaussian: one for each axis, at each sample along that axis.
+    using Factors = std::array<std::vector<double>, 3>;
 
     GridSize size_;
     std::vector<Factors> factors_;
 };
 
-// The plane where dot(normal, p) = offset, p in the unit box, as thick as two samples along `axis`.
+// A sheet around the plane dot(normal, p) = offset in the unit box, two samples thick along `axis`.
 struct Sheet {
     glm::dvec3 normal;
     double offset;
@@ -377,8 +377,12 @@ double smooth_step(double t) {
 }
 
 // A field like a turbulent mixing layer after a Richtmyer-Meshkov instability: light fluid (0) at
-// small x, heavy (1) at large x. Narrow spikes of the heavy reach into the light, broad bubbles of
-// the light into the heavy; between, both mix down to a few samples: finer grids have finer eddies.
+// small x, heavy fluid (1) at large x. Each row is made in three steps:
+//   1. Noise moves the interface at (y, z) along x: into narrow spikes of heavy fluid and broad
+//      bubbles of light fluid.
+//   2. Eddies (noise in octaves; finer grids have finer ones) shift the distance from the
+//      interface. A smooth step of that distance blends the fluids.
+//   3. Near the interface, the finer eddies are added to the value, too.
 class Mixing final : public Generator {
   public:
     explicit Mixing(const GridSize& size) : size_(size) {

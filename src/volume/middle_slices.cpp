@@ -19,7 +19,7 @@ constexpr double share_of_rounding = 1e-9;  // relative error of a length that i
 constexpr PixelColor no_value{20, 40, 160}, paper{255, 255, 255}, ink{40, 40, 40};
 
 struct Slice {
-    std::size_t right, up, across;  // axes
+    std::size_t right, up, across;  // axes: to the right and up in the picture, and its normal
 };
 constexpr std::array<Slice, 3> slice_axes{{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}};
 

@@ -7,10 +7,10 @@
 
 namespace lamina {
 
-// Draws the three slices through the middle sample side by side on white, axes and index of each
-// above it: (x right, y up), (x right, z up), (y right, z up), in lengths of the world. The longest
-// axis has 256 to 1024 pixels, if possible a whole number a sample; pixels show the nearest sample.
-// Grey goes from range.lo (black) to range.hi (white), 0.5 if equal. Non-finite samples are blue.
+// Draws the three slices through the middle sample side by side on white: xy, xz and yz (the first
+// axis points right, the second up). A title above each names its axes and index. Lengths are to
+// scale in world space; the longest axis has 256 to 1024 pixels. A pixel shows the nearest sample:
+// grey from range.lo (black) to range.hi (white), mid-grey if both are equal, blue if not finite.
 CodedImage middle_slices(const Volume& volume, const ValueRange& range);
 
 }  // namespace lamina

@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
 
-// Minimum and maximum of each column of samples in a bundle of lines along x, in the samples' own
-// type; lo > hi for a column without finite samples.
+// Minima and maxima over several lines along x: lo[i] and hi[i] are those of sample i of all lines
+// included so far; lo[i] > hi[i] if none of these samples is finite.
 template <typename T>
 struct Extrema {
     explicit Extrema(std::size_t count)
         : lo(count, std::numeric_limits<T>::max()), hi(count, std::numeric_limits<T>::lowest()) {}
 
-    // Includes line[i] in column i's extrema, without branches, so that it becomes vector code.
+    // Includes a line of lo.size() samples, without branches, so that compilers vectorise the loop.
     void include(const T* line) {
         for (std::size_t i = 0; i < lo.size(); ++i) {
             T low = line[i], high = line[i];
@@ -34,7 +34,7 @@ struct Extrema {
         }
     }
 
-    // Sets the range of brick `number` by the columns first .. first + count - 1.
+    // Sets the range of brick `number` from the extrema first .. first + count - 1.
     void set_range(std::int64_t first, std::int64_t count, std::size_t number,
                    BrickRanges& ranges) const {
         T least = *std::min_element(lo.begin() + first, lo.begin() + first + count);
@@ -62,8 +62,8 @@ std::int64_t bricks_along(std::int64_t samples) {
     return std::max<std::int64_t>(1, (samples - 1 + edge - 1) / edge);
 }
 
-// The samples begin .. end - 1 that some bricks touch on an axis. They own begin .. owned_end - 1:
-// a sample on a border belongs to the second brick, so that it is counted once.
+// The samples begin .. end - 1 that consecutive bricks touch along an axis. Those before owned_end
+// are counted with these bricks; a border sample is counted with the next brick only.
 struct Touched {
     std::int64_t begin, end, owned_end;
 };
@@ -74,6 +74,8 @@ Touched touched(const Grid& grid, const MinMaxBricks& bricks, std::size_t axis, 
     return {first * edge, end, last == bricks.count[axis] ? samples : last * edge};
 }
 
+// Measures one row of bricks along x at a time: first takes the extrema over the row's (edge + 1)^2
+// lines of samples, then, for each brick, over its edge + 1 samples along x.
 template <typename T>
 BlockExtent measure_window(const Grid& grid, const SampleWindow<T>& window,
                            const std::array<std::int64_t, 3>& first,

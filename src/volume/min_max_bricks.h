@@ -18,8 +18,8 @@ struct BrickRange {
     float hi = 0;
 };
 
-// The ranges of a volume's bricks, two samples of the volume's type each: a 32nd of the volume's
-// memory. At first all are [0, 0], and take no memory.
+// The min/max ranges of a volume's bricks, each stored as two samples of the volume's type: all
+// take 1/32 of the volume's memory. At first all are [0, 0], and take no memory.
 class BrickRanges {
   public:
     BrickRanges() = default;
@@ -40,7 +40,7 @@ class BrickRanges {
         });
     }
 
-    // Tells whether `count` ranges, 1 or more, are [0, 0].
+    // Tells whether the ranges first .. first + count - 1 are all [0, 0]. `count`: 1 or more.
     bool all_zero(std::size_t first, std::size_t count) const {
         const std::size_t each = 2 * bytes_of(type_);
         return lamina::all_zero(memory_.data() + first * each, count * each);
@@ -75,15 +75,15 @@ struct ValueRange {
 };
 ValueRange joined(const ValueRange& a, const ValueRange& b);
 
-// The ranges of a volume's values in bricks of edge^3 cells: of every sample that interpolation
-// inside a brick can touch, so that neighbours share their border samples.
+// The range of values in each brick of edge^3 cells, over all samples that interpolation inside the
+// brick can touch: edge + 1 along each axis, so that neighbours share their border samples.
 struct MinMaxBricks {
     static constexpr std::int64_t edge = 4;
 
     std::array<std::int64_t, 3> count{0, 0, 0};  // bricks along each axis
     BrickRanges ranges;                          // x fastest
-    ValueRange whole;
-    std::int64_t non_finite = 0;  // NaN and infinite samples in the volume
+    ValueRange whole;                            // of all finite samples of the volume
+    std::int64_t non_finite = 0;                 // NaN and infinite samples in the volume
 
     // Makes the bricks of a volume, whose ranges are still to be set.
     static MinMaxBricks of(const Grid& grid, SampleType type);
@@ -104,7 +104,7 @@ struct BlockExtent {
     ValueRange whole;
     std::int64_t non_finite = 0;
 };
-// Sets the ranges of bricks first .. first + count - 1 along each axis by a box of their samples.
+// Sets the ranges of bricks first .. first + count - 1 along each axis from the samples of `box`.
 // Returns what the caller adds to `whole` and `non_finite`. Threads may measure different blocks.
 BlockExtent measure_block(const Grid& grid, const SampleBox& box, const void* samples,
                           const std::array<std::int64_t, 3>& first,

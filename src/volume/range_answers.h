@@ -17,12 +17,12 @@
 
 namespace lamina {
 
-// Answers of a slow function of the ranges of bricks. Samples of 8 bits have few different ranges,
-// so if there are many bricks, the constructor computes the answers for all ranges. Otherwise each
-// reader remembers its latest answers, because the bricks in a hole all have the same range.
+// Stores the results ("answers") of a slow function of a brick's range. Samples of 8 bits have few
+// different ranges, so if there are many bricks, the constructor computes all answers. Otherwise
+// each reader keeps a hash table of its latest answers, because bricks in a hole have one range.
 template <typename Answer>
 class RangeAnswers {
-    static_assert(!std::is_same_v<Answer, bool>);  // threads cannot set bits of a vector
+    static_assert(!std::is_same_v<Answer, bool>);  // threads may not write to one vector<bool>
   public:
     using Compute = std::function<Answer(const ValueRange&)>;
 
@@ -72,7 +72,7 @@ class RangeAnswers {
         static constexpr std::size_t together = 2048;  // bricks of a group in fill()
 
         struct Remembered {
-            BrickRange range{std::numeric_limits<float>::quiet_NaN(), 0};  // equal to no other
+            BrickRange range{std::numeric_limits<float>::quiet_NaN(), 0};  // NaN: equal to no range
             Answer answer{};
         };
         const RangeAnswers& answers_;
@@ -80,8 +80,8 @@ class RangeAnswers {
     };
 
   private:
-    static constexpr std::size_t many = 1 << 20;  // bricks
-    static constexpr int values = 256;            // of a sample of 8 bits
+    static constexpr std::size_t many = 1 << 20;  // bricks; with more, answer_all() is called
+    static constexpr int values = 256;            // that a sample of 8 bits can have
 
     void answer_all() {
         of_bytes_.resize(std::size_t{values} * values);

@@ -48,7 +48,7 @@ class SampleSource {
 
     // Returns the file or folder beside which the volume's index file lies.
     virtual std::filesystem::path main_file() const = 0;
-    // Returns the names of all files and what is read of them, which name the cached index.
+    // Returns a text of all files' names and what is read of them. It names the cached index file.
     virtual std::string name() const = 0;
     // Returns a text that identifies the samples as they are now: also by the files' sizes and
     // times, and a hash of some samples.

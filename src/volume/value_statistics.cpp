@@ -12,8 +12,10 @@
 namespace lamina {
 namespace {
 
-// Maps the finite values of float32 to whole numbers, the keys, that ascend with them. Percentiles
-// are found first by the leading bits of the keys, and then by the rest.
+// Maps finite float32 values to 32-bit keys in the same order: sets the sign bit of positive
+// numbers, inverts all bits of negative ones. Percentiles come from a radix selection in two
+// passes: the first counts all samples by the leading 20 bits of their keys; the second counts
+// samples whose leading bits belong to a wanted rank by the last 12 bits.
 struct FloatKeys {
     static constexpr std::uint32_t negative = std::uint32_t{1} << 31;
     static constexpr int rest_bits = 12;
@@ -32,7 +34,7 @@ struct FloatKeys {
     }
 };
 
-// The key of the value of a rank (from 1, ascending), and its rank among the values of that key.
+// The entry of a table of counts in which a rank (from 1, ascending) falls; the rank in that entry.
 struct RankedKey {
     std::size_t key = 0;
     std::int64_t rank = 0;
@@ -42,8 +44,8 @@ RankedKey ranked_key(std::span<const std::int64_t> counts, std::int64_t rank) {
     while (counts[key] < rank) rank -= counts[key++];
     return {key, rank};
 }
-// Adds up, in parallel, the counts that `count_part(samples, count, counts)` makes of pieces of a
-// volume's samples: of slices, if the volume stays in its files.
+// Sums, in parallel, the counts that count_part(samples, count, counts) makes for pieces of a
+// volume's samples. If the volume stays in its files, a piece is a slice.
 template <typename CountPart>
 Counts count_floats(const Volume& volume, std::size_t counters, const CountPart& count_part) {
     const Grid& grid = volume.grid();

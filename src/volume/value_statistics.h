@@ -20,7 +20,7 @@ struct Histogram {
     static constexpr std::int64_t most_intervals = 256;
 
     std::vector<double> edges;         // one more than counts, or none
-    std::vector<std::int64_t> counts;  // sum: the finite values
+    std::vector<std::int64_t> counts;  // their sum is the number of finite values
     double per_unit = 0;               // intervals per unit of value; 0 if that overflows
 
     bool empty() const { return counts.empty(); }
@@ -40,7 +40,7 @@ struct Histogram {
         return histogram;
     }
 
-    // Returns the interval of a value between the outermost edges: a guess, corrected by the edges.
+    // Returns the index of a value's interval: a guess by scaling, then corrected by the edges.
     std::size_t place(double value) const {
         const auto last = static_cast<double>(counts.size() - 1);
         const double guess = per_unit > 0 ? per_unit * (value - edges.front()) : 0;
@@ -53,7 +53,7 @@ struct Histogram {
 
 // The distribution of the finite values of data.
 struct ValueStatistics {
-    // The percentiles, in thousandths of the values.
+    // The percentiles that are measured, in thousandths: 500 is the median.
     static constexpr std::array<int, 9> places{1, 10, 50, 250, 500, 750, 950, 990, 999};
 
     std::int64_t count = 0;           // finite values

@@ -22,7 +22,7 @@
 namespace lamina {
 namespace {
 
-// Most samples in ValueCounts::some: with so many, a share of 1e-4 is known to 7 percent.
+// Max size of ValueCounts::some: 210 samples then make a share of 1e-4, known to 7 % (1/sqrt(210)).
 constexpr std::int64_t most_float_samples = std::int64_t{1} << 21;
 
 }  // namespace
@@ -61,7 +61,8 @@ std::int64_t up_to_multiple(std::int64_t number, std::int64_t of) {
     return (number + of - 1) / of * of;
 }
 
-// Returns the bricks of a block along each axis: whole blocks of the source, else whole rows.
+// Returns the bricks in a block along each axis: if the source has blocks, about one of these, but
+// 32 cells or more along each axis; else whole rows of the volume, about block_bytes in all.
 Triple block_of(const Volume& volume, const MinMaxBricks& bricks) {
     const Triple own = volume.store().source().block();
     Triple block{bricks.count[0], 8, 8};
@@ -79,7 +80,9 @@ Triple block_of(const Volume& volume, const MinMaxBricks& bricks) {
     return block;
 }
 
-// Makes the index of a volume that stays in its files: measures it block by block, on all cores.
+// Makes the index of a volume that stays in its files, block by block on all cores. A block that is
+// known to be 0 is not read. Any other is read once, for the ranges of its bricks and the counts of
+// its samples; samples on a border between blocks are counted with the next block.
 template <typename T>
 class IndexMaker {
   public:
@@ -136,7 +139,7 @@ class IndexMaker {
         take(found);
     }
 
-    // The results of one block. `zeros`: its samples, if they are known to be 0 and not read.
+    // The results of one block. `zeros`: number of its samples if it is known to be 0; else 0.
     struct Found {
         BlockExtent extent;
         std::vector<std::uint32_t> codes;
@@ -144,7 +147,7 @@ class IndexMaker {
         std::int64_t zeros = 0;
     };
 
-    // Counts the samples of a block, without those that the next block counts.
+    // Counts the first `owned` samples of a block along each axis; the next block counts the rest.
     void count_owned(const SampleWindow<T>& window, const Triple& owned, Found& found) const {
         const Triple& first = window.box.first;
         found.codes.resize(codes_.size());
@@ -163,7 +166,7 @@ class IndexMaker {
         }
     }
 
-    // Returns how many samples behind (x, y, z) the next one lies that ValueCounts::some takes.
+    // Returns how many samples after (x, y, z), 0 or more, ValueCounts::some takes the next one.
     std::int64_t first_sampled(std::int64_t x, std::int64_t y, std::int64_t z) const {
         const std::int64_t number = (z * grid_.size[1] + y) * grid_.size[0] + x;
         return up_to_multiple(number, step_) - number;
@@ -193,7 +196,7 @@ class IndexMaker {
     const Grid& grid_;
     const SampleSource& source_;
     std::int64_t step_;
-    Triple block_{}, blocks_{};  // bricks of a block, blocks of the volume
+    Triple block_{}, blocks_{};  // bricks in a block and blocks in the volume, along each axis
     std::mutex taking_;
     VolumeIndex index_;
     Counts codes_;

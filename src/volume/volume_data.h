@@ -19,8 +19,8 @@ namespace lamina {
 
 using Counts = std::vector<std::int64_t>;
 
-// Adds up, in parallel, the counts that count_part(first, end, counts) makes of pieces of [0,
-// samples): large ones, so that adding is cheap, but small enough for 32-bit counters.
+// Sums, in parallel, the counts that count_part(first, end, counts) makes for pieces of 0 ..
+// samples - 1. Pieces are large, so that adding is cheap, but small enough for 32-bit counters.
 template <typename CountPart>
 Counts count_in_parts(std::int64_t samples, std::size_t counters, const CountPart& count_part) {
     constexpr std::int64_t fewest = std::int64_t{1} << 20, most = std::int64_t{1} << 30;
@@ -58,7 +58,7 @@ struct ValueCounts {
 // Returns the step of ValueCounts::some, coprime to a row's length, so that it takes all columns.
 std::int64_t sample_step(const Grid& grid);
 
-ValueCounts count_values(const Volume& volume);  // in memory
+ValueCounts count_values(const Volume& volume);  // of a volume in memory
 
 // The results of a pass over all samples, kept in a file if the volume stays in its files.
 struct VolumeIndex {
@@ -66,9 +66,9 @@ struct VolumeIndex {
     ValueCounts values;
 };
 
-// Returns the index of a volume that stays in its files: from a file beside them or in the user's
-// cache folder, if it is of the samples as they are now; else by a parallel pass over them, whose
-// result is kept in the cache folder. A warning says what is wrong with an existing index file.
+// Returns the index of a volume that stays in its files. It is read from a file beside these or in
+// the user's cache folder, if it fits the present samples. Otherwise a parallel pass over them
+// makes it, and it is kept in the cache folder. A warning says what is wrong with an existing file.
 VolumeIndex index_of(const Volume& volume);
 
 // Makes an index by a pass over the samples, without looking for index files.
@@ -81,7 +81,7 @@ void write_index(const Volume& volume, const VolumeIndex& index, const std::file
 // Writes a volume's index to a file: a line that names the format; a header of one line, in JSON;
 // the values' counts or values; the ranges of bricks in pieces, each behind a byte that is 0 if the
 // piece is 0 and left out; and a hash of all that follows the first line. Binary numbers are those
-// of a little-endian machine. `identity`: that of the samples (SampleSource).
+// of a little-endian machine. `identity`: SampleSource::identity().
 void write_index_file(const std::filesystem::path& file, const std::string& identity,
                       const Grid& grid, SampleType type, const VolumeIndex& index);
 

@@ -43,7 +43,7 @@ namespace {
 
 using Triple = std::array<std::int64_t, 3>;
 
-// Tells if the brick that holds a cell has one value, and sets it.
+// Tells if all samples of the brick that holds a cell are equal; sets `value` to its minimum.
 bool is_one_value(const MinMaxBricks* bricks, const Triple& lower, double& value) {
     if (bricks == nullptr || bricks->non_finite > 0) return false;
     Triple brick{};
@@ -54,7 +54,8 @@ bool is_one_value(const MinMaxBricks* bricks, const Triple& lower, double& value
     return range.lo == range.hi;
 }
 
-// Returns a cell's corners. `samples`: from its first corner on; `step`: to the upper ones.
+// Returns the samples at a cell's corners, x fastest. `samples`: from the first corner on; `step`:
+// distances, in samples, from there to the upper corners along x, y and z.
 template <typename T>
 std::array<double, 8> corners_in(const T* samples, const Triple& step) {
     std::array<double, 8> corners{};

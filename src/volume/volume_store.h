@@ -25,7 +25,6 @@ class VolumeStore {
     const SampleSource& source() const { return *source_; }
     const std::array<std::int64_t, 3>& size() const { return size_; }
     SampleType type() const { return type_; }
-    // Returns the bricks, with samples of the volume's type.
     BrickCache& bricks() const { return bricks_; }
 
     // Returns one sample; reads the brick that holds it.
@@ -69,7 +68,7 @@ class VolumeStore {
     mutable BrickCache bricks_;
 };
 
-// Samples of a volume in its files, as through a pointer to the first: x changes fastest.
+// Acts like a pointer to the first sample of a volume that stays in its files; x changes fastest.
 template <typename T>
 class SamplesInFiles {
   public:
@@ -112,8 +111,8 @@ inline void check_unchanged(const Volume& volume) {
 }
 
 // Returns the samples at the corners of a cell, x fastest; `upper`: at most one more than `lower`.
-// If the volume stays in its files they are read alone, so that no bricks are read for the sake of
-// a few samples, and cells of bricks with one value are not read. `bricks`: the volume's, or null.
+// If the volume stays in its files, only these samples are read, no bricks of the cache; none are
+// read if `bricks` (the volume's, or null) shows that all samples of the cell's brick are equal.
 std::array<double, 8> scattered_corners(const Volume& volume, const MinMaxBricks* bricks,
                                         const std::array<std::int64_t, 3>& lower,
                                         const std::array<std::int64_t, 3>& upper);
