@@ -59,7 +59,7 @@ constexpr std::array<Rgb, 6> reds = {{{255, 255, 255},
                                       {178, 24, 43},
                                       {103, 0, 31}}};
 
-// Pixels; from the width `wide` on letters are twice as large.
+// Sizes in pixels. In pictures that are at least `wide` wide, letters are twice as large.
 constexpr int narrowest_bar = 160, wide = 400;
 constexpr int gap = 6, bar_high = 10;
 constexpr PixelColor paper{255, 255, 255}, ink{40, 40, 40};
@@ -83,7 +83,8 @@ Difference difference(const CodedImage& a, const CodedImage& b) {
     Difference result = blank(a, b, channel_names(a.channels));
     if (a.channels != b.channels)
         fail("the images differ in channels: {} and {}", a.channels, b.channels);
-    // Codes get the denominator 257, so that equal colours of different depths differ by 0.
+    // Differences are computed in units of 1/65535 (255 * 257), so that equal colours of different
+    // depths differ by 0.
     const int unit_a = a.bit_depth == 16 ? 1 : 257;
     const int unit_b = b.bit_depth == 16 ? 1 : 257;
     result.e.resize(a.codes.size());

@@ -243,7 +243,6 @@ void write_pixels(FileStream& stream, const Image& image,
     output.writePixels(image.height);
 }
 
-// Channels of a file.
 struct Contents {
     std::string names;  // names of all channels, for messages
     std::uint64_t bytes_per_pixel = 0;

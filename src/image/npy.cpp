@@ -28,7 +28,6 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr std::size_t alignment = 64;  // bytes; the data begin at a multiple of it (NEP 1)
 
-// Element type and shape of an image.
 struct Layout {
     bool is_double;
     std::int64_t height, width, channels;

@@ -75,7 +75,7 @@ std::span<const Face> faces_of(std::int64_t type) {
     return hexahedron_faces;
 }
 
-// Joins a cell's least point to the triangles of the faces without it (split_cell()).
+// Joins the cell's point of least index to the triangles of the faces without it (split_cell()).
 SplitCell join_least_point(std::span<const Face> faces, std::span<const std::int32_t> corners) {
     const auto index = [&](std::size_t corner) { return corners[corner]; };
     const auto apex = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) -
@@ -198,7 +198,7 @@ std::span<const std::int32_t> corners_of(const MeshPiece& piece, std::size_t cel
     return std::span(corners).first(type.corners);
 }
 
-// Returns the scalars of a piece in the order of those of the pieces before it.
+// Returns the scalars of a piece, `more`, in the order of those of the pieces before it, `all`.
 std::vector<const MeshScalar*> matched(const std::vector<MeshScalar>& all,
                                        const std::vector<MeshScalar>& more, const MeshPiece& piece,
                                        const char* kind) {
@@ -206,7 +206,7 @@ std::vector<const MeshScalar*> matched(const std::vector<MeshScalar>& all,
         fail("{}: found {} scalars in its {}, expected {} as in the pieces before", piece.label,
              more.size(), kind, all.size());
     }
-    // Several of one name keep their order.
+    // Arrays with equal names are matched in their order.
     std::multimap<std::string_view, const MeshScalar*> by_name;
     for (const MeshScalar& scalar : more) by_name.emplace(scalar.name, &scalar);
     std::vector<const MeshScalar*> found;
@@ -345,13 +345,13 @@ std::vector<std::int32_t> MeshAssembly::add_points(const MeshPiece& piece) {
     return indices;
 }
 
-// Adds the tets of a piece's cells. Returns the cell of each of them.
+// Adds the tets of a piece's cells. Returns the number of the cell from which each tet was cut.
 std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
                                                   const std::vector<bool>& ghosts,
                                                   std::span<const std::int32_t> indices) {
     std::vector<std::int64_t> cell_of_tet;
     cell_of_tet.reserve(piece.cells.types.size());
-    // For the first piece only: with many small ones, the vector would grow a piece at a time.
+    // Reserves for the first piece only: with many small ones, each would reallocate the vector.
     if (mesh_.tets.empty()) mesh_.tets.reserve(piece.cells.types.size());
     std::array<std::int32_t, most_cell_points> corners{};
     for (std::size_t cell = 0; cell < piece.cells.types.size(); ++cell) {
@@ -383,8 +383,8 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
     return cell_of_tet;
 }
 
-// Adds the scalars of a piece's points. A point that an earlier piece has, too, keeps its value; a
-// warning counts those for which the piece has another.
+// Adds the scalars of a piece's points. A point that an earlier piece also has keeps its value; a
+// warning counts the points for which this piece has another value.
 void MeshAssembly::add_point_scalars(MeshPiece& piece, std::size_t points_before,
                                      std::span<const std::int32_t> indices) {
     if (first_) {

@@ -25,13 +25,13 @@ struct SplitCell {
     std::size_t count = 0;
 };
 
-// Cuts a hexahedron, voxel, wedge or pyramid into 6, 6, 3 or 2 tets. Each quadrilateral face is cut
-// along the diagonal through its least point index, so that neighbouring cells agree; then the
-// cell's least point is joined to the triangles of the faces without it (Dompierre, Labbe, Vallet,
-// Camarero, How to subdivide pyramids, prisms and hexahedra into tetrahedra, 1999, who need five
-// tets at times). A wedge may be numbered in either sense; other inverted cells give inverted tets,
-// and repeated corners repeated ones. `type`: one with straight edges. `corners`: valid indices of
-// `points`.
+// Cuts a hexahedron, voxel, wedge or pyramid into 6, 6, 3 or 2 tets (like Dompierre, Labbe, Vallet,
+// Camarero, How to subdivide pyramids, prisms and hexahedra into tetrahedra, 1999, whose hexahedra
+// sometimes have only five). Each quadrilateral face is cut along the diagonal through its least
+// point index, so that neighbouring cells agree; then the cell's least point is joined to the
+// triangles of the faces without it. Wedges may have either orientation. Other inverted cells give
+// inverted tets, and repeated corners repeated ones. `type`: a VTK type with straight edges.
+// `corners`: valid indices of `points`.
 SplitCell split_cell(std::int64_t type, std::span<const std::int32_t> corners,
                      std::span<const glm::dvec3> points);
 
@@ -39,7 +39,7 @@ SplitCell split_cell(std::int64_t type, std::span<const std::int32_t> corners,
 // several points lie at one place, as on both sides of a crack, none is found there.
 class PointTable {
   public:
-    // `points`: what indices refer to. The vector may grow, and must outlive this table.
+    // `points`: the points by index. The vector may grow, and must outlive this table.
     explicit PointTable(const std::vector<glm::dvec3>& points) : points_(points) {}
 
     void add(std::int32_t point);
@@ -55,7 +55,7 @@ class PointTable {
     // A hash table with linear probing: its size is a power of two, at most half full. An entry is
     // 0 (empty), i + 1 (the point i), or -(i + 1) (several points, the first of which is i).
     std::vector<std::int32_t> slots_;
-    std::size_t used_ = 0;
+    std::size_t used_ = 0;  // entries that are not empty
 };
 
 // Cells in the form of VTK's unstructured grids: cell i has the type types[i] and the points

@@ -13,14 +13,14 @@ namespace lamina {
 // Tells if a path names a mesh: by its content (VTK's formats), else by its extension.
 bool is_mesh_file(const std::filesystem::path& path);
 
-// Reads a mesh: a VTK XML or legacy VTK unstructured grid; one in several files, which a .pvtu
-// names; one step of a .pvd; or TetGen's pair of .node and .ele (either name stands for both).
-// Pieces are joined, cells cut into tets and arrays made scalars as mesh_files/mesh_assembly.h
-// says; cells without volume are counted. All corner indices are in range. `time`: the step, from 0
-// in the order of time; only a .pvd has several. Throws Error.
+// Reads a mesh from a VTK XML or legacy VTK unstructured grid, a .pvtu that names several files,
+// one step of a .pvd, or TetGen's pair of .node and .ele (either name stands for both). Pieces are
+// joined, cells cut into tets and arrays made scalars as mesh_files/mesh_assembly.h says; cells
+// without volume are counted. All corner indices are in range. `time`: index of the step in the
+// order of time, from 0; only a .pvd has several. Throws Error.
 MeshData read_mesh(const std::filesystem::path& path, std::int64_t time = 0);
 
-// The extensions of mesh files, for people.
+// The extensions of mesh files, for messages.
 inline constexpr const char* mesh_format_list = ".vtu, .pvtu, .pvd, .vtk, .node, .ele";
 
 // Returns the number of steps of a mesh file: 1, except of a .pvd. Throws Error.

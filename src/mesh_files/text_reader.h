@@ -31,7 +31,7 @@ class TextReader {
         while (at_ != end_ && is_blank(*at_)) ++at_;
         return at_ == end_;
     }
-    // Tells if more than blanks comes before the next newline; unlike line(), looks no further.
+    // Tells if there is more than blanks before the next newline. Does not move, unlike line().
     bool line_goes_on() const {
         const char* at = at_;
         while (at != end_ && *at != '\n' && is_blank(*at)) ++at;
@@ -101,7 +101,7 @@ inline std::string next_word(TextReader reader) {
     return "'" + text + (word.size() > longest ? "...'" : "'");
 }
 
-// Warns that `text` is not used, if it is more than blanks. `behind`: what the text follows.
+// Warns that `text` is not used, unless it is blank. `behind`: names the part before the text.
 inline void warn_of_surplus(const std::string& what, std::string_view text, const char* behind) {
     const auto surplus = std::ranges::count_if(text, std::not_fn(TextReader::is_blank));
     if (surplus == 0) return;

@@ -110,7 +110,7 @@ class EncodedBytes {
         return true;
     }
 
-    // Decodes groups of four digits, up to one with a blank or padding; returns how many bytes.
+    // Decodes groups of four digits until one has a blank or padding. Returns the number of bytes.
     std::size_t decode_whole_groups(char* bytes, std::size_t count) {
         const auto* at = reinterpret_cast<const unsigned char*>(text_.data()) + position_;
         const std::size_t groups = std::min(count / 3, (text_.size() - position_) / 4);
@@ -506,8 +506,8 @@ VtkXmlSource VtkXmlFile::appended_at(pugi::xml_node array, const std::string& wh
     return source;
 }
 
-// Counts the bytes of appended data that arrays take: arrays that share their bytes would let a
-// small file fill all memory.
+// Counts the bytes of appended data that arrays take. Throws Error if these are more than the file
+// has: arrays that share bytes would let a small file fill all memory.
 void VtkXmlFile::count_appended(std::uint64_t bytes, const std::string& what) const {
     appended_used_ += bytes;
     if (appended_used_ > text_.appended().left()) {
@@ -517,8 +517,8 @@ void VtkXmlFile::count_appended(std::uint64_t bytes, const std::string& what) co
     }
 }
 
-// Counts the values that arrays hold: zlib packs a thousand equal bytes into one, each may become a
-// value of 8 bytes, and a small file could fill all memory. Real meshes are far from it.
+// Counts and limits the values of all arrays: zlib packs a thousand equal bytes into one, each may
+// become 8 bytes, and a small file could fill all memory. Real meshes stay far below the limit.
 void VtkXmlFile::count_kept(std::int64_t count, const std::string& what) const {
     constexpr std::uint64_t most_expansion = 256;
     values_kept_ += static_cast<std::uint64_t>(count);

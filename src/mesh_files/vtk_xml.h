@@ -16,8 +16,8 @@ namespace lamina {
 
 // An encoded array of a VTK XML file, up to the end of the text or data that may belong to it.
 struct VtkXmlSource {
-    std::string_view text;                   // base64
-    const RandomAccessFile* file = nullptr;  // or its bytes begin .. end - 1
+    std::string_view text;                   // the base64 text, if `file` is null
+    const RandomAccessFile* file = nullptr;  // else the array lies in its bytes begin .. end - 1
     std::uint64_t begin = 0, end = 0;
     bool base64 = true;
 
@@ -94,7 +94,7 @@ class VtkXmlFile {
                                const std::string& what) const;
 
   private:
-    // Calls binary(source) or text(reader), as the array of `count` values is stored.
+    // Calls binary(source) if the array has `count` binary values, text(reader) if these are text.
     template <typename Binary, typename Text>
     auto decoded(pugi::xml_node array, std::int64_t count, const std::string& what,
                  const Binary& binary, const Text& text) const;

@@ -30,7 +30,7 @@ namespace {
 // A VTK XML file without numbers of its own, which names other files: .pvtu, .pvd.
 class VtkIndex {
   public:
-    // `type`: that of its VTKFile element, and the name of the one element in that. Throws Error.
+    // `type`: the type of its VTKFile element and the name of that element's child. Throws Error.
     VtkIndex(const std::filesystem::path& path, const char* type) : name_(path.string()) {
         expect_allowed(path);
         constexpr std::size_t most_bytes = std::size_t{64} << 20, most_tags = 1'000'000;
@@ -76,7 +76,7 @@ class VtkIndex {
     pugi::xml_node node_;
 };
 
-// Throws Error if a list of files has one twice. `name`: of the file with the list.
+// Throws Error if a list names a file twice. `name`: the file with the list.
 void expect_each_once(const std::vector<std::filesystem::path>& files, const std::string& name) {
     std::set<std::filesystem::path> seen;
     for (const std::filesystem::path& file : files) {
