@@ -28,10 +28,10 @@ std::vector<std::string> channel_names(int channels) {
 }
 
 struct Sums {
-    double largest = 0;
-    double sum = 0;
-    double squares = 0;
-    double count = 0;
+    double largest = 0;  // max of |e|
+    double sum = 0;      // of e
+    double squares = 0;  // sum of e^2
+    double count = 0;    // number of values e
 
     void add(const Sums& part) {
         largest = std::max(largest, part.largest);
@@ -83,8 +83,7 @@ Difference difference(const CodedImage& a, const CodedImage& b) {
     Difference result = blank(a, b, channel_names(a.channels));
     if (a.channels != b.channels)
         fail("the images differ in channels: {} and {}", a.channels, b.channels);
-    // Differences are computed in units of 1/65535 (255 * 257), so that equal colours of different
-    // depths differ by 0.
+    // Differences are in units of 1/65535, so that equal colours of different depths differ by 0.
     const int unit_a = a.bit_depth == 16 ? 1 : 257;
     const int unit_b = b.bit_depth == 16 ? 1 : 257;
     result.e.resize(a.codes.size());

@@ -17,7 +17,6 @@ MeshData read_vtu(const std::filesystem::path& path);
 // Returns the .vtu files that a .pvtu (a parallel program's mesh) names, in its order.
 std::vector<std::filesystem::path> pieces_of_pvtu(const std::filesystem::path& path);
 
-// Reads the pieces of a .pvtu and joins them.
 MeshData read_pvtu(const std::filesystem::path& path);
 
 // One step of a .pvd file (ParaView's list of the files of a mesh that changes with time).

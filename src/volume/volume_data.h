@@ -74,7 +74,6 @@ VolumeIndex index_of(const Volume& volume);
 // Makes an index by a pass over the samples, without looking for index files.
 VolumeIndex measure_index(const Volume& volume);
 
-// Returns the name of the index file beside a volume's files.
 std::filesystem::path index_file_of(const Volume& volume);
 void write_index(const Volume& volume, const VolumeIndex& index, const std::filesystem::path& file);
 

@@ -200,10 +200,10 @@ class ReplacedFolder {
     bool committed_ = false;
 };
 
-// Key in .zattrs of what a bricked copy says about itself: the hash of copied() and the grid.
+// Key in .zattrs of the members that lamina adds: the grid and the hash from copied().
 constexpr const char* attribute = "lamina_bricks";
 
-// Returns a hash of the files' state and of what the request takes of them: the copy's identity.
+// Returns a copy's identity: a hash of the files' state and of the request's selection.
 std::string copied(const Path& file, const VolumeRequest& request) {
     ContentHash hash;
     for (const Path& each : files_of_volume(file, request)) {
@@ -253,8 +253,8 @@ Grid grid_in(const Json& json, const ZarrArray& array) {
 }
 
 // Returns the samples of a chunk along each axis: 64, unless a layer of chunks, which is in memory
-// while it is written, would exceed a quarter of the memory limit. Chunks are then flatter (4
-// slices at least) and wider. They are also wider if there would be more than most_chunks of them.
+// while it is written, would exceed a quarter of the memory limit. Chunks are then flatter (min 4
+// slices) and wider; if there would be more than most_chunks, they are wider still.
 std::array<std::int64_t, 3> chunk_edge(const Grid& grid, SampleType type) {
     std::array<std::int64_t, 3> edge{64, 64, 64};
     const std::uint64_t slice =

@@ -26,7 +26,7 @@ struct BrickedCopy {
 BrickedCopy write_bricked_copy(const std::filesystem::path& file, const VolumeRequest& request);
 
 // Returns the volume of the bricked copy; nothing if there is none or `use` asks for memory
-// (stays_in_files()), or, with a warning, if it is damaged or of other samples than are asked for.
+// (stays_in_files()). If it is damaged or was made of other samples, warns and returns nothing.
 std::optional<Volume> open_bricked_copy(const std::filesystem::path& file,
                                         const VolumeRequest& request, const VolumeUse& use);
 

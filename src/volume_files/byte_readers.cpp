@@ -57,7 +57,7 @@ class FileReader final : public ByteReader {
     bool counts_surplus_;
 };
 
-// Reads compressed data: one or more members, each a stream. unpack(): the format's decompressor.
+// Reads compressed data: one or more members, each a stream that unpack() decompresses.
 class PackedReader : public ByteReader {
   public:
     void read(void* bytes, std::size_t count) override {

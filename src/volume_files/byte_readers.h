@@ -31,8 +31,9 @@ class ByteReader {
 
     virtual void read(void* bytes, std::size_t count) = 0;
     virtual void skip(std::size_t count) = 0;
-    // Must be called when all data are read. Verifies checksums behind them. Describes surplus
-    // bytes, if any, in words that a message goes on from with "than": "12 bytes more".
+    // Must be called when all data are read. Verifies checksums behind them. Returns descriptions
+    // of surplus bytes, which a message continues with "than ...", such as "12 bytes more"; or
+    // none.
     virtual std::vector<std::string> surplus() = 0;
 };
 

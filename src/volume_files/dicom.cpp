@@ -119,7 +119,8 @@ double depth_of(const DicomImage& image, const glm::dvec3& normal) {
     return glm::dot(*image.position, normal);
 }
 
-// Sorts the images along the slices' normal; of several at each place, keeps the request's time.
+// Sorts the images by depth along the normal. If several lie at each depth, they are times in the
+// order of InstanceNumber, and only the image of the request's time is kept.
 void order(Images& images, const glm::dvec3& normal, const std::string& name,
            const VolumeRequest& request) {
     std::ranges::stable_sort(images, {}, &DicomImage::instance);
@@ -146,7 +147,6 @@ void order(Images& images, const glm::dvec3& normal, const std::string& name,
     for (Images& place : places) images.push_back(std::move(place[static_cast<std::size_t>(time)]));
 }
 
-// The place of a slice, and its name in messages.
 struct SlicePlace {
     glm::dvec3 position;
     std::string name;
@@ -192,7 +192,7 @@ std::vector<SlicePlace> places_of(const Images& images) {
     return places;
 }
 
-// Throws Error if slices are shifted against each other, as those of a tilted gantry.
+// Throws Error unless the step between slices is normal to them (it is not if a gantry is tilted).
 void expect_straight(const glm::dvec3& step, const DicomImage& image, const std::string& name) {
     for (const glm::dvec3& axis : {image.along_row, image.along_column}) {
         const double cosine = glm::dot(axis, step) / glm::length(step);
@@ -204,7 +204,8 @@ void expect_straight(const glm::dvec3& step, const DicomImage& image, const std:
     }
 }
 
-// Finds and orders the images that open_dicom() reads.
+// Finds the images that open_dicom() reads: chooses the series, checks that its images are alike,
+// sorts them along the normal, and takes the step between slices from equally spaced positions.
 DicomSeries read_dicom_series(const Path& path, const VolumeRequest& request) {
     DicomSeries series;
     series.name = path.string();
@@ -257,8 +258,8 @@ float* read_scaled(const DicomImage& slice, float* to) {
     return to;
 }
 
-// Reads the samples of a series. Slices whose slope or intercept differ, as in PET, are scaled one
-// by one. `line`: that of the isolated process that reads compressed slices; else null.
+// Reads the samples of a series. If slopes or intercepts differ, as in PET, scales each slice to
+// floats. `line`: the line of the isolated process that reads compressed slices; else null.
 StoredSamples read_slices(const DicomSeries& series, IsolatedLine* line = nullptr) {
     expect_pixels(series);
     const DicomImage& first = series.slices.front();

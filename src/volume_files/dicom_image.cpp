@@ -142,7 +142,6 @@ class ElementReader {
         left_ -= count;
     }
 
-    // Undoes read_tag().
     void step_back() {
         fseeko(file_.get(), -4, SEEK_CUR);
         left_ += 4;

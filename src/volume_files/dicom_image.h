@@ -12,7 +12,8 @@
 
 namespace lamina {
 
-// A DICOM image without pixels. Axes: x to the patient's left, y to the back, z to the head; mm.
+// Describes a DICOM image, without its pixels. x points to the patient's left, y to the back, z to
+// the head. Lengths are in mm.
 struct DicomImage {
     std::filesystem::path file;
     std::string series, description;  // SeriesInstanceUID, SeriesDescription

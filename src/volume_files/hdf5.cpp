@@ -101,8 +101,8 @@ class Hdf5Process {
     Shared shared_;
 };
 
-// Least edge in samples of the boxes that are read at once: arrays without chunks have it, and
-// smaller chunks are read several at a time, because smaller boxes are not worth a question.
+// Min edge, in samples, of the boxes that are decoded at once, because each takes a question to a
+// process. Smaller chunks are read several at a time; arrays without chunks take this edge.
 constexpr std::int64_t least_edge = 64;
 
 std::array<std::int64_t, 3> edge_of(const Hdf5Head& head) {
@@ -215,7 +215,7 @@ class Hdf5Source : public ChunkedSource {
     mutable unsigned lost_ = 0;  // processes that are to be replaced by new ones
 };
 
-// The file and the array that "FILE.h5:/PATH" names: "/PATH", or empty if there is none.
+// The file and the array ("/PATH") of a path "FILE.h5:/PATH". `array` is empty for a plain file.
 struct ArrayPath {
     std::filesystem::path file;
     std::string array;

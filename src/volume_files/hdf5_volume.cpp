@@ -37,7 +37,7 @@ bool has_numbers(hid_t type) {
     return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
 
-// Returns nothing if samples of that type are no numbers that can be drawn.
+// Returns nothing if samples of this HDF5 type are not numbers that can be drawn.
 std::optional<ValueType> type_of_hdf5(hid_t type) {
     if (!has_numbers(type)) return {};
     const bool integers = H5Tget_class(type) == H5T_INTEGER;
@@ -46,7 +46,7 @@ std::optional<ValueType> type_of_hdf5(hid_t type) {
                        !integers || H5Tget_sign(type) == H5T_SGN_2);
 }
 
-// Returns a data space's numbers, which read(pointer) reads; none if over `most`, or if that fails.
+// Returns the numbers of a data space, which read(to) stores; none if over `most` or on failure.
 template <typename Read>
 std::vector<double> numbers_of(hid_t space, std::size_t most, const Read& read) {
     const hssize_t count = H5Sget_simple_extent_npoints(space);
@@ -97,7 +97,6 @@ herr_t read_scale(hid_t /*set*/, unsigned /*axis*/, hid_t scale, void* data) {
     return 1;  // no further one
 }
 
-// The paths of data sets that can be volumes.
 struct FoundArrays {
     std::vector<std::string> names;
     bool too_deep = false;

@@ -45,8 +45,8 @@ bool stores_elsewhere(hid_t set);
 // A data set of numbers in an open HDF5 file, with what is known of its axes.
 class Hdf5Array {
   public:
-    // `name`: that of file and data set, for messages. Throws Error if the data set cannot be read,
-    // or if it lies in another file and the client allows only some files (base/client.h).
+    // `name`: file and data set, for messages. Throws Error if the data set cannot be read, or if
+    // it lies in another file and the client allows only some files (base/client.h).
     Hdf5Array(hid_t file, const std::string& path, std::string name);
 
     const std::vector<std::int64_t>& shape() const { return shape_; }  // the last changes fastest
@@ -86,18 +86,18 @@ class Hdf5Array {
     ValueType type_ = ValueType::uint8;
 };
 
-// A volume's description, which the isolated process sends first, byte for byte as in memory.
+// Describes a volume. The isolated process sends it first, byte for byte as it lies in memory.
 struct Hdf5Head {
     Grid grid;
     ValueType type = ValueType::uint8;
     double scale = 1, offset = 0;                // as in StoredSamples
-    bool has_missing = false;                    // samples of some values become NaN
+    bool has_missing = false;                    // values that mark missing samples become NaN
     bool elsewhere = false;                      // the samples lie in another file
     std::array<std::int64_t, 3> chunk{0, 0, 0};  // samples along x, y and z; 0: not in chunks
     // Result of Hdf5Array::raw_place(), for all samples of the array: the volume's, and those of
     // other channels and times. Its offset is -1 if there is no such place.
     Hdf5Array::RawPlace raw{-1, false};
-    // Channels and times: how many there are, and the index that is read.
+    // Number of channels [0] and times [1], and the index of each that is read.
     std::array<std::int64_t, 2> outer{1, 1}, taken{0, 0};
 };
 

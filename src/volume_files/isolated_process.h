@@ -20,16 +20,16 @@ class IsolatedLine {
     virtual void answer(const void* bytes, std::size_t count) = 0;
     // Raises the limits of time and memory to what headers and `bytes` bytes of samples need.
     virtual void allow_bytes(std::size_t bytes) = 0;
-    // Returns memory that both see. Both must ask for the same size, and not use what they had.
+    // Maps memory that both processes share. Both ask for one size, and use no earlier mapping.
     virtual std::shared_ptr<void> shared_memory(std::size_t bytes) = 0;
 
   protected:
     ~IsolatedLine() = default;
 };
 
-// A process for a library that may crash or never return at a damaged file: both become an Error of
-// receive(), as an Error of the work does; warnings are passed on. The work must start no threads.
-// The process ends when the work does, when this object is destroyed, or when the starter ends.
+// Runs a library that may crash or never return on a damaged file in another process. receive()
+// then throws an Error; it also rethrows Errors of the work, and passes warnings on. The work must
+// start no threads. The process ends with the work, with this object, or with its starter.
 class IsolatedProcess {
   public:
     using Work = std::function<void(IsolatedLine&)>;

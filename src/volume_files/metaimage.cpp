@@ -57,7 +57,6 @@ class MetaImageFields {
         return found == fields_.end() ? otherwise : found->second;
     }
 
-    // Returns the value of a field that is True or False.
     bool flag(const std::string& key, bool otherwise) const {
         const std::string word = text(key);
         if (word.empty() && !has(key)) return otherwise;
@@ -99,7 +98,6 @@ class MetaImageFields {
         return result;
     }
 
-    // Throws Error for a field that is missing or wrong.
     [[noreturn]] void reject(const std::string& key, const std::string& expected) const {
         if (!has(key)) fail("{}: {}: found nothing, expected {}", file_, key, expected);
         fail("{}: {}: found '{}', expected {}", file_, key, one_line(text(key).substr(0, 80)),

@@ -21,7 +21,7 @@ struct NiftiHeader {
     std::filesystem::path data_path;  // the file of the samples: the same for magic "n+1"
     bool packed = false;              // both are gzip files
     bool big_endian = false;
-    std::array<std::int64_t, 8> dim{};  // dim[0]: how many of the others count
+    std::array<std::int64_t, 8> dim{};  // dim[0]: number of dimensions; others: their sizes
     std::array<double, 8> pixdim{};
     std::int64_t datatype = 0;
     std::int64_t data_offset = 0;

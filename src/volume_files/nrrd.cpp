@@ -71,7 +71,7 @@ Centering centering_of(const NrrdAxisInfo& axis) {
     return axis.center == nrrdCenterCell ? Centering::cell : Centering::node;
 }
 
-// Returns the spacing of an axis without a direction, else what its mins and maxs imply, else NaN.
+// Returns the given spacing of an axis, else the one that min and max imply, else NaN.
 double known_spacing_of(const NrrdAxisInfo& axis) {
     if (!std::isnan(axis.spacing)) return axis.spacing;
     const bool cell = centering_of(axis) == Centering::cell;
@@ -252,12 +252,11 @@ constexpr std::size_t line_limit = 512;
 struct HeaderText {
     std::string text;  // magic and fields, without `data file` and remarks
     std::optional<NrrdDataFiles> data_files;
-    std::set<std::string> fields;  // names of all, lower case
+    std::set<std::string> fields;  // names of all fields, lower case
     std::int64_t length = 0;       // bytes up to and including the empty line
-    bool ended = false;            // by an empty line, not by the end of the file
+    bool ended = false;            // the header ends with an empty line, not with the file
 };
 
-// Reads the beginning of a file, at most most_header_bytes bytes.
 std::string read_beginning(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) fail("{}: cannot read: permission denied", path.string());

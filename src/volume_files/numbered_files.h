@@ -20,10 +20,8 @@ inline std::optional<std::int64_t> whole_number(std::string_view word) {
     return number;
 }
 
-// Returns the words of a text, which are separated by blanks.
 std::vector<std::string> words_of(const std::string& text);
 
-// Returns the text without blanks at its ends.
 std::string without_blanks(const std::string& text);
 
 // A pattern of file names with a number in them, such as "slice%03d.raw".

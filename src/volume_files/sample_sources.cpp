@@ -40,14 +40,14 @@ void add_some_bytes(ContentHash& hash, std::uint64_t all, const Read& read) {
     }
 }
 
-// Rows of a box are read in one call if at most so many bytes, or so many times a row's length, lie
-// from one to the next: a system call takes as long as copying that much.
+// All rows of a box in a slice are read in one call if the distance from one to the next is at most
+// most_between_bytes, or most_between_rows times a row's length: a system call costs as much time.
 constexpr std::uint64_t most_between_bytes = 4096, most_between_rows = 8;
 constexpr std::size_t most_extents = 1 << 20;  // longer lists are not used
-// Largest gap in bytes that is read over: a disk takes longer to continue behind a larger one.
+// Max gap in bytes that will_read() reads, too: a disk takes longer to go on behind a larger one.
 constexpr std::uint64_t most_skipped = 1 << 20;
-// Bytes of each read of will_read(), and number of consecutive reads in one task: a disk would wait
-// between short reads.
+// Bytes of each read of will_read(), and max reads of a task: a disk would wait between shorter
+// ones.
 constexpr std::uint64_t read_at_once = 1 << 21;
 constexpr std::size_t pieces_together = 32;
 // Holes shorter than this are read with the data around them.
@@ -56,9 +56,9 @@ constexpr std::uint64_t shortest_hole = 1 << 15;
 // Most bytes of decoded chunks that stay in memory, unless bytes_to_keep() demands more.
 constexpr std::uint64_t most_kept = std::uint64_t{1} << 26;
 
-// Returns how many bytes of decoded chunks may stay in memory: an eighth of the memory limit, up to
-// most_kept; if the chunks that one row of bricks touches take more, as much as these, up to a
-// quarter of the limit; in any case two chunks a thread. `count`: chunks along each axis.
+// Returns how many bytes of decoded chunks may stay in memory, the max of: an eighth of the memory
+// limit, at most most_kept; the chunks that a row of bricks touches, at most a quarter of the
+// limit; two chunks for each thread. `count`: chunks along each axis.
 std::uint64_t bytes_to_keep(const Triple& edge, const Triple& count, std::uint64_t chunk_bytes) {
     // Chunks that a row of bricks along x touches. A row is read before the next one.
     std::int64_t touched = count[0];

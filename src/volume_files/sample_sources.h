@@ -44,8 +44,8 @@ class FileSource : public SampleSource {
     // Tells if this class can read the data: if they are raw, and of a type that is drawn as it is.
     static bool can_read(const StoredData& data);
 
-    // `size`: the volume's along the three axes of the data that are read in full. Checks the data
-    // as read_stored() does, and warns as say_taken() does.
+    // `size`: samples of the volume along the three axes of the data that are read in full. Checks
+    // the data as read_stored() does, and warns as say_taken() does.
     FileSource(const StoredData& data, const std::array<std::int64_t, 3>& size);
 
     void read(const SampleBox& box, void* to) const override;
@@ -63,7 +63,7 @@ class FileSource : public SampleSource {
     };
 
     void find_extents();
-    // Returns the byte of the data (of all files, one after another) with which a sample begins.
+    // Returns the byte at which a sample begins in the data of all files, one after another.
     std::uint64_t place_of(std::int64_t x, std::int64_t y, std::int64_t z) const {
         return first_ + static_cast<std::uint64_t>(x) * step_[0] +
                static_cast<std::uint64_t>(y) * step_[1] + static_cast<std::uint64_t>(z) * step_[2];
@@ -79,7 +79,7 @@ class FileSource : public SampleSource {
     std::vector<std::int64_t> offsets_;
     // The open file if there is one only; several are opened anew for each read.
     std::unique_ptr<RandomAccessFile> only_file_;
-    std::uint64_t bytes_each_;
+    std::uint64_t bytes_each_;  // of data in each file
     std::array<std::int64_t, 3> size_;
     std::size_t bytes_;                    // of a sample
     std::uint64_t first_ = 0;              // byte of the data with the volume's first sample
@@ -112,7 +112,7 @@ class StreamSource : public SampleSource {
     StoredReader reader_;
     FileState file_;
     std::int64_t slices_;
-    std::vector<StoredAxis> inner_, outer_;  // the axes up to z, and those behind it
+    std::vector<StoredAxis> inner_, outer_;  // the axes up to z, and the slower ones
     std::unique_ptr<ByteReader> bytes_;
     mutable std::int64_t next_ = 0;  // slice that is read next
 };

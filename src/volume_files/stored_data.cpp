@@ -166,7 +166,11 @@ char* gather_row(const char* from, Axes axes, std::size_t value_bytes, char* to)
     }
 }
 
-// Reads an array from its first byte to its last, and stores what its axes take of it.
+// Reads an array in the order of the file and stores what its axes take (StoredAxis::taken):
+//   1. An array that is taken as a whole is read straight to the result.
+//   2. A small one (scratch_bytes) is read into memory, and what is taken is copied from there.
+//   3. If one index of the last axis is taken, the bytes before and after it are skipped.
+//   4. Otherwise, the last axis is cut into pieces that fit scratch_bytes.
 class TakenReader {
   public:
     TakenReader(ByteReader& reader, std::size_t value_bytes, char* to)
@@ -197,7 +201,6 @@ class TakenReader {
     }
 
   private:
-    // Reads the array in pieces of as many steps along the last axis as fit the scratch memory.
     void read_pieces(Axes axes, std::size_t inner_bytes) {
         std::vector<StoredAxis> piece(axes.begin(), axes.end());
         const auto most = static_cast<std::int64_t>(
@@ -215,7 +218,7 @@ class TakenReader {
 };
 
 // Throws Error unless there is one file for each index on the axes that a single file does not
-// hold, or the files hold equal shares of the last axis.
+// hold, or, if a file holds all axes, each has an equal share of the last axis.
 void check_file_count(const StoredData& data, std::int64_t found,
                       const std::optional<std::size_t>& axes_each, const char* field) {
     const std::size_t each = axes_each.value_or(data.axes.size() - 1);

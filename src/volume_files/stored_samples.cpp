@@ -87,7 +87,7 @@ struct Rounded {
 template <typename From>
 bool holds_exactly(float to, From from) {
     if constexpr (std::is_integral_v<From>) {
-        // A float beyond the integer type, such as 2^63, would
+        // A float beyond the range of From, such as 2^63, would overflow when it is converted back.
         const auto above = std::ldexp(1.0F, std::numeric_limits<From>::digits);
         return to < above && static_cast<From>(to) == from;
     } else {

@@ -25,11 +25,10 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// Most bytes that one byte gives in any compression: zstd's longest run, 128 KiB, takes 4 bytes.
+// Max bytes that one compressed byte expands to: zstd's longest run, 128 KiB, takes 4 bytes.
 constexpr std::uint64_t most_expansion = 32768;
 constexpr tmsize_t most_memory = tmsize_t{1} << 31;  // bytes that libtiff itself may take at once
 
-// Size and type of a page of a TIFF file.
 struct TiffPage {
     std::int64_t width = 0, height = 0;
     std::int64_t samples = 1;  // of each pixel
@@ -80,7 +79,7 @@ class TiffFile {
     // Returns the byte of the file at which the page's directory lies.
     std::uint64_t place() const { return TIFFCurrentDirOffset(tiff_.get()); }
 
-    // Moves to a page. `place`: place() there, because finding it by number reads all before it.
+    // Moves to a page. `place`: its place(), because a search by number reads all pages before it.
     void go_to_page(std::uint32_t number, std::uint64_t place) {
         number_ = number;
         message_.clear();
@@ -125,7 +124,6 @@ class TiffFile {
         return page;
     }
 
-    // Returns the page's description; empty: none.
     std::string description() const {
         const char* text = nullptr;
         const bool found = TIFFGetField(tiff_.get(), TIFFTAG_IMAGEDESCRIPTION, &text) != 0;

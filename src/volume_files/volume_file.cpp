@@ -29,7 +29,7 @@ enum Keys : unsigned {
 // A file format of volumes.
 struct VolumeFormat {
     const char* name;  // "NIfTI"
-    // Extensions in lower case, which tell files with damaged content; null ends the list.
+    // Extensions in lower case, by which damaged files are recognised; null ends the list.
     const char* extensions[4];
     // Tells if a file, or a file in a folder, is of this format by its content. Never throws.
     bool (*recognizes)(const Path& path);

@@ -32,18 +32,18 @@ Volume open_zarr(const std::filesystem::path& path, const VolumeRequest& request
                  const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_zarr(const std::filesystem::path& path);
 
-// HDF5 (NetCDF-4 is one), or an array in such a file, "FILE.h5:/PATH", which `request.array` may
-// name, too: the axes z, y, x, before these the channel, before that the time. Distances and places
-// come from dimension scales (NetCDF's coordinate variables) or the attribute element_size_um;
-// arrays with scale_factor or add_offset do not stay in the file.
+// An HDF5 or NetCDF-4 file, or an array in it, "FILE.h5:/PATH", which `request.array` may name,
+// too. Its axes are z, y, x, with the time before them if there are four, time and channel if there
+// are five. Spacing and origin come from dimension scales (NetCDF's coordinate variables) or the
+// attribute element_size_um. Arrays with scale_factor or add_offset do not stay in the file.
 bool is_hdf5(const std::filesystem::path& path);
 Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path);
 
-// One series of a folder of DICOM files, or a file of several frames: the largest series unless
-// request.array names another by its UID or description; and the request's time of a series that
-// has several images at each place. A folder is DICOM if one of its first files is.
+// A DICOM file of several frames, or one series of a folder of DICOM files: the one whose UID or
+// description request.array names, else the largest. If a series has several images at each place,
+// request.time chooses. A folder is DICOM if one of its first 64 files is.
 bool is_dicom(const std::filesystem::path& path);
 Volume open_dicom(const std::filesystem::path& path, const VolumeRequest& request,
                   const VolumeUse& use);

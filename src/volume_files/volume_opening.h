@@ -59,7 +59,6 @@ void expect_room(const std::string& name, std::uint64_t bytes, const VolumeUse& 
 // Opens data as a volume: in their files if possible and asked for, else in memory. Throws Error.
 Volume open_stored(const Grid& grid, const StoredData& data, const VolumeUse& use);
 
-// Makes a volume that stays in its files.
 Volume stored_volume(const Grid& grid, SampleType type, std::unique_ptr<const SampleSource> source);
 
 }  // namespace lamina

@@ -17,7 +17,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// A bound on the bytes that one byte decompresses to: the largest factor, LZMA's, is some 7000.
+// Upper bound on the bytes that one byte decompresses to: LZMA, the densest, reaches some 7000.
 constexpr std::size_t most_vti_expansion = 32768;
 constexpr std::size_t most_pieces = 4096;  // each is compared with all others
 
@@ -106,7 +106,6 @@ class ImageFile {
         return numbers;
     }
 
-    // Returns the samples along each axis.
     std::array<std::int64_t, 3> size_of(const Extent& extent) const {
         std::array<std::int64_t, 3> size{};
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -152,7 +152,6 @@ Json zarr_attributes(const std::filesystem::path& folder) {
     return attributes;
 }
 
-// Tells if the attributes are those of an OME-Zarr image.
 bool is_ome_zarr(const Json& attributes) {
     const Json* const found = member_of(attributes, "multiscales");
     return found != nullptr && found->is_array() && !found->empty() && found->front().is_object();

@@ -34,7 +34,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A bound on the bytes that a stored byte gives with any codec: zstd packs 2^17 equal ones into 4.
+// Upper bound on the bytes that one byte decodes to: zstd packs 2^17 equal bytes into 4.
 constexpr std::size_t most_chunk_expansion = 1 << 16;
 
 // Decodes zlib and gzip streams alike, each as a whole.

@@ -55,17 +55,16 @@ struct ZarrArray {
 // read arrays of this kind.
 ZarrArray read_zarray(const std::filesystem::path& folder);
 
-// The samples that are taken of an array: which of its axes are z, y and x (-1: the array has no
-// such axis, and the volume one sample there), and one index on each other axis.
+// Selects a volume from an array: says which of its axes are z, y and x (-1: the array has no such
+// axis, and the volume has one sample there), and gives one index on each other axis.
 struct ZarrSelection {
     std::array<int, 3> axes{-1, -1, -1};  // for z, y, x
     std::vector<std::int64_t> index;      // on each axis of the array; those in `axes` do not count
 };
 
 // An array that lamina wrote has a file with the hashes of its chunks, in the order of ZarrChunks,
-// so that a damaged or lost chunk is never drawn.
-// Hash of a chunk that has no file: its samples are all the fill value, which is 0 in arrays
-// that lamina writes.
+// so that a damaged or lost chunk is never drawn. no_chunk is the hash of a chunk without a file:
+// all its samples have the fill value, which is 0 in these arrays.
 inline constexpr std::uint64_t no_chunk = 0;
 
 std::uint64_t hash_of_chunk(std::span<const char> stored);
@@ -144,7 +143,6 @@ class ZarrChunks {
     std::uint64_t stored_ = 0;  // bytes of all files
 };
 
-// Samples in the chunks of a Zarr array.
 class ZarrSource : public ChunkedSource {
   public:
     explicit ZarrSource(ZarrChunks chunks);
