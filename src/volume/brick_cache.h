@@ -20,7 +20,8 @@ namespace lamina {
 
 // A cache of a volume's samples in bricks of edge^3 cells, which drops the least recently used
 // bricks. A brick has one more sample along each axis than cells, so that each cell lies in one
-// brick; beyond the volume's last sample, that sample is repeated. Safe from any thread.
+// brick; beyond the volume's last sample, that sample is repeated. Safe from any thread: a thread
+// that holds bricks locks one of several mutexes (stripes), and eviction locks all of them.
 class BrickCache {
   public:
     static constexpr std::int64_t edge = 32, shift = 5;
@@ -88,9 +89,9 @@ class BrickCache {
     }
 
     void clear();  // forgets all bricks, and gives their memory back; nobody may hold any
-    // Tells the cache which bricks, in ascending order, will be used. A missing brick is then read
-    // together with its neighbours along x in this list, because they lie near it in files. Without
-    // this call it is read with all its neighbours along x.
+    // Tells the cache which bricks, ascending, will be used: a missing one is read with its
+    // neighbours along x in this list (near it in files). Without this call, it is read with all
+    // neighbours.
     void expect(std::span<const std::uint32_t> bricks);
     // Returns the bricks that are not in memory, ascending.
     std::vector<std::uint32_t> missing(std::span<const std::uint32_t> bricks) const;

@@ -58,7 +58,7 @@ struct ValueStatistics {
 
     std::int64_t count = 0;           // finite values
     std::vector<double> percentiles;  // one a place; none if there is no value
-    Histogram histogram;              // likewise
+    Histogram histogram;              // empty if there is no value
 
     // Returns the rank of a percentile, from 1 in ascending order. The percentile is the smallest
     // value that at least this share of the values does not exceed.

@@ -19,8 +19,8 @@ struct DicomImage {
     std::string series, description;  // SeriesInstanceUID, SeriesDescription
     std::int64_t instance = 0;        // InstanceNumber
     std::int64_t columns = 0, rows = 0, frames = 1;
-    std::optional<glm::dvec3> position;                    // the first pixel's centre
-    std::vector<glm::dvec3> frame_positions;               // each frame's, or none
+    std::optional<glm::dvec3> position;       // the first pixel's centre
+    std::vector<glm::dvec3> frame_positions;  // first pixel of each frame; may be empty
     glm::dvec3 along_row{1, 0, 0}, along_column{0, 1, 0};  // unit vectors
     glm::dvec3 spacing{1};                                 // between columns, rows and frames
     double slope = 1, intercept = 0;                       // RescaleSlope, RescaleIntercept

@@ -67,7 +67,6 @@ class Hdf5Array {
     // Returns where the samples lie in the file, if contiguous, not packed and not to be converted.
     std::optional<RawPlace> raw_place() const;
 
-    // Tells if the samples lie in another file than `file`.
     bool lies_elsewhere(hid_t file) const;
 
     // Throws Error if the samples cannot be read: a filter is missing here, or the file's

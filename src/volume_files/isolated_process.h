@@ -56,7 +56,7 @@ class IsolatedProcess {
     std::string name_;
     const char* library_;
     pid_t process_ = -1;
-    int line_ = -1, memory_ = -1;
+    int line_ = -1, memory_ = -1;  // descriptors of the socket to it, and of shared memory
     bool ended_ = false;
 };
 

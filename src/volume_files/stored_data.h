@@ -87,6 +87,7 @@ void set_data_files(StoredData& data, const std::vector<std::string>& names,
 // what the header promises; a warning counts surplus bytes. Throws Error.
 StoredSamples read_stored(const StoredData& data);
 
+// Reads the data that a StoredData describes.
 class StoredReader {
   public:
     // `data` must outlive the reader. Throws Error if the files cannot hold them.
@@ -112,7 +113,7 @@ class StoredReader {
 
     const StoredData& data_;
     std::string name_;
-    std::size_t bytes_, bytes_each_;
+    std::size_t bytes_, bytes_each_;  // of all data; of the data in each file
 };
 
 }  // namespace lamina

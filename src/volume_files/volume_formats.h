@@ -73,9 +73,9 @@ bool is_vti(const std::filesystem::path& path);
 Volume open_vti(const std::filesystem::path& path, const VolumeRequest& request,
                 const VolumeUse& use);
 
-// TIFF or BigTIFF: pages of one size and type are slices, those of one file, or of the files of a
-// folder in the order of the numbers in their names, with every compression that libtiff knows. The
-// samples of a pixel are channels; ImageJ's and OME's descriptions give channels, times, distances.
+// TIFF or BigTIFF with every compression that libtiff knows: slices are the pages of a file, or of
+// a folder's files by the numbers in their names; all have one size and type. Samples of a pixel
+// are channels; descriptions by ImageJ or OME give channels, times and distances.
 bool is_tiff(const std::filesystem::path& path);
 Volume open_tiff(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use);

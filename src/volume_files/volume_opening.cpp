@@ -76,9 +76,9 @@ bool stays_in_files(const Grid& grid, SampleType type, const VolumeUse& use) {
     const auto each = static_cast<double>(bytes_of(type));
     double bytes = samples * (each + (2 * each + bytes_per_brick) / samples_per_brick);
     if (type == SampleType::float32)
-        bytes += samples * float_bytes;  // normalised
+        bytes += samples * float_bytes;  // the normalised copy
     else if (samples * each > std::numeric_limits<std::int32_t>::max())
-        bytes += samples * each;  // copied in parts
+        bytes += samples * each;  // copies in bricks with 32-bit indices
     if (use.lit) bytes += samples * gradient_bytes;
     return bytes > static_cast<double>(memory_limit());
 }
