@@ -89,9 +89,8 @@ class BrickCache {
     }
 
     void clear();  // forgets all bricks, and gives their memory back; nobody may hold any
-    // Tells the cache which bricks, ascending, will be used: a missing one is read with its
-    // neighbours along x in this list (near it in files). Without this call, it is read with all
-    // neighbours.
+    // Tells the cache which bricks, ascending, will be used. Only these are then read as neighbours
+    // along x of a missing brick (they lie near it in files); without this call, all are.
     void expect(std::span<const std::uint32_t> bricks);
     // Returns the bricks that are not in memory, ascending.
     std::vector<std::uint32_t> missing(std::span<const std::uint32_t> bricks) const;
