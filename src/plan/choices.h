@@ -48,8 +48,8 @@ struct SlabTrial {
     std::int64_t rays = 0;    // number of rays that were tried
     double goal = 0;          // largest error that is allowed: slab_error_goal(), in 1/255
     std::int64_t traced = 0;  // rays that were compared with the reference tracer
-    // True: the picture's error may be larger, because rays are those of a smaller picture, or only
-    // some were traced, and the tracer found more than comparing with other numbers of slabs did.
+    // True: the picture's error may be larger than `error`, which was found on some rays only: the
+    // tracer found more than comparing with more slabs did, or `error` is implausibly small.
     bool doubtful = false;
     bool keeps_goal() const { return error <= goal; }
 
@@ -139,12 +139,11 @@ bool may_be_quicker(const Scene& scene);
 // own, that of its tree, or the choice's. With exact segments all numbers are equally good.
 Scene with_classification(Scene scene, const ClassificationChoice& choice);
 
-// llvmpipe silently ends the loops of a fragment after 65535 iterations in all
-// (LP_MAX_TGSI_LOOP_ITERATIONS); other drivers have no such limit. The next three functions respect
-// this.
+// The next three functions respect a limit of llvmpipe: it silently ends the loops of a fragment
+// after 65535 iterations in all (LP_MAX_TGSI_LOOP_ITERATIONS).
 
-// Returns the largest number of slabs that one fragment can march through. With exact segments it
-// is of `slabs` slabs, at least least_exact_slabs().
+// Returns the largest number of slabs that one fragment can march through. With exact segments,
+// slabs are those of a ray that is cut into `slabs`, which must be at least least_exact_slabs().
 int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                        int slabs);
 
@@ -167,12 +166,13 @@ inline constexpr double short_depth = 0.02;
 // Sets table.built to the table that its request asks for, from the cache or newly built.
 void get_table(const Scene& scene, const Facts& facts, TablePlan& table, TableCache& tables);
 
-// Returns the largest error of a ray's colour, in 1/255, that the built table makes on
-// Facts::scalar_rays cut into `slabs` segments. Opacity is exact.
+// Returns the largest error of colour, in 1/255, that the built table makes on Facts::scalar_rays
+// cut into `slabs` segments, and on single segments in linear pieces. Opacity is exact.
 double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& table);
 
-// Chooses the scalar nodes and lengths of a coloured table with range and max_length: the coarsest
-// of a few sizes that keeps the error within table_share of max_error, or else that with the least.
+// Chooses the scalar nodes and lengths of a coloured table whose range and max_length are set: of a
+// few sizes, the coarsest with an error of at most table_share of max_error or, if there is none,
+// the one with the smallest error.
 // `depth`: a segment's largest optical depth; 0 if the limit of short segments is enough.
 void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth, TablePlan& table,
                   TableCache& tables);
@@ -202,7 +202,7 @@ struct TreeQuestion {
     int slabs = 1;
     int visible_slabs = 1;  // largest number of slabs that are composited on one ray and show
     Order order = Order::back_to_front;
-    std::optional<Dither> dither;  // that rounds opacity to codes
+    std::optional<Dither> dither;  // if opacity is rounded to codes with dithering
     double largest_color = 1;      // largest colour component that is composited
     double max_error = 1;          // in 1/255, as the scene has it
     double slab_error = 0;  // the share of max_error that the slabs were found to use, in 1/255
@@ -217,8 +217,8 @@ struct TreeChoice {
     std::string reason;
 };
 
-// These return bounds on the error of compositing, in 1/255 (docs/precision.md derives them): by
-// blending, and by one node computed in float.
+// These return bounds on the error of compositing, in 1/255 (docs/precision.md derives them): if
+// slabs are blended, and if one node composites them in float.
 double straight_error_bound(const TreeQuestion& question);
 double one_level_error_bound(const TreeQuestion& question);
 

@@ -17,7 +17,8 @@
 namespace lamina {
 namespace {
 
-// Shares of max_error for light: its kinks and bends; in all, with pieces too faint to examine.
+// Shares of max_error that light may take: for kinks and bends alone, and in all, including pieces
+// of rays too faint to be examined.
 constexpr double bend_share = 0.5, light_share = 0.75;
 // Largest share of a kink's bend that Gauss' rule of three nodes misses if the kink lies between
 // nodes (docs/numerics.md, section 10.4).
@@ -32,7 +33,7 @@ double most_bend(const Scene& scene, double max_color) {
 
 constexpr int most_iterations = 65535;  // iterations of llvmpipe's loops (plan/choices.h)
 constexpr int spare_iterations = 64;    // iterations for everything else that a fragment does
-constexpr int search_cells = 1024;  // equal cells of the range, each with a first interval to try
+constexpr int search_cells = 1024;  // equal parts of the range; each knows where a search begins
 // Iterations for cutting deep cells: rays end at an optical depth of 20.7, and cells deeper than
 // .75 are cut. A piece at least half as deep takes up to 20 iterations to find, and up to 20
 // pieces before it if extinction rises from 0 (shaders/slicing/cut_cell.glsl).
@@ -42,8 +43,8 @@ bool is_unlimited(const Capabilities& capabilities) {
     return !capabilities.software || capabilities.cpu;
 }
 
-// Returns the iterations of one search for an interval: the knots in the cell (of search_cells)
-// with the most of them, and one to see that it is done.
+// Returns the largest number of iterations of a search for the interval of a scalar: the number of
+// knots in the fullest of the search_cells, and one more to find that the search is done.
 int search_iterations(const Scene& scene, const Facts& facts) {
     const ValueRange range = drawn_range(*scene.transfer_function, facts.range);
     assert(range.hi > range.lo);

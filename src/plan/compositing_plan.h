@@ -29,7 +29,6 @@ const char* name_of(Blending blending);
 // Returns the dithering for `slabs` slabs, with its period chosen if that is automatic.
 Dither dither_of(const DitherSettings& settings, int slabs);
 
-// How fragments are composited.
 struct CompositingPlan {
     double unit = 1;  // world lengths times this are in the plan's units (scene/camera.h)
     Target target = Target::float32;

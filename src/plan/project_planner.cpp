@@ -29,7 +29,7 @@ namespace {
 // section 7). Scene files have no near plane.
 constexpr double near_share = 1e-6;
 
-// Error of float32 arithmetic, in 1/255: as for exact segments of volumes (plan/choices.h).
+// Error of float32 arithmetic, in 1/255: equal to exact_segment_error (plan/choices.h).
 constexpr double float_error = 0.05;
 
 // Share of a tet's longest edge by which faces at both ends of a segment are assumed to be out of
@@ -46,14 +46,14 @@ constexpr double scalar_rounding = 0x1p-22;
 // are so far off.
 constexpr double most_figure = 8;
 
-// Error that a table may add to the picture's, in 1/255.
+// Largest error, in 1/255, that a pre-integration table may add to the picture.
 constexpr double most_segment_error = 0.5;
 
 // Factor by which other rays of the picture may be worse than the trial rays.
 constexpr double sampling_margin = 1.25;
 
-// Largest average number of cell fragments of a visible tet, cut at the transfer function's points,
-// with which tets are cut; with more pieces a table that knows the transfer function is faster.
+// Tets are cut into cell fragments at the transfer function's points only if a visible tet has at
+// most this many on average. With more, a table whose nodes lie on these points is faster.
 constexpr std::int64_t most_cell_fragments_a_tet = 8;
 
 // Number of points of a transfer function above which a table takes longer to build than it saves.
@@ -71,12 +71,12 @@ bool is_far_narrower(const ValueRange& window, const ValueRange& range) {
     return (range.hi - range.lo) / least_narrowing > window.hi - window.lo;
 }
 
-// Ratio of the range of scalars to most pieces of the transfer function from which on tets are cut,
-// into however many pieces, unless a window is used: float32 would resolve only 1e-3 of a piece.
+// If the range of scalars is wider than the median visible piece of the transfer function by more
+// than this ratio, and no window is used, tets are cut, into however many pieces: in float32,
+// scalars of the whole range would resolve only 1e-3 of a piece.
 constexpr double narrow_pieces = 0x1p12;
 
-// Tells whether most visible pieces of the transfer function are narrower than the range by this
-// ratio.
+// Tells whether the range is wider than the median visible linear piece by more than that ratio.
 bool has_narrow_pieces(const TransferFunction& transfer_function, const ValueRange& range) {
     std::vector<double> widths;
     for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
@@ -90,8 +90,8 @@ bool has_narrow_pieces(const TransferFunction& transfer_function, const ValueRan
     return *middle * narrow_pieces < range.hi - range.lo;
 }
 
-// Calls visit() with the pieces of a segment before the window, within it and behind it, as they
-// are drawn; their scalars lie in the window. A segment within the window is a single piece.
+// Cuts a segment at the ends of the window and calls visit() with each part, front to back. Parts
+// outside the window get the constant scalar of its nearer end, as renderers draw them.
 template <typename Visit>
 void for_each_piece_of_window(const MeshFacts::Segment& segment, const ValueRange& window,
                               const Visit& visit) {
@@ -127,9 +127,9 @@ OrderMethod method_of(ProjectOrder order) {
 //   geometry       silhouettes or fans of triangles; what is drawn at all
 //   precision      faces of tets in float or in double
 //   visibility     the order of tets
-//   compositing    what rounds to codes, and dithering; a tree
-//   source         how a tet's segment of a ray is integrated, whether one colour or many, and,
-//                  from trial rays, the error
+//   compositing    dithering; whether the program or the blending unit rounds to codes; a tree
+//   source         how a tet's segment of a ray is integrated, whether all that is visible has one
+//                  colour, and the error, measured on trial rays
 struct ProjectPlanner {
     const Scene& scene;
     const MeshFacts& facts;
@@ -356,9 +356,9 @@ struct ProjectPlanner {
         };
     }
 
-    // Returns errors on the trial rays, in 1/255: the largest difference in colour or opacity that
-    // a lookup makes, with its scalars rounded, and the additional difference if faces are slightly
-    // out of place. Without trial rays, returns the errors found last.
+    // Returns the errors on the trial rays, in 1/255: the largest difference in colour or opacity
+    // between a lookup with rounded scalars and the exact integral, and the additional difference
+    // if faces are slightly displaced. Without trial rays, returns the errors found last.
     MeshFacts::TrialError error_of(const Lookup& lookup) const {
         if (facts.trial_rays.empty()) return facts.last_error;
         std::vector<RayError> errors(facts.trial_rays.size());
@@ -376,6 +376,7 @@ struct ProjectPlanner {
         return largest;
     }
 
+    // Errors as shares of full scale: of the lookup alone, and of lookup and displaced faces.
     struct RayError {
         double segments = 0, both = 0;
     };
@@ -410,8 +411,8 @@ struct ProjectPlanner {
         return {of_lookup, of_lookup + largest_of(exact - moved)};
     }
 
-    // Returns a segment with its scalars moved by a rounding. One with a single scalar is not
-    // moved: it stays on its side of a step, because both are rounded alike.
+    // Returns the segment with `rounding` added to its scalars. A segment of constant scalar is not
+    // changed: the scalar and a step beside it round alike, so it stays on its side of the step.
     static MeshFacts::Segment rounded(MeshFacts::Segment segment, double rounding) {
         if (segment.front == segment.back) return segment;
         segment.front += rounding;
@@ -423,12 +424,12 @@ struct ProjectPlanner {
         return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z), std::abs(v.w)});
     }
 
-    // Adds a segment behind those that a ray has met.
+    // Composites a segment behind the sum of those in front of it (associated colour, opacity).
     static void append(glm::dvec4& sum, const SegmentIntegral& segment) {
         sum += (1 - sum.a) * glm::dvec4(segment.color, segment.alpha);
     }
 
-    // Takes the table that is asked for, and measures its error.
+    // Gets the requested table and measures its error on the trial rays.
     void try_table(const TableRequest& request) {
         plan.table.request = request;
         plan.table.built = tables.get(transfer_function, request);

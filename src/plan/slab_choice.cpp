@@ -22,7 +22,7 @@ constexpr double rays_power = 0.25;
 // Factor by which more slabs must reduce the error to be worth their time.
 constexpr double near_least = 1.2;
 
-// Range of the powers of the number of slabs with which errors of second order fall.
+// Range of p in: error ~ 1 / slabs^p, within which errors count as being of second order (p = 2).
 constexpr double least_order = 1.5, most_order = 3;
 
 // Targets by ascending bytes a pixel; of two with equal bytes, the one with smaller steps first.

@@ -40,7 +40,7 @@ constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float c
 
 constexpr double curve_share = 0.25;  // share of max_error that curves may cost
 
-constexpr std::uint64_t gradient_bytes = 8;  // of a sample (slicing/gradient_map.h)
+constexpr std::uint64_t gradient_bytes = 8;  // bytes of a sample's gradient (gradient_map.h)
 
 // Decides how a scene is sliced. make() has the order of its choices, each of which depends on
 // those before:
@@ -49,7 +49,7 @@ constexpr std::uint64_t gradient_bytes = 8;  // of a sample (slicing/gradient_ma
 //   slabs          how many, and whether the texture unit's filter is good enough (by trials)
 //   precision      rays in float or in double
 //   scalars        how they are fetched; curves in place of the transfer function's pieces
-//   integral       of segments: in closed form, or which table
+//   integral       whether segments are integrated in closed form or by a table, and which table
 //   bricks         textures that hold the volume
 //   compositing    a tree or blending, and the bound on its roundings; dithering
 //   view           the box that is drawn; regions in one step; the depth at which rays end
@@ -61,7 +61,7 @@ struct SlicePlanner {
     const SampleTrials& trials;
     TableCache& tables;
     Classification classification = *scene.slice.classification;
-    double max_color = largest_drawn_color(scene, facts.max_color);  // that may be drawn
+    double max_color = largest_drawn_color(scene, facts.max_color);  // after lighting
 
     Plan make() {
         check_limits(scene, capabilities);
@@ -233,7 +233,7 @@ struct SlicePlanner {
         refine_table(scene, facts, slice.slabs, limit_alone ? 0 : depth, slice.table, tables);
     }
 
-    // Returns the bricks. For lit volumes OpenGL's textures of gradients have the largest texels.
+    // Cuts the volume into bricks. If it is lit, OpenGL's largest texels are those of gradients.
     std::vector<TextureBrick> choose_bricks(VolumeSampling sampling, bool float_texture) const {
         if (sampling == VolumeSampling::none) return {TextureBrick{{0, 0, 0}, facts.grid.size}};
         const std::uint64_t sample_bytes = float_texture ? 4 : bytes_of(facts.type);

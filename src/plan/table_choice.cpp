@@ -13,21 +13,21 @@
 namespace lamina {
 namespace {
 
-// Most segments of a ray that are tried; of more, equally spaced ones stand for all.
-// most_tried_of_all_rays limits those of all rays: the fewer a ray has, the more rays are tried.
+// Largest numbers of segments that are tried on one ray, and on all rays together. If a ray has
+// more segments, equally spaced ones stand for all. If it has fewer, more rays are tried.
 constexpr int most_tried = 64, most_tried_of_all_rays = 1 << 14;
 
 // Largest number of linear pieces that are tried one by one, from all over the range.
 constexpr std::size_t most_pieces_tried = 64;
 
-// Limits of a table's colours, in linear pieces that are integrated (some .2 s on two cores) and in
-// bytes. They are low because several tables are built to choose the number of slabs.
+// Limits of a coloured table: the linear pieces that are integrated to build it (4e6 take some .2 s
+// on two cores) and its bytes. They are low because several tables are built to choose one.
 constexpr double most_table_work = 4e6, most_table_bytes = 128 << 20;
 constexpr double most_nodes = 2048;  // limit of a texture
 
-// Numbers of layers, usual and largest. Linear interpolation between layers is good to .0025 if
-// they are an optical depth of 1 or less apart, as far as that is affordable; deeper segments are
-// nearly opaque and change little with length.
+// Largest numbers of layers (segment lengths): in a table's first size, and if that errs too much.
+// Linear interpolation between layers at most an optical depth of 1 apart errs by .0025 or less.
+// Segments deeper than the layers reach are nearly opaque and change little with length.
 constexpr double usual_length_layers = 9, most_length_layers = 33;
 
 // Factor on the number of nodes for the next table that is tried.
@@ -75,7 +75,7 @@ double largest(const glm::dvec3& error) {
     return std::max({std::abs(error.r), std::abs(error.g), std::abs(error.b)});
 }
 
-// Largest changes that light makes to colours up to 1.
+// Bounds on what light adds to a colour component: `change` times the component, and `highlight`.
 struct MostLight {
     double change = 0, highlight = 0;
 };
@@ -87,8 +87,8 @@ MostLight most_light(const Scene& scene) {
     return {lights.largest_effect(1) - highlight, highlight};
 }
 
-// Adds the errors of segments one behind the other: of the unlit colour, and of light that lies
-// only on the fronts of segments.
+// Sums the errors of a ray's segments, each weighted by the transmittance in front of it: errors of
+// the unlit colour, and errors of what light adds if it acts only at the fronts of segments.
 struct ErrorSum {
     MostLight light;
     glm::dvec3 unlit{0}, front{0};
@@ -107,8 +107,8 @@ struct ErrorSum {
     }
 };
 
-// Returns segments around four places in every linear piece, of three widths up to `widest`,
-// because few rays meet narrow pieces.
+// Returns segments without length, centred at four places in linear pieces, of three widths (spans
+// of scalars) up to `widest`. Rays alone would meet few narrow pieces.
 std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_function,
                                         const ValueRange& range, double widest) {
     std::vector<LinearPiece> pieces;

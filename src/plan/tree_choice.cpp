@@ -44,8 +44,9 @@ double opacity_roundings(const TreeQuestion& question) {
     return whole_code ? 2 : 1;
 }
 
-// Returns the storage errors per slab: of its opacity, its colour and the share of the rest that
-// stays visible. Front to back, the opacity in front, which hides those behind, is rounded, too.
+// Returns the rounding error of compositing a slab, in storage errors: one for its colour, one for
+// the colour behind it, which it attenuates, and those of its opacity. Front to back, the opacity
+// accumulated in front, which attenuates the slab, is rounded, too.
 double roundings_per_slab(const TreeQuestion& question) {
     return 2 + opacity_roundings(question) + (question.order == Order::front_to_back ? 1 : 0);
 }
@@ -69,8 +70,8 @@ double scaled_for_color(const TreeQuestion& question, double bound) {
 }
 
 // Returns the error that one level of inner nodes may add to colours up to 1 (docs/numerics.md,
-// section 4): the bound on a channel if each node of this share of the ray is off by a code h, and
-// the rounding of the nodes' colours.
+// section 4): the bound on a channel if the code of each node is off by h, plus the rounding of the
+// nodes' colours. `share`: the smallest share of a ray's slabs that a node of this level has.
 double level_rounding(const TreeQuestion& question, const TreePlan& tree, double share) {
     const double storage = storage_error(question);
     const bool wide = question.target == Target::fixed8 && tree.alpha_bits == 16;
@@ -80,7 +81,7 @@ double level_rounding(const TreeQuestion& question, const TreePlan& tree, double
     return storage + (lost < 1 ? std::min(-std::log1p(-lost), 1.0) : 1.0);
 }
 
-// Returns the smaller bound of blending and one float node; emulated buffers have only blending.
+// Returns the smaller bound of blending and of one float node, which emulated buffers do not have.
 double best_error_bound(const TreeQuestion& question) {
     const double straight = straight_error_bound(question);
     if (question.target == Target::emulated) return straight;

@@ -22,8 +22,8 @@ namespace {
 // Number of rays along a picture's side, and of steps along a ray, to estimate costs on.
 constexpr int rays_along_side = 48, most_steps = 192;
 
-// Cost, in cells that rays walk through, of each ray in each box in which something shows on it:
-// the ray is set up, and its pixel is composited once more.
+// Cost, in cells that rays walk through, of a ray in each box in which it meets something visible:
+// the box's renderer sets up the ray, and its pixel is composited once more.
 constexpr double cells_of_ray = 8;
 
 // Cost, in cells that rays walk through, of reading a brick of the cache: measured 130 us from a
@@ -45,7 +45,7 @@ bool in_picture(const View& view, const glm::dvec3& point) {
            std::abs(glm::dot(from_eye, view.up)) < half * view.height;
 }
 
-// Returns the mean extinction over a brick's range of values, taken as equally frequent.
+// Returns the mean extinction of a brick as if all values of its range were equally frequent.
 double mean_extinction(const TransferFunction& transfer_function, const ValueRange& range) {
     constexpr int places = 4;
     double sum = 0;
@@ -99,6 +99,7 @@ struct ShareCosts {
 
     std::vector<RayStep> ray_steps;  // ray by ray, front to back
     std::vector<glm::vec3> pages;    // middles of the cache's bricks that are read, in index space
+    // Optical depth at which rays end; cost of reading one of `pages`, scaled to the tried rays.
     double opaque_depth = 0, page_cost = 0;
 };
 
@@ -259,6 +260,7 @@ VolumeShares::Cut VolumeShares::best_cut(const ShareCosts& costs, const IndexBox
     return best;
 }
 
+// Walks the tree of cuts. The side with the eye, or that parallel rays enter first, is nearer.
 std::vector<int> VolumeShares::front_to_back(const Grid& grid, const View& view) const {
     const glm::dvec3 eye = grid.to_index(view.eye);
     const glm::dvec3 forward = grid.direction_to_index(view.forward);
