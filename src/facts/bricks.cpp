@@ -30,9 +30,9 @@ std::uint8_t plus(std::uint8_t distance, std::size_t steps) {
     return static_cast<std::uint8_t>(std::min(distance, most) + steps);
 }
 
-// Computes the distances of rows of bricks (along x, numbered y fastest) from known rows: include()
-// takes in the known rows beside a row, finish() computes it. For vector code, buffers continue
-// beyond the ends of a row (with `farthest`), and loops copy members, which bytes might alias.
+// Computes the distances of bricks row by row (along x; y fastest): include() adds a neighbouring
+// row that is known, finish() computes the row. So that loops become vector code, buffers continue
+// beyond a row's ends with `farthest`, and loops copy members, which stores of bytes might change.
 class RowSweep {
   public:
     RowSweep(SparseBytes& distance, std::int64_t across, std::int64_t rows)
@@ -151,8 +151,8 @@ struct ConstantFinder {
         return std::ranges::adjacent_find(knots, flat) != knots.end();
     }
 
-    // Returns the optics of a visible brick if they are constant. A brick of one value has that
-    // value's optics, unless rounding might take the value across a step.
+    // Returns the optics of a visible brick if they are constant, else nothing. A brick of a single
+    // value is constant unless a step lies so near that rounding may take the value across it.
     std::optional<Key> constant_key(std::size_t brick) const {
         if (occupied.distance[brick] > 0) return {};
         const ValueRange range = bricks.range(brick);
@@ -168,7 +168,7 @@ struct ConstantFinder {
         return key_of(transfer_function.at(range.lo));
     }
 
-    // Returns the most frequent kinds first; nothing if too few bricks are constant.
+    // Returns the most frequent kinds in a sample of bricks; none if too few are constant.
     std::vector<Key> common_keys() const {
         const std::size_t count = bricks.ranges.size();
         const std::size_t step = count / most_sampled * 2 + 1;

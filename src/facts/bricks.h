@@ -49,7 +49,7 @@ struct OccupiedBricks {
 };
 
 // The visible bricks with one colour and one extinction; empty if they are less than `least_share`
-// of the visible ones. Those that touch share samples, so they have the same optics.
+// of the visible ones. Constant bricks that touch have equal optics, because they share samples.
 struct ConstantBricks {
     static constexpr double least_share = 0.05;
     // Largest number of kinds (colour and extinction); bricks of rarer kinds count as varied.
@@ -63,8 +63,8 @@ struct ConstantBricks {
     std::uint8_t kind_at(const glm::dvec3& point) const { return kind[varied.place_of(point)]; }
 };
 
-// `occupied` must belong to the same bricks and transfer function. `margin`: largest error of an
-// interpolated scalar, in the data's units.
+// Finds the constant bricks. `occupied` must belong to the same bricks and transfer function.
+// `margin`: the largest error of an interpolated scalar, in the data's units.
 ConstantBricks find_constant_bricks(const TransferFunction& transfer_function,
                                     const MinMaxBricks& bricks, const OccupiedBricks& occupied,
                                     double margin);

@@ -33,7 +33,7 @@ ValueRange changing_range(const TransferFunction& transfer_function) {
     return found;
 }
 
-// Margin of a window on each side, as a share of its width, so that rounding loses no value.
+// Margin on each side of a window, as a share of its width, so that rounding moves no value out.
 constexpr double window_margin = 1.0 / 16;
 
 // Share of the mesh's values in the window if all that changes is one step. Less costs time, as
@@ -56,7 +56,8 @@ double distance_near(double step, std::span<const double> values) {
 }
 
 // Returns the first of three overlapping halves of `range` (lower, middle, upper) that holds
-// `inner` with a margin, or `range`. Ends of `whole` need no margin, because no samples lie beyond.
+// `inner` with a margin, or else `range`. The margin is not needed at ends of `whole`: no samples
+// lie beyond.
 ValueRange half_around(const ValueRange& range, const ValueRange& inner, const ValueRange& whole) {
     const double width = (range.hi - range.lo) / 2, margin = width / 16;
     for (const double part : {0.0, 0.5, 1.0}) {
@@ -71,7 +72,7 @@ ValueRange half_around(const ValueRange& range, const ValueRange& inner, const V
 }  // namespace
 
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range) {
-    // All samples become 0: range.lo's optics are drawn. Dividing by a power of two does not round.
+    // If all samples are equal, they become 0. Dividing by the width, a power of two, is exact.
     if (range.lo == range.hi) {
         const double width = std::max(1.0, std::exp2(std::ceil(std::log2(std::abs(range.lo)))));
         return {range.lo, range.lo + width};
@@ -144,7 +145,6 @@ TetPieces::TetPieces(const TransferFunction& transfer_function, const ValueRange
     for_each_linear_piece(
         transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
             const bool transparent = piece.at_from.extinction == 0 && piece.at_to.extinction == 0;
-            // Merged into one piece.
             if (transparent && !pieces_.empty() && this->transparent(last())) {
                 pieces_.back().to = piece.to;
                 pieces_.back().at_to = piece.at_to;

@@ -19,16 +19,16 @@ namespace lamina {
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range);
 
 // Returns the range that exact segments normalise to [0, 1]: all values at which something visible
-// changes, with a margin; a few odd samples far outside must not take their digits. Its width is a
-// power of two and, for integer samples, its lower end an integer: samples then stay exact in
-// float32, and cells of a constant value at a step get the right side of it.
+// changes, with a margin, so that outliers do not cost these values precision. Its width is a power
+// of two and, for integer samples, its lower end an integer, so that samples stay exact in float32,
+// and cells of a constant value at a step get the right side of it.
 ValueRange exact_range(const TransferFunction& transfer_function, const ValueRange& range,
                        SampleType type);
 
-// Returns the range that tets, unless they are cut at the transfer function's points, normalise to
-// [0, 1]: all values at which something visible changes, with a margin, cut to drawn_range(). If
-// nothing changes it is drawn_range(). `values`: the scalars at the mesh's points, which set the
-// width if all that changes is one step. `range`: the range of the finite ones.
+// Returns the range that tets normalise to [0, 1] unless they are cut at the transfer function's
+// points: all values at which something visible changes, with a margin, clipped to drawn_range(),
+// or drawn_range() if nothing changes. `values`: the scalars at the mesh's points; they decide the
+// width if all that changes is a step. `range`: the range of the finite scalars.
 ValueRange mesh_window(const TransferFunction& transfer_function, std::span<const double> values,
                        const ValueRange& range);
 

@@ -37,7 +37,8 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
     }
 }
 
-// Trial rays along each side, at most one a pixel: 32 * 32 meet what covers 1/1000 of the picture.
+// Trial rays along each side, at most one a pixel: 32 * 32 meet most objects that cover 1/1000 of
+// the picture.
 constexpr int trial_rays_along_side = 32, most_rays = trial_rays_along_side * trial_rays_along_side;
 
 double longest_edge(const TetMesh& mesh, std::int32_t number) {
@@ -65,8 +66,8 @@ std::vector<MeshFacts::Segment> segments_of(RayWalk& walk, const View& view, int
     for (const TetSegment& segment : segments) {
         const double in = std::max(segment.in.at, 0.0), length = segment.out.at - in;
         if (!(length > 0)) continue;
-        // A tet around the eye begins at the near plane, whose distance is a share of the mesh's
-        // size: its edge counts as the mesh's diagonal.
+        // In a tet around the eye the segment begins at the near plane, whose distance is a share
+        // of the mesh's diagonal. So the diagonal takes the place of the tet's longest edge.
         const bool around_eye = segment.in.at < in;
         const double share = length / (segment.out.at - segment.in.at);
         const double back = segment.out.interpolate(scalar);

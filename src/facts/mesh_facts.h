@@ -36,7 +36,8 @@ struct MeshFacts {
     double max_extinction = 0;          // per world unit
     double max_color = 0;               // largest component of a colour
     std::int64_t transparent_tets = 0;  // these show nothing or have a value that is not finite
-    // mesh_window(); number of visible tets more than far_for_parts outside (facts/drawn_range.h)
+    // mesh_window(), and the number of visible tets that run beyond it (runs_beyond()) by more than
+    // far_for_parts of its width (facts/drawn_range.h).
     ValueRange window;
     std::int64_t far_tets = 0;
     // Number of visible cell fragments, if all tets are cut at the function's points.
@@ -52,8 +53,8 @@ struct MeshFacts {
         double length;       // world units
         double edge = 0;     // longest edge of the tet, world units
     };
-    // Trial rays for the methods to integrate segments: all over the picture, segments nearest
-    // first, or edges of single visible tets. Empty if the scene leaves no choice.
+    // Rays on which methods to integrate segments are tried: rays all over the picture, as segments
+    // front to back, and edges of single visible tets. Empty if nothing is integrated.
     std::vector<std::vector<Segment>> trial_rays;
     // Errors found on trial rays, in 1/255.
     struct TrialError {

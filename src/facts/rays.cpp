@@ -73,7 +73,7 @@ struct ShareCounter {
 constexpr int places_along_side = 64;
 constexpr double scalars_per_voxel = 4;  // along the view, if RaySampling::scalars allows it
 
-// Samples ScalarRays one by one.
+// Samples single rays of ScalarRays. `bricks`: may be null (sample_rays()).
 struct RaySampler {
     const Scene& scene;
     const Volume& volume;

@@ -204,7 +204,8 @@ void measure_occupied(const TransferFunction& transfer_function, const MinMaxBri
         facts.occupied = box_of_bricks(facts.grid, bricks.count, seen.first, seen.last);
 }
 
-// One piece needs no table if all segments are thin, even the longest, through all of the depth.
+// Tells whether segments may need a table. A single linear piece needs none if the longest possible
+// segment, from the nearest to the farthest depth, is thin.
 bool may_need_table(const Scene& scene, const Facts& facts) {
     const double depth =
         facts.max_extinction * (facts.far_depth - facts.near_depth) * facts.max_length_per_depth;

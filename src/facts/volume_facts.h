@@ -51,9 +51,9 @@ struct DepthRange {
 DepthRange depth_range(const Grid& grid, const View& view);
 DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view);
 
-// Shares of slabs, on rays all over the picture, in the clipped box, in visible bricks and in
-// constant ones (Facts::constant_bricks), by which plans predict work. *_before_opaque count only
-// slabs in front of where a ray is almost opaque.
+// Shares of the steps on rays all over the picture that lie in the clipped box, in visible bricks
+// and in constant ones (Facts::constant_bricks). Plans predict work by them. *_before_opaque count
+// only steps in front of the depth at which their ray ends (opaque_depth()).
 struct RayShares {
     double box = 0, occupied = 0, constant = 0;
     double box_before_opaque = 0, occupied_before_opaque = 0, constant_before_opaque = 0;
@@ -126,8 +126,8 @@ void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);
 // Throws Error if no sample is finite, or if some are not while the scene's `nan` is "error".
 void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks);
 
-// Share of max_error: a ray ends where nothing behind can change a channel by more. It is less than
-// errors of tables and roundings, so measurements of these may end rays there, too.
+// Share of max_error that the end of a ray may cost: what lies behind changes no channel by more.
+// Errors of tables and roundings are larger, so rays may end there while these are measured, too.
 inline constexpr double hidden_share = 1.0 / 1024;
 
 // Returns the optical depth behind which a channel changes by at most hidden_share of max_error.

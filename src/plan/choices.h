@@ -48,8 +48,8 @@ struct SlabTrial {
     std::int64_t rays = 0;    // number of rays that were tried
     double goal = 0;          // largest error that is allowed: slab_error_goal(), in 1/255
     std::int64_t traced = 0;  // rays that were compared with the reference tracer
-    // True: the picture's error may be larger than `error`, which was found on some rays only: the
-    // tracer found more than comparing with more slabs did, or `error` is implausibly small.
+    // True: the picture's error may be larger than `error`. Only some rays were traced, and erred
+    // by more than comparing with more slabs had shown, or `error` is implausibly small.
     bool doubtful = false;
     bool keeps_goal() const { return error <= goal; }
 

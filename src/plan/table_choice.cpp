@@ -27,7 +27,7 @@ constexpr double most_nodes = 2048;  // limit of a texture
 
 // Largest numbers of layers (segment lengths): in a table's first size, and if that errs too much.
 // Linear interpolation between layers at most an optical depth of 1 apart errs by .0025 or less.
-// Segments deeper than the layers reach are nearly opaque and change little with length.
+// If layers are farther apart, most segments are nearly opaque and change little with length.
 constexpr double usual_length_layers = 9, most_length_layers = 33;
 
 // Factor on the number of nodes for the next table that is tried.
