@@ -20,7 +20,7 @@ namespace lamina {
 
 namespace {
 
-constexpr std::size_t most_labels = 24;  // different whole numbers, each with its own colour
+constexpr std::size_t most_labels = 24;  // up to as many different whole numbers are labels
 
 // Colours in linear light, from values next to the common ones to the rarest: `upwards` for one
 // side of the common ones, `downwards` and `beyond` for below and above if both sides show. No
@@ -49,7 +49,8 @@ constexpr double least_side = .05;
 // Extinction of common values that are no background, relative to the values next to them.
 constexpr double faint = .25;
 
-// The values below or above the common ones; places in it go from 0 at `border` to 1 at `end`.
+// The values below or above the common ones. The place of a value goes from 0 at `border`, next to
+// the common values, to 1 at `end`, from which on the colour stays the last one (far_share).
 struct Side {
     ValueDistribution values;
     double border, end;
@@ -74,7 +75,6 @@ struct Side {
         const double by_value = std::clamp((value - border) / (end - border), 0.0, 1.0);
         return (by_value + (1 - rest(value))) / 2;
     }
-    // Inverts place() by bisection.
     double value_at(double place_wanted) const {
         double near = border, far = end;
         for (int i = 0; i < 60; ++i) {

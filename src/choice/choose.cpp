@@ -15,8 +15,8 @@
 namespace lamina {
 namespace {
 
-constexpr double median_opacity = .9;  // among the rays that meet something visible
-constexpr double seen_share = 1e-3;    // of the largest extinction; a fitted camera ignores less
+constexpr double median_opacity = .9;  // median of the rays that meet something visible
+constexpr double seen_share = 1e-3;    // less of the largest extinction does not affect the camera
 
 double largest_extinction(const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();
@@ -51,10 +51,10 @@ std::string name_of_data(const Scene& scene) {
     return mesh != nullptr ? mesh->path.string() : "data";
 }
 
-// Least share of the deepest ray's optical depth that counts for the density: less is noise.
+// Rays with less than this share of the largest optical depth of all rays are ignored as noise.
 constexpr double least_depth = 0.002;
 
-// Makes extinctions count per diagonal of the data's box: float32 depths then stay in range.
+// Divides extinctions by the diagonal of the data's box, so that float32 depths stay in range.
 TransferFunction per_diagonal(const TransferFunction& transfer_function, const Field& field) {
     const auto corners = field.corners();
     return transfer_function.attenuated(1 / glm::distance(corners.front(), corners.back()));
@@ -139,7 +139,7 @@ Axes axes_of(WorldAxes axes) {
     return {};
 }
 
-// Returns the axes of a camera moved right by the azimuth, then up by the elevation. Exact for 0.
+// Returns the axes of a camera moved right by the azimuth, then up by the elevation.
 Axes turned(const Axes& axes, const ViewTurn& turn) {
     const double a = turn.azimuth * degree, e = turn.elevation * degree;
     const glm::dvec3 right = std::cos(a) * axes.right - std::sin(a) * axes.toward;
@@ -148,7 +148,6 @@ Axes turned(const Axes& axes, const ViewTurn& turn) {
             std::sin(e) * axes.up + std::cos(e) * around};
 }
 
-// An interval of numbers.
 struct Extent {
     double lo = INFINITY, hi = -INFINITY;
     void add(double value) {
@@ -158,7 +157,8 @@ struct Extent {
     double middle() const { return lo + (hi - lo) / 2; }
 };
 
-// Measures how far points extend in a direction, or their circles if the camera turns around.
+// Measures how far points extend in a direction or, if the camera turns all around, how far the
+// circles extend that the points describe about `axis`.
 struct Reach {
     glm::dvec3 axis;
     bool all_around;

@@ -81,7 +81,7 @@ using Shows = std::function<bool(const ValueRange&)>;
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
 
-// An interval of planes between cells: cells first .. last - 1 lie in it. Empty if first > last.
+// The cells first .. last - 1 of a row, that is, those between two planes. Empty if first > last.
 struct Span {
     std::int64_t first = INT64_MAX, last = -1;
     void include(const Span& span) {
@@ -145,7 +145,7 @@ class CellRow {
     std::array<const T*, 4> lines_;
 };
 
-// Finds the first and the last visible cell of a row: searches the visible bricks from both ends.
+// Finds the first and the last visible cell of a row: it searches the row's bricks from both ends.
 template <typename T>
 Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
                   const std::vector<std::int64_t>& shown_bricks, const Shows& shows) {

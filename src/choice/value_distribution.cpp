@@ -68,8 +68,8 @@ constexpr double outer_share = 1e-3;  // share of values that usual_range() leav
 // They are left out if the other values take less than this share of the range.
 constexpr double outer_width = 1.0 / 8;
 
-// A peak ends where the mean density over the next 1 / tail_width of the range is below `tail`
-// times the peak's: noise and blur around a peak are below it, scanned objects above.
+// A peak ends if the mean density over the next 1 / tail_width of the range is below `tail` times
+// the density at the peak. Noise and blur around a peak are less dense, scanned objects denser.
 constexpr double tail = .03;
 constexpr int tail_width = 20;
 
@@ -150,9 +150,9 @@ constexpr double near_below = 1.0 / 8;
 constexpr double edge_share = 1.0 / 64;
 constexpr double thin_shell = 1.0 / 50;  // share of a voxel up to which a shell is thin
 
-// Halves of distances, because the distances themselves may overflow.
+// Half the distance of a value to the rest, and half the rest's width: the whole may overflow.
 struct HalfDistance {
-    double gap, width;  // half the distance to the rest, half the rest's width
+    double gap, width;
     bool below;
 
     HalfDistance(double value, const ValueDistribution& rest)
