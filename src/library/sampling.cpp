@@ -127,6 +127,8 @@ FieldPoint SampledMesh::in_tet(const TetSegment& segment) const {
             glm::dvec3(value_of(gradients[0]), value_of(gradients[1]), value_of(gradients[2]))};
 }
 
+// Walks a line through the position from tet to tet, and interpolates in the tet whose segment of
+// the line holds the position or, within rounding, is nearest to it.
 std::optional<FieldPoint> SampledMesh::at(const glm::dvec3& position) const {
     const auto& [lowest, highest] = mesh.mesh.bounds();
     const double slack = rounding * (norm1(position) + norm1(lowest) + norm1(highest));

@@ -145,7 +145,7 @@ class Pipeline {
     void draw_counted();
     // Gets the frame that was drawn last. The context must be current.
     void read_frame(Image& picture);
-    // Says in a picture of the scene in which colour space its numbers are.
+    // Sets the colour space of a picture of the scene.
     template <typename Real>
     void label(RgbaImage<Real>& picture) const {
         picture.space = scene_.color_space;

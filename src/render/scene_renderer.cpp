@@ -101,8 +101,7 @@ class Drawing {
     // Adds the results of the last frame; the renderer must exist.
     virtual void add_to(FrameStatistics& /*statistics*/) const {}
 
-    // For several renderers of one picture, once a view is measured: shares() returns the box that
-    // each draws, and front_to_back() their numbers, the nearest first.
+    // As in SceneRenderer. A view must be measured before.
     virtual std::vector<IndexBox> shares() const { return {}; }
     virtual std::vector<int> front_to_back(const Scene& /*scene*/) const { return {0}; }
 
@@ -159,9 +158,8 @@ class SliceDrawing : public Drawing {
         };
         Plan plan = plan_with(omissions);
         if (!shares_) return plan;
-        // Constant slabs are looked for several at a time, counted from the first slab that a
-        // renderer draws. With shares the result would depend on who draws a slab, so this is
-        // switched off.
+        // Renderers look for several constant slabs at a time, counted from the first slab that
+        // they draw. With shares the result would depend on who draws a slab.
         if (plan.slice.constant_regions && !plan.slice.integrates_cells()) {
             OmissionSwitch fewer = omissions;
             fewer.kept.insert("constant_regions");

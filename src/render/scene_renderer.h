@@ -131,15 +131,15 @@ class SceneRenderer : public Frames {
     // time to the first picture counts.
     void expect_many_frames();
 
-    // Return the scene as it was given, with its "auto"; and with the choices in place of "auto".
+    // scene() returns the scene as it was given, with its "auto"; resolved(), with choices instead.
     const Scene& scene() const override { return asked_; }
     const Resolved& resolved() override;
     // Throws Error if the data cannot be drawn as the scene asks, or the context cannot do it.
     const Plan& plan() override;
     std::string explanation() override;
     Warnings warnings() override;
-    // For several renderers of one picture: shares() returns the box of the volume, in index space,
-    // that each draws, and front_to_back() their numbers, the nearest first.
+    // If several renderers share a picture: shares() returns the box of the volume, in index space,
+    // that each of them draws, and front_to_back() returns their numbers, the nearest first.
     std::vector<IndexBox> shares();
     std::vector<int> front_to_back();
     const Capabilities& capabilities() const { return capabilities_; }
