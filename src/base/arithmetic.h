@@ -22,8 +22,8 @@ class CompensatedSum {
     double rest_ = 0;
 };
 
-// The unevaluated sum hi + lo, |lo| <= ulp(hi)/2, of 31 digits (Dekker 1971; Hida, Li and Bailey
-// 2001), where rounding would decide whether, and how far, a ray meets the box.
+// A number of 31 digits: the sum hi + lo, |lo| <= ulp(hi) / 2 (Dekker 1971; Hida, Li and Bailey
+// 2001). It is used if rounding to double might decide whether and where a ray meets the box.
 struct DoubleDouble {
     double hi = 0;
     double lo = 0;

@@ -17,8 +17,8 @@ constexpr bool is_enumerator() {
     return std::string_view(__PRETTY_FUNCTION__).find("value = (") == std::string_view::npos;
 }
 
-// Returns the word of an enum's value (0, 1, 2, ...), or null beyond the last. Its name_of() passes
-// the enum's one table `words`, in the order of the enumerators, to this function.
+// Returns the word of an enum's value (0, 1, 2, ...), or null beyond the last. `words` has one word
+// for each enumerator, in their order. enum_words() takes an enum's words from its name_of().
 template <typename Enum, std::size_t count>
 const char* word_of(Enum value, const char* const (&words)[count]) {
     static_assert(is_enumerator<static_cast<Enum>(count - 1)>(), "a word without a value");

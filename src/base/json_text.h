@@ -17,7 +17,6 @@ inline constexpr std::uintmax_t most_json_bytes = 64u << 20;
 inline constexpr std::size_t most_json_depth = 64;  // nesting of lists and objects
 inline constexpr std::size_t most_json_values = 10'000'000;
 
-// The text is not valid JSON.
 class JsonSyntaxError : public Error {
   public:
     using Error::Error;

@@ -68,7 +68,7 @@ class HandOver {
 };
 
 // Calls body(i) for all i in [0, count) on all cores, in any order. Ends early if a stop is
-// requested, or on an exception, which is rethrown. `grain`: calls in one task of at least 10 us.
+// requested, or on an exception, which is rethrown. `grain`: calls in a task, for 10 us or longer.
 template <typename Body>
 void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
     HandOver hand_over;

@@ -40,7 +40,7 @@ class Profile {
     };
     using Counts = std::array<Count, 4>;
 
-    static constexpr int opengl_row = 0, first_row = 1;  // first_row: its maker's thread
+    static constexpr int opengl_row = 0, first_row = 1;  // first_row: the thread that made it
     static constexpr std::size_t most_spans = std::size_t{1} << 18;  // 24 MiB
 
     // Times come from Stopwatch::now(). Names must be literals: only their pointers are kept.

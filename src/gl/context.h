@@ -68,7 +68,7 @@ enum class EglDevices { hardware, any };
 std::unique_ptr<Context> create_osmesa_context();
 std::unique_ptr<Context> create_egl_context(EglDevices devices);
 
-// EGL's (OSMesa's) state in this thread: its current context, or null, and that one's surfaces.
+// The state of EGL (of OSMesa) in this thread: the current context, or null, and its surfaces.
 struct EglBinding {
     unsigned api = 0;  // the API that eglBindAPI() chose; 0 if EGL is not loaded
     void *display = nullptr, *draw = nullptr, *read = nullptr, *context = nullptr;
@@ -79,8 +79,8 @@ struct OsmesaBinding {
     int width = 0, height = 0;
 };
 
-// The functions release_...() make no context current and return the state before; restore() makes
-// the context of such a state current again. If the library is not loaded, they do not load it.
+// Functions release_...() leave the thread without a current context and return the state before;
+// restore() makes that state's context current again. None of them loads a library.
 EglBinding release_egl();
 void restore(const EglBinding& binding);
 OsmesaBinding release_osmesa();

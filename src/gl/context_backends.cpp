@@ -40,7 +40,6 @@ using OsmesaHandle = struct OsmesaHandleType*;
 constexpr std::initializer_list<const char*> library_names{"libOSMesa.so.8", "libOSMesa.so.6",
                                                            "libOSMesa.so"};
 
-// The functions of OSMesa's library.
 struct Osmesa {
     SharedLibrary library{library_names};
     OsmesaHandle (*create)(const int* attributes,
@@ -108,7 +107,6 @@ SharedLibrary load_quietly() {
     return SharedLibrary{library_name};
 }
 
-// The functions of EGL's library.
 struct Egl {
     SharedLibrary library = load_quietly();
     decltype(&eglGetProcAddress) get_proc_address = library.function("eglGetProcAddress");

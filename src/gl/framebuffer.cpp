@@ -28,8 +28,8 @@ constexpr int samples = 16;  // pixels along each side of the target, with one f
 template <typename Value>
 using Values = std::array<Value, texels * texels * texels>;
 
-// The texture's values lie in [least, least + range); shaders read value / scale. For integer
-// formats the range is small, so that rounding to codes shows beside rounding of weights.
+// The values of the probed texture lie in [least, least + range); shaders read value / scale. For
+// integer formats the range is small, so that rounding to codes shows beside that of weights.
 struct Probe {
     double scale, least, range;
 };

@@ -142,8 +142,8 @@ class Program {
     // Makes this the program of the draws that follow, with its uniforms.
     void use() const;
 
-    // Set a uniform, or an array; the program need not be in use. One in the source that this
-    // specialisation does not use is ignored. Throw Error for a name nowhere in the source.
+    // Set a uniform, or an array; the program need not be in use. A uniform of the source that this
+    // specialisation does not use is ignored. Throw Error for a name that is not in the source.
     template <typename Value>
     void set(std::string_view name, const Value& value) {
         if constexpr (std::is_enum_v<Value>)
