@@ -16,8 +16,8 @@ const auto has_key = [](const char* key) {
     return [key](const nlohmann::json& value) { return value.is_object() && value.contains(key); };
 };
 
-// A source that is only a path (all values but objects). `File`: VolumeFile or MeshFile, written in
-// this form if all else in it is as by default.
+// The form of a source that is only a path; all values but objects are read as one. `File`
+// (VolumeFile or MeshFile) is written in this form if its other members have their defaults.
 template <typename File, typename Source>
 Alternative<Scene> path_alternative(Source Scene::*source) {
     const Form<std::filesystem::path> form = path_form();

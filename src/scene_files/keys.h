@@ -124,7 +124,8 @@ struct Key {
     std::function<void(JsonReader& reader, Struct& object)> read_required = {};
 };
 
-// One of several forms of a key. `reads`, `writes`: tell whether a value or an object has it.
+// One of several forms of a key. `reads`: tells whether a value in a file has this form. `writes`:
+// tells whether an object is written in it.
 template <typename Struct>
 struct Alternative {
     std::function<bool(const nlohmann::json& value)> reads;
@@ -401,8 +402,8 @@ Form<std::optional<T>> optional_form(const Form<T>& form) {
             form.schema};
 }
 
-// The form of a value or `word`, which stands for no value. `is_type`: tells by its JSON type
-// whether a value may be read by `form`. `expected` completes the message for other values.
+// The form of a value that may be replaced by `word`, which stands for no value. `is_type` tells by
+// the JSON type whether `form` may read a value. `expected` completes the message for others.
 template <typename T>
 Form<std::optional<T>> word_or_form(const std::string& word, const Form<T>& form,
                                     bool (nlohmann::json::*is_type)() const noexcept,
@@ -446,8 +447,8 @@ Form<Auto<Enum>> automatic_words_form(const Auto<Enum>& initial) {
     return automatic_if_none(words_form<std::optional<Enum>>(words));
 }
 
-// The form of a list of objects with the keys of `table`. `what`: their name for messages about
-// more than `most`; if empty, a rule of the table checks. `extra`: more schema entries.
+// The form of a list of up to `most` objects with the keys of `table`. `what` names the objects in
+// messages; if it is empty, a rule of the table checks their number. `extra`: more schema entries.
 template <typename Struct>
 Form<std::vector<Struct>> list_form(const KeyTable<Struct>& (*table)(), std::size_t most,
                                     const std::string& what, const KeyJson& extra) {

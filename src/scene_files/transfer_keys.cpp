@@ -204,7 +204,7 @@ double read_scalar(JsonReader& reader, const std::string& key) {
     return scalar;
 }
 
-// A transfer function as given, and the function it means: none while its colour map is open.
+// A transfer function as given, and the function that results: none if its colour map is open.
 struct ReadTransfer {
     GivenTransfer given;
     std::optional<TransferFunction> function;
