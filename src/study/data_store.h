@@ -25,7 +25,6 @@ namespace lamina::study {
 // camera, size, clip and lighting.
 std::string picture_key(const Scene& scene);
 
-// Returns a hash of the transfer function.
 std::string transfer_function_key(const TransferFunction& transfer_function);
 
 // Return a hash of the contents of data, independent of file names.

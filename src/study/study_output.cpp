@@ -318,7 +318,7 @@ void add_journals(const StudyFolder& folder, Journals& journals) {
     }
 }
 
-// Throws Error if a journal in `into` is not a beginning of the one that would replace it.
+// Throws Error if a journal in `into` does not agree with the beginning of the one to replace it.
 void check_journals(const Journals& journals, const StudyFolder& into) {
     for (const auto& [name, journal] : journals) {
         const std::filesystem::path there = into.path / name;

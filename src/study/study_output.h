@@ -28,7 +28,6 @@ struct StudySummary {
     std::vector<std::string> findings, failures;
 };
 
-// Writes runs.json.
 void write_run_list(const StudyFolder& folder, const RunList& list);
 
 // Writes results.csv, results.json and report.html from the folder's journals. Throws Error.

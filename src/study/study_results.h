@@ -86,7 +86,7 @@ struct RunResult {
     // Time of facts, choices, set-up and first frame, measured once. Journals of earlier versions
     // lack it.
     std::optional<double> first_ms;
-    // Frame time over that of the baseline: the median over the rounds.
+    // Frame time divided by the baseline's: median over the rounds. None if not measured.
     std::optional<double> ratio;
     std::string reference;       // id of the reference
     double reference_error = 0;  // the tracer's estimate of the reference's own error

@@ -102,7 +102,7 @@ void LadderCost::add(double tolerance, std::int64_t tets, double seconds) {
 }
 
 double LadderCost::most_seconds(std::span<const Step> steps) {
-    // Largest numbers of tets of a mesh that ends the ladder, and of the others.
+    // Tets of the meshes that do not end the ladder; of the others, the largest mesh and the sum.
     double full = 0, tets = 0;
     double ladder = 0;
     for (const Step& step : steps) {

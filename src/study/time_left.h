@@ -56,9 +56,9 @@ class TimedProgress {
     std::jthread thread_;  // last: it uses the others
 };
 
-// Predicts how long it takes to make, draw and trace the meshes of a ladder, which is nearly all of
-// the time of a cross-check. The time grows with the number of tets, and that with a power of
-// 1 / tolerance.
+// Predicts how long it takes to make, draw and trace the meshes of a ladder, a series of decreasing
+// tolerances. This is nearly all of the time of a cross-check. The time is proportional to the
+// number of tets, which grows with a power of 1 / tolerance.
 class LadderCost {
   public:
     struct Step {
@@ -81,7 +81,7 @@ class LadderCost {
         double tolerance, tets;
     };
 
-    double power_ = 0, seconds_a_tet_ = 0;  // of the last meshes
+    double power_ = 0, seconds_a_tet_ = 0;  // measured on the last meshes
     std::optional<Made> last_;
 };
 
