@@ -211,6 +211,9 @@ ValueRange usual_range(const ValueDistribution& values) {
     return outliers ? inner : all;
 }
 
+// Takes the fullest bin of a histogram as the peak and extends it to both sides (end_of_peak()). If
+// the peak is narrow and holds enough of the values, it is background. Otherwise the shortest
+// interval with a third of the values is taken.
 CommonValues find_common_values(const ValueDistribution& values, bool whole_numbers) {
     // Data of two values are a mask, in which the more frequent value is background.
     if (values.distinct() == 2) {

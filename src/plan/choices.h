@@ -102,7 +102,6 @@ struct TargetChoice {
 // compositing error is within target_share of max_error.
 TargetChoice choose_target(const Scene& scene, const Facts& facts, const SampleTrials& trials);
 TargetChoice choose_target(const Scene& scene, double max_color, int slabs);
-// Chooses the target of projected tetrahedra.
 TargetChoice choose_project_target(const Scene& scene);
 
 // Gives the scene a target. If a target smaller than float32 was chosen for slicing without a tree,

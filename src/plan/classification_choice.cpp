@@ -34,9 +34,9 @@ double most_bend(const Scene& scene, double max_color) {
 constexpr int most_iterations = 65535;  // iterations of llvmpipe's loops (plan/choices.h)
 constexpr int spare_iterations = 64;    // iterations for everything else that a fragment does
 constexpr int search_cells = 1024;  // equal parts of the range; each knows where a search begins
-// Iterations for cutting deep cells: rays end at an optical depth of 20.7, and cells deeper than
-// .75 are cut. A piece at least half as deep takes up to 20 iterations to find, and up to 20
-// pieces before it if extinction rises from 0 (shaders/slicing/cut_cell.glsl).
+// Bound on the iterations that cut deep cells (shaders/slicing/cut_cell.glsl). Cells deeper than an
+// optical depth of .75 are cut, and rays end at 20.7. A piece at least half as deep takes up to 20
+// iterations to find; if extinction rises from 0, up to 20 shallower pieces come before it.
 constexpr int deep_cell_iterations = 8192;
 
 bool is_unlimited(const Capabilities& capabilities) {
@@ -87,7 +87,6 @@ double most_cells(const Facts& facts, double depth) {
     return std::min(box.x + box.y + box.z, along) + 4;
 }
 
-// Returns the iterations that do not depend on the segment's length.
 double iterations_at_any_length(const Scene& scene, const Facts& facts) {
     const bool cuts_deep_cells = !facts.single_color || scene.lighting;
     return spare_iterations + (cuts_deep_cells ? deep_cell_iterations : 0) +

@@ -186,7 +186,6 @@ struct SlicedPicture : CompositingPlan, LightPlan {
     bool preintegrates() const {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }
-    // Tells whether rays are integrated exactly, cell by cell.
     bool integrates_cells() const {
         return classification == Classification::exact && sampling != VolumeSampling::none;
     }

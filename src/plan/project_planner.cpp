@@ -439,6 +439,9 @@ struct ProjectPlanner {
             });
     }
 
+    // Cuts tets at the transfer function's points if that makes few cell fragments, or if pieces
+    // are narrow. Otherwise takes a table with nodes on these points if its error on trial rays is
+    // small. Otherwise integrates analytically, which is slower and right for every scene.
     void choose_table() {
         const bool whole = plan.geometry == ProjectGeometry::triangles;
         take_window();
@@ -454,7 +457,7 @@ struct ProjectPlanner {
         } else if (plan.plain && !scene.lighting && try_cut_table()) {
             plan.source = SegmentSource::cut_table;
         } else {
-            plan.source = SegmentSource::analytic;  // slower, and right for every scene
+            plan.source = SegmentSource::analytic;
             plan.trial_error = error_of(exact_integral());
         }
     }

@@ -134,11 +134,11 @@ std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_functio
 
 // Returns fewer layers if those wanted would take too long or too much memory.
 int affordable_layers(const TableRequest& table, double knots, double wanted) {
-    // Most nodes that the table can have (preintegration/preintegration_table.h).
+    // Largest number of nodes that the table can have (preintegration/preintegration_table.h).
     const double nodes = 1.5 * table.scalar_nodes + 3 * (knots + 1);
-    // Pairs within each of the pieces, and from point to point through all pieces between.
+    // Linear pieces to integrate: one for nodes in one piece; for two points, all between them.
     const double work = nodes * nodes / (knots + 1) + knots * knots * knots / 3;
-    const double numbers = table.lit ? 7 : 3;  // of an entry and a length
+    const double numbers = table.lit ? 7 : 3;  // floats of an entry in each layer
     const double bytes = nodes * nodes * numbers * sizeof(float);
     return static_cast<int>(std::max(
         1.0, std::floor(std::min({wanted, most_table_work / work, most_table_bytes / bytes}))));
@@ -169,7 +169,7 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
         static_cast<std::size_t>(most_tried_of_all_rays / std::min(slabs, most_tried));
     const std::size_t ray_stride = (rays.size() + tried_rays - 1) / tried_rays;
     struct Found {
-        double error = 0, widest = 0;  // of the segments, in scalars
+        double error = 0, widest = 0;  // widest: largest difference of scalars in a segment
     };
     std::vector<Found> found(rays.empty() ? 0 : (rays.size() - 1) / ray_stride + 1);
     parallel_for(static_cast<std::int64_t>(found.size()), 8, [&](std::int64_t number) {
