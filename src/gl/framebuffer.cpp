@@ -73,6 +73,8 @@ std::array<double, 3> probe_position(int index) {
             index * 2741 % 12288 / 4096.0};
 }
 
+// Draws filtered values at scattered positions and compares them with exact interpolation, as it
+// does interpolation with weights rounded to 8 bits.
 template <typename Value>
 FilterError measure(TextureFormat format, const Probe& probe) {
     const Values<Value> values = scattered_values<Value>(probe);

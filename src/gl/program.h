@@ -112,8 +112,7 @@ class ProgramCache {
     static constexpr std::size_t most_programs = 64;
 
     ProgramCache() = default;
-    // Gives the programs up without deleting them: the end of their context deletes them.
-    ~ProgramCache();
+    ~ProgramCache();  // abandons the programs
     ProgramCache(const ProgramCache&) = delete;
     ProgramCache& operator=(const ProgramCache&) = delete;
 

@@ -95,7 +95,6 @@ class Drawing {
     virtual Resolved resolve(Scene scene, const Plan& plan) const = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
 
-    // Returns warnings about the data, the plan and, once a frame is drawn, about the frame.
     virtual Warnings warnings(const Resolved& resolved, const Plan& plan) = 0;
 
     // Adds the results of the last frame; the renderer must exist.

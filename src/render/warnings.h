@@ -35,7 +35,6 @@ Warnings frame_warnings(const OrderReport& order);
 // Warns of pixels whose rays meet tets that overlap.
 Warnings trace_warnings(std::int64_t overlapping_rays);
 
-// Gives each warning to the client (base/client.h).
 void warn_of_all(const Warnings& all);
 
 // Returns work(), and keeps copies of its warnings in `said`.

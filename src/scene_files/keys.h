@@ -390,7 +390,6 @@ Form<Enum> words_form() {
     return words_form<Enum>(enum_words<Enum>());
 }
 
-// The form of a value that may be left out.
 template <typename T>
 Form<std::optional<T>> optional_form(const Form<T>& form) {
     return {[read = form.read](JsonReader& reader, const std::string& key) {

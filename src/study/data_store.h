@@ -78,7 +78,6 @@ class DataStore {
     };
     const StoredVolume& volume(const Scene& scene);
     StoredMesh& mesh(const Scene& scene);
-    // Returns the data that the scene draws.
     SceneData data_of(const Scene& scene);
     // Returns the scene with an open colour map stretched over the range of its data.
     Scene closed(Scene scene);

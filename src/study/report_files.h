@@ -37,8 +37,6 @@ nlohmann::ordered_json to_json(const ErrorNorms& norms);
 // them.
 nlohmann::ordered_json to_json(const ImageError& error);
 
-// Functions for pictures on a page.
-
 // Returns the picture as 8-bit sRGB codes, three channels, on black, as a PNG has it.
 CodedImage shown(const Image& image, ImageColorSpace space = ImageColorSpace::linear);
 

@@ -25,7 +25,6 @@ struct StudyData {
     std::size_t scene;  // number of the scene in the study
     Scene drawn;        // scene of a run that draws it
 
-    // Tells whether both are the same data of the same scene.
     bool operator==(const StudyData& other) const {
         return kind == other.kind && scene == other.scene && name == other.name;
     }
