@@ -100,8 +100,8 @@ bool Progress::is_quiet() {
     return quiet_process;
 }
 
-// One thread at a time draws; others go on without waiting, as a listener may run tasks that call
-// advance(). It then checks for the end, of which a listener must always hear.
+// One thread at a time draws. Others go on without waiting, because a listener may run tasks that
+// call advance(). The drawing thread then checks for the end, which is always reported.
 void Progress::advance(std::int64_t steps) {
     done_ += steps;
     if (!visible_) return;

@@ -93,9 +93,9 @@ class MeshField : public Field {
     const SceneMesh& mesh_;
 };
 
-// Returns world points with the convex hull of all visible cells, outer half voxels included; none
-// if no cell is visible. A cell is visible if shows(range of its corners' finite samples), which
-// must then hold for wider ranges, too. Large volumes use bricks for cells. Runs on all cores.
+// Returns world points whose convex hull holds all visible cells, outer half voxels included; none
+// if no cell is visible. A cell is visible if shows(range of its corners' finite samples) is true;
+// it must then be true for wider ranges, too. In large volumes, bricks take the place of cells.
 std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBricks& bricks,
                                             const std::function<bool(const ValueRange&)>& shows);
 

@@ -46,7 +46,7 @@ class ValueDistribution {
 // The values that most of a field has, from lo to hi: air around an object, undisturbed flow.
 struct CommonValues {
     double lo = 0, hi = 0;
-    // True: a narrow peak; values beyond are rare. False: the third of values closest together.
+    // True: they are a narrow peak. False: they are the third of all values closest together.
     bool background = false;
 };
 

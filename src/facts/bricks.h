@@ -18,8 +18,8 @@ struct OccupiedBricks {
     static constexpr int farthest = 63;
 
     std::array<std::int64_t, 3> count{0, 0, 0};
-    // Chebyshev distance of each brick to the nearest visible one, in bricks (0: visible), at most
-    // `farthest`, also if none is visible. x fastest.
+    // Chebyshev distance of each brick to the nearest visible brick, in bricks: 0 if it is visible
+    // itself, `farthest` at most and if no brick is visible. x fastest.
     SparseBytes distance;
 
     // Computes `distance` in place from 0 for visible and `farthest` for invisible bricks.

@@ -61,7 +61,7 @@ struct SampleTrials {
     // Trials for "samples": "auto"; otherwise empty.
     std::vector<SlabTrial> exact;
     // Trials for "filter": "auto", with filter weights rounded to 8 bits as in texture units;
-    // otherwise empty. If the scene gives the slabs, their error is that of the weights alone.
+    // otherwise empty. If the scene gives the slabs, errors are those of the weights alone.
     std::vector<SlabTrial> hardware;
 };
 

@@ -33,8 +33,8 @@ constexpr double near_share = 1e-6;
 constexpr double float_error = 0.05;
 
 // Share of a tet's longest edge by which faces at both ends of a segment are assumed to be out of
-// place. The bound is 9e-6 (docs/stability.md); planes of doubles relative to a near pixel keep
-// most faces far below it.
+// place. The bound is 9e-6 (docs/stability.md). Most faces stay far below it, because their planes
+// are stored in double precision relative to a pixel nearby.
 constexpr double placing_share = 1e-6;
 
 // Rounding of scalars, as a share of the window: scalars and the transfer function's points are

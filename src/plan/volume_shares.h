@@ -36,7 +36,7 @@ class VolumeShares {
         double place = 0;
     };
 
-    // Cuts `box` into `count` boxes. `costs`: inside `box`. `between`: its first and last samples.
+    // Cuts `box`, which costs `costs`, into `count` boxes. `between`: its first and last samples.
     void divide(const ShareCosts& costs, const IndexBox& box, const IndexBox& between, int count);
     // Returns the cut of a box that is to become `count` boxes.
     static Cut best_cut(const ShareCosts& costs, const IndexBox& between, int count);

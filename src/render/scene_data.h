@@ -62,7 +62,7 @@ class SceneData {
     // Returns the warnings of reading, measuring or making the data that the scene draws.
     Warnings warnings(const Scene& scene) const;
 
-    // Adds the times of loading, and the counts of the data, for the data that the scene draws.
+    // Adds the times of loading and the counts of the data that the scene draws.
     void add_to(const Scene& scene, FrameStatistics& statistics);
 
   private:

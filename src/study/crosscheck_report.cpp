@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Keys of the parts in the ladder. Gradients are counted with the mesh.
+// Keys of the parts, numbered as in Pair::dominant. Gradients are counted with the mesh.
 constexpr const char* part_keys[] = {"mesh", "slicing", "projection"};
 
 Json error_json(const ImageError& error) {
@@ -227,7 +227,7 @@ PairAt own_pair(const Crosscheck& crosscheck) {
     return own;
 }
 
-// Returns the cheapest pair whose pictures agree, or nothing if no pair does.
+// Returns the agreeing pair with the least sum of frame times, or nothing if no pair agrees.
 std::optional<PairAt> cheapest_agreeing(const Crosscheck& crosscheck, double wanted) {
     std::optional<PairAt> best;
     double least = 0;
