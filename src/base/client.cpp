@@ -101,7 +101,7 @@ bool Progress::is_quiet() {
 }
 
 // One thread at a time draws. Others go on without waiting, because a listener may run tasks that
-// call advance(). The drawing thread then checks for the end, which is always reported.
+// call advance(). The drawing thread then checks for the end, which a listener must always hear.
 void Progress::advance(std::int64_t steps) {
     done_ += steps;
     if (!visible_) return;

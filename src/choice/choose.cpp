@@ -16,7 +16,7 @@ namespace lamina {
 namespace {
 
 constexpr double median_opacity = .9;  // median of the rays that meet something visible
-constexpr double seen_share = 1e-3;    // less of the largest extinction does not affect the camera
+constexpr double seen_share = 1e-3;    // of the largest extinction; fitted cameras ignore less
 
 double largest_extinction(const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();

@@ -36,8 +36,8 @@ struct MeshFacts {
     double max_extinction = 0;          // per world unit
     double max_color = 0;               // largest component of a colour
     std::int64_t transparent_tets = 0;  // these show nothing or have a value that is not finite
-    // mesh_window(), and the number of visible tets that run beyond it (runs_beyond()) by more than
-    // far_for_parts of its width (facts/drawn_range.h).
+    // mesh_window(), and the number of visible tets whose scalars reach beyond it by more than
+    // far_for_parts times its width (runs_beyond() in facts/drawn_range.h).
     ValueRange window;
     std::int64_t far_tets = 0;
     // Number of visible cell fragments, if all tets are cut at the function's points.

@@ -40,7 +40,7 @@ constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float c
 
 constexpr double curve_share = 0.25;  // share of max_error that curves may cost
 
-constexpr std::uint64_t gradient_bytes = 8;  // bytes of a sample's gradient (gradient_map.h)
+constexpr std::uint64_t gradient_bytes = 8;  // bytes a sample (slicing/gradient_map.h)
 
 // Decides how a scene is sliced. make() has the order of its choices, each of which depends on
 // those before:
