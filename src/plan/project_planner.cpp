@@ -34,7 +34,7 @@ constexpr double float_error = 0.05;
 
 // Share of a tet's longest edge by which faces at both ends of a segment are assumed to be out of
 // place. The bound is 9e-6 (docs/stability.md). Most faces stay far below it, because their planes
-// are stored in double precision relative to a pixel nearby.
+// have double precision and are given relative to a pixel nearby.
 constexpr double placing_share = 1e-6;
 
 // Rounding of scalars, as a share of the window: scalars and the transfer function's points are
