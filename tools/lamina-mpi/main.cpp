@@ -52,7 +52,7 @@ int lead(const Ranks& ranks, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // Different threads call MPI, but only one at a time.
+    // Several threads call MPI, but never two at once: MPI_THREAD_SERIALIZED is enough.
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
     if (provided < MPI_THREAD_SERIALIZED) {

@@ -9,10 +9,10 @@
 
 namespace lamina {
 
-// Throws if ranks cannot draw the scene together, or not with this --context.
+// Throws Error if ranks cannot draw the scene together, UsageError if --context is not cpu.
 void check_shared(const Scene& scene, const Auto<ContextChoice>& context);
 
-// Frames that all ranks draw together; rank 0 has the pictures. The leader must outlive them.
+// Frames that all ranks draw together; rank 0 has the pictures. `leader` must outlive the object.
 class SharedFrames : public Frames {
   public:
     SharedFrames(Leader& leader, const Scene& scene, SceneData& data,
@@ -20,7 +20,7 @@ class SharedFrames : public Frames {
     ~SharedFrames() override;
 
     const Scene& scene() const override { return scene_; }
-    void set_scene(Scene scene) override;  // opens it anew on all ranks
+    void set_scene(Scene scene) override;  // opens the scene on all ranks, closes the old one
     void set_camera(const Camera& camera) override {
         scene_.camera = camera;
         camera_ = camera;
@@ -30,7 +30,7 @@ class SharedFrames : public Frames {
     const Plan& plan() override { return own().plan(); }
     std::string explanation() override { return own().renderer().explanation(); }
     Warnings warnings() override { return own().renderer().warnings(); }
-    void set_up() override {}  // done when the scene is opened
+    void set_up() override {}  // opening the scene has set it up
     void draw(std::stop_token stop = {}) override;
     void read(Image& picture) const override;
     void add_to(FrameStatistics& statistics) override;
@@ -43,8 +43,8 @@ class SharedFrames : public Frames {
     SceneData data_;
     OmissionSwitch omissions_;
     bool many_frames_;
-    int number_;
-    std::optional<Camera> camera_;  // none: the scene's
+    int number_;                    // Leader's number of the open scene
+    std::optional<Camera> camera_;  // empty until set_camera(): the scene's camera
 };
 
 // Returns the reports as JSON for --stats.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Delaunay tetrahedra of points, by TetGen. This is a separate program for two reasons: TetGen's
-// licence (AGPL) covers this program only, and TetGen may print, throw numbers or end the process
-// without harm to the program that started it.
+// Computes the Delaunay tetrahedra of points with TetGen. This is a separate program for two
+// reasons: TetGen's licence (AGPL) covers this program only, and TetGen may print, throw numbers or
+// end the process without harm to the program that started it.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <tetgen.h>
@@ -54,7 +54,7 @@ std::vector<char> read_all(std::FILE* stream) {
     return bytes;
 }
 
-// Throws if all points have an equal coordinate: TetGen would fail an assertion.
+// Throws if x, y or z is equal for all points: TetGen would fail an assertion.
 void check_extent(const REAL* points, std::size_t count) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         bool differ = false;
@@ -113,7 +113,7 @@ const char* meaning_of(int failure) {
 }
 
 void tetrahedralize(tetgenio& in, tetgenio& out) {
-    // Q: quiet, n: neighbours, J: keep the numbers of points, N, F: no lists of points and faces.
+    // Q: quiet; n: list neighbours; J: keep point indices; N, F: list no points and no faces.
     std::string switches = "QnJNF";
     try {
         ::tetrahedralize(switches.data(), &in, &out);
@@ -159,8 +159,7 @@ std::FILE* take_stdout() {
 }
 
 // Signal handler for crashes: near its limits TetGen may fail an assertion or access invalid
-// memory. Prints one line and exits with code 1, with calls that are allowed in a signal handler
-// only.
+// memory. Prints one line and exits with code 1; makes only async-signal-safe calls.
 extern "C" void report_crash(int) {
     constexpr char message[] =
         "lamina-tetrahedralize: TetGen broke down (are all points nearly in one plane, or "
@@ -170,7 +169,7 @@ extern "C" void report_crash(int) {
 }
 
 void catch_crashes() {
-    static std::array<char, 1 << 16> stack;  // the program's own stack may be used up
+    static std::array<char, 1 << 16> stack;  // the crash may be a stack overflow
     stack_t place{};
     place.ss_sp = stack.data();
     place.ss_size = stack.size();
@@ -181,7 +180,7 @@ void catch_crashes() {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) sigaction(signal, &action, nullptr);
 }
 
-// Ends this process when the parent ends. Returns false if it has ended already.
+// Lets the kernel end this process when the parent ends. Returns false if the parent has ended.
 bool end_with_parent(const char* parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     return std::to_string(getppid()) == parent;

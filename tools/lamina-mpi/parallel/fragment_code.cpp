@@ -15,8 +15,8 @@
 namespace lamina {
 namespace {
 
-// Returns true if any of `pixels` pixels has a bit that is set. All bits are joined by OR first,
-// which is faster than testing each pixel.
+// Returns true if any of the `pixels` pixels from `column` on shows something, that is, has a bit
+// set. All bits are joined by OR first, which is faster than testing each pixel.
 template <int pixels>
 bool any_shows(const float* row, int column) {
     std::uint64_t words[2 * pixels], any = 0;
@@ -38,6 +38,7 @@ int first_hidden(const float* row, int column, int width) {
 
 using Pixel = std::array<float, 4>;
 
+// Composites `pixel` behind `front`: OVER for associated alpha.
 void put_behind(const Pixel& pixel, float* front) {
     const float left = 1 - front[3];
     for (std::size_t channel = 0; channel < 4; ++channel) front[channel] += left * pixel[channel];
@@ -53,8 +54,8 @@ float share_of(Code code) {
     return static_cast<float>(code) * (1.0f / std::numeric_limits<Code>::max());
 }
 
-// The formats: bytes of a pixel, and how it is encoded and decoded. `largest`: largest colour in
-// the rows; codes are shares of it.
+// Each format has the size of a pixel in bytes, and functions to encode and decode it. A code of a
+// colour is its share of `largest`, the largest colour (not associated) in the encoded rows.
 struct Float32 {
     static constexpr bool has_codes = false;
     static constexpr std::size_t size = 16;
@@ -141,8 +142,8 @@ void with_format(FragmentFormat format, const Use& use) {
     unreachable_enum();
 }
 
-// Numbers are stored with 7 bits in each byte, lowest first. A byte's highest bit tells that more
-// bytes follow. 32 bits need up to 5 bytes.
+// A number is stored with 7 bits in each byte, the lowest bits first. A byte's highest bit is set
+// if more bytes follow. A number of 32 bits takes up to 5 bytes.
 constexpr std::size_t most_number_bytes = 5;
 std::byte* write_number(std::uint32_t number, std::byte* to) {
     for (; number >= 0x80; number >>= 7) *to++ = std::byte(number | 0x80);
@@ -158,7 +159,7 @@ std::uint32_t read_number(const std::byte*& from) {
     }
 }
 
-// Returns the largest colour (not associated), at least 1.
+// Returns the largest colour (not associated) of the pixels in `runs`, at least 1.
 float largest_color(const Image& picture, const ActiveRuns& runs, const RowSpan& rows) {
     float largest = 1;
     for (int row = rows.first; row < rows.end; ++row) {
@@ -173,7 +174,7 @@ float largest_color(const Image& picture, const ActiveRuns& runs, const RowSpan&
     return largest;
 }
 
-// Encodes a row. A run of no pixels ends it.
+// Encodes the runs of a row, as encode_rows() says. A run of length 0 ends the row.
 template <typename Format>
 std::byte* encode_row(const Image& picture, const ActiveRuns& runs, int row, float largest,
                       std::byte* to) {
@@ -189,6 +190,7 @@ std::byte* encode_row(const Image& picture, const ActiveRuns& runs, int row, flo
     return write_number(0, to);
 }
 
+// Decodes a row and composites it behind `row`. Returns the end of its bytes.
 template <typename Format>
 const std::byte* put_row_behind(const std::byte* from, float largest, float* row) {
     for (std::uint32_t count = read_number(from); count > 0; count = read_number(from)) {
@@ -220,7 +222,7 @@ std::vector<RowSpan> divide_rows(const std::vector<std::int64_t>& weights, const
     int row = rows.first;
     for (int i = 0; i < count; ++i) {
         RowSpan span{row, row};
-        // A row belongs to the span that contains its middle.
+        // A row belongs to the span in which the middle of its range of the summed weights lies.
         const auto ends_in = [&](std::int64_t weight) {
             return i + 1 == count || (2 * sum + weight) * count < 2 * all * (i + 1);
         };

@@ -26,7 +26,7 @@
 namespace lamina {
 namespace {
 
-// Stands for OmissionSwitch::none in a text that otherwise lists OmissionSwitch::kept.
+// Text for OmissionSwitch::none. Otherwise the text lists OmissionSwitch::kept.
 constexpr const char* all_omissions = "all";
 
 // A scene and the user's choice of omissions, as texts that rank 0 broadcasts.
@@ -39,27 +39,28 @@ class SceneMessage {
 
     Scene scene() const;  // throws Error
     OmissionSwitch omissions() const;
-    // Returns the folder that data must be in (base/client.h); empty: any.
+    // Returns the folder that must contain all data files (base/client.h); empty if any may.
     const std::string& only_below() const { return only_below_; }
 
   private:
-    std::string name_, text_;
-    std::string
-        volume_;  // absolute path; beside the JSON, which cannot hold all bytes of file names
+    std::string name_, text_;  // path of the scene file; the scene as JSON
+    // Absolute path of the volume. JSON cannot hold every file name, so it is sent separately.
+    std::string volume_;
     std::string forbidden_omissions_;
     std::string only_below_;
 };
 
-// A command of rank 0 to the others, sent as bytes. The comments name the kinds that use a member.
+// A command of rank 0 to the other ranks, sent as bytes. Each comment names the kinds of commands
+// that use the member.
 struct Command {
     enum class Kind { open, draw, close, end };
 
     Kind kind = Kind::end;
-    int scene = 0;                        // open, draw, close: its number
+    int scene = 0;                        // open, draw, close: number of the scene
     Wire wire = Wire::float32;            // open
     unsigned long long memory_limit = 0;  // open: bytes, 0: unchanged
     bool many_frames = false;             // open
-    bool has_camera = false;              // draw: with another camera than before
+    bool has_camera = false;              // draw: `camera` replaces the last one
     Camera camera{};                      // draw
 };
 static_assert(std::is_trivially_copyable_v<Command>);

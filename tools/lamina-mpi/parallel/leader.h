@@ -25,12 +25,12 @@ class Leader {
     const Ranks& ranks() const { return ranks_; }
     void set_wire(Wire wire) { wire_ = wire; }  // for scenes opened from now on
 
-    // Opens a scene on all ranks and returns its number. `data`: used by rank 0; the other ranks
-    // load the scene's data themselves. Throws Error if ranks cannot share the scene or if one of
+    // Opens a scene on all ranks and returns its number. Rank 0 uses `data`; the other ranks load
+    // the scene's data themselves. Throws Error if ranks cannot share the scene or if one of
     // them fails.
     int open(const Scene& scene, SceneData data, const OmissionSwitch& omissions, bool many_frames);
     SharedRenderer& renderer(int scene) { return *renderers_.at(scene); }
-    // Draws a frame on all ranks; `camera`: replaces the last one.
+    // Draws a frame on all ranks. `camera`, if given, replaces the scene's last camera.
     void draw(int scene, const std::optional<Camera>& camera = {});
     void close(int scene);
     // Returns the reports of all ranks on the first frame; empty before it.
@@ -39,14 +39,14 @@ class Leader {
   private:
     const Ranks& ranks_;
     Wire wire_ = Wire::float32;
-    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();  // for all scenes
-    int next_ = 0;
+    std::shared_ptr<TableCache> tables_ = std::make_shared<TableCache>();  // of all scenes
+    int next_ = 0;  // number of the next scene that is opened
     std::vector<RankReport> first_reports_;
     std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
 };
 
-// Carries out the commands of rank 0's Leader until that is destroyed. If a step fails on any rank
-// (agree()), rank 0 prints the reason, and its exit code is the job's.
+// Carries out the commands of rank 0's Leader until the Leader is destroyed. If a step fails on any
+// rank (agree()), rank 0 prints the reason, and its exit code is the job's.
 void run_follower(const Ranks& ranks);
 
 }  // namespace lamina

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MPI, which only this folder and the program lamina-mpi use. An error of MPI ends the whole job,
-// as is MPI's default.
+// Wraps MPI, which only this folder and the program lamina-mpi use. An error of MPI ends the whole
+// job, as is MPI's default.
 #pragma once
 
 #include <mpi.h>
@@ -13,7 +13,7 @@
 
 namespace lamina {
 
-// The ranks (processes) of a job, as one of them sees them.
+// The ranks (processes) of an MPI job, seen from this rank.
 class Ranks {
   public:
     explicit Ranks(MPI_Comm comm);

@@ -18,7 +18,7 @@
 namespace lamina {
 namespace {
 
-// Number of rows with a common weight: all ranks exchange weights, and with 8 rows these are few.
+// Number of rows with a common weight. All ranks exchange the weights, so there should be few.
 constexpr int band = 8;
 
 void clear_rows(const RowSpan& rows, Image& image) {
@@ -26,7 +26,7 @@ void clear_rows(const RowSpan& rows, Image& image) {
         std::fill(image.pixel(0, rows.first), image.pixel(0, rows.end), 0.0f);
 }
 
-// Return the formats of a pixel's first transfer, and of later ones (docs/cluster.md).
+// Return the formats of a rank's own pixels, and of composited pixels (docs/cluster.md).
 FragmentFormat first_format(Wire wire) {
     if (wire == Wire::coded) return FragmentFormat::fixed8;
     return wire == Wire::half ? FragmentFormat::half : FragmentFormat::float32;
@@ -40,8 +40,8 @@ void add(const IndexBox& box, std::string& text) {
         text += fmt::format(" {:a} {:a} {:a}", corner.x, corner.y, corner.z);
 }
 
-// Returns a hash of what the renderers of one picture must have in common: the plan, and the
-// shares.
+// Returns a hash of properties of the plan, and of the shares: ranks that draw one picture together
+// must agree in them.
 std::string digest_of(const SlicePlan& plan, const std::vector<IndexBox>& shares) {
     const TableRequest& table = plan.table.request;
     std::string text = fmt::format(
@@ -63,8 +63,8 @@ std::string digest_of(const SlicePlan& plan, const std::vector<IndexBox>& shares
          scene.file.string(), key, found, expected);
 }
 
-// Returns the scene. Throws Error if ranks cannot share it. OVER is associative only in floats:
-// with rounding to codes the result depends on compositing slab after slab in order.
+// Returns the scene with target float32. Throws Error if ranks cannot share it: OVER is
+// associative in floats only; slabs that are rounded must be composited one by one, in order.
 Scene checked(Scene scene) {
     if (scene.target.value_or(Target::float32) != Target::float32)
         refuse(scene, "render.target", name_of(scene.target), "float32");
@@ -76,8 +76,13 @@ Scene checked(Scene scene) {
 
 }  // namespace
 
-// Tells which rank composites which rows. Groups are ranks that are contiguous in depth. Rows are
-// divided among the members of a group, and the rows of one member again among the groups.
+// Lists the transfers of three exchanges. The ranks are divided into `groups_` groups of up to
+// `size_` ranks that are contiguous in depth, and the picture's rows into `size_` parts.
+// 1. in_group(): member i of each group composites part i of the group's pictures.
+// 2. among_groups(): the owners of part i divide its rows among themselves, and each composites
+//    its rows over all groups. (One group alone skips this.)
+// 3. to_first(): rank 0 receives all composited rows.
+// With groups, each of N ranks sends about 2 sqrt(N) messages instead of N.
 class PictureComposer::Layout {
   public:
     Layout(const std::vector<int>& order, const std::vector<std::int64_t>& weights,

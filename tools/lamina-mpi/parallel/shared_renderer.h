@@ -14,10 +14,10 @@
 
 namespace lamina {
 
-// Composites the pictures of all ranks by direct send: each rank gets some rows from all others,
-// composites them front to back in float, and sends the result to rank 0. If there are more than
-// `most_in_group` ranks, groups that are contiguous in depth composite first, like nodes of a tree
-// (docs/cluster.md).
+// Composites the pictures of all ranks by direct send: each rank receives some rows from all
+// others, composites them front to back in float, and sends the result to rank 0. If there are more
+// than `most_in_group` ranks, groups of ranks that are contiguous in depth composite first, and
+// then the groups' pictures are composited (docs/cluster.md).
 class PictureComposer {
   public:
     static constexpr int usual_group = 64;
@@ -27,15 +27,15 @@ class PictureComposer {
         : ranks_(ranks), wire_(wire), most_in_group_(most_in_group) {}
 
     // Composites the pictures of all ranks, which have the same size, into rank 0's `picture`.
-    // `order`: the ranks, nearest first. All ranks must call this function.
+    // `order` has all ranks in visibility order, nearest first. All ranks must call this function.
     void compose(const std::vector<int>& order, Image& picture);
 
     std::int64_t bytes_sent() const { return bytes_sent_; }  // by this rank in the last call
     std::int64_t messages_sent() const { return messages_sent_; }
 
   private:
-    // Rows of one rank's picture that go to another rank. If `from` and `to` are equal, they go to
-    // that rank's result.
+    // Rows that rank `from` sends to rank `to`. If both are equal, the rank composites the rows of
+    // its own picture into its result.
     struct Transfer {
         int from, to;
         RowSpan rows;
@@ -44,7 +44,7 @@ class PictureComposer {
 
     std::vector<std::int64_t> row_weights(const ActiveRuns& runs, int rows) const;
     // Sends rows of `picture`, and composites the rows that arrive into `result`, front to back in
-    // the order of `transfers`. `runs`: the runs of all of `picture`, or null.
+    // the order of `transfers`. `runs` has the runs of all rows, or is null: they are then found.
     void exchange(const std::vector<Transfer>& transfers, FragmentFormat format,
                   const Image& picture, const ActiveRuns* runs, Image& result);
     void receive(int rank, std::vector<std::byte>& bytes) const;
@@ -52,17 +52,17 @@ class PictureComposer {
     const Ranks& ranks_;
     Wire wire_;
     int most_in_group_;
-    Image of_group_, composed_;  // rows that this rank composites: in its group, and among groups
+    Image of_group_, composed_;  // rows composited by this rank: over its group; over all groups
     std::int64_t bytes_sent_ = 0, messages_sent_ = 0;
 };
 
-// Times, memory and traffic of a frame on one rank. Ranks send it as bytes.
+// Times, memory and traffic of a frame on one rank. Each rank sends it to rank 0 as bytes.
 struct RankReport {
-    std::array<char, 64> machine{};  // its name, zero-terminated
+    std::array<char, 64> machine{};  // name of the host, zero-terminated
     std::int32_t threads = 0;
-    double draw_ms = 0;       // time to plan and draw the rank's share
-    double composite_ms = 0;  // time to composite, including waits for other ranks
-    std::int64_t segments = 0;
+    double draw_ms = 0;         // time to plan and draw the rank's share
+    double composite_ms = 0;    // time to composite, including waits for other ranks
+    std::int64_t segments = 0;  // number of ray segments drawn
     std::int64_t bytes_sent = 0, messages_sent = 0;
     std::int64_t peak_memory = 0;  // largest resident size since the start, bytes
 };
@@ -85,8 +85,8 @@ class SharedRenderer {
     // Throws Error on all ranks if their plans differ.
     void check_plan();
 
-    // Draws a frame; `camera`: replaces the last one. Rank 0 then has the picture and all ranks'
-    // reports.
+    // Draws a frame. `camera`, if given, replaces the last one. Afterwards rank 0 has the picture
+    // and the reports of all ranks.
     void draw(const std::optional<Camera>& camera);
     const Image& picture() const { return picture_; }
     const std::vector<RankReport>& reports() const { return reports_; }
